@@ -24,7 +24,9 @@ pub mod summary;
 pub use assess::{AssessOptions, Assessment, Object, assess};
 pub use choice::{Choice, choose};
 pub use comparison::{Comparison, compare};
-pub use counts::{CountsFragility, fit_outcomes, fit_stripes};
+pub use counts::{
+    CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
+};
 pub use fit::{
     Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Sampled, Shift,
     fit_levels, fit_sample,

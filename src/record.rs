@@ -12,6 +12,7 @@ use std::path::Path;
 mod accelerogram;
 mod afad;
 mod at2;
+mod codes;
 mod column;
 mod cosmos;
 mod csv;

@@ -18,6 +18,7 @@ pub mod multiple;
 pub mod normal;
 pub mod normality;
 pub mod paired;
+pub mod power;
 pub mod proportion;
 pub mod quantile;
 pub mod regression;
@@ -25,6 +26,7 @@ pub mod resampling;
 pub mod rivals;
 pub mod sample;
 mod search;
+pub mod step_down;
 pub mod two_sample;
 
 pub use boxplot::Boxplot;

@@ -7,7 +7,6 @@ mod browser;
 #[path = "page/print.rs"]
 mod print;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -141,8 +140,13 @@ fn the_first_screen_answers_and_the_main_part_is_short() {
     assert!(words <= 5000.0, "{words} words");
 }
 
+/// A4 sheets of a copy to file.
+const SHEETS: usize = 30;
+
+/// The paper has the report whole, and of its annexes the list of their
+/// files.
 #[test]
-fn every_claim_case_and_caption_is_on_paper() {
+fn the_printed_copy_is_whole_and_short() {
     let Some(mut browser) = started("paper") else { return };
     let page = root().join("reports/index.html");
     let binary = browser::find().expect("a browser");
@@ -158,23 +162,34 @@ fn every_claim_case_and_caption_is_on_paper() {
             missing.push(format!("claim {}: {}", claim.id, claim.quote));
         }
     }
-    for case in load_all().expect("cases") {
-        if case.cost == Cost::Quick && !printed.has(&case.id) {
-            missing.push(format!("case {}", case.id));
-        }
-    }
     browser.open(&page, 1400, "light");
-    for selector in ["caption", "figcaption", "th", "td"] {
-        let all = words(&mut browser, selector);
-        assert!(all.len() > 20, "{selector}");
-        let all: BTreeSet<String> = all.into_iter().collect();
-        for text in all.iter().filter(|text| !printed.has_end(text)) {
-            missing.push(format!("{selector}: {text}"));
+    let drawn = ".figures > figure > figcaption";
+    for part in ["section:not(#annexes)", "#files"] {
+        let cells = "td:not(:has(math))";
+        for kind in ["caption", drawn, "th", cells, "dd"] {
+            let all = words(&mut browser, &format!("{part} {kind}"));
+            for text in all.iter().filter(|text| !printed.has_end(text)) {
+                missing.push(format!("{kind}: {text}"));
+            }
         }
     }
     assert!(missing.is_empty(), "{}", missing.join("\n"));
+    let equations = words(&mut browser, "#equations td math");
+    assert_eq!(equations.len(), 8, "Eqs. 1 to 7 and the closed form");
+    let files = words(&mut browser, "#files tbody td:last-child");
+    assert!(files.len() > 20, "{} files", files.len());
+    for hash in &files {
+        assert!(printed.has_word(hash), "{hash} is broken");
+    }
+    // A case stands on the screen, and in its file.
+    let cases = words(&mut browser, "#cases tbody th");
+    for case in load_all().expect("cases") {
+        let quick = case.cost == Cost::Quick;
+        assert!(!quick || cases.contains(&case.id), "case {}", case.id);
+    }
     let last = format!("Page {0} of {0}", printed.pages);
     assert!(printed.has(&last), "{last}");
+    assert!(printed.pages <= SHEETS, "{} sheets", printed.pages);
 }
 
 #[test]

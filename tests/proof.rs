@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
 use rocking_proof::cases::{
-    Basis, Bound, Case, CaseError, Cost, Status, load_all, load_family,
+    Basis, Bound, Case, CaseError, Cost, Fault, Status, load_all, load_family,
 };
 use rocking_proof::methods::{self, Quantities};
 use rocking_proof::verdict::judge;
@@ -34,7 +34,7 @@ fn validates_a_good_file_and_refuses_each_flaw() {
     assert_eq!((case.cost, &case.status), (Cost::Quick, &Status::Pass));
     let twice = format!("{GOOD}{}", &GOOD[GOOD.find("[[case]]").unwrap()..]);
     let duplicate = load_family("f", &twice).unwrap_err();
-    assert!(matches!(duplicate, CaseError::Duplicate { .. }));
+    assert!(matches!(duplicate.fault, Fault::Duplicate(_)));
     let flaws = [
         ("claim = \"c\"", "claim = \"c\"\ncost = \"slow\""),
         ("claim = \"c\"", "claim = \" \""),
@@ -57,10 +57,7 @@ fn validates_a_good_file_and_refuses_each_flaw() {
         assert!(load_family("f", &text).is_err(), "{to}");
     }
     let none = GOOD.split("[[case]]").next().unwrap();
-    assert!(matches!(
-        load_family("f", none).unwrap_err(),
-        CaseError::Empty { .. }
-    ));
+    assert_eq!(load_family("f", none).unwrap_err().fault, Fault::Empty);
 }
 
 /// A family with defaults of its own and of a method.
@@ -149,31 +146,27 @@ fn refuses_what_is_said_twice() {
         ("tolerance.bounds.x = \"exact\"", "tolerance.bounds.x"),
     ];
     for (lines, due) in flaws {
-        let Err(CaseError::Repeated { place, key, .. }) = with(lines) else {
-            panic!("{lines}");
-        };
+        let fault = with(lines).unwrap_err().fault;
+        let Fault::Repeated { place, key } = fault else { panic!("{lines}") };
         assert_eq!((&*place, &*key), ("case `a`", due));
     }
     let text = DEFAULTS.replace("elsewhere", "w");
     let lines = "[[case]]\nname = \"z\"\nclaim = \"c\"\nmethod = \"other\"";
     let error = load_family("f", &format!("{text}{lines}")).unwrap_err();
-    let CaseError::Repeated { place, .. } = error else { panic!("{error}") };
+    let Fault::Repeated { place, .. } = error.fault else { panic!("{error}") };
     assert_eq!(place, "[family.method.other]");
 }
 
 #[test]
 fn refuses_a_default_that_no_case_inherits() {
     let error = load_family("f", DEFAULTS).unwrap_err();
-    let CaseError::Idle { place, key, .. } = error else { panic!("{error}") };
+    let Fault::Idle { place, key } = error.fault else { panic!("idle") };
     assert_eq!((&*place, &*key), ("[family.method.other]", "source.where"));
 
-    let Err(CaseError::Idle { place, key, .. }) = load_family(
-        "f",
-        &GOOD
-            .replace("[[case]]", "[family.default]\nmethod = \"k\"\n[[case]]"),
-    ) else {
-        panic!("an overridden default");
-    };
+    let text =
+        GOOD.replace("[[case]]", "[family.default]\nmethod = \"k\"\n[[case]]");
+    let fault = load_family("f", &text).unwrap_err().fault;
+    let Fault::Idle { place, key } = fault else { panic!("overridden") };
     assert_eq!((&*place, &*key), ("[family.default]", "method"));
 }
 
@@ -182,9 +175,7 @@ fn a_case_can_do_without_an_inherited_bound() {
     let case = &with("tolerance.without = [\"x\"]").unwrap()[0];
     assert!(case.tolerance.bounds.keys().eq(["y"]));
     let error = with("tolerance.without = [\"z\"]").unwrap_err();
-    assert!(
-        matches!(error, CaseError::Absent { ref name, .. } if name == "z")
-    );
+    assert!(error.to_string().contains("`z`"), "{error}");
     assert!(with("tolerance.without = \"x\"").is_err());
 }
 
@@ -271,7 +262,7 @@ fn a_bound_typed_like_the_computed_one_is_refused() {
         text.replace("name = \"a\"", "name = \"a\"\ninput.entry = \"hs-01\"");
     let same = text.replace("\"exact\"", "{ absolute = 2.4e-13 }");
     let error = load_family("f", &same).unwrap_err();
-    assert!(matches!(error, CaseError::Repeated { .. }), "{error}");
+    assert!(matches!(error.fault, Fault::Repeated { .. }), "{error}");
 }
 
 #[test]

@@ -173,6 +173,6 @@ fn the_committed_report_is_of_this_program_where_that_is_cheap() {
         let name = &chart.heading.name;
         let svg = chart.svg();
         assert!(read(&format!("figures/{name}.svg")) == svg, "{name}");
-        assert!(read(&format!("data/{name}.csv")) == chart.csv);
+        assert!(read(&format!("data/{name}.csv")) == chart.csv());
     }
 }

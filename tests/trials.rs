@@ -13,6 +13,7 @@ use rocking::record::{Processing, ReadOptions};
 use rocking_common::paper::BLOCKS;
 use rocking_common::paper::SuiteKind;
 use rocking_common::suites::StudySuite;
+use rocking_proof::cases::WrongModel;
 use rocking_proof::trials::{Judgement, Reading, Stratum, findings, trial};
 
 #[path = "trials/suites.rs"]
@@ -36,7 +37,10 @@ const NEAR: f64 = 0.1;
 
 fn chosen(text: &str) -> Option<(Stratum, std::ops::Range<u64>)> {
     let mut parts = text.split(':');
-    let stratum = Stratum::named(parts.next()?)?;
+    let stratum = {
+        let name = parts.next()?;
+        Stratum::ALL.into_iter().find(|stratum| stratum.name() == name)?
+    };
     let first: u64 = parts.next()?.parse().ok()?;
     let count: u64 = parts.next()?.parse().ok()?;
     let end = first.checked_add(count)?;
@@ -54,7 +58,7 @@ fn no_clear_run_is_wrong() {
     let found = findings(stratum, &indices.collect::<Vec<_>>()).unwrap();
     let mut bad = 0;
     for finding in &found {
-        let judgement = Judgement::of(finding, Reading::Whole);
+        let judgement = Judgement::of(finding, Reading::WHOLE);
         let near = matches!(judgement, Judgement::Within(r) if r >= NEAR);
         if judgement.is_bad() || near || found.len() <= FEW {
             println!("{judgement:?}: {}", words::finding(finding));
@@ -77,9 +81,10 @@ fn no_clear_run_is_wrong() {
 #[test]
 fn what_was_wrong_and_clear_once_is_not_again() {
     let found = findings(Stratum::Grazing, &[1241]).unwrap();
-    let wrong = Judgement::of(&found[0], Reading::MarginInfinity);
+    let wrong =
+        Judgement::of(&found[0], Reading(Some(WrongModel::MarginInfinity)));
     assert_eq!(wrong, Judgement::WrongAndClear);
-    let judgement = Judgement::of(&found[0], Reading::Whole);
+    let judgement = Judgement::of(&found[0], Reading::WHOLE);
     assert_eq!(judgement, Judgement::Unresolved(true));
 }
 
@@ -90,7 +95,7 @@ fn what_was_wrong_and_clear_once_is_not_again() {
 fn a_second_top_near_the_saddle_has_its_error() {
     let found = findings(Stratum::Extreme, &[11_776, 13_679, 15_535]).unwrap();
     for finding in &found {
-        let judgement = Judgement::of(finding, Reading::Whole);
+        let judgement = Judgement::of(finding, Reading::WHOLE);
         let words = words::finding(finding);
         assert!(!judgement.is_bad(), "{judgement:?}: {words}");
     }

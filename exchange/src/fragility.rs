@@ -181,7 +181,7 @@ pub fn unit_intensity(
     }
 }
 
-/// Where a fragility comes from, of whose sample the size and the measure
+/// Where a fragility comes from, if the size and the measure of its sample
 /// alone are known.
 ///
 /// ```

@@ -102,10 +102,11 @@ impl Display for SampleSetting {
 
 /// The values of a sample file in the order of its lines, with their line
 /// numbers.
+#[derive(Default)]
 pub struct SampleFile {
     path: PathBuf,
     values: Vec<f64>,
-    /// Limits of the censored values, where the file tells them.
+    /// Limits of the censored values, where the file states them.
     limits: Vec<Option<f64>>,
     lines: Vec<u64>,
     /// Names behind the values.
@@ -123,16 +124,7 @@ impl SampleFile {
     /// # Errors
     /// [`FileError`] for a line that does not hold one number.
     pub fn parse(text: &str, path: &Path) -> Result<Self, FileError> {
-        let mut file = Self {
-            path: path.to_owned(),
-            values: Vec::new(),
-            limits: Vec::new(),
-            lines: Vec::new(),
-            names: Vec::new(),
-            events: Vec::new(),
-            of: None,
-            setting: SampleSetting::default(),
-        };
+        let mut file = Self { path: path.to_owned(), ..Self::default() };
         for (line, text) in (1..).zip(text.lines()) {
             if let Some(words) = text.strip_prefix(SAMPLE_OF) {
                 file.of = Some(words.trim().to_owned());

@@ -74,13 +74,6 @@ pub fn number(x: f64) -> String {
     digits(x, 9)
 }
 
-/// A coordinate of a curve as a cell: five digits place it to less than a
-/// hundredth of a pixel.
-#[must_use]
-pub fn point(x: f64) -> String {
-    digits(x, 5)
-}
-
 /// A number as a cell with at most `digits` significant digits.
 #[must_use]
 pub fn digits(x: f64, digits: usize) -> String {

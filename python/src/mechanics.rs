@@ -105,14 +105,6 @@ impl<'a> Scaled<'a> {
     }
 }
 
-fn outcome_name<N>(outcome: &Outcome<N>) -> &'static str {
-    match outcome {
-        Outcome::NoUplift => "no-uplift",
-        Outcome::Rocked { .. } => "rocked",
-        Outcome::Overturned { .. } => "overturned",
-    }
-}
-
 /// The response of one block, as a dict of the fields of `Response`.
 #[pyfunction]
 pub fn respond<'py>(
@@ -153,7 +145,7 @@ pub fn respond<'py>(
     let (response, fate) = work::alone(py, answer)?.map_err(refuse)?;
     let out = to_python(py, &response)?;
     if let Some(fate) = fate {
-        out.set_item("outcome", outcome_name(&fate.outcome))?;
+        out.set_item("outcome", fate.outcome.name())?;
         out.set_item("peak_ratio", fate.outcome.edp())?;
         out.set_item("resolved", fate.resolved)?;
         out.set_item("fate_margin", fate.margin)?;
@@ -174,7 +166,7 @@ fn to_python<'py>(
         }
         Outcome::NoUplift | Outcome::Rocked { .. } => (None, None),
     };
-    out.set_item("outcome", outcome_name(&response.outcome))?;
+    out.set_item("outcome", response.outcome.name())?;
     out.set_item("peak_ratio", response.outcome.edp())?;
     let is_clear = response.assessment() == Assessment::Clear;
     out.set_item("resolved", is_clear)?;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::fit::Sampled;
 use super::{Draws, ProcedureError};
 use crate::capacity::ResponseCurve;
 use crate::statistics::bootstrap::{Bootstrap, Estimate};
@@ -147,24 +148,13 @@ pub fn fit_outcomes(
     shift: f64,
     draws: Draws,
 ) -> Result<CountsFragility, ProcedureError> {
-    draws.check()?;
-    let mut known: Vec<usize> = outcomes.iter().map(|o| o.record).collect();
-    known.sort_unstable();
-    known.dedup();
-    let clusters = &clusters.part(&known);
-    let place = |record| known.partition_point(|other| *other < record);
     let found = fit_stripes(&Outcome::stripes(outcomes, |_| 1), shift)?;
-    let Draws { replicates, seed } = draws;
-    let all = Bootstrap::of("counts", seed, clusters, replicates);
-    let drawn: Vec<[f64; 2]> = all.map(|places| {
-        let counts = multiplicities(places, clusters.records());
-        let of = |record| counts[place(record)];
-        let stripes = Outcome::stripes(outcomes, of);
-        let fit = fit_counts_alone(&stripes, shift);
-        fit.map_or([f64::NAN; 2], |law| [law.median(), law.dispersion()])
-    });
-    let bounds = |k: usize, point| {
-        let column: Vec<f64> = drawn.iter().map(|row| row[k]).collect();
+    let Sampled { clusters, fitted, .. } =
+        sample_outcomes(outcomes, clusters, shift, draws)?;
+    let bounds = |of: fn(&Lognormal) -> f64, point| {
+        let value =
+            |law: &Option<Lognormal>| law.as_ref().map_or(f64::NAN, of);
+        let column: Vec<f64> = fitted.iter().map(value).collect();
         let found = clusters.estimate(point, &column, LEVEL);
         let enough = |e: &Estimate| 20 * e.used >= 19 * e.replicates;
         let found = found.filter(enough);
@@ -173,11 +163,38 @@ pub fn fit_outcomes(
         Bounds { point, low, high }
     };
     Ok(CountsFragility {
-        intervals: Basis::Drawn(draws, clusters.clone()),
-        median: bounds(0, found.median.point),
-        dispersion: bounds(1, found.dispersion.point),
+        median: bounds(Lognormal::median, found.median.point),
+        dispersion: bounds(Lognormal::dispersion, found.dispersion.point),
+        intervals: Basis::Drawn(draws, clusters),
         ..found
     })
+}
+
+/// The fits to the draws of [`fit_outcomes`]: what [`risk`](super::risk())
+/// makes an interval of.
+///
+/// # Errors
+/// [`ProcedureError`] for no draws.
+pub fn sample_outcomes(
+    outcomes: &[Outcome],
+    clusters: &Clusters,
+    shift: f64,
+    draws: Draws,
+) -> Result<Sampled, ProcedureError> {
+    draws.check()?;
+    let mut known: Vec<usize> = outcomes.iter().map(|o| o.record).collect();
+    known.sort_unstable();
+    known.dedup();
+    let clusters = clusters.part(&known);
+    let place = |record| known.partition_point(|other| *other < record);
+    let Draws { replicates, seed } = draws;
+    let all = Bootstrap::of("counts", seed, &clusters, replicates);
+    let fitted = all.map(|places| {
+        let counts = multiplicities(places, clusters.records());
+        let of = |record| counts[place(record)];
+        fit_counts_alone(&Outcome::stripes(outcomes, of), shift).ok()
+    });
+    Ok(Sampled { draws, clusters, fitted })
 }
 
 impl Outcome {

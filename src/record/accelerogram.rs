@@ -4,6 +4,15 @@ use thiserror::Error;
 
 use super::name::{NameError, result_name};
 
+/// Mean of samples, summed in their order.
+pub(super) fn mean(samples: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for sample in samples {
+        sum += sample;
+    }
+    sum / samples.len() as f64
+}
+
 /// Why a sequence of samples is no accelerogram.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]

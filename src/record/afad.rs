@@ -12,6 +12,7 @@
 //! The peaks are those of the samples as they are written, and are checked.
 //! What AFAD gives out today is ESM's format.
 
+use super::fields::one_number;
 use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
 use super::{Channel, Direction, Fault, RecordError, keys};
@@ -101,9 +102,7 @@ fn samples(
             if (found.0, found.2) != (first.0, like[0].2) {
                 let expected =
                     "three numbers, written as on the first line of samples";
-                let found = excerpt(line);
-                let fault = Fault::Number { found, expected: expected.into() };
-                return Err(text.on_line(index, fault));
+                return Err(text.no_number(index, line, expected));
             }
             column.push(found.1);
         }
@@ -112,25 +111,13 @@ fn samples(
 }
 
 fn row(text: &Text<'_>, index: usize, line: &str) -> Result<Row, RecordError> {
-    let refuse = |fault: Fault| text.on_line(index, fault);
     let mut row = Vec::with_capacity(COLUMNS.len());
     for word in line.split_ascii_whitespace() {
         // Both are parts of one text.
         let end = word.as_ptr() as usize - line.as_ptr() as usize + word.len();
-        match number::read(word) {
-            Reading::Finite(value, form) => row.push((end, value, form)),
-            Reading::NotFinite => {
-                return Err(refuse(Fault::NotFinite(excerpt(word))));
-            }
-            Reading::Other => {
-                let expected = "a number".to_owned();
-                let found = excerpt(word);
-                return Err(refuse(Fault::Number { found, expected }));
-            }
-        }
+        let (value, form) = one_number(text, index, word)?;
+        row.push((end, value, form));
     }
-    row.try_into().map_err(|_| {
-        let expected = "three numbers, one a component".to_owned();
-        refuse(Fault::Number { found: excerpt(line), expected })
-    })
+    let expected = "three numbers, one a component";
+    row.try_into().map_err(|_| text.no_number(index, line, expected))
 }

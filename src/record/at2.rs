@@ -68,8 +68,7 @@ fn unit(
         let Some(end) = after_units_of(line) else { continue };
         let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
         if other.iter().any(|name| text::contains(&line[..end], name)) {
-            let fault = Fault::Quantity(excerpt(line));
-            return Err(text.on_line(index, fault));
+            return Err(text.quantity(index));
         }
         let named = line[end..]
             .split_ascii_whitespace()

@@ -7,8 +7,8 @@
 
 use super::fields::{Forms, one_number};
 use super::number;
-use super::text::{Text, excerpt};
-use super::{Channel, Fault, RecordError, csv};
+use super::text::Text;
+use super::{Channel, RecordError, csv};
 
 /// Whether the first line that is no comment is one number.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
@@ -46,13 +46,8 @@ fn check_first(
     if !(count || (forms.first_differs() && first > 0.0)) {
         return Ok(());
     }
-    let (index, line) = text
-        .lines()
-        .enumerate()
-        .find(|(_, line)| !line.starts_with('#'))
-        .unwrap_or_default();
+    let index = text.lines().position(|line| !line.starts_with('#'));
     let expected = "a sample, written as those on the lines below: a count \
                     or an interval belongs behind a #";
-    let fault = Fault::Header { found: excerpt(line), expected };
-    Err(text.on_line(index, fault))
+    Err(text.header(index.unwrap_or(0), expected))
 }

@@ -88,8 +88,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             // Its samples were read just before, or nothing announced them.
             if index != head || index == 0 {
                 let expected = "samples, announced before their end";
-                let fault = Fault::Header { found: excerpt(line), expected };
-                return Err(text.on_line(index, fault));
+                return Err(text.header(index, expected));
             }
             head += 1;
             index += 1;
@@ -133,8 +132,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     if channels.is_empty() {
         let mut lines = text.lines().enumerate();
         let first = lines.find(|(_, line)| announces(line));
-        let (first, line) = first.unwrap_or_default();
-        return Err(text.on_line(first, Fault::Quantity(excerpt(line))));
+        return Err(text.quantity(first.unwrap_or_default().0));
     }
     Ok(channels)
 }
@@ -163,9 +161,7 @@ fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
     let Some(line) = text.line(end) else { return Ok(()) };
     let mut numbers = number::tokens(line.as_bytes()).peekable();
     if numbers.peek().is_some() && numbers.all(|token| token.is_some()) {
-        let expected = "the end of the samples".to_owned();
-        let fault = Fault::Number { found: excerpt(line), expected };
-        return Err(text.on_line(end, fault));
+        return Err(text.no_number(end, line, "the end of the samples"));
     }
     Ok(())
 }
@@ -175,10 +171,7 @@ fn announced<'a>(
     index: usize,
 ) -> Result<Block<'a>, RecordError> {
     let line = text.line(index).unwrap_or("");
-    let header = |expected| {
-        let found = excerpt(line);
-        text.on_line(index, Fault::Header { found, expected })
-    };
+    let header = |expected| text.header(index, expected);
     let trimmed = line.trim_start();
     let (count, rest) =
         trimmed.split_once([' ', '\t']).unwrap_or((trimmed, ""));
@@ -285,10 +278,7 @@ fn numeric_header(
     index: usize,
 ) -> Result<(Vec<f64>, usize), RecordError> {
     let line = text.line(index).unwrap_or("");
-    let header = |expected| {
-        let found = excerpt(line);
-        text.on_line(index, Fault::Header { found, expected })
-    };
+    let header = |expected| text.header(index, expected);
     let count = line.split_ascii_whitespace().next();
     let count: usize = count
         .and_then(|word| word.parse().ok())

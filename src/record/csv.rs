@@ -10,7 +10,7 @@
 
 use super::fields::{Forms, one_number};
 use super::number;
-use super::text::{Text, excerpt};
+use super::text::Text;
 use super::{Channel, Fault, RecordError};
 pub(super) use header::comments;
 use header::header;
@@ -60,9 +60,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         }
         head = false;
         let &[time, value] = parts.as_slice() else {
-            let expected = "two numbers, time and acceleration".to_owned();
-            let fault = Fault::Number { found: excerpt(line), expected };
-            return Err(text.on_line(index, fault));
+            let expected = "two numbers, time and acceleration";
+            return Err(text.no_number(index, line, expected));
         };
         let (time_read, form) = one_number(text, index, time)?;
         decimals = decimals.max(places(time, form));

@@ -32,7 +32,7 @@ pub enum Direction {
     Horizontal,
     /// A vertical component.
     Vertical,
-    /// Neither the header nor the file's name tells.
+    /// Neither the header nor the file's name states it.
     #[default]
     Unknown,
 }

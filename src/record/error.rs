@@ -6,6 +6,7 @@ use std::fmt;
 use thiserror::Error;
 
 use super::AccelerogramError;
+use super::codes::coded;
 use super::name::{Escaped, NameError};
 use crate::units::AccelerationUnit;
 
@@ -75,245 +76,204 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with a record.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum Fault {
-    /// The file could not be read.
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
-    /// There is nothing in it.
-    #[error("empty file: expected a record")]
-    Empty,
-    /// A byte that no text has.
-    #[error("byte {byte:#04x} at offset {offset}: expected text")]
-    NotText {
-        /// The byte.
-        byte: u8,
-        /// Where it is, from 0.
-        offset: usize,
-    },
-    /// A text in UTF-16 that cannot be read.
-    #[error("text in UTF-16 with {0}: expected UTF-8")]
-    Utf16(&'static str),
-    /// No reader knows the content.
-    #[error(
-        "begins with {found:?}: expected a record in one of the formats {expected}"
-    )]
-    UnknownFormat {
-        /// Beginning of the first line that is not blank.
-        found: String,
-        /// Formats that can be read.
-        expected: &'static str,
-    },
-    /// A header that says something else than it should.
-    #[error("{found:?}: expected {expected}")]
-    Header {
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: &'static str,
-    },
-    /// The file ends before something it must have.
-    #[error("the file ends: expected {0}")]
-    Ends(&'static str),
-    /// Velocity, displacement or a spectrum.
-    #[error("{0:?}: expected an acceleration history")]
-    Quantity(String),
-    /// A vertical component where horizontal ones are wanted.
-    #[error("{0:?} is a vertical component: expected a horizontal one")]
-    Vertical(String),
-    /// A name, of the file or in it, that results cannot carry.
-    #[error(transparent)]
-    Name(#[from] NameError),
-    /// A folder in a folder of records.
-    #[error("a folder in the folder of records: expected a file")]
-    Folder,
-    /// A link in a folder of records.
-    #[error("a link to nothing: expected a file")]
-    DeadLink,
-    /// Something in a folder of records that may never end.
-    #[error("a device, a pipe or a socket: expected a file")]
-    Device,
-    /// One of two files of an archive.
-    #[error(
-        "its name comes again in the archive: expected each name once, and the last is read"
-    )]
-    Doubled,
-    /// A file beside an index that lists the suite.
-    #[error(
-        "not in the index of the folder: expected a row for each record of the suite"
-    )]
-    Unlisted,
-    /// A sensor in a borehole where one at the surface is wanted.
-    #[error(
-        "{0:?} is from a sensor in a borehole: expected one at the surface"
-    )]
-    Borehole(String),
-    /// A unit of acceleration that is not known.
-    #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
-    Unit(String),
-    /// Neither the file nor the caller states a unit.
-    #[error(
-        "no unit in the file: expected it to be given, as --units g|m/s2|cm/s2 or in a column `units` of an index"
-    )]
-    UnitMissing,
-    /// The caller's unit and the file's differ.
-    #[error(
-        "unit {given} was given: expected {stated}, which the file states"
-    )]
-    UnitConflict {
-        /// Unit in the file.
-        stated: AccelerationUnit,
-        /// Unit of the caller.
-        given: AccelerationUnit,
-    },
-    /// Gravity must be positive and finite.
-    #[error("gravity {0} m/s2: expected a positive number")]
-    Gravity(f64),
-    /// Neither the file nor the caller states a sampling interval.
-    #[error(
-        "no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
-    )]
-    IntervalMissing,
-    /// A sampling interval that is not positive and finite.
-    #[error("sampling interval {0:?}: expected a positive number of seconds")]
-    Interval(String),
-    /// A sampling interval (s) that no record has.
-    #[error(
-        "sampling interval {0:?} s: expected 1e-6 to 10 s; what is longer or shorter is no interval or not in s"
-    )]
-    IntervalRange(f64),
-    /// The caller's sampling interval and the file's differ.
-    #[error(
-        "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
-    )]
-    IntervalConflict {
-        /// Interval in the file in s.
-        stated_s: f64,
-        /// Interval of the caller in s.
-        given_s: f64,
-    },
-    /// The number of samples is not the one that the file states.
-    #[error(
-        "{found} samples: expected {expected}, the number that the file states"
-    )]
-    Count {
-        /// Samples in the file.
-        found: usize,
-        /// Samples that the header promises.
-        expected: usize,
-    },
-    /// Count and interval contradict the duration in the header.
-    #[error(
-        "samples for {found_s} s: expected {expected_s} s, which the file states"
-    )]
-    Duration {
-        /// Number of samples times the interval, in s.
-        found_s: f64,
-        /// Duration in the header in s.
-        expected_s: f64,
-    },
-    /// Something that is not the number expected there.
-    #[error("{found:?}: expected {expected}")]
-    Number {
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: String,
-    },
-    /// NaN, an infinity, or a number beyond the range of a double.
-    #[error("{0:?}: expected a finite number")]
-    NotFinite(String),
-    /// Times that do not advance by one step.
-    #[error(
-        "time {found_s} s: expected {expected_s} s, a constant step from the line before"
-    )]
-    Step {
-        /// Time found in s.
-        found_s: f64,
-        /// Time expected in s.
-        expected_s: f64,
-    },
-    /// A first column whose end does not lie after its beginning.
-    #[error(
-        "the times end at {found_s} s: expected more than {expected_s} s, at which they begin"
-    )]
-    Backwards {
-        /// Last time in s.
-        found_s: f64,
-        /// First time in s.
-        expected_s: f64,
-    },
-    /// Times with too few decimals to tell whether their step is constant.
-    #[error(
-        "times of {places} decimals with a mean step of {step_s:.6} s: expected a constant step that the decimals resolve"
-    )]
-    Coarse {
-        /// Mean step in s.
-        step_s: f64,
-        /// Decimals of the times.
-        places: i32,
-    },
-    /// The samples contradict the peak in the header.
-    #[error(
-        "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"
-    )]
-    Peak {
-        /// Largest absolute sample.
-        found: f64,
-        /// Peak in the header.
-        expected: f64,
-        /// Unit of both.
-        unit: AccelerationUnit,
-    },
-    /// The file holds several components where one was asked for.
-    #[error("{0} acceleration channels: expected one")]
-    SeveralChannels(usize),
-    /// The samples make no accelerogram.
-    #[error(transparent)]
-    Samples(#[from] AccelerogramError),
-}
-
-impl Fault {
-    /// Short name of the reason, the same in every version.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable(_) => "unreadable",
-            Self::Empty => "empty",
-            Self::NotText { .. } => "not-text",
-            Self::Utf16(_) => "utf-16",
-            Self::UnknownFormat { .. } => "unknown-format",
-            Self::Header { .. } => "header",
-            Self::Ends(_) => "ends",
-            Self::Quantity(_) => "quantity",
-            Self::Vertical(_) => "vertical",
-            Self::Name(_) => "name",
-            Self::Folder => "folder",
-            Self::DeadLink => "dead-link",
-            Self::Device => "device",
-            Self::Doubled => "doubled",
-            Self::Unlisted => "unlisted",
-            Self::Borehole(_) => "borehole",
-            Self::Unit(_) => "unit",
-            Self::UnitMissing => "unit-missing",
-            Self::UnitConflict { .. } => "unit-conflict",
-            Self::Gravity(_) => "gravity",
-            Self::IntervalMissing => "interval-missing",
-            Self::Interval(_) => "interval",
-            Self::IntervalRange(_) => "interval-range",
-            Self::IntervalConflict { .. } => "interval-conflict",
-            Self::Count { .. } => "count",
-            Self::Duration { .. } => "duration",
-            Self::Number { .. } => "number",
-            Self::NotFinite(_) => "not-finite",
-            Self::Step { .. } => "step",
-            Self::Backwards { .. } => "backwards",
-            Self::Coarse { .. } => "coarse",
-            Self::Peak { .. } => "peak",
-            Self::SeveralChannels(_) => "several-channels",
-            Self::Samples(_) => "samples",
-        }
+coded! {
+    /// What is wrong with a record.
+    #[derive(Clone, Debug, PartialEq, Error)]
+    #[non_exhaustive]
+    pub enum Fault {
+        /// The file could not be read.
+        #[error("cannot be read: {0}")]
+        Unreadable(String) = "unreadable",
+        /// There is nothing in it.
+        #[error("empty file: expected a record")]
+        Empty = "empty",
+        /// A byte that no text has.
+        #[error("byte {byte:#04x} at offset {offset}: expected text")]
+        NotText {
+            /// The byte.
+            byte: u8,
+            /// Where it is, from 0.
+            offset: usize,
+        } = "not-text",
+        /// A text in UTF-16 that cannot be read.
+        #[error("text in UTF-16 with {0}: expected UTF-8")]
+        Utf16(&'static str) = "utf-16",
+        /// No reader knows the content.
+        #[error(
+            "begins with {found:?}: expected a record in one of the formats {expected}"
+        )]
+        UnknownFormat {
+            /// Beginning of the first line that is not blank.
+            found: String,
+            /// Formats that can be read.
+            expected: &'static str,
+        } = "unknown-format",
+        /// A header that says something else than it should.
+        #[error("{found:?}: expected {expected}")]
+        Header {
+            /// What stands there.
+            found: String,
+            /// What should.
+            expected: &'static str,
+        } = "header",
+        /// The file ends before something it must have.
+        #[error("the file ends: expected {0}")]
+        Ends(&'static str) = "ends",
+        /// Velocity, displacement or a spectrum.
+        #[error("{0:?}: expected an acceleration history")]
+        Quantity(String) = "quantity",
+        /// A vertical component where horizontal ones are wanted.
+        #[error("{0:?} is a vertical component: expected a horizontal one")]
+        Vertical(String) = "vertical",
+        /// A name, of the file or in it, that results cannot carry.
+        #[error(transparent)]
+        Name(#[from] NameError) = "name",
+        /// A folder in a folder of records.
+        #[error("a folder in the folder of records: expected a file")]
+        Folder = "folder",
+        /// A link in a folder of records.
+        #[error("a link to nothing: expected a file")]
+        DeadLink = "dead-link",
+        /// Something in a folder of records that may never end.
+        #[error("a device, a pipe or a socket: expected a file")]
+        Device = "device",
+        /// One of two files of an archive.
+        #[error(
+            "its name comes again in the archive: expected each name once, and the last is read"
+        )]
+        Doubled = "doubled",
+        /// A file beside an index that lists the suite.
+        #[error(
+            "not in the index of the folder: expected a row for each record of the suite"
+        )]
+        Unlisted = "unlisted",
+        /// A sensor in a borehole where one at the surface is wanted.
+        #[error(
+            "{0:?} is from a sensor in a borehole: expected one at the surface"
+        )]
+        Borehole(String) = "borehole",
+        /// A unit of acceleration that is not known.
+        #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
+        Unit(String) = "unit",
+        /// Neither the file nor the caller states a unit.
+        #[error(
+            "no unit in the file: expected it to be given, as --units g|m/s2|cm/s2 or in a column `units` of an index"
+        )]
+        UnitMissing = "unit-missing",
+        /// The caller's unit and the file's differ.
+        #[error(
+            "unit {given} was given: expected {stated}, which the file states"
+        )]
+        UnitConflict {
+            /// Unit in the file.
+            stated: AccelerationUnit,
+            /// Unit of the caller.
+            given: AccelerationUnit,
+        } = "unit-conflict",
+        /// Gravity must be positive and finite.
+        #[error("gravity {0} m/s2: expected a positive number")]
+        Gravity(f64) = "gravity",
+        /// Neither the file nor the caller states a sampling interval.
+        #[error(
+            "no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
+        )]
+        IntervalMissing = "interval-missing",
+        /// A sampling interval that is not positive and finite.
+        #[error("sampling interval {0:?}: expected a positive number of seconds")]
+        Interval(String) = "interval",
+        /// A sampling interval (s) that no record has.
+        #[error(
+            "sampling interval {0:?} s: expected 1e-6 to 10 s; what is longer or shorter is no interval or not in s"
+        )]
+        IntervalRange(f64) = "interval-range",
+        /// The caller's sampling interval and the file's differ.
+        #[error(
+            "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
+        )]
+        IntervalConflict {
+            /// Interval in the file in s.
+            stated_s: f64,
+            /// Interval of the caller in s.
+            given_s: f64,
+        } = "interval-conflict",
+        /// The number of samples is not the one that the file states.
+        #[error(
+            "{found} samples: expected {expected}, the number that the file states"
+        )]
+        Count {
+            /// Samples in the file.
+            found: usize,
+            /// Samples that the header promises.
+            expected: usize,
+        } = "count",
+        /// Count and interval contradict the duration in the header.
+        #[error(
+            "samples for {found_s} s: expected {expected_s} s, which the file states"
+        )]
+        Duration {
+            /// Number of samples times the interval, in s.
+            found_s: f64,
+            /// Duration in the header in s.
+            expected_s: f64,
+        } = "duration",
+        /// Something that is not the number expected there.
+        #[error("{found:?}: expected {expected}")]
+        Number {
+            /// What stands there.
+            found: String,
+            /// What should.
+            expected: String,
+        } = "number",
+        /// NaN, an infinity, or a number beyond the range of a double.
+        #[error("{0:?}: expected a finite number")]
+        NotFinite(String) = "not-finite",
+        /// Times that do not advance by one step.
+        #[error(
+            "time {found_s} s: expected {expected_s} s, a constant step from the line before"
+        )]
+        Step {
+            /// Time found in s.
+            found_s: f64,
+            /// Time expected in s.
+            expected_s: f64,
+        } = "step",
+        /// A first column whose end does not lie after its beginning.
+        #[error(
+            "the times end at {found_s} s: expected more than {expected_s} s, at which they begin"
+        )]
+        Backwards {
+            /// Last time in s.
+            found_s: f64,
+            /// First time in s.
+            expected_s: f64,
+        } = "backwards",
+        /// Times with too few decimals to show whether their step is constant.
+        #[error(
+            "times of {places} decimals with a mean step of {step_s:.6} s: expected a constant step that the decimals resolve"
+        )]
+        Coarse {
+            /// Mean step in s.
+            step_s: f64,
+            /// Decimals of the times.
+            places: i32,
+        } = "coarse",
+        /// The samples contradict the peak in the header.
+        #[error(
+            "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"
+        )]
+        Peak {
+            /// Largest absolute sample.
+            found: f64,
+            /// Peak in the header.
+            expected: f64,
+            /// Unit of both.
+            unit: AccelerationUnit,
+        } = "peak",
+        /// The file holds several components where one was asked for.
+        #[error("{0} acceleration channels: expected one")]
+        SeveralChannels(usize) = "several-channels",
+        /// The samples make no accelerogram.
+        #[error(transparent)]
+        Samples(#[from] AccelerogramError) = "samples",
     }
 }

@@ -2,8 +2,8 @@
 //! `KEY: value`, then one sample a line.
 
 use super::fields::{Forms, one_number};
-use super::text::{self, Text, excerpt};
-use super::{Channel, Direction, Fault, RecordError, keys};
+use super::text::{self, Text};
+use super::{Channel, Direction, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 /// Whether the header has the format's keys.
@@ -20,12 +20,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     if !text::contains(quantity, "ACCELERATION")
         || text::contains(quantity, "SPECTR")
     {
-        let fault = Fault::Quantity(excerpt(text.line(index).unwrap_or("")));
-        return Err(text.on_line(index, fault));
+        return Err(text.quantity(index));
     }
     let (index, named) = keys::value(text, "UNITS")?;
-    let unit = AccelerationUnit::parse(named)
-        .ok_or_else(|| text.on_line(index, Fault::Unit(excerpt(named))))?;
+    let unit = text.unit(index, named)?;
     let is_key = |line: &str| {
         let key = line.split(':').next().unwrap_or("");
         line.contains(':')

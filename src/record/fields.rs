@@ -326,10 +326,6 @@ pub(super) fn one_number(
         Reading::NotFinite => {
             Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
         }
-        Reading::Other => {
-            let expected = "a number".to_owned();
-            let fault = Fault::Number { found: excerpt(found), expected };
-            Err(text.on_line(index, fault))
-        }
+        Reading::Other => Err(text.no_number(index, found, "a number")),
     }
 }

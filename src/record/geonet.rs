@@ -16,7 +16,7 @@
 
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
-use super::text::{self, Text, excerpt};
+use super::text::{self, Text};
 use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
@@ -62,10 +62,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     }
     match text.line(first) {
         None => Ok(channels),
-        Some(line) => {
-            let (found, expected) = (excerpt(line), "three components");
-            Err(text.on_line(first, Fault::Header { found, expected }))
-        }
+        Some(_) => Err(text.header(first, "three components")),
     }
 }
 
@@ -82,9 +79,7 @@ impl Header<'_, '_> {
     }
 
     fn refuse(&self, place: usize, expected: &'static str) -> RecordError {
-        let found = excerpt(self.line(place));
-        self.text
-            .on_line(self.first + place, Fault::Header { found, expected })
+        self.text.header(self.first + place, expected)
     }
 
     /// The number that follows `word` on a line, and what follows it.

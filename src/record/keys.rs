@@ -1,7 +1,7 @@
 //! Headers of lines `key value` or `key : value`.
 
 use super::number::{self, Reading};
-use super::text::{Text, excerpt};
+use super::text::Text;
 use super::{Fault, RecordError};
 
 /// Lines among which header keys are sought.
@@ -39,7 +39,7 @@ pub(super) fn number(
     let digits = found.strip_suffix(suffix).unwrap_or(found).trim_end();
     match number::read(digits) {
         Reading::Finite(x, _) => Ok((index, x)),
-        _ => Err(wrong(text, index, "a number")),
+        _ => Err(text.header(index, "a number")),
     }
 }
 
@@ -51,7 +51,7 @@ pub(super) fn positive(
 ) -> Result<f64, RecordError> {
     match number(text, key, suffix)? {
         (_, x) if x > 0.0 => Ok(x),
-        (index, _) => Err(wrong(text, index, "a positive number")),
+        (index, _) => Err(text.header(index, "a positive number")),
     }
 }
 
@@ -62,16 +62,7 @@ pub(super) fn count(
 ) -> Result<usize, RecordError> {
     let (index, found) = value(text, key)?;
     let count = found.parse().ok().filter(|n: &usize| *n > 0);
-    count.ok_or_else(|| wrong(text, index, "a number of samples"))
-}
-
-fn wrong(
-    text: &Text<'_>,
-    index: usize,
-    expected: &'static str,
-) -> RecordError {
-    let found = excerpt(text.line(index).unwrap_or(""));
-    text.on_line(index, Fault::Header { found, expected })
+    count.ok_or_else(|| text.header(index, "a number of samples"))
 }
 
 /// The peak of `samples` against the one that the header states.

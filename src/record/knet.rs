@@ -5,8 +5,9 @@
 //! in the quality control. The header's maximum is that of the record
 //! without its mean, and is checked.
 
+use super::accelerogram::mean;
 use super::number::{self, Reading};
-use super::text::{Text, excerpt};
+use super::text::Text;
 use super::{Channel, Direction, Fault, RecordError, fields, keys};
 use crate::units::AccelerationUnit;
 
@@ -79,11 +80,7 @@ fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
     let key = MAXIMUM.iter().find(|key| keys::find(text, key).is_some());
     let Some(key) = key else { return Ok(()) };
     let expected = keys::positive(text, key, "")?;
-    let mut sum = 0.0;
-    for sample in samples {
-        sum += sample;
-    }
-    let mean = sum / samples.len() as f64;
+    let mean = mean(samples);
     let moving = samples.iter().map(|a| a - mean);
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     // The mean may be that of a part, and the maximum is rounded.
@@ -100,9 +97,6 @@ fn scale(text: &Text<'_>) -> Result<f64, RecordError> {
     };
     let parts = found.split_once("(gal)/");
     let ratio = parts.and_then(|(a, b)| Some(number(a)? / number(b)?));
-    ratio.ok_or_else(|| {
-        let found = excerpt(text.line(index).unwrap_or(""));
-        let expected = "a scale factor such as 3920(gal)/6182761";
-        text.on_line(index, Fault::Header { found, expected })
-    })
+    let expected = "a scale factor such as 3920(gal)/6182761";
+    ratio.ok_or_else(|| text.header(index, expected))
 }

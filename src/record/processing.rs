@@ -14,6 +14,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::accelerogram::mean;
 use super::{Accelerogram, AccelerogramError};
 
 /// Order of the filter, in each direction.
@@ -119,11 +120,7 @@ impl Processing {
         let dt_s = record.dt_s();
         let mut samples = record.samples_g().to_vec();
         if self.demean {
-            let mut sum = 0.0;
-            for sample in &samples {
-                sum += sample;
-            }
-            let mean = sum / samples.len() as f64;
+            let mean = mean(&samples);
             samples.iter_mut().for_each(|a| *a -= mean);
         }
         let name = record.name().to_owned();

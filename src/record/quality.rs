@@ -6,11 +6,13 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
+use super::accelerogram::mean;
+use super::codes::coded;
 use super::{Accelerogram, SuiteMember};
 
-/// PGA in g outside of which the unit is suspected.
+/// Range of PGA in g; outside it the unit is suspected.
 const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);
-/// Sampling interval in s outside of which it is suspected.
+/// Range of sampling intervals in s; outside it the interval is suspected.
 const INTERVAL_RANGE_S: (f64, f64) = (1e-4, 0.1);
 /// Consecutive samples at the peak that mean clipping.
 const CLIPPED_SAMPLES: usize = 3;
@@ -33,140 +35,118 @@ const LEAST_COMPARED: usize = 64;
 const FEW_SAMPLES: usize = 32;
 const NOT_YET_DIFFERENT: f64 = 0.8;
 
-/// One suspicion, with the value that raised it.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum Remark {
-    /// PGA beyond what records have.
-    #[error(
-        "PGA {pga_g:.3e} g, outside {} to {} g: is the unit right?",
-        PGA_RANGE_G.0,
-        PGA_RANGE_G.1
-    )]
-    Units {
-        /// PGA in g.
-        pga_g: f64,
-    },
-    /// The peak lasts for several samples.
-    #[error("{samples} consecutive samples at the peak: clipped?")]
-    Clipped {
-        /// Longest run at the peak.
-        samples: usize,
-    },
-    /// The record stands still at a value that is not zero.
-    #[error("the same sample for {duration_s:.2} s: dead channel?")]
-    Flat {
-        /// Longest time at one value in s.
-        duration_s: f64,
-    },
-    /// The velocity does not come back to zero.
-    #[error(
-        "velocity at the end is {:.0} % of PGV: no baseline correction?",
-        share * 100.0
-    )]
-    EndVelocity {
-        /// |v(end)| / PGV.
-        share: f64,
-    },
-    /// The samples have a mean.
-    #[error(
-        "mean is {:.1} % of PGA: instrument offset? PGA is {pga_g:.3e} g, and {moving_g:.3e} g without the mean (--demean)",
-        share * 100.0
-    )]
-    Offset {
-        /// |mean| / PGA.
-        share: f64,
-        /// PGA in g.
-        pga_g: f64,
-        /// PGA without the mean in g.
-        moving_g: f64,
-    },
-    /// A sampling interval beyond what recorders have.
-    #[error(
-        "sampling interval {dt_s} s, outside {} to {} s: is it an interval, and in s?",
-        INTERVAL_RANGE_S.0,
-        INTERVAL_RANGE_S.1
-    )]
-    Interval {
-        /// Sampling interval in s.
-        dt_s: f64,
-    },
-    /// All samples on one side of zero.
-    #[error("no sample is below zero: a spectrum?")]
-    OneSided,
-    /// The sampling rate is not a whole number of samples a second.
-    #[error(
-        "interval {dt_s} s is {:.2} samples/s: rounded in the header?",
-        1.0 / dt_s
-    )]
-    IntervalRounded {
-        /// Sampling interval in s.
-        dt_s: f64,
-    },
-    /// Zeros at the ends.
-    #[error(
-        "exact zeros for {leading_s:.2} s at the start and {trailing_s:.2} s at the end: padded"
-    )]
-    Padding {
-        /// At the start in s.
-        leading_s: f64,
-        /// At the end in s.
-        trailing_s: f64,
-    },
-    /// A vertical component, which rocks no block by itself.
-    #[error("a vertical component: expected a horizontal one")]
-    Vertical,
-    /// The sensor is in a borehole.
-    #[error(
-        "from a sensor in a borehole: weaker than the motion of the surface"
-    )]
-    Borehole,
-    /// A record of a folder or archive whose direction is not known.
-    #[error(
-        "neither the header nor the file's name tells the direction: horizontal? (an index says so)"
-    )]
-    Direction,
-    /// A last line without its end, whose number may be cut.
-    #[error(
-        "the last line has no line end: its number is taken as written; was the file cut?"
-    )]
-    LastLine,
-    /// The two components of a pair differ in length or interval.
-    #[error("{0} differs in length or interval: components not aligned?")]
-    UnequalComponents(String),
-    /// Another record with the same motion.
-    #[error(
-        "correlation {correlation:.3} with {other} about the peaks: the same recording?"
-    )]
-    Duplicate {
-        /// Name of the other record.
-        other: String,
-        /// Absolute correlation coefficient.
-        correlation: f64,
-    },
-}
-
-impl Remark {
-    /// Short name of the reason, the same in every version.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Units { .. } => "units",
-            Self::Clipped { .. } => "clipped",
-            Self::Flat { .. } => "flat",
-            Self::EndVelocity { .. } => "end-velocity",
-            Self::Offset { .. } => "offset",
-            Self::Interval { .. } => "interval",
-            Self::OneSided => "one-sided",
-            Self::IntervalRounded { .. } => "interval-rounded",
-            Self::Padding { .. } => "padding",
-            Self::Vertical => "vertical",
-            Self::Borehole => "borehole",
-            Self::Direction => "direction",
-            Self::LastLine => "last-line",
-            Self::UnequalComponents(_) => "unequal-components",
-            Self::Duplicate { .. } => "duplicate",
-        }
+coded! {
+    /// One suspicion, with the value that raised it.
+    #[derive(Clone, Debug, PartialEq, Error)]
+    #[non_exhaustive]
+    pub enum Remark {
+        /// PGA beyond what records have.
+        #[error(
+            "PGA {pga_g:.3e} g, outside {} to {} g: is the unit right?",
+            PGA_RANGE_G.0,
+            PGA_RANGE_G.1
+        )]
+        Units {
+            /// PGA in g.
+            pga_g: f64,
+        } = "units",
+        /// The peak lasts for several samples.
+        #[error("{samples} consecutive samples at the peak: clipped?")]
+        Clipped {
+            /// Longest run at the peak.
+            samples: usize,
+        } = "clipped",
+        /// The record stands still at a value that is not zero.
+        #[error("the same sample for {duration_s:.2} s: dead channel?")]
+        Flat {
+            /// Longest time at one value in s.
+            duration_s: f64,
+        } = "flat",
+        /// The velocity does not come back to zero.
+        #[error(
+            "velocity at the end is {:.0} % of PGV: no baseline correction?",
+            share * 100.0
+        )]
+        EndVelocity {
+            /// |v(end)| / PGV.
+            share: f64,
+        } = "end-velocity",
+        /// The samples have a mean.
+        #[error(
+            "mean is {:.1} % of PGA: instrument offset? PGA is {pga_g:.3e} g, and {moving_g:.3e} g without the mean (--demean)",
+            share * 100.0
+        )]
+        Offset {
+            /// |mean| / PGA.
+            share: f64,
+            /// PGA in g.
+            pga_g: f64,
+            /// PGA without the mean in g.
+            moving_g: f64,
+        } = "offset",
+        /// A sampling interval beyond what recorders have.
+        #[error(
+            "sampling interval {dt_s} s, outside {} to {} s: is it an interval, and in s?",
+            INTERVAL_RANGE_S.0,
+            INTERVAL_RANGE_S.1
+        )]
+        Interval {
+            /// Sampling interval in s.
+            dt_s: f64,
+        } = "interval",
+        /// All samples on one side of zero.
+        #[error("no sample is below zero: a spectrum?")]
+        OneSided = "one-sided",
+        /// The sampling rate is not a whole number of samples a second.
+        #[error(
+            "interval {dt_s} s is {:.2} samples/s: rounded in the header?",
+            1.0 / dt_s
+        )]
+        IntervalRounded {
+            /// Sampling interval in s.
+            dt_s: f64,
+        } = "interval-rounded",
+        /// Zeros at the ends.
+        #[error(
+            "exact zeros for {leading_s:.2} s at the start and {trailing_s:.2} s at the end: padded"
+        )]
+        Padding {
+            /// At the start in s.
+            leading_s: f64,
+            /// At the end in s.
+            trailing_s: f64,
+        } = "padding",
+        /// A vertical component, which rocks no block by itself.
+        #[error("a vertical component: expected a horizontal one")]
+        Vertical = "vertical",
+        /// The sensor is in a borehole.
+        #[error(
+            "from a sensor in a borehole: weaker than the motion of the surface"
+        )]
+        Borehole = "borehole",
+        /// A record of a folder or archive whose direction is not known.
+        #[error(
+            "neither the header nor the file's name tells the direction: horizontal? (an index says so)"
+        )]
+        Direction = "direction",
+        /// A last line without its end, whose number may be cut.
+        #[error(
+            "the last line has no line end: its number is taken as written; was the file cut?"
+        )]
+        LastLine = "last-line",
+        /// The two components of a pair differ in length or interval.
+        #[error("{0} differs in length or interval: components not aligned?")]
+        UnequalComponents(String) = "unequal-components",
+        /// Another record with the same motion.
+        #[error(
+            "correlation {correlation:.3} with {other} about the peaks: the same recording?"
+        )]
+        Duplicate {
+            /// Name of the other record.
+            other: String,
+            /// Absolute correlation coefficient.
+            correlation: f64,
+        } = "duplicate",
     }
 }
 
@@ -224,11 +204,7 @@ pub fn remarks(record: &Accelerogram) -> Vec<Remark> {
     if share > END_VELOCITY {
         found.push(Remark::EndVelocity { share });
     }
-    let mut sum = 0.0;
-    for sample in samples {
-        sum += sample;
-    }
-    let mean = sum / samples.len() as f64;
+    let mean = mean(samples);
     let share = mean.abs() / pga_g;
     if share > OFFSET {
         let peak = |peak: f64, a: &f64| peak.max((a - mean).abs());
@@ -373,13 +349,6 @@ fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
 
 /// Absolute correlation of samples less their means.
 fn of_samples(x: &[f64], y: &[f64]) -> f64 {
-    let mean = |samples: &[f64]| {
-        let mut sum = 0.0;
-        for sample in samples {
-            sum += sample;
-        }
-        sum / samples.len() as f64
-    };
     let (mean_x, mean_y) = (mean(x), mean(y));
     let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
     for (x, y) in x.iter().zip(y) {

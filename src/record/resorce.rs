@@ -1,7 +1,7 @@
 //! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
 
 use super::fields::{self, Layout};
-use super::text::{self, Text, excerpt};
+use super::text::{self, Text};
 use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
@@ -28,11 +28,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let line = text.line(title).unwrap_or("");
     // The database writes "Accelaration".
     if !text::contains(line, "accel") {
-        return Err(text.on_line(title, Fault::Quantity(excerpt(line))));
+        return Err(text.quantity(title));
     }
     let named = line.split_ascii_whitespace().next_back().unwrap_or("");
-    let unit = AccelerationUnit::parse(named)
-        .ok_or_else(|| text.on_line(title, Fault::Unit(excerpt(named))))?;
+    let unit = text.unit(title, named)?;
     let end = text.len();
     let samples = fields::read(text, title + 1, end, Some(LAYOUT))?;
     text.check_count(samples.len(), count)?;

@@ -5,7 +5,7 @@
 //! largest and the least sample, and are checked.
 
 use super::fields::{self, Layout};
-use super::text::{Text, excerpt};
+use super::text::Text;
 use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
@@ -42,9 +42,7 @@ fn first_line<'a>(text: &Text<'a>) -> &'a str {
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let kind = first_line(text).trim_start().to_ascii_uppercase();
     if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
-        return Err(
-            text.on_line(0, Fault::Quantity(excerpt(first_line(text))))
-        );
+        return Err(text.quantity(0));
     }
     let reals = TEXT_LINES + INTEGER_LINES;
     let comments = reals + REAL_LINES;

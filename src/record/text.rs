@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::{Fault, RecordError};
 use crate::stop;
+use crate::units::AccelerationUnit;
 
 /// Lines of one file; faults are built here, so that each carries its place.
 pub(super) struct Text<'a> {
@@ -195,6 +196,43 @@ impl<'a> Text<'a> {
     /// A fault at the end of the file.
     pub(super) fn at_end(&self, fault: Fault) -> RecordError {
         self.on_line(self.len() - 1, fault)
+    }
+
+    /// A line that is not what its place asks for.
+    pub(super) fn header(
+        &self,
+        index: usize,
+        expected: &'static str,
+    ) -> RecordError {
+        let found = excerpt(self.line(index).unwrap_or(""));
+        self.on_line(index, Fault::Header { found, expected })
+    }
+
+    /// A line that announces another quantity than acceleration.
+    pub(super) fn quantity(&self, index: usize) -> RecordError {
+        let found = excerpt(self.line(index).unwrap_or(""));
+        self.on_line(index, Fault::Quantity(found))
+    }
+
+    /// What stands on a line where numbers belong.
+    pub(super) fn no_number(
+        &self,
+        index: usize,
+        found: &str,
+        expected: &str,
+    ) -> RecordError {
+        let (found, expected) = (excerpt(found), expected.to_owned());
+        self.on_line(index, Fault::Number { found, expected })
+    }
+
+    /// The unit that a line names.
+    pub(super) fn unit(
+        &self,
+        index: usize,
+        named: &str,
+    ) -> Result<AccelerationUnit, RecordError> {
+        let refuse = || self.on_line(index, Fault::Unit(excerpt(named)));
+        AccelerationUnit::parse(named).ok_or_else(refuse)
     }
 
     /// The number of samples found in the file against the stated one.

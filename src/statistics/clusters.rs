@@ -210,8 +210,18 @@ impl Clusters {
         normal::quantile(0.5 + 0.5 * level) * student * self.unbiased()
     }
 
-    /// t/z, and 1 of clusters of one record.
-    pub(super) fn student_over_normal(&self, level: f64) -> f64 {
+    /// Deviations of suites like this one from the truth, as the replicates
+    /// of a bootstrap of these clusters tell them: theirs from `point`,
+    /// times sqrt(G_e/(G_e - 1)) as in [`Self::half_width`].
+    #[must_use]
+    pub fn deviations(&self, point: f64, replicates: &[f64]) -> Vec<f64> {
+        let wider = self.unbiased();
+        replicates.iter().map(|x| wider * (x - point)).collect()
+    }
+
+    /// t/z of [`Self::half_width`], and 1 of clusters of one record.
+    #[must_use]
+    pub fn student_over_normal(&self, level: f64) -> f64 {
         if self.is_singletons() {
             return 1.0;
         }

@@ -3,7 +3,7 @@
 
 use libm::sqrt;
 
-use super::normal;
+use super::{Clusters, normal};
 
 /// The replicates of one measure, in order: its intervals at all levels.
 ///
@@ -102,27 +102,37 @@ impl Confidence {
     }
 
     /// The interval of a share of cells that lie in a region, whose value in
-    /// the sample is `point`: from the percentiles or the percentiles
-    /// reflected at the point, whichever lie further out, within 0 and 1.
+    /// the sample is `point`, at `level`: from the percentiles or the
+    /// percentiles reflected at the point, whichever lie further out, within
+    /// 0 and 1, for tails of half the error of `level`.
     ///
     /// Scatter carries cells across the ends of the region. That biases the
     /// share of a sample, and the share of a replicate twice as much, to the
     /// same side: there the percentile lies too far out, and on the other
-    /// side the reflected one holds the level.
+    /// side the reflected one holds the level. The error is halved since the
+    /// whole one is exceeded where the share lies on its limit: of 44 records
+    /// of 16 earthquakes 11 % instead of 5 % (declared cases `share-refuted`).
     ///
     /// ```
+    /// use rocking::statistics::clusters::Clusters;
     /// use rocking::statistics::confidence::Confidence;
     /// // 95 % of the cells inside, and in replicates 86 to 94 %.
     /// let replicates: Vec<f64> =
     ///     (0..=800).map(|i| 0.86 + 1e-4 * f64::from(i)).collect();
     /// let known = Confidence::new(0.95, &replicates, &[]).unwrap();
-    /// let ends = known.interval_of_share(0.95, 1.96);
+    /// let records = Clusters::singletons(86);
+    /// let ends = known.interval_of_share(0.95, &records, 0.9);
     /// assert!((ends.low - 0.862).abs() < 1e-3);
     /// assert_eq!(ends.high, 1.0);
     /// ```
     #[must_use]
-    pub fn interval_of_share(&self, point: f64, half_width: f64) -> Ends {
-        let plain = self.interval(half_width);
+    pub fn interval_of_share(
+        &self,
+        point: f64,
+        clusters: &Clusters,
+        level: f64,
+    ) -> Ends {
+        let plain = self.interval(clusters.half_width(0.5 + 0.5 * level));
         let reflected = (2.0 * point - plain.high, 2.0 * point - plain.low);
         let (low, low_error) = if reflected.0 < plain.low {
             (reflected.0, plain.high_error)
@@ -194,7 +204,6 @@ impl Confidence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::Clusters;
     use crate::statistics::bootstrap::Bootstrap;
 
     #[test]

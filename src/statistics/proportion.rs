@@ -42,6 +42,12 @@ impl Proportion {
         Ok(Self { successes, trials })
     }
 
+    /// Number of trials n.
+    #[must_use]
+    pub fn trials(self) -> usize {
+        self.trials
+    }
+
     /// k/n, from 0 to 1.
     #[must_use]
     pub fn share(self) -> f64 {

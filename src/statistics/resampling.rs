@@ -128,6 +128,24 @@ impl Subsampling {
         counts
     }
 
+    /// f = sqrt(size/(n - size)): the standard deviation of a mean over n
+    /// records over that of a mean over `size` of n, drawn without
+    /// replacement, which varies by s^2 (1/size - 1/n) instead of s^2/n. Of
+    /// clusters, n and size count clusters.
+    fn factor(&self) -> f64 {
+        let (n, size) = (self.clusters.count() as f64, self.size as f64);
+        (size / (n - size)).sqrt()
+    }
+
+    /// Deviations of suites of all records from the truth, as the values
+    /// over subsamples tell them: f times their deviations from their mean,
+    /// with f of [`Self::interval`].
+    #[must_use]
+    pub fn deviations(&self, values: &[f64]) -> Vec<f64> {
+        let (centre, factor) = (finite_mean(values), self.factor());
+        values.iter().map(|x| factor * (x - centre)).collect()
+    }
+
     /// The interval of a measure from its values over subsamples, at a
     /// level: with the quantiles q of type 7 of the values' deviations from
     /// their mean and f = sqrt(size/(n - size)), from `point` - f q(high) to
@@ -138,9 +156,7 @@ impl Subsampling {
     /// out each cluster in turn, and f is wider by t/z, with Student's t of
     /// [`Clusters::degrees_of_freedom`] and the normal quantile z.
     ///
-    /// Without replacement, a mean over `size` of n records varies by
-    /// s^2 (1/size - 1/n), a mean over n records by s^2/n: f is the root of
-    /// the ratio. None where [`estimate`] gives none. Politis and Romano,
+    /// None where [`estimate`] gives none. Politis and Romano,
     /// Ann. Statist. 22 (1994) 2031; with size near n the delete-d jackknife
     /// of Shao and Wu, Ann. Statist. 17 (1989) 1176.
     #[must_use]
@@ -152,12 +168,7 @@ impl Subsampling {
         level: f64,
     ) -> Option<Estimate> {
         let plain = estimate(point, values, level)?;
-        let finite: Vec<f64> =
-            values.iter().copied().filter(|x| x.is_finite()).collect();
-        let sum = finite.iter().fold(0.0, |sum, x| sum + x);
-        let centre = sum / finite.len() as f64;
-        let (n, size) = (self.clusters.count() as f64, self.size as f64);
-        let factor = (size / (n - size)).sqrt();
+        let (centre, factor) = (finite_mean(values), self.factor());
         let wider = factor * self.clusters.student_over_normal(level);
         if !wider.is_finite() {
             return None;
@@ -175,6 +186,13 @@ impl Subsampling {
         let standard_error = factor * plain.standard_error;
         Some(Estimate { standard_error, low, high, ..plain })
     }
+}
+
+/// Mean of the values that are finite.
+fn finite_mean(values: &[f64]) -> f64 {
+    let finite = values.iter().filter(|x| x.is_finite());
+    let (sum, count) = finite.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    sum / count
 }
 
 /// A sample in ascending order, each value with its record: quantiles of a

@@ -58,8 +58,8 @@ pub fn subcommands(help: &str) -> Vec<String> {
 fn what_changed_between_two_results() {
     let findings = [
         ("\"eta\": 0.92", "\"eta\": 0.919"),
-        ("2.31,", "2.35,"),
-        ("3.3,", "3.31,"),
+        ("2.31, \"low\": 2.27, \"high\": 2.3353", "2.6"),
+        ("3.3, \"low\": 3.1, \"high\": 3.5", "3.4"),
         ("0.1536,", "0.1554,"),
         ("\"confirmed\"", "\"inconclusive\""),
     ];
@@ -67,7 +67,7 @@ fn what_changed_between_two_results() {
     let place = sides("texts", &findings, &cases);
     for (name, flags) in [
         ("diff-text", "--all"),
-        ("diff-markdown", "--markdown --all"),
+        ("diff-markdown", "--markdown"),
         ("diff-json", "--json"),
     ] {
         let (status, text, error) =

@@ -52,7 +52,7 @@ const SYNTHESIS: Edges = "
 const COMMON: Edges = "
     curves
     files
-    findings json paper
+    findings json paper words
     json words
     paper words
     suites paper table
@@ -82,29 +82,28 @@ const PROOF: Edges = "
     cases references
     edge
     engine arithmetic scene
-    error scene
-    methods arithmetic cases edge engine error naive oracles references scene \
+    methods arithmetic cases edge engine naive oracles references scene \
         trials
-    naive scene
+    naive cases scene
     oracles scene
-    references arithmetic error scene
+    references arithmetic scene
     scene
     trials arithmetic cases engine scene
-    verdict cases error methods
+    verdict cases methods
 ";
 
 /// The modules of the report.
 const REPORT: Edges = "
-    answers evidence page quantity recorded timings
+    answers evidence page quantity recorded timings verdicts
     credibility evidence recorded words
-    diff
-    evidence diff
-    findings answers page
+    diff answers verdicts
+    evidence
+    findings page quantity verdicts
     head
     input answers credibility evidence findings head ledger page recorded timings \
-        words
+        verdicts words
     ledger evidence recorded
-    output answers evidence head input page quantity timings
+    output answers evidence head input page quantity recorded timings
     page evidence quantity recorded
     quantity
     readme answers evidence page recorded timings
@@ -114,6 +113,7 @@ const REPORT: Edges = "
     tests answers credibility evidence findings head input ledger output \
         recorded
     timings speed
+    verdicts
     words
 ";
 
@@ -129,8 +129,7 @@ const STUDY: Edges = "
     estimates analyses results runs sensitivities
     figures analyses claims distributions estimates fits inference measures \
         normality results stripes ties
-    findings analyses estimates figures inference normality questions results \
-        stripes
+    findings analyses estimates figures questions results stripes
     fits
     inference
     measures analyses distances distributions estimates fits inference results \
@@ -150,7 +149,7 @@ const STUDY: Edges = "
 const COMMAND: Edges = "
     cli failure input sweep terminal threads
     failure
-    input failure
+    input failure terminal
     sweep failure input
     terminal failure
     threads failure terminal

@@ -22,6 +22,6 @@ fn the_readme_shows_the_committed_results() {
     findings.claims.retain(|claim| claim.results.is_empty());
     assert_ne!(renewed(&readme, &findings, &proof).unwrap(), expected);
     assert!(renewed("no marks", &findings, &proof).is_err());
-    let figure = "reports/figures/figure-08.svg";
+    let figure = "reports/figures/figure-08-c-recorded.svg";
     assert!(readme.contains(figure) && read(figure).starts_with("<svg"));
 }

@@ -4,8 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The text of a PDF without white space: a cell may break anywhere.
+/// The text of a PDF, as it is and without white space: a cell may break
+/// between words.
 pub struct Printed {
+    lines: String,
     text: String,
     pub pages: usize,
 }
@@ -38,12 +40,17 @@ impl Printed {
         assert!(read.status.success(), "{read:?}");
         let text = String::from_utf8(read.stdout).expect("text");
         let pages = text.matches('\u{c}').count();
-        Some(Self { text: bare(&text), pages })
+        Some(Self { text: bare(&text), lines: text, pages })
     }
 
     /// Whether the paper has these words.
     pub fn has(&self, words: &str) -> bool {
         self.text.contains(&bare(words))
+    }
+
+    /// Whether the paper has this word in one piece.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.lines.contains(word)
     }
 
     /// Whether the paper has the last words of a text.
@@ -57,5 +64,7 @@ impl Printed {
 
 fn bare(text: &str) -> String {
     let text = text.replace('\u{fb01}', "fi").replace('\u{fb02}', "fl");
-    text.chars().filter(|c| !c.is_whitespace()).collect()
+    // A word joiner only tells where no line breaks.
+    let shown = |c: &char| !c.is_whitespace() && *c != '\u{2060}';
+    text.chars().filter(shown).collect()
 }

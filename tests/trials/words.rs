@@ -8,7 +8,7 @@ use rocking_proof::trials::{Finding, Reading, SHARES, Summary, Truth};
 
 /// Findings counted, in words.
 pub fn summary(findings: &[Finding]) -> String {
-    let all = Summary::of(findings, Reading::Whole);
+    let all = Summary::of(findings, Reading::WHOLE);
     let mut text = format!(
         "{} runs: {} clear, {} unresolved; wrong and clear {}, \
          estimates exceeded {}, wrong and unresolved {}, clear and \
@@ -24,7 +24,7 @@ pub fn summary(findings: &[Finding]) -> String {
     for (name, share) in SHARES {
         let _ = write!(text, "{name} {:.2e}  ", all.ratio(share));
     }
-    let unclear = |f: &&Finding| !Reading::Whole.is_clear(&f.seen);
+    let unclear = |f: &&Finding| !Reading::WHOLE.is_clear(&f.seen);
     let mut least: BTreeMap<&str, usize> = BTreeMap::new();
     for finding in findings.iter().filter(unclear) {
         let decision = finding.seen.certificate.least().decision;

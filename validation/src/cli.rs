@@ -72,9 +72,16 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("Develop", &["accept", "completions", "man"]),
 ];
 
+const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (commit ",
+    env!("ROCKING_COMMIT"),
+    ")"
+);
+
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
-#[command(name = "rocking", version, max_term_width = 100)]
+#[command(name = "rocking", version = VERSION, max_term_width = 100)]
 #[command(disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]

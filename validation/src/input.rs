@@ -9,6 +9,7 @@ use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
 
 use crate::failure::{At as _, Failure};
+use crate::terminal::note;
 
 fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
     if path == Path::new("-") {
@@ -47,6 +48,20 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 /// [`Failure`] with file and line.
 pub fn sample(path: &Path) -> Result<SampleFile, Failure> {
     Ok(SampleFile::parse(&text(path)?, path)?)
+}
+
+/// Says that a procedure takes records as independent, where earthquakes of
+/// the file have several.
+pub fn records_as_unit(file: &SampleFile) {
+    let clusters = file.clusters();
+    if !clusters.is_singletons() {
+        note(&format!(
+            "records as the unit: {} of {} earthquakes are taken as \
+             independent",
+            clusters.records(),
+            clusters.count()
+        ));
+    }
 }
 
 /// A table of `rocking ida`, and its curves against an intensity measure.

@@ -12,6 +12,9 @@ use rocking_common::words::printable;
 /// Name and version of the program, for results.
 pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
 
+/// The commit of the sources; `unknown` outside a repository.
+pub const COMMIT: &str = env!("ROCKING_COMMIT");
+
 /// Prints `text`, the result of a command, on standard output; a closed pipe
 /// ends the program quietly.
 ///

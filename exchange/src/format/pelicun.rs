@@ -19,7 +19,7 @@ use super::{ExchangeError, TOLERANCE};
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number};
 
-/// Steps that pelicun tells from none.
+/// Steps that pelicun distinguishes from none.
 const LEAST_STEP: f64 = 1e-8;
 
 pub(super) fn csv(

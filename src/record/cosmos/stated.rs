@@ -1,7 +1,7 @@
 //! What the header of a channel says of its series, held against the series.
 
 use super::super::number::{self, Reading};
-use super::super::text::{self, Text, excerpt};
+use super::super::text::{self, Text};
 use super::super::{Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
@@ -58,16 +58,8 @@ impl<'a> Header<'_, 'a> {
         self.text.lines_from(self.head).take(self.announced - self.head)
     }
 
-    fn refuse(&self, line: usize, fault: Fault) -> RecordError {
-        self.text.on_line(self.head + line, fault)
-    }
-
-    fn differs(
-        &self,
-        (at, line): (usize, &str),
-        expected: &'static str,
-    ) -> RecordError {
-        self.refuse(at, Fault::Header { found: excerpt(line), expected })
+    fn differs(&self, at: usize, expected: &'static str) -> RecordError {
+        self.text.header(self.head + at, expected)
     }
 
     /// What follows `words` on the first line that has them, its place, and
@@ -94,7 +86,7 @@ impl<'a> Header<'_, 'a> {
         if same || !(raw || line.trim_start().starts_with("No. of Points")) {
             return Ok(());
         }
-        Err(self.differs((at, line), SAME_COUNT))
+        Err(self.differs(at, SAME_COUNT))
     }
 
     /// The unit that announces the samples, or else the unit of the peak.
@@ -105,11 +97,7 @@ impl<'a> Header<'_, 'a> {
         if announced.is_empty() {
             return Ok(self.peak().and_then(|(_, unit)| unit));
         }
-        let unit = AccelerationUnit::parse(announced).ok_or_else(|| {
-            let fault = Fault::Unit(excerpt(announced));
-            self.text.on_line(self.announced, fault)
-        })?;
-        Ok(Some(unit))
+        self.text.unit(self.announced, announced).map(Some)
     }
 
     /// CSMIP's peak of the corrected series, and its unit.
@@ -129,14 +117,12 @@ impl<'a> Header<'_, 'a> {
     ) -> Result<Option<f64>, RecordError> {
         let dt_s = series.dt_s;
         let stated = "equally-spaced intervals of";
-        if let (Some((at, rest, line)), Some(dt_s)) =
-            (self.after(stated), dt_s)
-        {
+        if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
             let word = rest.split_ascii_whitespace().next().unwrap_or("");
             let same = matches!(number::read(word), Reading::Finite(x, _)
                 if (x - dt_s).abs() <= 1e-6 * dt_s);
             if !same {
-                return Err(self.differs((at, line), SAME_INTERVAL));
+                return Err(self.differs(at, SAME_INTERVAL));
             }
         }
         match self.peak() {

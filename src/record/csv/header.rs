@@ -92,33 +92,24 @@ pub(super) fn header(
     index: usize,
     line: &str,
 ) -> Result<Units, RecordError> {
-    let refuse = |fault: Fault| Err(text.on_line(index, fault));
     let (time, value) = columns(line);
     let time = Name::of(&time);
     let value = Name::of(&value);
     if !TIMES.contains(&time.name.as_str()) {
         let expected = "a first column of times, named t or time";
-        let found = excerpt(line);
-        return refuse(Fault::Header { found, expected });
+        return Err(text.header(index, expected));
     }
     let spectrum = ["sa", "sv", "sd"].contains(&value.name.as_str());
     if spectrum || OTHERS.iter().any(|other| value.name.contains(other)) {
-        return refuse(Fault::Quantity(excerpt(line)));
+        return Err(text.quantity(index));
     }
-    let per_second = match &time.unit {
-        None => 1.0,
-        Some(unit) => match per_second(unit) {
-            Some(per_second) => per_second,
-            None => return refuse(Fault::Interval(excerpt(unit))),
-        },
+    let in_seconds = |unit: &String| {
+        let refuse = || text.on_line(index, Fault::Interval(excerpt(unit)));
+        per_second(unit).ok_or_else(refuse)
     };
-    let acceleration = match &value.unit {
-        None => None,
-        Some(unit) => match AccelerationUnit::parse(unit) {
-            Some(unit) => Some(unit),
-            None => return refuse(Fault::Unit(excerpt(unit))),
-        },
-    };
+    let per_second = time.unit.as_ref().map_or(Ok(1.0), in_seconds)?;
+    let unit = value.unit.as_ref().map(|unit| text.unit(index, unit));
+    let acceleration = unit.transpose()?;
     Ok(Units { per_second, acceleration })
 }
 

@@ -2,32 +2,35 @@
 
 use std::fmt;
 
+use crate::record::codes::coded;
 use crate::record::name::Escaped;
 use crate::record::{Fault, RecordError};
 
-/// Why something in a folder or an archive is no record of the suite, and no
-/// fault of the suite either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum AsideReason {
-    /// A vertical component.
-    Vertical,
-    /// A record of a sensor in a borehole.
-    Borehole,
-    /// A text in no known format, or no text.
-    Format,
-    /// A history of velocity or displacement, or a spectrum.
-    Quantity,
-    /// A file that the index in the folder does not name.
-    Unlisted,
-    /// A file of an archive under a name that comes again.
-    Doubled,
-    /// A folder, which is not entered.
-    Folder,
-    /// A link to nothing.
-    Link,
-    /// A device, a named pipe or a socket.
-    Device,
+coded! {
+    /// Why something in a folder or an archive is no record of the suite, and no
+    /// fault of the suite either.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum AsideReason {
+        /// A vertical component.
+        Vertical = "vertical",
+        /// A record of a sensor in a borehole.
+        Borehole = "borehole",
+        /// A text in no known format, or no text.
+        Format = "format",
+        /// A history of velocity or displacement, or a spectrum.
+        Quantity = "quantity",
+        /// A file that the index in the folder does not name.
+        Unlisted = "unlisted",
+        /// A file of an archive under a name that comes again.
+        Doubled = "doubled",
+        /// A folder, which is not entered.
+        Folder = "folder",
+        /// A link to nothing.
+        Link = "link",
+        /// A device, a named pipe or a socket.
+        Device = "device",
+    }
 }
 
 impl AsideReason {
@@ -46,22 +49,6 @@ impl AsideReason {
             Fault::Device => Self::Device,
             _ => return None,
         })
-    }
-
-    /// Short name of the reason, the same in every version.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::Vertical => "vertical",
-            Self::Borehole => "borehole",
-            Self::Format => "format",
-            Self::Quantity => "quantity",
-            Self::Unlisted => "unlisted",
-            Self::Doubled => "doubled",
-            Self::Folder => "folder",
-            Self::Link => "link",
-            Self::Device => "device",
-        }
     }
 
     /// What `count` of them are, after the number.

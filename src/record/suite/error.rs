@@ -69,7 +69,7 @@ pub enum SuiteError {
         /// The index.
         path: String,
     },
-    /// Two records that results could not tell apart.
+    /// Two records that results could not distinguish.
     #[error(
         "{path}: two records are named {name:?}: expected different names"
     )]

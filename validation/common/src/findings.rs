@@ -5,6 +5,7 @@
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
 
 mod claims;
+mod effect;
 mod measured;
 
 use std::fmt;
@@ -18,16 +19,17 @@ use serde::{Deserialize, Serialize};
 use crate::json::nine;
 use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
 
+pub use effect::Effect;
 pub use measured::{Measured, Unit};
 
 pub use claims::{
-    CellCounts, Claim, ClaimResult, Detail, Interval, Kind, Quantifier,
-    Region, Tested, Theme,
+    CellCounts, Claim, ClaimResult, Detail, ERROR, Interval, Kind, LEVEL,
+    Power, Quantifier, Region, Tested, Theme,
 };
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 5;
+pub const SCHEMA: u32 = 6;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -144,27 +146,42 @@ pub struct Reevaluated {
     pub wrong_in_double: usize,
 }
 
-/// What a table is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// What a table is about, in the order of consequence: what an engineer acts
+/// on first.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Topic {
-    /// Shares of demand levels that the Lilliefors test accepts.
-    AcceptedShares,
-    /// Figure 9: slenderness adjusted instead of scaling the record.
-    SlendernessAdjustment,
     /// Median overturning intensities.
     Overturning,
-    /// Blocks that stand at an intensity above their first overturning.
-    Resurrections,
+    /// Shares of demand levels that the Lilliefors test accepts.
+    AcceptedShares,
     /// Capacities by other choices.
     Sensitivities,
+    /// Figure 9: slenderness adjusted instead of scaling the record.
+    SlendernessAdjustment,
     /// Figures 2 to 5: records one by one.
     SingleRecords,
+    /// Blocks that stand at an intensity above their first overturning.
+    Resurrections,
     /// Records that move a block without being scaled.
     UpliftUnscaled,
 }
 
 impl Topic {
+    /// The smallest effect of interest of a quantity of such a table: 5 % of
+    /// a response ratio, else that of its unit.
+    #[must_use]
+    pub fn smallest_effect(self, unit: Unit) -> Option<Effect> {
+        match (self, unit) {
+            (Self::SlendernessAdjustment | Self::SingleRecords, Unit::One) => {
+                Some(Effect::Relative(0.05))
+            }
+            _ => Effect::of(unit),
+        }
+    }
+
     /// The topic in words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -245,7 +262,7 @@ pub struct Row {
     pub values: Vec<Measured>,
 }
 
-/// What tells a row of a table from the others.
+/// What distinguishes a row of a table from the others.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Place {
@@ -405,14 +422,6 @@ impl Findings {
             }
         }
         Ok(findings)
-    }
-
-    /// Number of results with this verdict, of all findings, suites and
-    /// arms.
-    #[must_use]
-    pub fn count(&self, verdict: Verdict) -> usize {
-        let results = self.claims.iter().flat_map(|claim| &claim.results);
-        results.filter(|r| r.by_equivalence == Some(verdict)).count()
     }
 
     /// How many decisions do not hold at a false discovery rate, over all

@@ -9,9 +9,10 @@ use std::fmt;
 use std::path::Path;
 
 use rocking::record::{
-    Accelerogram, Processing, ReadOptions, SetAside, Suite,
+    Accelerogram, Processing, ReadOptions, SetAside, SuiteMember,
 };
 use rocking::statistics::Clusters;
+use rocking::statistics::clusters::Unit;
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 
@@ -156,7 +157,7 @@ impl StudySuite {
             component_rule: suite.study_rule().to_string(),
             remarks,
             set_aside: suite.set_aside().clone(),
-            clusters: clusters(&suite),
+            clusters: clusters(&suite.study_components().collect::<Vec<_>>()),
             motions,
         })
     }
@@ -185,15 +186,19 @@ impl StudySuite {
     }
 }
 
-/// The earthquakes of a suite's study components; each record by itself
-/// where the index names none.
-fn clusters(suite: &Suite) -> Clusters {
-    let events: Option<Vec<&str>> =
-        suite.study_components().map(|study| study.event.as_deref()).collect();
-    events.map_or_else(
-        || Clusters::singletons(suite.study_components().count()),
-        Clusters::from_labels,
-    )
+/// Records by earthquake; each record by itself where the index names none.
+#[must_use]
+pub fn clusters(members: &[&SuiteMember]) -> Clusters {
+    let events = members.iter().map(|member| member.event.as_deref());
+    let events: Option<Vec<&str>> = events.collect();
+    let records = || Clusters::singletons(members.len());
+    events.map_or_else(records, Clusters::from_labels)
+}
+
+/// Number of earthquakes, where they are known.
+#[must_use]
+pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
+    (clusters.unit() == Unit::Earthquake).then_some(clusters.count())
 }
 
 /// Sampling interval and samples, added to a hash.

@@ -2,9 +2,7 @@
 //! page shows them.
 
 pub use rocking_exchange::columns;
-pub use rocking_exchange::table::{
-    Table, cells, digits, number, optional, point,
-};
+pub use rocking_exchange::table::{Table, cells, digits, number, optional};
 
 /// A table with its title.
 #[derive(Debug, Clone, Default)]

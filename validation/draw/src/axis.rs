@@ -5,9 +5,10 @@
 
 use plotters::coord::ranged1d::{BoldPoints, Ranged as _};
 use plotters::coord::types::RangedCoordf64;
+use serde::{Deserialize, Serialize};
 
 /// A labelled position on an axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tick {
     /// Where.
     pub at: f64,
@@ -16,7 +17,7 @@ pub struct Tick {
 }
 
 /// How values go to places.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 enum Scale {
     Linear,
     Logarithmic,
@@ -32,7 +33,7 @@ const RATIOS: [f64; 19] = [
 ];
 
 /// An axis: a range, ticks and a label.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     low: f64,
     high: f64,

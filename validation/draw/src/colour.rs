@@ -5,8 +5,10 @@
 //! about ten, so they stay apart for colour-blind readers and in grey; each
 //! also has a dash of its own.
 
+use serde::{Deserialize, Serialize};
+
 /// What a shape is drawn with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ink {
     /// The page behind everything.
     Paper,
@@ -39,7 +41,7 @@ impl Ink {
 }
 
 /// Pattern of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Dash {
     /// Unbroken.
     Solid,
@@ -76,7 +78,7 @@ impl Dash {
 }
 
 /// A line's ink, width and pattern.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pen {
     /// Ink.
     pub ink: Ink,
@@ -107,7 +109,7 @@ impl Pen {
 }
 
 /// An area's ink and opacity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fill {
     /// Ink.
     pub ink: Ink,

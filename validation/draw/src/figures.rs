@@ -13,6 +13,7 @@ mod boxplots;
 mod chart;
 pub mod common;
 mod fates;
+mod figure;
 mod heading;
 mod histories;
 pub mod of_result;
@@ -20,9 +21,12 @@ mod series;
 mod sketch;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
-pub use chart::{Chart, ChartAxis, ChartPanel, Column, Datum, Layout, Scale};
+pub use chart::{
+    Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of, Scale,
+};
 pub use fates::{Fate, FateMap};
-pub use heading::{Figure, Heading, Place};
+pub use figure::Figure;
+pub use heading::{Heading, Motions, Place};
 pub use histories::{History, HistoryPanel, histories};
 pub use series::{Look, Mark, Series};
 pub use sketch::BlockSketch;

@@ -1,9 +1,10 @@
 //! Panels in rows and columns, with room for titles, axes and a legend.
 
 use crate::geometry::Rect;
+use serde::{Deserialize, Serialize};
 
 /// Sizes of a grid of equal panels, in px.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Number of panels.
     pub panels: usize,

@@ -6,6 +6,7 @@ use crate::panel::Marker;
 use crate::scene::Scene;
 use crate::text::TEXT_PX;
 use crate::text::{Horizontal, TextLine};
+use serde::{Deserialize, Serialize};
 
 const SAMPLE_PX: f64 = 26.0;
 const GAP_PX: f64 = 6.0;
@@ -13,7 +14,7 @@ const BETWEEN_PX: f64 = 18.0;
 const ROW_PX: f64 = 18.0;
 
 /// What stands before a legend's words.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Sample {
     /// A line.
     Line(Pen),
@@ -28,7 +29,7 @@ pub enum Sample {
 }
 
 /// One entry.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     /// The sample.
     pub sample: Sample,

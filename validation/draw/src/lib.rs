@@ -18,8 +18,5 @@ mod scene;
 mod svg;
 pub mod text;
 
-// `named!` derives it.
-use serde as _;
-
 #[cfg(test)]
 mod tests;

@@ -7,15 +7,18 @@ use crate::markup;
 use crate::scene::Scene;
 use crate::text::TEXT_PX;
 use crate::text::{Horizontal, TextLine};
+use serde::{Deserialize, Serialize};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;
 const TITLE_PX: f64 = 12.0;
+/// Between the baselines of two notes.
+const NOTE_PX: f64 = 13.5;
 const HAIRLINE: Pen = Pen::new(Ink::Text, 0.7);
 const GRID: Pen = Pen::new(Ink::Grid, 0.6);
 
 /// A mark at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Marker {
     /// Filled circle.
     Dot,
@@ -242,19 +245,11 @@ impl<'s> Panel<'s> {
         self.scene.area(&corners, fill);
     }
 
-    /// A note inside the frame; `across` and `down` are shares of it.
-    pub fn note(
-        &mut self,
-        text: impl Into<String>,
-        (across, down): Point,
-        align: Horizontal,
-    ) {
-        let f = self.frame;
-        let at = (
-            across.mul_add(f.width(), f.left),
-            down.mul_add(f.height(), f.top),
-        );
-        let line = TextLine::new(text, at, align);
+    /// A note in the lower right-hand corner, so many lines above it.
+    pub fn corner(&mut self, text: impl Into<String>, lines: usize) {
+        let up = 8.0 + NOTE_PX * lines as f64;
+        let at = (self.frame.right - 5.0, self.frame.bottom - up);
+        let line = TextLine::new(text, at, Horizontal::Right);
         self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
     }
 

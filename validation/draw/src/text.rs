@@ -3,6 +3,7 @@
 use crate::colour::Ink;
 use crate::geometry::{Point, Rect};
 use crate::markup;
+use serde::{Deserialize, Serialize};
 
 /// Text size that elements have unless they say otherwise, in px.
 pub const TEXT_PX: f64 = 11.0;
@@ -19,7 +20,7 @@ pub struct Caption {
 }
 
 /// Horizontal alignment of a line of text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Horizontal {
     /// Starts at the point.
     Left,

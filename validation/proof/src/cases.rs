@@ -54,7 +54,7 @@ pub use case::{
     Basis, Bound, Case, Cost, Expect, Family, Kind, OracleKind, Source,
     Status, Tolerance, Values,
 };
-pub use error::CaseError;
+pub use error::{CaseError, Fault};
 pub use families::FAMILIES;
 pub use load::{load_all, load_family};
 pub use wrong::WrongModel;

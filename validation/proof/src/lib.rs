@@ -5,7 +5,6 @@ pub mod arithmetic;
 pub mod cases;
 pub mod edge;
 pub mod engine;
-pub mod error;
 pub mod methods;
 pub mod naive;
 pub mod oracles;

@@ -4,6 +4,7 @@
 #[macro_use]
 mod method;
 
+mod cells;
 mod closed_forms;
 mod convergence;
 mod curves;
@@ -16,6 +17,7 @@ mod forces;
 mod hard;
 mod intensity;
 mod invariance;
+mod memo;
 mod points;
 mod precise;
 mod response;
@@ -29,16 +31,17 @@ mod trials;
 mod velocity_pulse;
 mod wrong;
 
-pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
+pub use digits::{DIGITS_HEADER, Reach, Row, digits, digits_csv};
 pub use method::{Answer, Context, Quantities};
+
+use anyhow::{Result, anyhow};
 
 use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
-use crate::error::MethodError;
 use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
 
-type Run = fn(&Context) -> Result<Answer, MethodError>;
+type Run = fn(&Context, &mut Answer) -> Result<()>;
 
 /// Registered methods by name.
 pub const METHODS: &[(&str, Run)] = &[
@@ -111,6 +114,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rejected-share", statistics::rejection),
     ("coverage", statistics::coverage),
     ("coverage-of-inference", statistics::inference),
+    ("power-of-a-design", statistics::power),
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),
@@ -121,11 +125,8 @@ pub const METHODS: &[(&str, Run)] = &[
 /// Runs a case's method, on the core or on a wrong model.
 ///
 /// # Errors
-/// [`MethodError`] when no answer can be given.
-pub fn run(
-    case: &Case,
-    wrong: Option<WrongModel>,
-) -> Result<Answer, MethodError> {
+/// An error when no answer can be given.
+pub fn run(case: &Case, wrong: Option<WrongModel>) -> Result<Answer> {
     let changed = wrong.map(|wrong| wrong.engine(&Core));
     run_on(case, changed.as_deref().unwrap_or(&Core), wrong)
 }
@@ -133,8 +134,8 @@ pub fn run(
 /// Runs a case's method on the naive integrator with its rules right.
 ///
 /// # Errors
-/// [`MethodError`] when no answer can be given.
-pub fn run_naive(case: &Case) -> Result<Answer, MethodError> {
+/// An error when no answer can be given.
+pub fn run_naive(case: &Case) -> Result<Answer> {
     run_on(case, &Naive(Rules::default()), None)
 }
 
@@ -142,10 +143,12 @@ fn run_on(
     case: &Case,
     engine: &dyn Engine,
     wrong: Option<WrongModel>,
-) -> Result<Answer, MethodError> {
-    let (_, method) = METHODS
-        .iter()
-        .find(|(name, _)| *name == case.method)
-        .ok_or_else(|| MethodError::Unknown(case.method.clone()))?;
-    method(&Context { case, engine, wrong })
+) -> Result<Answer> {
+    let (_, method) =
+        METHODS.iter().find(|(name, _)| *name == case.method).ok_or_else(
+            || anyhow!("method `{}` is not registered", case.method),
+        )?;
+    let mut answer = Answer::default();
+    method(&Context { case, engine, wrong }, &mut answer)?;
+    Ok(answer)
 }

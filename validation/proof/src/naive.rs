@@ -5,15 +5,46 @@
 //! and the result is good to about 1e-9; each other choice is a mistake that
 //! has been made in practice. It shares no code with the core.
 
-mod rules;
-
-pub use rules::{
-    Events, Hold, Loss, Pushback, Rest, Rules, STEP_P, Threshold,
-};
+use crate::cases::WrongModel;
 
 use crate::scene::{
     self, Engine, EngineError, Forcing, Impact, Model, Scene, Trace,
 };
+
+/// Largest step in units of 1/p of the right rules.
+pub const STEP_P: f64 = 0.005;
+
+/// How impacts and overturning are noticed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Events {
+    /// Located inside the step, dips inside a step included.
+    Located,
+    /// By the sign at the ends of steps as long as a sample, the rotation
+    /// set to zero there.
+    StepEnds,
+    /// By that sign, at the zero of the straight line through the ends.
+    Interpolated,
+    /// As `StepEnds`, but the rotation keeps its value.
+    StepEndsRotationKept,
+}
+
+/// The rules of a naive run; the default is right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules {
+    /// How events are noticed.
+    pub events: Events,
+    /// The mistake made beside that, where one is.
+    pub wrong: Option<WrongModel>,
+    /// Largest step in units of 1/p; ten times that where impacts are not
+    /// located.
+    pub step_p: f64,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self { events: Events::Located, wrong: None, step_p: STEP_P }
+    }
+}
 
 /// The naive integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -21,6 +52,10 @@ pub struct Naive(pub Rules);
 
 /// Speed below which the chatter's tail takes over, over p alpha.
 const CHATTER: f64 = 1e-6;
+
+/// Speed over p alpha below which crude rules take a block to rest, whatever
+/// the ground does.
+const CRUDE: f64 = 0.1;
 /// Steps after which a run is given up.
 const MOST_STEPS: usize = 1_000_000;
 
@@ -59,13 +94,18 @@ impl Engine for Naive {
 }
 
 impl Run<'_> {
+    /// Whether this is the mistake that is made.
+    fn makes(&self, wrong: WrongModel) -> bool {
+        self.rules.wrong == Some(wrong)
+    }
+
     fn ground(&self, t: f64) -> f64 {
         if self.piece + 1 >= self.pieces_s.len() {
             return 0.0;
         }
-        let t = match self.rules.hold {
-            Hold::Zero => self.pieces_s[self.piece],
-            Hold::Linear => t,
+        let t = match self.makes(WrongModel::ZeroOrderHold) {
+            true => self.pieces_s[self.piece],
+            false => t,
         };
         self.scene.forcing.at(self.piece, t)
     }
@@ -89,7 +129,7 @@ impl Run<'_> {
 
     fn threshold(&self) -> f64 {
         let mut other = self.scene.clone();
-        if self.rules.threshold == Threshold::Other {
+        if self.makes(WrongModel::OtherThreshold) {
             other.model = scene::other(other.model);
         }
         other.threshold_m_s2()
@@ -107,7 +147,8 @@ impl Run<'_> {
         let until = self.until();
         while self.t < until {
             let in_tail = self.piece + 1 >= self.pieces_s.len();
-            if in_tail && (hop.is_none() || !self.rules.after_end) {
+            let ends = self.makes(WrongModel::StopsWithTheRecord);
+            if in_tail && (hop.is_none() || ends) {
                 return Ok(());
             }
             hop = match hop {
@@ -340,32 +381,27 @@ impl Run<'_> {
             speed_before_rad_s: speed,
             error: None,
         });
-        let missed = self.rules.loss == Loss::FirstMissed
+        let missed = self.makes(WrongModel::MissedImpact)
             && self.trace.impacts.len() == 1;
         let eta = if missed { 1.0 } else { scene.restitution };
         let w = eta * speed;
         let unit = scene.frequency_rad_s * scene.slenderness_rad;
         let ground = self.ground(self.t);
         let side = -hop.side;
-        match self.rules.rest {
-            Rest::Slower(share) if w < share * unit => {
-                self.trace.rest_s = Some(self.t);
-                return None;
-            }
-            Rest::Chatter
-                if w < CHATTER * unit
-                    && ground.abs() < threshold
-                    && scene.restitution < 1.0 =>
-            {
-                self.t += self.tail(w, side, ground / threshold);
-                self.trace.rest_s = Some(self.t);
-                return None;
-            }
-            _ => {}
+        let crude = self.makes(WrongModel::CrudeRest);
+        if crude && w < CRUDE * unit {
+            self.trace.rest_s = Some(self.t);
+            return None;
         }
-        if self.rules.pushback == Pushback::Suppressed
-            && side * ground > threshold
-        {
+        let chatters = w < CHATTER * unit
+            && ground.abs() < threshold
+            && scene.restitution < 1.0;
+        if !crude && chatters {
+            self.t += self.tail(w, side, ground / threshold);
+            self.trace.rest_s = Some(self.t);
+            return None;
+        }
+        if self.makes(WrongModel::SuppressedHop) && side * ground > threshold {
             return Some(Hop { side: hop.side, z: 0.0, w });
         }
         let z = match self.rules.events {

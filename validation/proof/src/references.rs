@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use anyhow::{Error, Result, anyhow};
 use rocking::excitation::{PulseName, PulseParameter as P};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
@@ -12,7 +13,6 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::arithmetic::decimal;
-use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene, rescaled};
 
 /// An embedded file, read once.
@@ -50,7 +50,7 @@ pub(crate) static SPECTRUM: Reference<Spectrum> =
 
 impl<T: DeserializeOwned> Reference<T> {
     /// What the file holds.
-    pub fn read(&self) -> Result<&T, MethodError> {
+    pub fn read(&self) -> Result<&T> {
         if let Some(read) = self.read.get() {
             return Ok(read);
         }
@@ -59,8 +59,8 @@ impl<T: DeserializeOwned> Reference<T> {
         Ok(self.read.get_or_init(|| read))
     }
 
-    pub fn lacks(&self, what: impl std::fmt::Display) -> MethodError {
-        MethodError::Reference { file: self.file, what: what.to_string() }
+    pub fn lacks(&self, what: impl std::fmt::Display) -> Error {
+        anyhow!("{}: {what}", self.file)
     }
 }
 
@@ -69,7 +69,7 @@ where
     Cases<T>: DeserializeOwned,
 {
     /// The entry of this number among the file's cases.
-    pub fn entry(&self, number: usize) -> Result<&T, MethodError> {
+    pub fn entry(&self, number: usize) -> Result<&T> {
         let found = self.read()?.cases.get(number);
         found.ok_or_else(|| self.lacks(format!("no entry {number}")))
     }
@@ -112,10 +112,6 @@ pub(crate) struct Hit {
 }
 
 impl Hit {
-    pub fn speed(&self) -> f64 {
-        self.speed.near.abs()
-    }
-
     /// Time and speed, each times a unit.
     pub fn wide(&self, units: [f64; 2]) -> (DoubleDouble, DoubleDouble) {
         let [time, speed] = units.map(DoubleDouble::from_f64);
@@ -238,7 +234,7 @@ enum Samples {
 
 impl Ground {
     /// The pulse; none where the kind is not that of a pulse.
-    fn pulse(&self) -> Result<Option<PulseKind>, MethodError> {
+    fn pulse(&self) -> Result<Option<PulseKind>> {
         let name = match self.kind.as_str() {
             "one_sine" => PulseName::OneSine,
             "half_sine" => PulseName::HalfSine,
@@ -268,7 +264,7 @@ impl Ground {
         kind.map(Some)
     }
 
-    fn forcing(&self) -> Result<Forcing, MethodError> {
+    fn forcing(&self) -> Result<Forcing> {
         if let Some(pulse) = self.pulse()? {
             return Ok(Forcing::Pulse(pulse));
         }
@@ -285,9 +281,15 @@ impl Ground {
         Ok(Forcing::Samples { dt_s, acceleration_m_s2 })
     }
 
-    fn lacks(&self) -> MethodError {
+    fn lacks(&self) -> Error {
         TRAJECTORIES.lacks(format!("ground motion of kind `{}`", self.kind))
     }
+}
+
+/// Times of impacts times `unit`, and speeds.
+pub(crate) fn hits(list: &[Hit], unit: f64) -> Vec<(f64, f64)> {
+    let pair = |hit: &Hit| (hit.t.near * unit, hit.speed.near.abs());
+    list.iter().map(pair).collect()
 }
 
 /// The nearest doubles of a list.
@@ -296,31 +298,26 @@ pub(crate) fn nearest(list: &[Digits]) -> Vec<f64> {
 }
 
 /// The trajectories, in their order.
-pub(crate) fn trajectories() -> Result<&'static [Trajectory], MethodError> {
+pub(crate) fn trajectories() -> Result<&'static [Trajectory]> {
     TRAJECTORIES.read().map(|file| file.cases.as_slice())
 }
 
 /// The trajectory of this name.
-pub(crate) fn trajectory(
-    name: &str,
-) -> Result<&'static Trajectory, MethodError> {
+pub(crate) fn trajectory(name: &str) -> Result<&'static Trajectory> {
     let found = trajectories()?.iter().find(|case| case.name == name);
     found.ok_or_else(|| TRAJECTORIES.lacks(format!("no case `{name}`")))
 }
 
 impl Trajectory {
-    pub fn scene(&self, criterion: Overturning) -> Result<Scene, MethodError> {
+    pub fn scene(&self, criterion: Overturning) -> Result<Scene> {
+        let block = [self.alpha, self.p, self.g].map(|digits| digits.near);
+        let scene = Scene::new(block, self.eta.near, self.forcing.forcing()?);
         let equation = match self.model.as_str() {
             "nonlinear" => Model::Nonlinear,
             "linear" => Model::Linearized,
             _ => return Err(TRAJECTORIES.lacks("another model")),
         };
-        let block = [self.alpha, self.p, self.g].map(|digits| digits.near);
-        Ok(Scene {
-            model: equation,
-            overturning: criterion,
-            ..Scene::new(block, self.eta.near, self.forcing.forcing()?)
-        })
+        Ok(scene.in_equation(equation).to(criterion))
     }
 }
 
@@ -332,7 +329,7 @@ struct Record {
 }
 
 /// A synthetic record: interval in s and samples in m/s2.
-pub(crate) fn record(name: &str) -> Result<(f64, Vec<f64>), MethodError> {
+pub(crate) fn record(name: &str) -> Result<(f64, Vec<f64>)> {
     let found = RECORDS.read()?.get(name);
     let record = found.ok_or_else(|| RECORDS.lacks(format!("no `{name}`")))?;
     Ok((record.dt.near, nearest(&record.acc)))
@@ -375,14 +372,11 @@ impl LinearPulse {
         &self,
         [alpha, p, g]: [f64; 3],
         criterion: Overturning,
-    ) -> Result<Scene, MethodError> {
+    ) -> Result<Scene> {
         let pulse = self.ground.pulse()?.ok_or_else(|| self.ground.lacks())?;
         let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
-        Ok(Scene {
-            model: Model::Linearized,
-            overturning: criterion,
-            ..Scene::new([alpha, p, g], self.eta.near, forcing)
-        })
+        let scene = Scene::new([alpha, p, g], self.eta.near, forcing);
+        Ok(scene.in_equation(Model::Linearized).to(criterion))
     }
 }
 
@@ -422,15 +416,11 @@ pub(crate) struct RectangularPulse {
 
 impl RectangularPulse {
     pub fn scene(&self, criterion: Overturning) -> Scene {
-        let pulse = PulseKind::Rectangle {
-            amplitude: self.a0.near,
-            duration_s: self.td.near,
-        };
+        let [amplitude, duration_s] = [self.a0.near, self.td.near];
+        let pulse = PulseKind::Rectangle { amplitude, duration_s };
         let block = [self.alpha.near, self.p.near, 9.81];
-        Scene {
-            overturning: criterion,
-            ..Scene::new(block, self.eta.near, Forcing::Pulse(pulse))
-        }
+        let forcing = Forcing::Pulse(pulse);
+        Scene::new(block, self.eta.near, forcing).to(criterion)
     }
 
     /// When the block overturns by a criterion.

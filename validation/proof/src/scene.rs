@@ -7,11 +7,14 @@
 //! Engines (the core behind its public interface, the naive integrator) all
 //! read the same [`Scene`] and answer with the same [`Trace`].
 
+use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
 use std::slice;
 
-pub use rocking::excitation::PulseKind;
+use rocking::excitation::PulseParameter as P;
+pub use rocking::excitation::{PulseKind, PulseName};
 pub use rocking::integrator::{Impact, Model, Overturning};
+use rocking::record::Accelerogram;
 use thiserror::Error;
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
@@ -125,6 +128,60 @@ impl Scene {
         }
     }
 
+    /// The block (alpha in rad, p in rad/s) of a restitution at rest, under
+    /// 9.81 m/s2.
+    #[must_use]
+    pub fn at_rest([alpha, p]: [f64; 2], restitution: f64) -> Self {
+        Self::new([alpha, p, 9.81], restitution, Forcing::NONE)
+    }
+
+    /// The scene in another equation of motion.
+    #[must_use]
+    pub fn in_equation(self, model: Model) -> Self {
+        Self { model, ..self }
+    }
+
+    /// The scene, ended by a criterion of overturning.
+    #[must_use]
+    pub fn to(self, overturning: Overturning) -> Self {
+        Self { overturning, ..self }
+    }
+
+    /// The scene, observed until this instant (s).
+    #[must_use]
+    pub fn until(self, until_s: f64) -> Self {
+        Self { until_s: Some(until_s), ..self }
+    }
+
+    /// The scene under a ground motion that follows from its uplift
+    /// threshold (m/s2).
+    #[must_use]
+    pub fn under(self, forcing: impl FnOnce(f64) -> Forcing) -> Self {
+        Self { forcing: forcing(self.threshold_m_s2()), ..self }
+    }
+
+    /// The scene under samples at an interval (s), scaled to a peak of so
+    /// many uplift thresholds.
+    #[must_use]
+    pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
+        self.under(|threshold| {
+            let mut forcing = Forcing::samples(dt_s, samples);
+            let own = forcing.peak();
+            forcing.scale(peak * threshold / own);
+            forcing
+        })
+    }
+
+    /// The scene with other samples at the same interval.
+    #[must_use]
+    pub fn with_samples(&self, samples: Vec<f64>) -> Self {
+        let mut scene = self.clone();
+        if let Some(own) = scene.forcing.samples_mut() {
+            *own = samples;
+        }
+        scene
+    }
+
     /// Uplift threshold in m/s2: g tan(alpha) in Eq. 1, g alpha in Eq. 2.
     #[must_use]
     pub fn threshold_m_s2(&self) -> f64 {
@@ -185,6 +242,43 @@ pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
     pulse
 }
 
+/// End of a pulse, s, and the instants at which it turns or has a kink.
+fn turns(pulse: PulseKind) -> (f64, Vec<f64>) {
+    use PulseKind as P;
+    let quarters = |count: u32, end: f64, omega_rad_s: f64| {
+        let at = |k: u32| f64::from(k) * 0.5 * PI / omega_rad_s;
+        (end, (1..count).map(at).collect())
+    };
+    let about = |end: f64, rate: f64, turns: &[f64]| {
+        (end, turns.iter().map(|x| 0.5 * end + x / rate).collect())
+    };
+    match pulse {
+        P::HalfSine { omega_rad_s: w, .. } => quarters(2, PI / w, w),
+        P::OneSine { omega_rad_s: w, .. }
+        | P::OneCosine { omega_rad_s: w, .. } => quarters(4, TAU / w, w),
+        P::Rectangle { duration_s, .. } => (duration_s, Vec::new()),
+        P::Triangle { duration_s, .. } => (duration_s, vec![0.5 * duration_s]),
+        P::RickerSymmetric { period_s, cycles, .. } => {
+            let rate = 2.0_f64.sqrt() * PI / period_s;
+            let x = 3.0_f64.sqrt();
+            about(cycles * period_s, rate, &[-x, 0.0, x])
+        }
+        P::RickerAntisymmetric { period_s, cycles, .. } => {
+            let rate = TAU / (3.0_f64.sqrt() * period_s);
+            let r = 6.0_f64.sqrt();
+            let (far, near) = ((3.0 + r).sqrt(), (3.0 - r).sqrt());
+            about(cycles * period_s, rate, &[-far, -near, near, far])
+        }
+        P::MavroeidisPapageorgiou { frequency_hz, gamma, .. } => {
+            // No closed form of its turns: many short pieces.
+            let end = gamma / frequency_hz;
+            let pieces = (1..256).map(|k| f64::from(k) / 256.0 * end);
+            (end, pieces.collect())
+        }
+        _ => (f64::NAN, Vec::new()),
+    }
+}
+
 /// Acceleration of a pulse at `t_s`, in the unit of its amplitude.
 fn pulse_at(pulse: PulseKind, piece: usize, t_s: f64) -> f64 {
     match pulse {
@@ -235,6 +329,59 @@ impl Forcing {
     /// A block at rest, and no ground motion.
     pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
 
+    /// Samples in m/s2 at an interval (s).
+    #[must_use]
+    pub fn samples(dt_s: f64, acceleration_m_s2: Vec<f64>) -> Self {
+        Self::Samples { dt_s, acceleration_m_s2 }
+    }
+
+    /// A record times a factor (m/s2).
+    #[must_use]
+    pub fn record(record: &Accelerogram, factor: f64) -> Self {
+        let samples = record.samples_g().iter().map(|a| a * factor);
+        Self::samples(record.dt_s(), samples.collect())
+    }
+
+    /// The pulse of this name with an amplitude (m/s2 or m/s) and a duration
+    /// or period (s), or a frequency (rad/s or Hz); of 4 cycles, gamma 1.5
+    /// and phase 0.25 where it has such.
+    #[must_use]
+    pub fn pulse(name: PulseName, amplitude: f64, scale: f64) -> Self {
+        let Ok(kind) = name.kind(|parameter| {
+            Ok::<_, Infallible>(match parameter {
+                P::Amplitude | P::Velocity => amplitude,
+                P::Omega | P::Duration | P::Period | P::Frequency => scale,
+                P::Cycles => 4.0,
+                P::Gamma => 1.5,
+                P::Phase => 0.25,
+            })
+        });
+        Self::Pulse(kind)
+    }
+
+    /// The samples; none where the motion is no record.
+    pub fn samples_mut(&mut self) -> Option<&mut Vec<f64>> {
+        match self {
+            Self::Samples { acceleration_m_s2, .. } => Some(acceleration_m_s2),
+            _ => None,
+        }
+    }
+
+    /// The largest of the amplitudes, in size.
+    pub fn peak(&mut self) -> f64 {
+        let all = self.amplitudes_mut().iter();
+        all.fold(0.0, |peak, a| peak.max(a.abs()))
+    }
+
+    /// Multiplies the motion; a release changes sides alone.
+    pub fn scale(&mut self, factor: f64) {
+        let factor = match self {
+            Self::Free { .. } => factor.signum(),
+            _ => factor,
+        };
+        self.amplitudes_mut().iter_mut().for_each(|a| *a *= factor);
+    }
+
     /// Numbers in proportion to which the motion is: the rotation, the
     /// amplitude of a pulse, or the samples.
     pub fn amplitudes_mut(&mut self) -> &mut [f64] {
@@ -248,28 +395,9 @@ impl Forcing {
     /// End of the ground motion, s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
-        use PulseKind as P;
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(P::HalfSine { omega_rad_s, .. }) => PI / omega_rad_s,
-            Self::Pulse(
-                P::OneSine { omega_rad_s, .. }
-                | P::OneCosine { omega_rad_s, .. },
-            ) => TAU / omega_rad_s,
-            Self::Pulse(
-                P::Rectangle { duration_s, .. }
-                | P::Triangle { duration_s, .. },
-            ) => *duration_s,
-            Self::Pulse(
-                P::RickerSymmetric { period_s, cycles, .. }
-                | P::RickerAntisymmetric { period_s, cycles, .. },
-            ) => cycles * period_s,
-            Self::Pulse(P::MavroeidisPapageorgiou {
-                frequency_hz,
-                gamma,
-                ..
-            }) => gamma / frequency_hz,
-            Self::Pulse(_) => f64::NAN,
+            Self::Pulse(kind) => turns(*kind).0,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 (acceleration_m_s2.len() - 1) as f64 * dt_s
             }
@@ -280,45 +408,15 @@ impl Forcing {
     /// closed forms say, monotone; from 0 to the end.
     #[must_use]
     pub fn pieces_s(&self) -> Vec<f64> {
-        use PulseKind as P;
         let end = self.end_s();
         let mut at = vec![0.0];
-        let mut quarters = |count: u32, omega_rad_s: f64| {
-            for k in 1..count {
-                at.push(f64::from(k) * 0.5 * PI / omega_rad_s);
-            }
-        };
         match *self {
-            Self::Pulse(P::HalfSine { omega_rad_s, .. }) => {
-                quarters(2, omega_rad_s);
-            }
-            Self::Pulse(
-                P::OneSine { omega_rad_s, .. }
-                | P::OneCosine { omega_rad_s, .. },
-            ) => quarters(4, omega_rad_s),
-            Self::Pulse(P::Triangle { duration_s, .. }) => {
-                at.push(0.5 * duration_s);
-            }
-            Self::Pulse(P::RickerSymmetric { period_s, .. }) => {
-                let rate = 2.0_f64.sqrt() * PI / period_s;
-                let x = 3.0_f64.sqrt();
-                at.extend([-x, 0.0, x].map(|x| 0.5 * end + x / rate));
-            }
-            Self::Pulse(P::RickerAntisymmetric { period_s, .. }) => {
-                let rate = TAU / (3.0_f64.sqrt() * period_s);
-                let r = 6.0_f64.sqrt();
-                let (far, near) = ((3.0 + r).sqrt(), (3.0 - r).sqrt());
-                let turns = [-far, -near, near, far];
-                at.extend(turns.map(|x| 0.5 * end + x / rate));
-            }
-            Self::Pulse(P::MavroeidisPapageorgiou { .. }) => {
-                at.extend((1..256).map(|k| f64::from(k) / 256.0 * end));
-            }
+            Self::Free { .. } => {}
+            Self::Pulse(kind) => at.extend(turns(kind).1),
             Self::Samples { dt_s, ref acceleration_m_s2 } => {
                 let last = acceleration_m_s2.len() - 1;
                 at.extend((1..last).map(|i| i as f64 * dt_s));
             }
-            Self::Free { .. } | Self::Pulse(_) => {}
         }
         at.push(end);
         at.retain(|t| *t >= 0.0 && *t <= end);

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 use rocking::streams::Streams;
 
 use crate::scene::EngineError;
-use draw::Draw;
+pub(crate) use draw::Draw;
 use rocking_common::words::named;
 
 named! {
@@ -43,14 +43,6 @@ named! {
         Touching = "touching",
         /// Scenes whose first hop after rest grazes the base.
         FirstHop = "first-hop",
-    }
-}
-
-impl Stratum {
-    /// The stratum of this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|stratum| stratum.name() == name)
     }
 }
 

@@ -4,10 +4,9 @@ pub mod snapshot;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use thiserror::Error;
+use anyhow::{Context as _, Result, bail};
 
 use crate::cases::{Basis, Bound, Case, Kind, Status};
-use crate::error::MethodError;
 use crate::methods::{self, Answer, Quantities};
 use rocking_common::words::named;
 
@@ -120,24 +119,6 @@ impl Outcome {
 /// No bound in double precision is asked to be tighter.
 const FLOOR: f64 = 1.01e-13;
 
-/// Why quantities could not be compared.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum JudgeError {
-    /// A quantity has no bound.
-    #[error("quantity `{0}` has no bound")]
-    NoBound(String),
-    /// A bound has no quantity.
-    #[error("bound on `{0}`, which the method does not give")]
-    NoQuantity(String),
-    /// A quantity has nothing to be compared with.
-    #[error("quantity `{0}` has no expected value")]
-    NoExpected(String),
-    /// A value is expected twice.
-    #[error("quantity `{0}` is expected by the method and by the case")]
-    Twice(String),
-}
-
 fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::INFINITY
@@ -152,29 +133,30 @@ fn largest(a: f64, b: f64) -> f64 {
 /// and relative bounds to what a naive method can do.
 ///
 /// # Errors
-/// [`JudgeError`] for a quantity without bound or expectation, and for a
+/// An error for a quantity without bound or expectation, and for a
 /// bound without quantity.
 pub fn judge(
     bounds: &BTreeMap<String, Bound>,
     observed: &Quantities,
     expected: &Quantities,
     floor: Option<f64>,
-) -> Result<Vec<Check>, JudgeError> {
+) -> Result<Vec<Check>> {
     let names: BTreeSet<&String> =
         observed.keys().chain(expected.keys()).collect();
     if let Some(name) = bounds.keys().find(|name| !names.contains(name)) {
-        return Err(JudgeError::NoQuantity(name.clone()));
+        bail!("bound on `{name}`, which the method does not give");
     }
     let mut checks = Vec::with_capacity(names.len());
     for name in names {
-        let bound =
-            bounds.get(name).ok_or(JudgeError::NoBound(name.clone()))?;
+        let bound = bounds
+            .get(name)
+            .with_context(|| format!("quantity `{name}` has no bound"))?;
         let seen = observed.get(name).cloned().unwrap_or_default();
         let needed = !matches!(bound, Bound::Interval(..));
         let wanted = match expected.get(name) {
             Some(values) => values.clone(),
             None if needed => {
-                return Err(JudgeError::NoExpected(name.clone()));
+                bail!("quantity `{name}` has no expected value");
             }
             None => Vec::new(),
         };
@@ -260,44 +242,9 @@ pub fn run_case(case: &Case) -> Outcome {
         verdict: Verdict::Error,
         messages: Vec::new(),
     };
-    match checks(case, methods::run(case, None), None) {
-        Err(error) => {
-            outcome.messages.push(error);
-            return outcome;
-        }
-        Ok(checks) => outcome.checks = checks,
-    }
-    for check in outcome.checks.iter().filter(|c| !c.holds()) {
-        outcome.messages.push(describe(check));
-    }
-    if case.tolerance.reject.is_empty() {
-        outcome.messages.push("rejects no wrong model".to_owned());
-    }
-    let mut naive_checked = false;
-    for wrong in case.tolerance.reject.iter().copied() {
-        let name = wrong.name();
-        if wrong.is_naive() && !naive_checked {
-            naive_checked = true;
-            if let Err(message) = naive_passes(case) {
-                outcome.messages.push(message);
-            }
-        }
-        let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
-        match checks(case, methods::run(case, Some(wrong)), floor) {
-            Err(error) => {
-                outcome.messages.push(format!("{name}: {error}"));
-                return outcome;
-            }
-            Ok(checks) => {
-                let rejection = strongest(name, &checks);
-                if rejection.margin <= 1.0 {
-                    outcome
-                        .messages
-                        .push(format!("wrong model `{name}` passes"));
-                }
-                outcome.rejections.push(rejection);
-            }
-        }
+    if let Err(error) = fill(&mut outcome, case) {
+        outcome.messages.push(format!("{error:#}"));
+        return outcome;
     }
     let holds = outcome.messages.is_empty();
     outcome.verdict = match (&case.status, holds) {
@@ -309,6 +256,33 @@ pub fn run_case(case: &Case) -> Outcome {
     outcome
 }
 
+/// Runs the case and its wrong models.
+fn fill(outcome: &mut Outcome, case: &Case) -> Result<()> {
+    outcome.checks = checks(case, methods::run(case, None), None)?;
+    let messages = &mut outcome.messages;
+    let broken = outcome.checks.iter().filter(|check| !check.holds());
+    messages.extend(broken.map(describe));
+    let wrong = &case.tolerance.reject;
+    if wrong.is_empty() {
+        messages.push("rejects no wrong model".to_owned());
+    }
+    if wrong.iter().any(|wrong| wrong.is_naive()) {
+        messages.extend(naive_passes(case).err().map(|e| format!("{e:#}")));
+    }
+    for wrong in wrong.iter().copied() {
+        let name = wrong.name();
+        let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
+        let answer = methods::run(case, Some(wrong));
+        let checks = checks(case, answer, floor).context(name)?;
+        let rejection = strongest(name, &checks);
+        if rejection.margin <= 1.0 {
+            messages.push(format!("wrong model `{name}` passes"));
+        }
+        outcome.rejections.push(rejection);
+    }
+    Ok(())
+}
+
 /// Runs cases side by side; outcomes in the order of the cases.
 #[must_use]
 pub fn run_all(cases: &[Case]) -> Vec<Outcome> {
@@ -318,33 +292,34 @@ pub fn run_all(cases: &[Case]) -> Vec<Outcome> {
 
 /// A rejection by the naive integrator proves something only if that
 /// integrator passes with its rules right.
-fn naive_passes(case: &Case) -> Result<(), String> {
-    let Some(floor) = case.tolerance.naive else {
-        return Err("a wrong algorithm is rejected without `naive`, the \
-                    tolerance of the right one"
-            .to_owned());
-    };
+fn naive_passes(case: &Case) -> Result<()> {
+    let floor = case.tolerance.naive.context(
+        "a wrong algorithm is rejected without `naive`, the tolerance of the \
+         right one",
+    )?;
     let checks = checks(case, methods::run_naive(case), Some(floor))?;
-    let broken = checks.iter().find(|c| !c.holds());
-    broken.map_or(Ok(()), |c| {
-        Err(format!("naive integrator with right rules: {}", describe(c)))
-    })
+    match checks.iter().find(|check| !check.holds()) {
+        None => Ok(()),
+        Some(check) => {
+            bail!("naive integrator with right rules: {}", describe(check))
+        }
+    }
 }
 
 fn checks(
     case: &Case,
-    answer: Result<Answer, MethodError>,
+    answer: Result<Answer>,
     floor: Option<f64>,
-) -> Result<Vec<Check>, String> {
-    let answer = answer.map_err(|error| error.to_string())?;
-    let mut expected = answer.expected;
+) -> Result<Vec<Check>> {
+    let Answer { observed, mut expected } = answer?;
     for (name, values) in &case.expect.values {
         if expected.insert(name.clone(), values.to_vec()).is_some() {
-            return Err(JudgeError::Twice(name.clone()).to_string());
+            bail!(
+                "quantity `{name}` is expected by the method and by the case"
+            );
         }
     }
-    judge(&case.tolerance.bounds, &answer.observed, &expected, floor)
-        .map_err(|e| e.to_string())
+    judge(&case.tolerance.bounds, &observed, &expected, floor)
 }
 
 fn strongest(model: &'static str, checks: &[Check]) -> Rejection {

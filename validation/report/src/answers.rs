@@ -1,186 +1,276 @@
-//! The answers of the page, each made from verdicts and measured numbers by
-//! one rule, and what stands about every theme and every suite.
+//! The first screen: what was done, and the answers, each a sentence made
+//! from verdicts and numbers by one rule.
+
+use anyhow::Context as _;
+use serde::Deserialize;
 
 use crate::evidence::Proof;
 use crate::page::AnswerRow;
-use crate::quantity::{cell_text, rule_text, value_text};
+use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
-use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
+use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score, turned};
+use rocking_common::findings::{
+    Claim, ClaimResult, Findings, Region, Suite, Tested,
+};
 use rocking_common::paper::{Arm, Verdict};
-use rocking_common::words::rounded_text;
+use rocking_common::words::percent;
 use rocking_draw::figures::Figure;
-use rocking_study::analyses::SuiteResults;
-use rocking_study::results::Results;
 
-/// A part of a question: its short name, and the claims that answer it.
-type Part = (&'static str, &'static [&'static str]);
+/// The questions that claims answer; the file says what its fields are.
+const ASKED: &str = include_str!("../answers.toml");
 
-/// A question that claims answer: words, parts, the claim whose number is
-/// shown, and the figures.
+/// A question of a reader that claims answer.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Asked {
-    question: &'static str,
-    parts: &'static [Part],
-    /// What that number is.
-    name: &'static str,
-    effect: &'static str,
-    /// What the answer leaves out: words, and the claim with their number.
-    except: Option<(&'static str, &'static str)>,
-    figures: &'static [u32],
+    question: String,
+    leads: [String; 5],
+    parts: Vec<Part>,
+    aside: Option<Part>,
+    figures: Vec<u32>,
 }
 
-const ASKED: [Asked; 4] = [
-    Asked {
-        question: "Is the slenderness normalized out of the statistics, at \
-                   constant restitution?",
-        parts: &[
-            ("ratios on stripes", &["ratios-p1", "ratios-p3-p4"]),
-            ("ratios at demands", &["ratios-at-demand"]),
-            ("quantiles", &["quantiles-coincide"]),
-        ],
-        name: "Median ratio, p = 3 and 4",
-        effect: "ratios-p3-p4",
-        except: Some(("with Housner's restitution", "housner-breaks")),
-        figures: &[6, 7, 8],
-    },
-    Asked {
-        question: "Do scaled records and an adjusted slenderness give the \
-                   same statistics?",
-        parts: &[
-            ("ratios", &["adjustment-ratios"]),
-            ("quantiles", &["adjustment-quantiles"]),
-        ],
-        name: "Median ratio, adjusted over scaled",
-        effect: "adjustment-ratios",
-        except: None,
-        figures: &[9, 10],
-    },
-    Asked {
-        question: "Does the shifted lognormal fit capacities, in PGA better \
-                   than the unshifted one?",
-        parts: &[
-            ("distance in PGA", &["shift-gains-pga"]),
-            ("lognormality in PGA", &["shift-better-pga"]),
-            ("lognormality in PGV", &["pgv-shifted"]),
-        ],
-        name: "Gain in distance to the sample in PGA",
-        effect: "shift-gains-pga",
-        except: None,
-        figures: &[12, 14, 15],
-    },
-    Asked {
-        question: "Do Eqs. 5 to 7 give the shifted fragility?",
-        parts: &[
-            ("untrimmed PGV", &["eq7-untrimmed-pgv"]),
-            ("trimmed PGA", &["eq7-trimmed-pga"]),
-            ("untrimmed PGA", &["eq7-untrimmed-fails-pga"]),
-        ],
-        name: "Trimmed PGA, distance to the shifted lognormal",
-        effect: "eq7-trimmed-pga",
-        except: None,
-        figures: &[16, 17, 18],
-    },
-];
-
-/// The claim that Eq. 7 fails: its verdict speaks against the question.
-const AGAINST: &str = "eq7-untrimmed-fails-pga";
-
-/// How many results of a part have which verdict.
-#[derive(Clone, Copy, Default)]
-struct Count {
-    yes: usize,
-    no: usize,
-    open: usize,
+/// Claims that one fact answers.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Part {
+    claims: Vec<String>,
+    /// What is measured, in a few words.
+    name: String,
+    fact: String,
+    shown: Shown,
+    #[serde(default)]
+    against: bool,
 }
 
-impl Count {
-    fn of(findings: &Findings, claims: &[&str]) -> Self {
-        let first = first_arm(findings);
-        let mut count = Self::default();
-        let own = |c: &&Claim| claims.contains(&c.id.as_str());
-        for claim in findings.claims.iter().filter(own) {
-            let against = claim.id == AGAINST;
-            for result in &claim.results {
-                if result.arm.is_some_and(|arm| arm != first) {
-                    continue;
-                }
-                match result.by_equivalence {
-                    Some(Verdict::Confirmed) if against => count.no += 1,
-                    Some(Verdict::NotConfirmed) if against => count.yes += 1,
-                    Some(Verdict::Confirmed) => count.yes += 1,
-                    Some(Verdict::NotConfirmed) => count.no += 1,
-                    Some(Verdict::Inconclusive) => count.open += 1,
-                    None => {}
-                }
+/// Which number of a result a fact has.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Shown {
+    /// The distance of a ratio from 1, in per cent.
+    Apart,
+    /// The value, in per cent.
+    Percent,
+    /// The value.
+    Plain,
+}
+
+fn asked() -> anyhow::Result<Vec<Asked>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        asked: Vec<Asked>,
+    }
+    let file: File = toml::from_str(ASKED).context("answers.toml")?;
+    Ok(file.asked)
+}
+
+/// What came out about a part.
+struct Found {
+    /// The verdicts, each once and for the part, the worst one first.
+    verdicts: Vec<Verdict>,
+    /// The fact, and its number with interval and suite; none without data.
+    words: Option<(String, String)>,
+}
+
+impl Part {
+    /// The verdict on the part by one on its claim; a value without an
+    /// interval decides nothing.
+    fn verdict(&self, result: &ClaimResult) -> Verdict {
+        match result.by_equivalence.unwrap_or(Verdict::Inconclusive) {
+            Verdict::Confirmed if self.against => Verdict::NotConfirmed,
+            Verdict::NotConfirmed if self.against => Verdict::Confirmed,
+            own => own,
+        }
+    }
+
+    /// What came out, in the arm that stands among the findings. The result
+    /// with the worst verdict speaks; of several, the one with the worst
+    /// number.
+    fn found(&self, claims: &[Claim], first: Arm) -> Found {
+        let own = claims
+            .iter()
+            .filter(|c| self.claims.contains(&c.id) && c.region.is_some());
+        let shown = |r: &&ClaimResult| {
+            r.arm.is_none_or(|arm| arm == first) && !self.value(r).is_nan()
+        };
+        let mut all: Vec<(&Claim, &ClaimResult)> = own
+            .flat_map(|c| c.results.iter().filter(shown).map(move |r| (c, r)))
+            .collect();
+        let bad = |claim: &Claim, r: &ClaimResult| {
+            let bad = claim.region.map_or(0.0, |g| g.badness(self.value(r)));
+            if self.against { -bad } else { bad }
+        };
+        all.sort_by(|(c, r), (d, s)| {
+            rank(self.verdict(s))
+                .cmp(&rank(self.verdict(r)))
+                .then(bad(d, s).total_cmp(&bad(c, r)))
+        });
+        let mut verdicts: Vec<Verdict> =
+            all.iter().map(|(_, r)| self.verdict(r)).collect();
+        verdicts.dedup();
+        let several = verdicts.len() > 1;
+        let words = all.first().map(|(c, r)| self.words(c, r, several));
+        Found { verdicts, words }
+    }
+
+    /// The number that is shown: a ratio's is that of the deciding cell.
+    fn value(&self, result: &ClaimResult) -> f64 {
+        match &result.deciding_cell {
+            Some(cell) if self.shown == Shown::Apart => cell.measured.value,
+            _ => result.value,
+        }
+    }
+
+    /// The fact, with the suite where suites disagree, and its number.
+    fn words(
+        &self,
+        claim: &Claim,
+        result: &ClaimResult,
+        disagree: bool,
+    ) -> (String, String) {
+        let value = self.value(result);
+        let shown = match self.shown {
+            Shown::Apart => number(100.0 * (value - 1.0).abs()) + " %",
+            Shown::Percent => number(100.0 * value) + " %",
+            Shown::Plain => number(value),
+        };
+        let limit = match claim.region {
+            Some(Region::Within(_, b)) => number(100.0 * (b - 1.0)) + " %",
+            _ => String::new(),
+        };
+        let suite = match result.suite {
+            Tested::None | Tested::Both => "",
+            own => own.name(),
+        };
+        let mut fact =
+            self.fact.replace("{}", &shown).replace("{limit}", &limit);
+        if disagree && !suite.is_empty() {
+            fact += &format!(" ({suite})");
+        }
+        let text = match &result.deciding_cell {
+            Some(cell) if self.shown == Shown::Apart => {
+                cell_text(claim, cell.measured)
+            }
+            _ => measured_text(claim, result),
+        };
+        let place = if suite.is_empty() { "" } else { &format!(", {suite}") };
+        (fact, format!("{} {text}{place}", self.name))
+    }
+}
+
+impl Asked {
+    /// The parts, and then what is said besides.
+    fn all(&self) -> impl Iterator<Item = &Part> {
+        self.parts.iter().chain(&self.aside)
+    }
+
+    /// Which of the first words the verdicts give; none without data.
+    fn lead(&self, claims: &[Claim], first: Arm) -> Option<usize> {
+        let found = self.parts.iter().map(|p| p.found(claims, first));
+        let all: Vec<Verdict> = found.flat_map(|f| f.verdicts).collect();
+        let (yes, no) = (Verdict::Confirmed, Verdict::NotConfirmed);
+        Some(match (all.contains(&yes), all.contains(&no)) {
+            _ if all.is_empty() => return None,
+            (true, true) => 2,
+            (true, false) if all.contains(&Verdict::Inconclusive) => 1,
+            (true, false) => 0,
+            (false, true) => 3,
+            (false, false) => 4,
+        })
+    }
+
+    /// The answer: first words, then the facts that hold, those that fail,
+    /// those that are open, and what there are no data on.
+    fn answer(&self, claims: &[Claim], first: Arm) -> String {
+        let Some(lead) = self.lead(claims, first) else {
+            return "There are no data.".into();
+        };
+        let found: Vec<(&Part, Found)> =
+            self.parts.iter().map(|p| (p, p.found(claims, first))).collect();
+        let facts = |verdict: Option<Verdict>| -> String {
+            let own = found
+                .iter()
+                .filter(|(_, f)| f.verdicts.first() == verdict.as_ref());
+            let words = own.map(|(part, f)| match &f.words {
+                Some((fact, _)) => fact.as_str(),
+                None => part.name.as_str(),
+            });
+            words.collect::<Vec<&str>>().join(", ")
+        };
+        let mut out = format!("{}: ", self.leads[lead]);
+        let start = out.len();
+        for (verdict, joint) in [
+            (Some(Verdict::Confirmed), ""),
+            (Some(Verdict::NotConfirmed), ", but "),
+            (Some(Verdict::Inconclusive), "; not certain: "),
+            (None, "; no data on "),
+        ] {
+            let facts = facts(verdict);
+            if !facts.is_empty() {
+                out += if out.len() > start { joint } else { "" };
+                out += &facts;
             }
         }
-        count
+        out += ".";
+        let aside = self.aside.as_ref().map(|p| p.found(claims, first));
+        if let Some(Found { verdicts, words: Some((fact, _)) }) = aside
+            && verdicts[0] != Verdict::Inconclusive
+        {
+            out += &format!(" {fact}.");
+        }
+        out
     }
 
-    fn all(self) -> usize {
-        self.yes + self.no + self.open
-    }
-
-    fn words(self) -> String {
-        let Self { yes, no, open } = self;
-        format!("{yes} for, {no} against, {open} open")
+    /// The numbers of its facts, each with interval and suite.
+    fn numbers(&self, claims: &[Claim], first: Arm) -> String {
+        let found = self.all().filter_map(|p| p.found(claims, first).words);
+        found.map(|(_, number)| number).collect::<Vec<String>>().join("; ")
     }
 }
 
-/// The arm that stands among the findings.
-pub(super) fn first_arm(findings: &Findings) -> Arm {
-    let arms = &findings.settings.arms;
-    if arms.contains(&Arm::C) { Arm::C } else { Arm::A }
+/// A question with what the findings of one study answer.
+pub(super) struct Answered {
+    pub question: String,
+    /// Which of the first words; none without data.
+    pub lead: Option<usize>,
+    /// Those words.
+    pub first: String,
+    /// The sentence.
+    pub answer: String,
+    /// The verdicts on its parts.
+    pub verdicts: Vec<Vec<Verdict>>,
+    numbers: String,
+    figures: Vec<u32>,
 }
 
-/// An answer from the verdicts of its parts: its word, and what follows it.
+/// The questions that claims answer, with their answers.
 ///
-/// Yes: every result speaks for it. No: none does and some speak against.
-/// Nearly: none speaks against, and more than half for it. Only for: whole
-/// parts speak for it, others do not. Open: the rest.
-fn answered(parts: &[(&str, Count)]) -> (&'static str, String) {
-    let sum = |of: fn(&Count) -> usize| -> usize {
-        parts.iter().map(|(_, count)| of(count)).sum()
+/// # Errors
+/// Where the questions have been damaged.
+pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
+    let (claims, first) = (&findings.claims, first_arm(findings));
+    let answered = |asked: Asked| {
+        let lead = asked.lead(claims, first);
+        let found = asked.all().map(|part| part.found(claims, first));
+        Answered {
+            lead,
+            verdicts: found.map(|found| found.verdicts).collect(),
+            first: lead.map_or("No data", |k| &asked.leads[k]).into(),
+            answer: asked.answer(claims, first),
+            numbers: asked.numbers(claims, first),
+            question: asked.question,
+            figures: asked.figures,
+        }
     };
-    let (yes, no) = (sum(|c| c.yes), sum(|c| c.no));
-    let all = sum(|c| c.all());
-    let names = |is: fn(&Count) -> bool| -> String {
-        let found = parts.iter().filter(|(_, count)| is(count));
-        let names: Vec<&str> = found.map(|(name, _)| *name).collect();
-        names.join(", ")
-    };
-    let whole = names(|c| c.all() > 0 && c.yes == c.all());
-    let open = names(|c| c.no == 0 && c.yes < c.all());
-    let against = names(|c| c.no > 0);
-    let rest = |words: &str, names: &str| match names {
-        "" => String::new(),
-        _ => format!("; {words} {names}"),
-    };
-    let rest = rest("open for", &open) + &rest("not for", &against);
-    if all == 0 {
-        ("Open", ": there are no data.".into())
-    } else if yes == all {
-        ("Yes", format!(": all {all} results confirm it."))
-    } else if yes == 0 && no > 0 {
-        let words =
-            format!(": {no} of {all} results refute it, none confirms it.");
-        ("No", words)
-    } else if whole.is_empty() {
-        ("Open", format!(": {yes} of {all} results for it, {no} against."))
-    } else if no == 0 && 2 * yes > all {
-        ("Nearly", format!(": for {whole}{rest}."))
-    } else {
-        ("Only", format!(" for {whole}{rest}."))
-    }
+    Ok(asked()?.into_iter().map(answered).collect())
 }
 
-/// That answer as a sentence.
-fn sentence(parts: &[(&str, Count)]) -> String {
-    let (word, rest) = answered(parts);
-    word.to_owned() + &rest
-}
-
-/// The rows of the first table. The first of `recorded` and `here` that
-/// there is leads.
+/// The rows of the first table, by the first of `recorded` and `here` that
+/// there is.
+///
+/// # Errors
+/// As [`answers`].
 pub(super) fn rows(
     embedded: bool,
     here: &Findings,
@@ -188,394 +278,192 @@ pub(super) fn rows(
     timings: &Timings,
     proof: Option<&Proof>,
     figures: &[&Figure],
-) -> Vec<AnswerRow> {
-    let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
+) -> anyhow::Result<Vec<AnswerRow>> {
     let lead = recorded.unwrap_or(here);
-    let mut rows: Vec<AnswerRow> = ASKED
-        .iter()
-        .map(|asked| {
-            let counts = |findings: &Findings| -> Vec<(&str, Count)> {
-                let parts = asked.parts.iter();
-                parts.map(|(n, ids)| (*n, Count::of(findings, ids))).collect()
-            };
-            let column = |findings: &&Findings| {
-                let all = asked.parts.iter().flat_map(|(_, ids)| *ids);
-                let all: Vec<&str> = all.copied().collect();
-                let (word, _) = answered(&counts(findings));
-                let counts = Count::of(findings, &all).words();
-                match sources.len() {
-                    1 => counts,
-                    _ => format!("{word}: {counts}"),
-                }
-            };
-            let shown = asked.figures.iter().filter_map(|number| {
-                let is = |f: &&&Figure| f.heading.number == Some(*number);
-                let name = figures.iter().find(is)?.heading.name.clone();
-                Some((name, format!("Figure {number}")))
-            });
-            AnswerRow {
-                question: asked.question.into(),
-                answer: sentence(&counts(lead)),
-                effect: effect(lead, asked),
-                columns: sources.iter().map(column).collect(),
-                shown: shown.collect(),
-            }
-        })
-        .collect();
-    let same = |words: &str| vec![words.to_owned(); sources.len()];
-    let to = |id: &str, words: &str| vec![(id.into(), words.into())];
-    rows.push(AnswerRow {
-        question: "Does the integrator pass every declared case?".into(),
-        answer: accuracy(proof),
-        effect: timings.error(),
-        columns: same(""),
-        shown: match proof {
-            Some(_) => to("evidence", "proof"),
-            None => Vec::new(),
-        },
-    });
-    let (answer, rate) = timings.speed();
-    rows.push(AnswerRow {
-        question: "Is it faster than other tools at no larger error?".into(),
-        answer,
-        effect: rate,
-        columns: same(""),
-        shown: to("speed", "speed"),
-    });
-    rows.push(AnswerRow {
-        question: "What was not checked?".into(),
-        answer: "Open: the model against experiments, and what it leaves out."
-            .into(),
-        effect: not_checked(embedded),
-        columns: same(""),
-        shown: to("limits", "limits"),
-    });
-    rows
-}
-
-/// False discovery rate that decisions are held against.
-const FALSE_DISCOVERIES: f64 = 0.05;
-
-/// The number of a claim on the suite and arm where it is worst.
-fn effect(findings: &Findings, asked: &Asked) -> String {
-    let own = |c: &&Claim| c.id == asked.effect;
-    let Some(claim) = findings.claims.iter().find(own) else {
-        return String::new();
-    };
-    let Some(region) = claim.region else { return String::new() };
-    let value = |r: &ClaimResult| {
-        r.deciding_cell.as_ref().map_or(r.value, |c| c.measured.value)
-    };
-    let worst =
-        claim.results.iter().filter(|r| !value(r).is_nan()).max_by(|a, b| {
-            let bad = |r| region.badness(value(r));
-            bad(a).total_cmp(&bad(b))
+    let claimed = answers(lead)?.into_iter().map(|own| {
+        let shown = own.figures.iter().filter_map(|number| {
+            let is = |f: &&&Figure| f.heading.number == Some(*number);
+            let name = figures.iter().find(is)?.heading.name.clone();
+            Some((name, format!("Figure {number}")))
         });
-    let Some(worst) = worst else { return "no data".into() };
-    let text = match &worst.deciding_cell {
-        Some(cell) => cell_text(claim, cell.measured),
-        None => value_text(claim, worst),
-    };
-    format!(
-        "{}: worst judged {text}, {}; limit {}{}",
-        asked.name,
-        worst.suite.name(),
-        rule_text(claim),
-        exception(findings, asked)
-    )
-}
-
-/// The number of what an answer leaves out.
-fn exception(findings: &Findings, asked: &Asked) -> String {
-    let number = |(words, id): (&str, &str)| {
-        let claim = findings.claims.iter().find(|c| c.id == id)?;
-        let result = claim.results.first()?;
-        Some(format!("; {words} {}", value_text(claim, result)))
-    };
-    asked.except.and_then(number).unwrap_or_default()
-}
-
-fn accuracy(proof: Option<&Proof>) -> String {
-    let Some(proof) = proof else {
-        return "Open: the declared cases were not run here.".into();
-    };
-    let (passed, all) = (proof.passed(), proof.results().len());
-    if passed == all {
-        format!("Yes: all {all} pass.")
-    } else {
-        format!("No: {} of {all} fail.", all - passed)
-    }
-}
-
-/// What the work on a suite was, and what rounding may have changed.
-pub(super) fn work(suite: &SuiteResults) -> String {
-    let certainty = suite.work.certainty;
-    let work = format!(
-        "{} {} records, {} analyses",
-        suite.records.len(),
-        suite.kind,
-        suite.work.analyses
-    );
-    if certainty.unresolved == 0 {
-        return format!("{work}; double precision tells every one.");
-    }
-    let ends = certainty.reevaluated;
-    format!(
-        "{work}. In {} of them the motion is chaotic, and rounding in double \
-         precision may have changed the peak or the fate. {} of these are \
-         first overturnings, on which capacities rest. Assessed double \
-         precision resolves {}, double-double {}, octuple precision {}, none \
-         {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
-         would move by {} at most.",
-        certainty.unresolved,
-        ends.all,
-        ends.resolved_by_double,
-        ends.resolved_by_double_double,
-        ends.resolved_by_octuple,
-        ends.unresolved,
-        ends.wrong_in_double,
-        rounded_text(certainty.largest_shift)
-    )
-}
-
-/// How many analyses rounding may have changed, in a sentence.
-pub(super) fn rounding(results: &Results) -> String {
-    let suites = [&results.ordinary, &results.pulse];
-    let all: u64 = suites.iter().map(|s| s.work.analyses).sum();
-    let open = suites.iter().map(|s| s.work.certainty.unresolved);
-    format!(
-        "In {} of {all} analyses rounding may have changed the peak or the \
-         fate. First overturnings among them are resolved in wider arithmetic \
-         (annex).",
-        open.sum::<usize>()
-    )
-}
-
-/// How many decisions chance may have given, by the two false discovery
-/// rates.
-pub(super) fn trust(
-    findings: &Findings,
-    recorded: Option<&Findings>,
-) -> String {
-    let counts = |findings: &Findings| {
-        let found = findings.withdrawn(FALSE_DISCOVERIES);
-        format!(
-            "{} (any dependence: {}) of {}",
-            found.positive, found.any, found.decided
-        )
-    };
-    let counts = match recorded {
-        Some(recorded) => {
-            format!(
-                "{} recorded, {} embedded",
-                counts(recorded),
-                counts(findings)
-            )
+        AnswerRow {
+            shown: shown.collect(),
+            question: own.question,
+            answer: own.answer,
+            effect: own.numbers,
         }
-        None => counts(findings),
+    });
+    let row = |question: &str, answer, effect, (id, words): (&str, &str)| {
+        AnswerRow {
+            question: question.into(),
+            answer,
+            effect,
+            shown: vec![(id.into(), words.into())],
+        }
     };
-    format!(
-        "Chance. Kept to 5 % false discoveries (Benjamini and Hochberg; \
-         Benjamini and Yekutieli), we would withdraw {counts} decisions."
-    )
+    let (fast, rate) = timings.speed();
+    let others = [
+        row(
+            "How sure is the integrator?",
+            sure(proof),
+            format!("{}; {}", timings.error(), open_fates(lead)),
+            ("evidence", "proof"),
+        ),
+        row("Is it fast?", fast, rate, ("speed", "speed")),
+        row(
+            "What was not checked?",
+            format!(
+                "The model against shaking-table tests. It leaves out \
+                 {LEFT_OUT}."
+            ),
+            not_run(embedded),
+            ("limits", "limits"),
+        ),
+        row(
+            "May I sign?",
+            signed(proof, recorded.is_some()),
+            chance(lead),
+            ("provenance", "sign-off"),
+        ),
+    ];
+    Ok(claimed.chain(others).collect())
 }
 
-pub(super) fn not_checked(embedded: bool) -> String {
+/// What the model leaves out.
+pub(super) const LEFT_OUT: &str =
+    "sliding, bouncing, vertical motion and flexible supports";
+
+/// What else was not run.
+pub(super) fn not_run(embedded: bool) -> String {
     let records = if embedded {
         "recorded motions anew (their results are kept), "
     } else {
         ""
     };
+    format!("Not run: {records}other machines than x86-64 Linux")
+}
+
+/// Cases that passed, of how many.
+fn passed(proof: Option<&Proof>) -> Option<(usize, usize)> {
+    proof.map(|proof| (proof.passed(), proof.results().len()))
+}
+
+fn sure(proof: Option<&Proof>) -> String {
+    match passed(proof) {
+        None => "Open: the cases with known answers were not run here.".into(),
+        Some((passed, all)) if passed == all => {
+            format!("Very: all {all} cases with known answers pass.")
+        }
+        Some((passed, all)) => format!(
+            "Not sure: {} of {all} cases with known answers fail.",
+            all - passed
+        ),
+    }
+}
+
+fn signed(proof: Option<&Proof>, kept: bool) -> String {
+    let kept = match kept {
+        true => "; recorded results are kept, not run here",
+        false => "",
+    };
+    match passed(proof) {
+        None => "Not yet: the cases with known answers were not run.".into(),
+        Some((passed, all)) if passed < all => {
+            "Not before every case with a known answer passes.".into()
+        }
+        Some(_) => format!(
+            "For the computation, yes{kept}. For real objects, no: no test \
+             backs the model."
+        ),
+    }
+}
+
+/// The share of analyses that rounding may have changed.
+fn open_fates(findings: &Findings) -> String {
+    let sum =
+        |of: fn(&Suite) -> u64| findings.suites.iter().map(of).sum::<u64>();
+    let open = sum(|suite| suite.unresolved as u64) as f64;
     format!(
-        "Shaking tables, {records}sliding, bouncing, vertical \
-         motion, flexible supports, other machines than x86-64 Linux"
+        "in {} of the analyses rounding may have changed peak or fate; first \
+         overturnings among these are resolved in wider arithmetic",
+        percent(open / sum(|suite| suite.analyses) as f64, 1)
     )
 }
 
-/// What came out about a theme: the plain words of its findings by verdict,
-/// and where another suite says something else.
-pub(super) fn by_theme(
-    theme: Theme,
+fn chance(findings: &Findings) -> String {
+    let found = findings.withdrawn(FALSE_DISCOVERIES);
+    format!(
+        "{} of {} verdicts would not stand at 5 % false discoveries, {} under \
+         any dependence",
+        found.positive, found.decided, found.any
+    )
+}
+
+/// What was done, in a few sentences.
+pub(super) fn done(here: &Findings, recorded: Option<&Findings>) -> String {
+    let lead = recorded.unwrap_or(here);
+    let source = match recorded {
+        Some(_) => " recorded",
+        None => "",
+    };
+    let motions: Vec<String> = lead
+        .suites
+        .iter()
+        .map(|suite| match suite.earthquakes {
+            Some(count) => format!(
+                "{} {}{source} motions of {count} earthquakes",
+                suite.records, suite.kind
+            ),
+            None => {
+                format!("{} {}{source} motions", suite.records, suite.kind)
+            }
+        })
+        .collect();
+    let analyses: u64 = lead.suites.iter().map(|s| s.analyses).sum();
+    let score = score(lead);
+    let count = |v| score.iter().find(|(own, _)| *own == v).map_or(0, |s| s.1);
+    let all: usize = score.iter().map(|s| s.1).sum();
+    format!(
+        "We let fifteen blocks rock under {} at rising intensity, {analyses} times in all, and asked whether a \
+         paper [1] is right about the statistics of their rocking. Of its \
+         {all} sentences that one can test, {} hold, {} fail and {} stay \
+         open.",
+        motions.join(" and "),
+        count(Verdict::Confirmed),
+        count(Verdict::NotConfirmed),
+        count(Verdict::Inconclusive)
+    )
+}
+
+/// Where the embedded motions answer otherwise than the recorded ones; to be
+/// less certain is not to answer otherwise.
+///
+/// # Errors
+/// As [`answers`].
+pub(super) fn otherwise(
     here: &Findings,
     recorded: Option<&Findings>,
-) -> String {
-    let lead = recorded.unwrap_or(here);
-    let own = |findings: &Findings| -> Vec<(String, Verdict)> {
-        let first = first_arm(findings);
-        let claims = findings.claims.iter().filter(|c| c.theme == theme);
-        claims
-            .filter_map(|c| Some((c.plain.clone(), whole(c, first)?)))
-            .collect()
-    };
-    let found = own(lead);
-    let listed = |verdict: Verdict| -> String {
-        let names = found.iter().filter(|(_, v)| *v == verdict);
-        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
-        names.join("; ")
-    };
-    let sentences = sentences(lead, |claim| claim.theme == theme);
-    let hold = sentences.iter().filter(|v| **v == Verdict::Confirmed);
-    let mut words =
-        format!("{} of {} sentences hold", hold.count(), sentences.len());
-    let against = lead
-        .claims
-        .iter()
-        .filter(|c| c.theme == theme && by_criterion_fails(c))
-        .count();
-    if against > 0 {
-        words += &format!(
-            " by the limits here, {against} of their claims not by the \
-             paper's own criterion"
-        );
-    }
-    let refuted = listed(Verdict::NotConfirmed);
-    if !refuted.is_empty() {
-        words += &format!(". Not confirmed: {refuted}");
-    }
-    let open = found.iter().filter(|(_, v)| *v == Verdict::Inconclusive);
-    match open.count() {
-        0 => {}
-        1 => words += ". One claim is inconclusive",
-        n => words += &format!(". {n} claims are inconclusive"),
-    }
-    if recorded.is_none() {
-        return words + ".";
-    }
-    let others = own(here);
-    let turned = others.iter().filter(|(name, verdict)| {
-        found.iter().any(|(n, v)| n == name && v != verdict)
-    });
-    let other = match turned.count() {
-        0 => "All come out alike on the embedded suites".into(),
-        1 => "One comes out otherwise on the embedded suites".to_owned(),
-        n => format!("{n} come out otherwise on the embedded suites"),
-    };
-    format!("On the recorded suites {words}. {other}.")
-}
-
-/// The verdict on each sentence of the paper: confirmed where every claim in
-/// it is, not confirmed where one is refuted.
-fn sentences(
-    findings: &Findings,
-    of: impl Fn(&Claim) -> bool,
-) -> Vec<Verdict> {
-    let first = first_arm(findings);
-    let mut found: Vec<(&str, Verdict)> = Vec::new();
-    for claim in findings.claims.iter().filter(|c| of(c)) {
-        let Some(verdict) = whole(claim, first) else { continue };
-        match found.iter_mut().find(|(quote, _)| *quote == claim.quote) {
-            Some((_, sentence)) => *sentence = worse(*sentence, verdict),
-            None => found.push((&claim.quote, verdict)),
+) -> anyhow::Result<Option<String>> {
+    let Some(recorded) = recorded else { return Ok(None) };
+    let (turned, all) = turned(here, recorded);
+    let alike = |lead| if lead == Some(1) { Some(0) } else { lead };
+    let mut other = String::new();
+    for (own, kept) in answers(here)?.iter().zip(answers(recorded)?) {
+        if alike(own.lead) != alike(kept.lead) {
+            other += &format!(" {} {}.", own.question, own.first);
         }
     }
-    found.into_iter().map(|(_, verdict)| verdict).collect()
-}
-
-/// The worse of two verdicts.
-fn worse(a: Verdict, b: Verdict) -> Verdict {
-    match (a, b) {
-        (Verdict::NotConfirmed, _) | (_, Verdict::NotConfirmed) => {
-            Verdict::NotConfirmed
-        }
-        (Verdict::Confirmed, other) => other,
-        (Verdict::Inconclusive, _) => Verdict::Inconclusive,
-    }
-}
-
-/// How many sentences of the paper have which verdict, in the order of
-/// [`Verdict::ALL`]; what goes beyond the paper is none of them.
-pub fn score(findings: &Findings) -> Vec<(Verdict, usize)> {
-    let all = sentences(findings, |claim| claim.theme != Theme::Beyond);
-    let count = |v: Verdict| all.iter().filter(|own| **own == v).count();
-    Verdict::ALL.into_iter().map(|v| (v, count(v))).collect()
-}
-
-/// Whether a claim holds by the limits here and nowhere by the paper's own
-/// criterion.
-fn by_criterion_fails(claim: &Claim) -> bool {
-    let fails = |r: &&ClaimResult| {
-        r.by_equivalence == Some(Verdict::Confirmed)
-            && r.by_criterion == Some(Verdict::NotConfirmed)
-    };
-    let all = claim.results.iter().filter(|r| r.by_equivalence.is_some());
-    let failing = claim.results.iter().filter(fails).count();
-    failing > 0 && failing == all.count()
-}
-
-/// The verdict on a claim over its suites: confirmed where each of them
-/// confirms it, not confirmed where one refutes it.
-fn whole(claim: &Claim, first: Arm) -> Option<Verdict> {
-    let shown = |arm: Option<Arm>| arm.is_none_or(|arm| arm == first);
-    let verdicts: Vec<Verdict> = claim
-        .results
-        .iter()
-        .filter(|r| shown(r.arm))
-        .filter_map(|r| r.by_equivalence)
-        .collect();
-    let all = |v: &Verdict| *v == Verdict::Confirmed;
-    if verdicts.is_empty() {
-        None
-    } else if verdicts.iter().all(all) {
-        Some(Verdict::Confirmed)
-    } else if verdicts.contains(&Verdict::NotConfirmed) {
-        Some(Verdict::NotConfirmed)
-    } else {
-        Some(Verdict::Inconclusive)
-    }
+    Ok(Some(match other.as_str() {
+        "" => format!(
+            "Embedded synthetic motions give the same answers, though {turned} \
+             of {all} claims come out otherwise."
+        ),
+        _ => format!(
+            "Embedded synthetic motions answer otherwise:{other} Of {all} \
+             claims {turned} come out otherwise."
+        ),
+    }))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn count(yes: usize, no: usize, open: usize) -> Count {
-        Count { yes, no, open }
-    }
-
-    #[test]
-    fn answers_follow_from_the_verdicts_of_their_parts() {
-        let (good, bad) = (count(4, 0, 0), count(0, 4, 0));
-        let (open, mixed) = (count(1, 0, 3), count(3, 1, 0));
-        for (parts, answer) in [
-            (vec![("a", good), ("b", good)], "Yes: all 8 results"),
-            (vec![("a", bad), ("b", bad)], "No: 8 of 8 results refute it"),
-            (vec![("a", good), ("b", open)], "Nearly: for a; open for b."),
-            (
-                vec![("a", good), ("b", open), ("c", bad)],
-                "Only for a; open for b; not for c.",
-            ),
-            (vec![("a", mixed), ("b", open)], "Open: 4 of 8 results"),
-            (vec![("a", count(0, 0, 4))], "Open: 0 of 4 results"),
-            (vec![("a", count(0, 0, 0))], "Open: there are no data."),
-        ] {
-            let found = sentence(&parts);
-            assert!(found.starts_with(answer), "{found:?}, {answer:?}");
-        }
-    }
-
-    #[test]
-    fn answers_have_at_most_fifteen_words_and_rest_on_claims() {
-        let recorded = crate::recorded::recorded().unwrap();
-        for asked in &ASKED {
-            let ids = asked.parts.iter().flat_map(|(_, ids)| *ids);
-            for id in ids.chain([&asked.effect]) {
-                let there = recorded.claims.iter().any(|c| c.id == *id);
-                assert!(there, "{id}");
-            }
-            for (first, other) in [
-                (count(1, 0, 0), count(0, 1, 0)),
-                (count(1, 0, 0), count(0, 0, 1)),
-                (count(0, 0, 1), count(0, 0, 1)),
-            ] {
-                let parts = asked.parts.iter().enumerate();
-                let parts: Vec<(&str, Count)> = parts
-                    .map(|(k, (n, _))| {
-                        (*n, if k == 0 { first } else { other })
-                    })
-                    .collect();
-                let found = sentence(&parts);
-                assert!(found.split(' ').count() <= 15, "{found}");
-            }
-        }
-    }
-}
+mod tests;

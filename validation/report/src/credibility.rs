@@ -12,7 +12,10 @@ use rocking_common::words::rounded_text;
 use rocking_study::measures::without_closed_form;
 use rocking_study::results::Results;
 
-/// Half width of a 95 % interval in standard uncertainties.
+/// Half width of a finding's 90 % interval in standard uncertainties.
+const HALF_WIDTH: f64 = 1.644_853_627;
+
+/// Standard uncertainties within which 95 % of the errors lie.
 const COVERAGE: f64 = 1.959_963_985;
 
 /// Half a unit of the last digit as a standard uncertainty.
@@ -137,7 +140,7 @@ pub fn levels(assessment: &PlainTable) -> String {
     let all: Vec<String> = assessment.rows.iter().filter_map(of).collect();
     format!(
         "Credibility after NASA-STD-7009B, from 0 (insufficient evidence) to \
-         4, by the project's own judgement: {}. Reasons stand in the annex.",
+         4, by the project's own judgement: {}. The reasons follow.",
         all.join(", ")
     )
 }
@@ -167,7 +170,7 @@ fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
                   suites and the paper's, which are not listed there. u are \
                   standard uncertainties: of the numerics, by the open \
                   fates, at most; of the input, by the choice of records, \
-                  from the 95 % interval over 3.92; of D, by its printed \
+                  from the 90 % interval over 3.29; of D, by its printed \
                   digits. Of several cells the one that decides is shown, with \
                   the interval that holds for all cells at once. Other \
                   figures of the paper print no number that one could \
@@ -185,7 +188,7 @@ fn row(one: &Compared, shift: f64) -> Vec<String> {
     let error = value - one.paper;
     let error = if error.abs() < 1e-9 { 0.0 } else { error };
     let numerics = if one.records { shift * value.abs() } else { 0.0 };
-    let input = one.ours.interval.map(|(a, b)| (b - a) / (2.0 * COVERAGE));
+    let input = one.ours.interval.map(|(a, b)| (b - a) / (2.0 * HALF_WIDTH));
     let square = |x: f64| x * x;
     let together = (square(numerics)
         + square(input.unwrap_or(0.0))
@@ -319,7 +322,7 @@ mod tests {
             one(0.1536, 0.1536, None, half_unit(1e-4)),
             one(0.908_186_921, 0.91, None, half_unit(1e-2)),
             // Standard uncertainty 0.01: E is three of them.
-            one(1.03, 1.0, Some((1.010_400_36, 1.049_599_64)), None),
+            one(1.03, 1.0, Some((1.013_551_463_7, 1.046_448_536_3)), None),
             one(f64::NAN, 1.0, None, None),
         ];
         let rows = comparison(&compared, 0.0).rows;
@@ -343,7 +346,7 @@ mod tests {
                 quantity: "q".into(),
                 ours: Measured {
                     value: 0.9866,
-                    interval: Some((0.984_640_036, 0.988_559_964)),
+                    interval: Some((0.984_955_146, 0.988_244_854)),
                 },
                 paper: 1.0,
                 rounding: None,

@@ -1,184 +1,182 @@
 //! What changed between two sets of results, in engineering terms.
 //!
-//! Findings of a study and results of declared cases become [`Item`]s with a
-//! name each; [`compare`] sets them beside each other, and [`Comparison`]
-//! says what changed and whether it matters.
+//! Findings of a study and results of declared cases become `Item`s.
+//! [`compare`] sets like beside like; a [`Comparison`] has the answers and
+//! verdicts that changed, and the numbers by kind, each against the smallest
+//! effect of interest.
 
 mod cases;
-mod change;
 mod findings;
-mod flaw;
 mod input;
 mod item;
+mod moved;
 mod print;
-mod strict;
+mod records;
 #[cfg(test)]
 mod tests;
-mod words;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use anyhow::bail;
 use serde::Serialize;
 
-pub use change::{Change, Measure};
-pub use input::Results;
-pub use item::{Content, Item, Limit};
+use input::NAMES;
+use item::{Content, Item};
+use moved::{Kind, Number};
 
-/// Everything of one kind that two sets of results say differently.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub use input::Results;
+
+/// What two sets of results say differently.
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Comparison {
-    /// Items found on both sides.
+    /// Whether nothing at all differs in what both sides have.
+    pub identical: bool,
+    /// Answers of the first table, by their questions.
+    pub answers: Changes,
+    /// Verdicts on claims and cases.
+    pub verdicts: Changes,
+    /// Numbers that are compared.
     pub compared: usize,
-    /// Settings: the likely cause of what else changed.
-    pub settings: Vec<Change>,
-    /// Verdicts of claims and cases.
-    pub verdicts: Vec<Change>,
-    /// Claims, cases and rows that only the new results have.
-    pub appeared: Vec<Presence>,
-    /// Those that only the old results have.
-    pub vanished: Vec<Presence>,
-    /// Numbers, the most significant first; those without an uncertainty
-    /// last.
-    pub numbers: Vec<Change>,
-    /// Words around results.
-    pub texts: Vec<Change>,
-    /// Files that only one side has.
-    pub not_compared: Vec<String>,
+    /// Kinds of numbers of which some moved, in the order of consequence.
+    pub numbers: Vec<Kind>,
+    /// What was asked for, and the suites: the likely cause.
+    pub settings: Changes,
+    /// Words, intervals and details around results.
+    pub texts: Changes,
+    /// What only the new results have, with the number of results.
+    pub appeared: BTreeMap<String, usize>,
+    /// What only the old results have, with the number of results.
+    pub vanished: BTreeMap<String, usize>,
+    /// What else is to be known of the comparison.
+    pub notes: Vec<String>,
 }
 
-/// Something on one side only.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Presence {
-    /// What it is listed under.
-    pub group: String,
-    /// What it is.
-    #[serde(rename = "what")]
-    pub words: String,
-    /// Whether it counts: a claim, a case, or something lost.
-    pub significant: bool,
+/// What differs of one sort.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Changes {
+    /// So many are on both sides.
+    pub compared: usize,
+    /// Those that differ.
+    pub changed: Vec<Change>,
+}
+
+impl Changes {
+    /// Number of those that differ, in every suite and arm.
+    pub fn count(&self) -> usize {
+        self.changed.iter().map(|change| change.places.len().max(1)).sum()
+    }
+}
+
+/// Something that is said differently.
+#[derive(Clone, Debug, Serialize)]
+pub struct Change {
+    /// What it is about.
+    pub what: String,
+    /// Suites and arms where it is so; may be empty.
+    pub places: Vec<String>,
+    /// What the old results say.
+    pub old: String,
+    /// What the new results say.
+    pub new: String,
 }
 
 impl Comparison {
-    /// Number of changes that matter.
+    /// Number of changes that matter: of answers, verdicts and settings, of
+    /// numbers beyond the smallest effect of interest or their tolerance, and
+    /// of what is on one side only.
     pub fn significant(&self) -> usize {
-        let changes = [&self.settings, &self.verdicts, &self.numbers];
-        let changed =
-            changes.into_iter().flatten().filter(|c| c.significant).count();
-        let seen = self.appeared.iter().chain(&self.vanished);
-        changed + seen.filter(|p| p.significant).count()
+        let said = [&self.answers, &self.verdicts, &self.settings];
+        said.map(Changes::count).iter().sum::<usize>()
+            + self.numbers.iter().map(Kind::beyond).sum::<usize>()
+            + self.appeared.len()
+            + self.vanished.len()
     }
 
-    /// Whether nothing at all differs.
-    pub fn is_identical(&self) -> bool {
-        *self
-            == Self {
-                compared: self.compared,
-                not_compared: self.not_compared.clone(),
-                ..Self::default()
+    fn items(&mut self, old: &[Item], new: &[Item]) {
+        let (before, after) = (by_key(old), by_key(new));
+        for item in old {
+            match after.get(&item.key()) {
+                Some(other) => self.pair(item, other),
+                None => item.count_in(&mut self.vanished),
             }
-    }
-
-    fn add(&mut self, change: Change, content: &Content) {
-        match content {
-            Content::Verdict(_) => self.verdicts.push(change),
-            Content::Setting(_) => self.settings.push(change),
-            Content::Text(_) => self.texts.push(change),
-            Content::Number { .. } => self.numbers.push(change),
+        }
+        for item in new.iter().filter(|i| !before.contains_key(&i.key())) {
+            item.count_in(&mut self.appeared);
         }
     }
 
-    fn items(&mut self, old: &[Item], new: &[Item], relative: f64) {
-        let owners = |items: &[Item]| -> BTreeSet<String> {
-            items.iter().map(|item| item.owner.clone()).collect()
+    fn pair(&mut self, old: &Item, new: &Item) {
+        use Content::{Answer, Number, Setting, Text, Verdict};
+        let (list, a, b) = match (&old.content, &new.content) {
+            (Number(a), Number(b)) => return self.number(old, a, b),
+            (Answer(was, a), Answer(is, b)) if was != is => {
+                (&mut self.answers, a, b)
+            }
+            (Answer(_, a), Answer(_, b)) => {
+                self.answers.compared += 1;
+                (&mut self.texts, a, b)
+            }
+            (Verdict(a), Verdict(b)) => (&mut self.verdicts, a, b),
+            (Setting(a), Setting(b)) => (&mut self.settings, a, b),
+            (Text(a), Text(b)) => (&mut self.texts, a, b),
+            // One key has one sort of content.
+            _ => return,
         };
-        let (before, after) = (owners(old), owners(new));
-        self.vanished.extend(only(old, &after, true));
-        self.appeared.extend(only(new, &before, false));
-        let key = |item: &Item| (item.owner.clone(), item.name.clone());
-        let by_key: BTreeMap<(String, String), &Item> =
-            new.iter().map(|item| (key(item), item)).collect();
-        let mut met = BTreeSet::new();
-        for item in old.iter().filter(|item| after.contains(&item.owner)) {
-            let Some(other) = by_key.get(&key(item)) else {
-                self.vanished.push(alone(item, true));
-                continue;
+        list.compared += 1;
+        if a != b {
+            let place = Some(new.place.clone()).filter(|p| !p.is_empty());
+            let is = |c: &&mut Change| {
+                c.what == new.words && c.old == *a && c.new == *b
             };
-            met.insert(key(item));
-            self.compared += 1;
-            if let Some(change) = Change::between(item, other, relative) {
-                self.add(change, &item.content);
+            match list.changed.iter_mut().find(is) {
+                Some(change) => change.places.extend(place),
+                None => list.changed.push(Change {
+                    what: new.words.clone(),
+                    places: place.into_iter().collect(),
+                    old: a.clone(),
+                    new: b.clone(),
+                }),
             }
         }
-        for item in new.iter().filter(|item| before.contains(&item.owner)) {
-            if !met.contains(&key(item)) {
-                self.appeared.push(alone(item, false));
-            }
+    }
+
+    fn number(&mut self, item: &Item, old: &Number, new: &Number) {
+        let own = |kind: &&mut Kind| kind.what == item.words;
+        if let Some(kind) = self.numbers.iter_mut().rev().find(own) {
+            return kind.add(&item.place, old, new);
         }
+        let mut kind = Kind::new(item.topic, &item.words, new.limit);
+        kind.add(&item.place, old, new);
+        self.numbers.push(kind);
     }
 }
 
-/// Owners that the other side lacks, each once.
-fn only(
-    items: &[Item],
-    others: &BTreeSet<String>,
-    lost: bool,
-) -> Vec<Presence> {
-    let mut seen = BTreeSet::new();
-    let mut out = Vec::new();
-    for item in items.iter().filter(|item| !others.contains(&item.owner)) {
-        if seen.insert(item.owner.as_str()) {
-            let judged = items.iter().any(|other| {
-                other.owner == item.owner
-                    && matches!(other.content, Content::Verdict(_))
-            });
-            out.push(Presence {
-                group: item.group.clone(),
-                words: item.owner.clone(),
-                significant: lost || judged,
-            });
-        }
-    }
-    out
+fn by_key(items: &[Item]) -> BTreeMap<(&str, &str), &Item> {
+    items.iter().map(|item| (item.key(), item)).collect()
 }
 
-fn alone(item: &Item, lost: bool) -> Presence {
-    let text = matches!(item.content, Content::Text(_));
-    Presence {
-        group: item.group.clone(),
-        words: item.words.clone(),
-        significant: lost && !text,
-    }
-}
-
-/// Sets two results beside each other; where nothing is stated a number may
-/// change by the share `relative` of itself.
+/// Sets two results beside each other.
 ///
 /// # Errors
-/// Where no file of one kind is on both
-/// sides.
-pub fn compare(
-    old: &Results,
-    new: &Results,
-    relative: f64,
-) -> anyhow::Result<Comparison> {
-    let mut out = Comparison::default();
-    let kinds = [
-        ("findings.json", &old.findings, &new.findings),
-        ("validation.json", &old.cases, &new.cases),
-    ];
+/// Where no file of one kind is on both sides.
+pub fn compare(old: &Results, new: &Results) -> anyhow::Result<Comparison> {
+    let mut out = Comparison { identical: true, ..Comparison::default() };
     let mut common = false;
-    for (name, old, new) in kinds {
+    let sheets = old.sheets.iter().zip(&new.sheets);
+    for (name, (old, new)) in NAMES.iter().zip(sheets) {
         match (old, new) {
-            (Some(old), Some(new)) => {
+            (Some((old, text)), Some((new, other))) => {
                 common = true;
-                out.items(old, new, relative);
+                out.identical &= text == other;
+                out.items(old, new);
             }
             (None, None) => {}
             (old, _) => {
                 let side = if old.is_some() { "old" } else { "new" };
-                out.not_compared
-                    .push(format!("{name}: only among the {side} results"));
+                out.notes.push(format!(
+                    "Not compared: {name}, which only the {side} results \
+                     have."
+                ));
             }
         }
     }
@@ -190,12 +188,18 @@ pub fn compare(
             new.path.display()
         );
     }
-    for changes in [&mut out.numbers, &mut out.settings, &mut out.verdicts] {
-        // What no uncertainty is stated of cannot be ranked among the rest.
-        let blind = |c: &Change| c.measure == Measure::NoInterval;
-        changes.sort_by(|a, b| {
-            blind(a).cmp(&blind(b)).then(b.rank.total_cmp(&a.rank))
-        });
+    out.compared = out.numbers.iter().map(|kind| kind.cells).sum();
+    out.numbers.retain_mut(Kind::finish);
+    // The order of topics stays; within a topic what moved most comes first.
+    for topic in out.numbers.chunk_by_mut(|a, b| a.topic == b.topic) {
+        let heavier = |a: &Kind, b: &Kind| {
+            let ((a, most_a), (b, most_b)) = (a.weight(), b.weight());
+            b.total_cmp(&a).then(most_b.total_cmp(&most_a))
+        };
+        topic.sort_by(heavier);
+    }
+    if !out.identical {
+        out.notes.extend(records::notes(old, new));
     }
     Ok(out)
 }

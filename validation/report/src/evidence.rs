@@ -24,14 +24,16 @@ pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
     Ok(families(&load_all()?, proof.results()))
 }
 
-/// The tables of the proof: pulses against closed forms, if results were
-/// handed in, and critical values beside published ones.
+/// The tables of the proof: digits and pulses against closed forms, if
+/// results were handed in, and critical values beside published ones.
 ///
 /// # Errors
 /// Where the cases cannot be read.
 pub fn checks(proof: Option<&Proof>) -> anyhow::Result<Vec<PlainTable>> {
     let pulses = proof.map(|proof| tables::similarity(proof.results()));
-    let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
+    let digits = proof.map(Proof::digits_table);
+    let mut all: Vec<PlainTable> =
+        digits.into_iter().chain(pulses.transpose()?).collect();
     all.push(tables::critical_values()?);
     Ok(all)
 }
@@ -58,7 +60,8 @@ mod tests {
             assert!(figure.svg().starts_with("<svg"));
             assert!(!figure.reading.contains("NaN"), "{}", figure.reading);
             let mut drawn: BTreeMap<[String; 2], usize> = BTreeMap::new();
-            let mut rows = csv::Reader::from_reader(figure.csv.as_bytes());
+            let csv = figure.csv();
+            let mut rows = csv::Reader::from_reader(csv.as_bytes());
             for row in rows.records() {
                 let row = row.unwrap();
                 let series = [row[0].to_owned(), row[1].to_owned()];

@@ -1,7 +1,8 @@
 //! The findings of a study for the page: by theme, recorded suites first.
 
-use crate::answers;
 use crate::page::{Column, Shown};
+use crate::quantity::rule_text;
+use crate::verdicts;
 use rocking_common::findings::{Claim, Findings, Kind, Theme};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::{Figure, Place};
@@ -21,12 +22,12 @@ pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
 /// Columns of the page: those of the recorded suites first, where the study
 /// at hand is of the embedded ones.
 pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
-    let first = answers::first_arm(here);
+    let first = verdicts::first_arm(here);
     let one = |name, findings: &Findings| Column {
         name,
         findings: findings.clone(),
         first,
-        score: answers::score(findings),
+        score: verdicts::score(findings),
     };
     match recorded {
         Some(recorded) => vec![
@@ -54,7 +55,7 @@ pub fn themes<'a>(
     ];
     let shown = |theme| Shown {
         theme,
-        paragraph: answers::by_theme(theme, here, recorded),
+        paragraph: verdicts::by_theme(theme, here, recorded),
         figures: placed(figures, Place::Opens(theme)),
         more: placed(figures, Place::Folded(theme)),
     };
@@ -67,15 +68,35 @@ pub fn placed<'a>(figures: &[&'a Figure], place: Place) -> Vec<&'a Figure> {
     figures.iter().filter(there).copied().collect()
 }
 
+/// The limits of the findings and their reasons, each with what it is for.
+pub fn criteria(here: &Findings) -> PlainTable {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for claim in here.claims.iter().filter(|c| c.kind == Kind::Finding) {
+        let limit = [rule_text(claim), claim.reason.clone()];
+        match rows.iter_mut().find(|row| row[..2] == limit) {
+            Some(row) => row[2] += &format!("; {}", claim.plain),
+            None => rows.push(
+                [&limit[..], std::slice::from_ref(&claim.plain)].concat(),
+            ),
+        }
+    }
+    let header = ["limit", "why there", "what has to lie within it"];
+    PlainTable::new(
+        "criteria-by-limit",
+        "Acceptance criteria",
+        "Limits of the findings. The tolerance of each declared case stands \
+         with the case in the annex.",
+        &header,
+        rows,
+    )
+}
+
 /// What is true by definition or arithmetic, and what describes.
 pub fn identities(here: &Findings) -> PlainTable {
     let row = |claim: &Claim| {
         let is = match claim.kind {
-            Kind::Identity => format!(
-                "true by definition or arithmetic: declared case {}",
-                claim.case
-            ),
-            Kind::Description => "a description: not judged".into(),
+            Kind::Identity => format!("identity, case {}", claim.case),
+            Kind::Description => "description, not judged".into(),
             Kind::Finding => return None,
         };
         let quote = format!("\u{201c}{}\u{201d}", claim.quote);

@@ -1,5 +1,5 @@
-//! The head of the page: what was asked, which program ran on what, and who
-//! signs for it.
+//! Where the page comes from: which program ran on what, and who signs for
+//! it.
 
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_study::results::Results;
@@ -9,11 +9,6 @@ const LOCK: &str = include_str!("../../../Cargo.lock");
 
 /// Its headings are the revisions.
 const CHANGELOG: &str = include_str!("../../../CHANGELOG.md");
-
-/// The paper, as far as its text says.
-const PAPER: &str = "C. G. Lachanas, D. Vamvatsikos, E. G. Dimitrakopoulos, \
-    \u{201c}Statistical property parameterization of simple rocking block \
-    response\u{201d}, Earthquake Engineering and Structural Dynamics.";
 
 /// Who signs for a report, and when it was issued: words of the user, since
 /// the program knows no clock and no names.
@@ -31,6 +26,9 @@ pub struct Signatures {
     /// Who approved the report; otherwise the page has a line to sign.
     #[arg(long, value_name = "NAME")]
     pub approved_by: Option<String>,
+    /// The commit of the program, which an issued copy names.
+    #[arg(skip)]
+    pub commit: &'static str,
 }
 
 impl Signatures {
@@ -47,9 +45,20 @@ impl Signatures {
     }
 }
 
-/// The paper, the program and its input; whether results of the declared
-/// cases were handed in.
-pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
+/// The program, its input and the command; whether results of the declared
+/// cases were handed in. A committed page cannot name the commit that holds
+/// it, so the commit stands on issued copies alone.
+pub fn head(
+    results: &Results,
+    proved: bool,
+    signatures: &Signatures,
+) -> Vec<(String, String)> {
+    let commit = match signatures.issued {
+        Some(_) => signatures.commit,
+        None => {
+            "that which holds this page; a copy made with --issued names it"
+        }
+    };
     let program = format!(
         "rocking {}, sha256 of Cargo.lock {}",
         env!("CARGO_PKG_VERSION"),
@@ -64,8 +73,8 @@ pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
         )
     });
     vec![
-        ("Paper".into(), PAPER.into()),
         ("Program".into(), program),
+        ("Commit".into(), commit.into()),
         ordinary,
         pulse,
         ("Command".into(), command(results, proved)),

@@ -13,6 +13,7 @@ use crate::ledger;
 use crate::page::{Chapter, ReportInput};
 use crate::recorded;
 use crate::timings::Timings;
+use crate::verdicts;
 use crate::words::words;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
@@ -56,9 +57,9 @@ pub fn input<'a>(
         &timings,
         proof,
         &own,
-    );
+    )?;
     let compared = || questions.iter().filter(|q| q.id == "suites");
-    let work = [&results.ordinary, &results.pulse].map(answers::work);
+    let work = [&results.ordinary, &results.pulse].map(verdicts::work);
     let suites = Chapter {
         text: compared().map(|q| q.answer.clone()).collect(),
         figures: placed(&own, Place::Suites),
@@ -95,23 +96,32 @@ pub fn input<'a>(
     };
     Ok(ReportInput {
         title: TITLE.into(),
-        subtitle: "Statistical property parameterization of simple rocking \
-                   block response, repeated from records to findings"
-            .into(),
+        intro: vec![words.intro, answers::done(found, recorded)],
         head: [
-            head::head(results, proof.is_some()),
+            head::head(results, proof.is_some(), signatures),
             recorded.map(findings::kept).unwrap_or_default(),
+            provenance(results),
         ]
         .concat(),
         signatures: signatures.shown(),
         answers: rows,
+        otherwise: answers::otherwise(found, recorded)?,
+        scope: Chapter {
+            text: words.scope,
+            folded: vec![only(
+                "criteria",
+                "Acceptance criteria",
+                vec![findings::criteria(found)],
+            )],
+            ..Chapter::titled("scope", "Scope")
+        },
         first: placed(&own, Place::Answers),
         columns: findings::columns(found, recorded),
         findings: findings::themes(found, recorded, &own),
         identities: findings::identities(found),
         method: [
             words.method,
-            vec![answers::trust(found, recorded)],
+            vec![verdicts::trust(found, recorded)],
             coverage.iter().map(|c| c.words()).collect(),
         ]
         .concat(),
@@ -120,26 +130,22 @@ pub fn input<'a>(
             "{} {} {}",
             proof.map_or(NOT_RUN.into(), Proof::to_string),
             timings.accuracy(),
-            answers::rounding(results)
+            verdicts::rounding(results)
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
             figures: placed(&charts, Place::Proof),
-            folded: vec![Chapter {
-                tables: evidence::checks(proof)?,
-                figures: placed(&charts, Place::Checks),
-                ..Chapter::titled(
-                    "checks",
-                    "Pulses, critical values, departure from similarity",
-                )
-            }],
             ..Chapter::default()
         },
         chapters: vec![
             Chapter {
                 text: vec![timings.plain()],
-                tables: vec![timings.settings()],
                 figures: placed(&charts, Place::Speed),
+                folded: vec![only(
+                    "settings",
+                    "Which of our settings when",
+                    vec![timings.settings()],
+                )],
                 ..Chapter::titled("speed", "Speed against error")
             },
             suites,
@@ -147,30 +153,48 @@ pub fn input<'a>(
                 text: [
                     limits(results),
                     vec![format!(
-                        "Not checked: {}.",
-                        answers::not_checked(results.embedded())
+                        "No test was compared with the model. It leaves out \
+                         {}. {}.",
+                        answers::LEFT_OUT,
+                        answers::not_run(results.embedded())
                     )],
                     assessment.iter().map(credibility::levels).collect(),
                 ]
                 .concat(),
-                ..Chapter::titled("limits", "Limits and credibility")
-            },
-            Chapter {
-                list: provenance(results),
-                ..Chapter::titled("provenance", "Provenance")
+                folded: vec![
+                    Chapter {
+                        list: words.deviations,
+                        ..Chapter::titled(
+                            "deviations",
+                            "Deviations from the paper",
+                        )
+                    },
+                    only(
+                        "credibility",
+                        "Credibility, after NASA-STD-7009B",
+                        assessment,
+                    ),
+                    Chapter {
+                        list: words.references,
+                        ..Chapter::titled("references", "References")
+                    },
+                ],
+                ..Chapter::titled("limits", "Limits and references")
             },
         ],
+        files: PlainTable::default(),
         annexes: vec![
             Chapter {
                 text: work.into(),
-                tables: [
-                    vec![table_1()?],
-                    proof.map(Proof::digits_table).into_iter().collect(),
-                ]
-                .concat(),
+                tables: vec![table_1()?],
+                ..Chapter::titled("blocks", "The blocks")
+            },
+            Chapter {
+                tables: evidence::checks(proof)?,
+                figures: placed(&charts, Place::Checks),
                 ..Chapter::titled(
-                    "blocks",
-                    "The blocks, and the digits of three precisions",
+                    "checks",
+                    "Digits, pulses, critical values, similarity",
                 )
             },
             only(
@@ -187,7 +211,6 @@ pub fn input<'a>(
             },
             beyond,
             by_block,
-            only("credibility", "Credibility", assessment),
             only("comparison", "Comparison with printed numbers", trust),
             only(
                 "speed-tried",

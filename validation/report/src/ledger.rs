@@ -192,7 +192,7 @@ pub fn table(
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let drawn = |number: u32| {
         let is = |f: &Figure| f.heading.number == Some(number);
-        figures.iter().any(|f| is(f) && !f.csv.is_empty())
+        figures.iter().any(|f| is(f) && !f.csv().is_empty())
     };
     let requirements = requirements()?;
     let mut rows = Vec::with_capacity(requirements.len());

@@ -17,6 +17,7 @@ pub mod recorded;
 pub mod speed;
 pub mod stale;
 pub mod timings;
+mod verdicts;
 mod words;
 
 #[cfg(test)]

@@ -5,8 +5,6 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use rocking::block::BlockError;
-
 use crate::answers;
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
@@ -14,10 +12,13 @@ use crate::input;
 use crate::page;
 use crate::page::AnswerRow;
 use crate::quantity::{rule_text, value_text};
+use crate::recorded;
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
-use rocking_common::table::{Table, number};
+use rocking_common::suites::inputs::sha256_hex;
+use rocking_common::table::{PlainTable, Table, number};
+use rocking_draw::figures::Figure;
 use rocking_study::results::Results;
 use rocking_study::{Study, questions};
 
@@ -33,6 +34,9 @@ pub(super) const CASES: [&str; 2] =
 
 /// Where a report's findings lie.
 pub const FINDINGS: &str = "data/findings.json";
+
+/// Where a report on suites of files has what its figures draw.
+pub const FIGURES: &str = "data/figures.json";
 
 /// What of a folder no study wrote, if it holds such a thing: a report there
 /// would replace it, or stand among it.
@@ -98,41 +102,105 @@ pub fn files(
     let mut files = Files::new();
     let mut charts = vec![Timings::kept()?.figure()];
     charts.extend(evidence::charts()?);
-    for figure in study.figures.iter().chain(&charts) {
+    let figures = recorded::figures(study)?;
+    for figure in figures.iter().chain(&charts) {
         let name = &figure.heading.name;
         files.insert(format!("{name}.svg"), figure.svg().into_bytes());
-        let csv = figure.csv.clone();
-        files.insert(format!("{name}.csv"), csv.into_bytes());
+        files.insert(format!("{name}.csv"), figure.csv().into_bytes());
     }
-    files.insert("table-01.csv".into(), table_1()?.into_bytes());
     let single = single_csv(&study.results);
     files.insert("single-records.csv".into(), single.into_bytes());
     let text = study.findings.text();
     files.insert("findings.json".into(), text.into_bytes());
+    if !study.results.embedded() {
+        let text = recorded::kept(study)?;
+        files.insert("figures.json".into(), text.into_bytes());
+    }
     files.extend(questions::files(&study.answers));
-    let input = input::input(
+    let mut input = input::input(
         &study.results,
-        &study.figures,
+        &figures,
         &charts,
         &study.findings,
         &study.answers,
         proof,
         signatures,
     )?;
+    let mut titles = titles(study, &charts);
+    let filed = input.annexes.iter().filter(|a| FILED.contains(&a.id));
+    for table in filed.flat_map(|annex| &annex.tables) {
+        let name = format!("{}.csv", table.name);
+        files.entry(name).or_insert_with(|| csv(table));
+        titles.insert(table.name.clone(), table.title.clone());
+    }
+    input.files = list(&files, proof, &titles);
     files.insert("index.html".into(), page::page(&input).into_bytes());
     Ok(laid_out(files))
 }
 
-/// Table 1 as CSV.
-fn table_1() -> Result<String, BlockError> {
-    let printed = input::table_1()?;
+/// Annexes whose tables no other file has.
+const FILED: [&str; 4] =
+    ["blocks", "comparison", "speed-tried", "requirements"];
+
+/// A table of the page as CSV.
+fn csv(printed: &PlainTable) -> Vec<u8> {
     let header: Vec<&str> =
         printed.header.iter().map(String::as_str).collect();
     let mut table = Table::new(&header);
-    for row in printed.rows {
-        table.row(row);
+    for row in &printed.rows {
+        table.row(row.clone());
     }
-    Ok(table.finish())
+    table.finish().into_bytes()
+}
+
+/// The data files and their hashes, with what they hold.
+fn list(
+    files: &Files,
+    proof: Option<&Proof>,
+    titles: &BTreeMap<String, String>,
+) -> PlainTable {
+    let own = files.iter().filter(|(name, _)| !name.ends_with(".svg"));
+    let own = own.map(|(name, text)| (name.clone(), sha256_hex(text)));
+    let cases = proof.into_iter().flat_map(Proof::hashes);
+    let all: BTreeMap<String, String> = own.chain(cases).collect();
+    let row = |(name, hash): (&String, &String)| {
+        let stem = name.rsplit_once('.').map_or("", |(stem, _)| stem);
+        let holds = titles.get(stem).map_or("", String::as_str);
+        vec![format!("data/{name}"), holds.to_owned(), hash.clone()]
+    };
+    PlainTable::new(
+        "list-of-files",
+        "Annexes: data files and their hashes",
+        "Each annex is a file beside this page. Its SHA-256 tells whether it \
+         is the one that this report rests on.",
+        &["file", "what it holds", "SHA-256"],
+        all.iter().map(row).collect(),
+    )
+}
+
+/// What the files hold, by name.
+fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
+    let figures = study.figures.iter().chain(charts).map(|figure| {
+        let heading = &figure.heading;
+        (
+            heading.name.clone(),
+            format!("{}. {}", heading.label(), heading.title),
+        )
+    });
+    let questions = study.answers.iter().flat_map(|answer| {
+        let own = std::iter::once(answer.id.to_owned());
+        let more = answer.files.iter();
+        let more = more.map(|(name, _)| name.replace(".csv", ""));
+        own.chain(more).map(|name| (name, answer.question.to_owned()))
+    });
+    let known = [
+        ("findings", "Every statement with its results by suite and grid"),
+        ("precision", "Digits that three precisions reach"),
+        ("single-records", "Records one by one: Figures 2 to 5 for all"),
+        ("validation", "Every declared case with its result"),
+    ];
+    let known = known.map(|(name, words)| (name.to_owned(), words.to_owned()));
+    figures.chain(questions).chain(known).collect()
 }
 
 /// Every record's histories and curves against those of alpha = 0.10.
@@ -181,13 +249,10 @@ pub fn answers_text(
         &Timings::kept()?,
         proof,
         &[],
-    );
+    )?;
     let text = |row: &AnswerRow| {
-        let columns = row.columns.concat();
-        let counts =
-            if columns.is_empty() { "" } else { &format!("; {columns}") };
         let AnswerRow { question, answer, effect, .. } = row;
-        format!("{question}\n  {answer}\n  {effect}{counts}.\n")
+        format!("{question}\n  {answer}\n  {effect}.\n")
     };
     Ok(rows.iter().map(text).collect())
 }

@@ -19,6 +19,10 @@ pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
 pub(crate) const STYLE: &str = include_str!("page/page.css");
 
+/// Nothing is loaded and nothing runs; styles stand in the page.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
+    base-uri 'none'; form-action 'none'";
+
 /// The page.
 ///
 /// ```
@@ -37,6 +41,7 @@ pub fn page(input: &ReportInput<'_>) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="viewport"
                     content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
@@ -46,10 +51,6 @@ pub fn page(input: &ReportInput<'_>) -> String {
             body {
                 a.skip href="#main" { "Skip to the content" }
                 header {
-                    h1 { (input.title) }
-                    @if !input.subtitle.is_empty() {
-                        p.subtitle { (input.subtitle) }
-                    }
                     (sections::head(input))
                 }
                 nav aria-label="Contents" { (contents(&parts)) }

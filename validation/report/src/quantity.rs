@@ -1,7 +1,7 @@
 //! Values of findings as people read them, each in the unit of its limit.
 
 use rocking_common::findings::{
-    Claim, ClaimResult, Measured, Quantifier, Region, Unit,
+    Claim, ClaimResult, Measured, Power, Quantifier, Region, Unit,
 };
 use rocking_common::words::{rounded, rounded_text};
 
@@ -103,11 +103,16 @@ fn of_cells(claim: &Claim) -> bool {
     matches!(quantifier, Some(Quantifier::Most | Quantifier::AlmostAll))
 }
 
-/// A result's value with its interval and unit: `12 % (8 to 17)`. Where the
-/// limit is about one cell of many, it is the share of the cells within it.
-pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
+/// A result's value with its interval and unit: `12 % (8 to 17)`.
+pub fn measured_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
-    let text = measured(result.measured(), scale(result.unit, region));
+    measured(result.measured(), scale(result.unit, region))
+}
+
+/// That text; where the limit is about one cell of many, it is the share of
+/// the cells within it, and their number follows.
+pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
+    let text = measured_text(claim, result);
     match &result.cells {
         Some(cells) if of_cells(claim) && cells.deciding > 0 => format!(
             "{text}, {}/{} cells",
@@ -151,8 +156,22 @@ pub fn rule_text(claim: &Claim) -> String {
     }
 }
 
+/// What a suite like this one is able to decide.
+fn power_text(power: Power) -> String {
+    let share = number(100.0 * power.probability);
+    let times = if power.times.is_finite() {
+        format!("{} times as many motions decide", number(power.times))
+    } else {
+        "100 times as many motions do not decide".into()
+    };
+    format!(
+        "power: were the value true, {share} % of such suites decide; {times} \
+         in 80 %"
+    )
+}
+
 /// What stands beside a result: cells, the deciding one, details, how the
-/// interval was made.
+/// interval was made, and power.
 pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     let mut remarks = Vec::new();
     match &result.cells {
@@ -184,6 +203,7 @@ pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     if let Some(interval) = result.interval {
         remarks.push(format!("interval: {}", interval.words()));
     }
+    remarks.extend(result.power.map(power_text));
     remarks
 }
 

@@ -47,17 +47,17 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
         &timings,
         Some(proof),
         &[],
-    );
+    )?;
     let line = |row: &AnswerRow| {
-        let columns = row.columns.join(" | ");
         let AnswerRow { question, answer, effect, .. } = row;
         let effect = effect.replace('|', "\\|");
-        format!("| {question} | {answer} | {effect} | {columns} |\n")
+        format!("| {question} | {answer} | {effect} |\n")
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
+    let other = answers::otherwise(findings, Some(&recorded))?;
     Ok(format!(
-        "| question | answer | effect (95 % interval) | recorded suites | \
-         embedded suites |\n|---|---|---|---|---|\n{}",
-        lines.concat()
+        "| question | answer | numbers (90 % interval) |\n|---|---|---|\n{}\n{}\n",
+        lines.concat(),
+        other.unwrap_or_default()
     ))
 }

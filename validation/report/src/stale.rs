@@ -12,9 +12,6 @@ use crate::diff::{Results, compare};
 use crate::output::{CASES, FINDINGS, Files};
 use rocking_common::table::cells;
 
-/// Numbers without a stated interval may change by this share.
-const RELATIVE: f64 = 0.01;
-
 /// What differs between the report in `out` and `files`; `None` if nothing
 /// does. Findings come first, as [`crate::diff`] tells them, then tables by
 /// their first row, then drawings and the page by name.
@@ -67,20 +64,20 @@ fn findings(out: &Path, files: &Files) -> anyhow::Result<String> {
     if !path.exists() {
         return Ok(String::new());
     }
-    Ok(compared(&path, &text(&read(&path)?), &text(new), RELATIVE))
+    Ok(compared(&path, &text(&read(&path)?), &text(new)))
 }
 
 /// What two texts of one file of results say differently, as
 /// [`crate::diff::compare`] finds it; empty where they agree. Results of
 /// another form are replaced all the same, so that is no error.
-pub fn compared(path: &Path, old: &str, new: &str, relative: f64) -> String {
+pub fn compared(path: &Path, old: &str, new: &str) -> String {
     if old == new {
         return String::new();
     }
     let attempt = || {
         let old = Results::from_text(path, old)?;
         let new = Results::from_text(path, new)?;
-        anyhow::Ok(compare(&old, &new, relative)?.text(false) + "\n")
+        anyhow::Ok(compare(&old, &new)?.text(false) + "\n")
     };
     attempt().unwrap_or_else(|error| format!("not compared: {error:#}\n"))
 }

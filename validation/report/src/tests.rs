@@ -19,7 +19,7 @@ use crate::recorded;
 use rocking_common::curves::Execution;
 use rocking_common::findings::{Findings, Kind, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
-use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::inputs::{read_suite, sha256_hex};
 use rocking_common::suites::{Source, StudySuite};
 use rocking_proof::cases::load_all;
 use rocking_study::Study;
@@ -104,10 +104,17 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
     assert_eq!(serde_json::to_value(&found).expect("JSON"), expected);
 }
 
+/// A name that a page must not take for its own.
+const HOSTILE: &str = "</text><script>alert(1)</script><a onload='b()' \"&lt;";
+
 fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     for (suite, records) in [(&mut ordinary, 10), (&mut pulse, 4)] {
         suite.motions.truncate(records);
+        for motion in &mut suite.motions {
+            let name = format!("{HOSTILE}{}", motion.study.name());
+            motion.study = motion.study.clone().named(name).expect("a name");
+        }
         suite.clusters = Clusters::singletons(records);
     }
     let plan = plan(way);
@@ -129,7 +136,7 @@ fn said_of(source: &Source) -> String {
         credibility::tables(&results, &[], None, None).expect("tables");
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
-    limits + &answers::not_checked(results.embedded()) + &cells
+    limits + &answers::not_run(results.embedded()) + &cells
 }
 
 #[test]
@@ -153,7 +160,7 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 fn the_command_names_the_proof_only_where_one_was_handed_in() {
     let results = empty(&Source::Embedded { streams: "x" });
     let command = |proved| {
-        let rows = head::head(&results, proved);
+        let rows = head::head(&results, proved, &Signatures::default());
         let row = rows.into_iter().find(|(name, _)| name == "Command");
         row.expect("a command").1
     };
@@ -193,7 +200,9 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let proof = Proof::read(data.as_ref()).expect("proof");
     let mut one = small(1, Execution::default(), Some(&proof));
     let mut two = small(2, Execution::OneByOne, None);
-    // The proof is on the page alone.
+    // The proof is on the page and in the ledger alone.
+    let ledgers = [&mut one, &mut two].map(|f| f.remove("data/ledger.csv"));
+    assert!(ledgers.iter().all(Option::is_some) && ledgers[0] != ledgers[1]);
     let pages = [&mut one, &mut two].map(|files| {
         let page = files.remove("index.html").expect("page");
         String::from_utf8(page).expect("text")
@@ -203,6 +212,14 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
+    // Names of records stand on the page and in the drawings, as text.
+    let drawings = one.iter().filter(|(name, _)| name.ends_with(".svg"));
+    let drawings = drawings.map(|(_, svg)| String::from_utf8_lossy(svg));
+    let all: String = drawings.chain([page.as_str().into()]).collect();
+    assert!(page.contains("&lt;script&gt;alert(1)"), "no record is named");
+    for word in ["<script", "</text><", "<a onload", "\"&lt;\""] {
+        assert!(!all.contains(word), "{word}");
+    }
     // The first case is named by an identity of the paper.
     let cases = load_all().expect("cases");
     let (id, table) = (&cases[cases.len() - 1].id, "table-precision");
@@ -210,6 +227,12 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     assert!(page.contains(id) && page.contains(table));
     assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
     assert!(!without.contains(id) && !without.contains(table));
+    // Each data file stands on the page with its hash, but for the page.
+    for (name, content) in one.iter().filter(|(n, _)| n.starts_with("data/")) {
+        let hash = sha256_hex(content);
+        assert!(page.contains(name) && page.contains(&hash), "{name}");
+    }
+    assert!(page.contains("data/validation.json"));
     // Up to what the proof says, they are the same.
     let findings = |page: &str| {
         let start = page.find("<section id=\"findings\"").expect("findings");
@@ -227,9 +250,15 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
             assert!(found, "{stem}: no {suffix}");
         }
     }
-    for name in [FINDINGS, "data/table-01.csv"] {
+    let recorded = "data/figure-15-recorded.csv";
+    for name in [FINDINGS, "data/table-01.csv", recorded] {
         assert!(one.contains_key(name), "{name}");
     }
+    // Recorded ones first, the same of embedded motions folded; no history.
+    let at = |words: &str| page.find(words).expect(words);
+    assert!(at("Figure 15, recorded") < at("Show: Figure 15, embedded"));
+    assert!(page.contains("Figure 2, embedded motions"));
+    assert!(!page.contains("Figure 2, recorded"));
     let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
     let findings = Findings::parse(&text).expect("findings");
     assert_eq!(findings.text(), text);

@@ -254,14 +254,18 @@ impl Timings {
                     && self.no_worse(&STOPPED).contains(&BASE[2]) =>
             {
                 format!(
-                    "Yes: {} times {} in lanes, {} times one by one.",
+                    "Yes: {} times as fast as {}; one by one, {} times.",
                     digits(lanes),
                     STOPPED.name,
                     digits(one)
                 )
             }
             (Some(lanes), _) => {
-                format!("No: {} times {}.", digits(lanes), STOPPED.name)
+                format!(
+                    "No: {} times as fast as {}.",
+                    digits(lanes),
+                    STOPPED.name
+                )
             }
             (None, _) => "Open: no timing compares them.".into(),
         };

@@ -9,6 +9,14 @@ const WORDS: &str = include_str!("../words.toml");
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Words {
+    /// What a rocking block is.
+    pub intro: String,
+    /// Scope, intended use, acceptance, a paragraph each.
+    pub scope: Vec<String>,
+    /// What is done otherwise than in the paper.
+    pub deviations: Vec<(String, String)>,
+    /// Numbers, and what is cited.
+    pub references: Vec<(String, String)>,
     /// How the results come about, a paragraph each.
     pub method: Vec<String>,
     /// Terms, and what they mean.

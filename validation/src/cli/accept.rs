@@ -310,8 +310,7 @@ fn compared(old: &str, new: &str) -> String {
     if old.is_empty() {
         return String::new();
     }
-    // A declared tolerance is stated for every number.
-    stale::compared(&Path::new(REPORTS).join(CASES), old, new, 0.0)
+    stale::compared(&Path::new(REPORTS).join(CASES), old, new)
 }
 
 /// Those of the files that are not as they are in the folder; adds to `words`
@@ -335,6 +334,9 @@ fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
     Ok(changed)
 }
 
+/// Characters of a changed line that are shown.
+const SHOWN: usize = 200;
+
 /// How many lines of a file change, and the first of them.
 fn lines(name: &str, old: &[u8], new: &[u8]) -> String {
     let texts = [old, new].map(String::from_utf8_lossy);
@@ -350,8 +352,9 @@ fn lines(name: &str, old: &[u8], new: &[u8]) -> String {
         format!("{name}: {} of {count} lines differ\n", differ.len());
     if let Some(&k) = differ.first() {
         // Writing to a string cannot fail.
-        let _ = writeln!(out, "  line {}: {}", k + 1, at(&old, k));
-        let _ = writeln!(out, "  now: {}", at(&new, k));
+        // A line of figures.json is as long as its figure.
+        let _ = writeln!(out, "  line {}: {:.SHOWN$}", k + 1, at(&old, k));
+        let _ = writeln!(out, "  now: {:.SHOWN$}", at(&new, k));
     }
     out
 }

@@ -47,6 +47,7 @@ struct Shown {
 /// [`Failure`] for files, pairs or a margin that are refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
+    input::records_as_unit(&a);
     let (a, b, paired_by_name) = a.pairs(&b)?;
     let found = compare(&a, &b, args.margin)?;
     args.json.show(&Shown { paired_by_name, found })

@@ -14,11 +14,13 @@ use rocking_report::diff::{Comparison, Results, compare};
 ///
 /// OLD and NEW are each a folder of a study, a folder of reports, or one
 /// file: findings.json or validation.json; without them, the committed
-/// reports and what `rocking study` wrote last. Verdicts come first, then numbers
-/// by the size of their change over what it may be: the 95 % interval of a
-/// finding, the tolerance of a case; those without either come last. Ends
-/// with 1 where a verdict, a setting or a number beyond its uncertainty
-/// changed, or a claim or a case is on one side only.
+/// reports and what `rocking study` wrote last. Answers and verdicts come
+/// first, then numbers by kind, each against the smallest effect of interest:
+/// 5 % of a response ratio, 10 % of a median intensity or a dispersion, 10
+/// points of a share, 0.05 of a probability; a number of a declared case
+/// against its tolerance. Ends with 1 where an answer, a verdict or a setting
+/// changed, a number moved by more than that, or a claim, a case or a number
+/// is on one side only.
 #[derive(clap::Args)]
 pub struct Args {
     /// Results before.
@@ -27,15 +29,10 @@ pub struct Args {
     /// Results after.
     #[arg(value_name = "NEW", default_value = REPORT)]
     new: PathBuf,
-    /// Relative change that is significant where a finding states no
-    /// interval.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
-    relative: f64,
-    /// List every change, also those within their uncertainty; JSON always
-    /// does.
-    #[arg(long, conflicts_with = "json")]
+    /// List every change, also those that do not matter; JSON always does.
+    #[arg(long, conflicts_with_all = ["json", "markdown"])]
     all: bool,
-    /// Print Markdown for a pull request.
+    /// Print Markdown for a pull request, of 20,000 characters at most.
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
     #[command(flatten)]
@@ -44,7 +41,6 @@ pub struct Args {
 
 #[derive(Serialize)]
 struct Shown<'a> {
-    identical: bool,
     significant: usize,
     #[serde(flatten)]
     comparison: &'a Comparison,
@@ -56,27 +52,20 @@ struct Shown<'a> {
 /// [`Failure`] for results that cannot be read or have nothing in common
 /// (status 2), and for a significant change (status 1).
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if !(args.relative >= 0.0 && args.relative.is_finite()) {
-        return Err(Failure::input(format!(
-            "--relative {}: expected a share, 0 or more",
-            args.relative
-        )));
-    }
     if args.new.as_os_str() == REPORT && !args.new.exists() {
         return Err(Failure::input(format!(
             "no folder {REPORT}: expected what `rocking study` writes there"
         )));
     }
     let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
-    let comparison = compare(&old, &new, args.relative)?;
+    let comparison = compare(&old, &new)?;
     if args.json.json {
         args.json.show(&Shown {
-            identical: comparison.is_identical(),
             significant: comparison.significant(),
             comparison: &comparison,
         })?;
     } else if args.markdown {
-        print(&comparison.markdown(args.all))?;
+        print(&comparison.markdown())?;
     } else {
         say(&comparison.text(args.all))?;
     }

@@ -30,6 +30,7 @@ use crate::terminal::{SOFTWARE, logged, progress, say};
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
+use rocking_common::suites::{clusters, earthquakes};
 use rocking_common::words::printable;
 use rocking_exchange::ida::IdaTable;
 
@@ -175,6 +176,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let found = Shown {
         suite: suite.name(),
+        earthquakes: earthquakes(&clusters(&chosen)),
         study_components: suite.study_rule().to_string(),
         processing,
         remarks: &remarks,
@@ -196,6 +198,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 #[derive(Serialize)]
 struct Shown<'a> {
     suite: &'a str,
+    /// Of the records; none where the index names none.
+    earthquakes: Option<usize>,
     study_components: String,
     processing: Option<&'a str>,
     remarks: &'a Remarks,

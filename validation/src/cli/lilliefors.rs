@@ -123,6 +123,7 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
         replicates: args.replicates,
         seed: args.seed.unwrap_or(0),
     };
+    input::records_as_unit(file);
     let found = test_normality(&file.censored()?, &options)?;
     let is_tabled = found.method == Some(NullSource::Table);
     if is_tabled && (args.seed.is_some() || args.threads.threads.is_some()) {

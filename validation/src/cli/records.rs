@@ -16,8 +16,8 @@ use crate::failure::Failure;
 use crate::threads::with_threads;
 use measures::{MeasureArgs, Measured};
 use rocking_common::files::Outputs;
-use rocking_common::suites::inputs;
 use rocking_common::suites::remarks::Remarks;
+use rocking_common::suites::{clusters, earthquakes, inputs};
 
 mod measures;
 
@@ -114,6 +114,8 @@ struct Row<'a> {
 struct SuiteRow {
     suite: String,
     records: usize,
+    /// None where the index names none.
+    earthquakes: Option<usize>,
     pairs: usize,
     study_components: usize,
     study_rule: String,
@@ -328,9 +330,11 @@ impl Listing {
 
     fn add_suite(&mut self, path: &Path, suite: &Suite) {
         self.inputs.extend(inputs::files(path, suite));
+        let members: Vec<_> = suite.members().iter().collect();
         self.suites.push(SuiteRow {
             suite: suite.name().to_owned(),
             records: suite.members().len(),
+            earthquakes: earthquakes(&clusters(&members)),
             pairs: suite.both().len(),
             study_components: suite.study_components().count(),
             study_rule: suite.study_rule().to_string(),

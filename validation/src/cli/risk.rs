@@ -24,8 +24,9 @@ use crate::terminal::note;
 /// and finds 10 to 17 % more on a curve of 20 points. Beyond the last point
 /// nothing is assumed: lower and upper are bounds of that truncation and no
 /// confidence interval. Beside them stands the 95 % interval that the choice
-/// of the records leaves, of a fit to --sample or --ida above a known shift:
-/// by a bootstrap, which draws earthquakes where they are known.
+/// of the records leaves, of a fit to --sample, --ida or --counts by record
+/// above a known shift: by a bootstrap, which draws earthquakes where they
+/// are known.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]

@@ -14,7 +14,7 @@ use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{At as _, Failure};
-use crate::terminal::{logged, note, print, say};
+use crate::terminal::{COMMIT, logged, note, print, say};
 use rocking_common::files::{Folder, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
@@ -193,7 +193,8 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     };
     let suites = suites(args)?;
     let study = computed(plan, args, &suites)?;
-    let files = output::files(&study, proof.as_ref(), &args.signatures)?;
+    let signatures = Signatures { commit: COMMIT, ..args.signatures.clone() };
+    let files = output::files(&study, proof.as_ref(), &signatures)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {

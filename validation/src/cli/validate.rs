@@ -108,8 +108,7 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
     }
     let old = Results::from_text(path, &found)?;
     let new = Results::from_text(path, text)?;
-    // A declared tolerance is stated for every number.
-    say(&diff::compare(&old, &new, 0.0)?.text(true))?;
+    say(&diff::compare(&old, &new)?.text(true))?;
     Err(stale(path))
 }
 

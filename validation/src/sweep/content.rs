@@ -4,23 +4,21 @@ use super::plan::Plan;
 use rocking_common::table::columns::{
     SCHEMA_COLUMN, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
 };
+use rocking_common::words::named;
 
-/// What a file of a tile holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// A row a block, intensity measure and demand.
-    Fragilities,
-    /// A row a block and record: first overturning and capacities.
-    Capacities,
-    /// A row a level of a curve, and one for its refined end.
-    Rows,
+named! {
+    /// What a file of a tile holds.
+    pub enum Content {
+        /// A row a block, intensity measure and demand.
+        Fragilities = "fragilities",
+        /// A row a block and record: first overturning and capacities.
+        Capacities = "capacities",
+        /// A row a level of a curve, and one for its refined end.
+        Rows = "rows",
+    }
 }
 
 impl Content {
-    /// All of them.
-    pub const ALL: [Self; 3] =
-        [Self::Fragilities, Self::Capacities, Self::Rows];
-
     /// What a sweep keeps.
     #[must_use]
     pub fn kept(plan: &Plan) -> Vec<Self> {
@@ -29,16 +27,6 @@ impl Content {
             out.push(Self::Rows);
         }
         out
-    }
-
-    /// Name in file names.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fragilities => "fragilities",
-            Self::Capacities => "capacities",
-            Self::Rows => "rows",
-        }
     }
 
     /// Name of each column, and what its cells are in the registry.

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::content::Content;
 use super::plan::Planned;
-use super::tile::{self, State};
+use super::tile;
 use crate::failure::{At as _, Failure};
 
 /// A row of a tile's fragilities; other columns are not read.
@@ -59,11 +59,7 @@ pub fn fragilities(
     );
     let mut out: Vec<BlockFragility> = Vec::new();
     for tile in 0..plan.tiles.len() {
-        let (state, body) = tile::read(planned, Content::Fragilities, tile);
-        if state != State::Done {
-            let content = Content::Fragilities;
-            return Err(tile::refused(planned, content, tile, &state));
-        }
+        let body = tile::body(planned, Content::Fragilities, tile)?;
         let path = planned.tile_path(Content::Fragilities, tile);
         let mut reader = csv::Reader::from_reader(body.as_bytes());
         for row in reader.deserialize() {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::content::Content;
 use super::plan::Planned;
-use super::tile::{self, State};
+use super::tile;
 use crate::failure::Failure;
 use rocking_common::files::Outputs;
 
@@ -35,12 +35,11 @@ pub fn merge(
     let output = Outputs::of(planned.files()).open(out)?;
     let refused = RefCell::new(None);
     let written = output.write_with(&|file| {
-        let body = &|tile| match tile::read(planned, content, tile) {
-            (State::Done, body) => Ok(body),
-            (state, _) => {
-                *refused.borrow_mut() = Some((tile, state));
-                Err(io::Error::other("a tile is not done"))
-            }
+        let body = &|tile| {
+            tile::body(planned, content, tile).map_err(|failure| {
+                *refused.borrow_mut() = Some(failure);
+                io::Error::other("a tile is not done")
+            })
         };
         match parquet {
             true => as_parquet(planned, content, body, file),
@@ -48,9 +47,7 @@ pub fn merge(
         }
     });
     match refused.into_inner() {
-        Some((tile, state)) => {
-            Err(tile::refused(planned, content, tile, &state))
-        }
+        Some(failure) => Err(failure),
         None => Ok(written?),
     }
 }

@@ -1,6 +1,5 @@
 //! Tiles: run, and held to their plan and their sum.
 
-use std::fmt;
 use std::fs;
 
 use rocking::capacity::InversionRule;
@@ -17,28 +16,19 @@ use crate::failure::{At as _, Failure};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::Table;
+use rocking_common::words::named;
 
-/// How a tile stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum State {
-    /// Whole, and of this plan.
-    Done,
-    /// Not there.
-    Missing,
-    /// Of another plan.
-    Foreign,
-    /// Its bytes do not have the sum that it states.
-    Damaged,
-}
-
-impl fmt::Display for State {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Done => "done",
-            Self::Missing => "missing",
-            Self::Foreign => "of another plan",
-            Self::Damaged => "damaged: its sum is another",
-        })
+named! {
+    /// How a tile stands.
+    pub enum State {
+        /// Whole, and of this plan.
+        Done = "done",
+        /// Not there.
+        Missing = "missing",
+        /// Of another plan.
+        Foreign = "of another plan",
+        /// Its bytes do not have the sum that it states.
+        Damaged = "damaged: its sum is another",
     }
 }
 
@@ -50,43 +40,41 @@ fn footer(hash: &str, tile: usize, body: &str) -> String {
     )
 }
 
-/// How a tile's file stands, and its text without the last line.
-pub(super) fn read(
+/// The text of a tile's file without the last line, or how the file stands.
+fn read(
     planned: &Planned,
     content: Content,
     tile: usize,
-) -> (State, String) {
+) -> Result<String, State> {
     let path = planned.tile_path(content, tile);
     let Ok(text) = fs::read_to_string(path) else {
         // A file that is there and is no text was written by nobody here.
         let there = planned.tile_path(content, tile).exists();
-        let state = if there { State::Damaged } else { State::Missing };
-        return (state, String::new());
+        return Err(if there { State::Damaged } else { State::Missing });
     };
     let Some(at) = text.trim_end().rfind('\n').map(|at| at + 1) else {
-        return (State::Damaged, String::new());
+        return Err(State::Damaged);
     };
     let (body, last) = text.split_at(at);
     if last == footer(&planned.hash, tile, body) {
-        return (State::Done, body.to_owned());
+        return Ok(body.to_owned());
     }
     let of_plan = last.starts_with(&format!("# plan {} ", planned.hash));
     let has_plan = last.starts_with("# plan ");
-    let state =
-        if has_plan && !of_plan { State::Foreign } else { State::Damaged };
-    (state, String::new())
+    Err(if has_plan && !of_plan { State::Foreign } else { State::Damaged })
 }
 
-/// Why a tile that is not done is refused.
-pub(super) fn refused(
+/// The text of a tile's file, which is refused unless it is done.
+pub(super) fn body(
     planned: &Planned,
     content: Content,
     tile: usize,
-    state: &State,
-) -> Failure {
-    let path = planned.tile_path(content, tile);
-    let path = path.display();
-    Failure::input(format!("{path}: {state}; run the sweep again"))
+) -> Result<String, Failure> {
+    read(planned, content, tile).map_err(|state| {
+        let path = planned.tile_path(content, tile);
+        let (path, state) = (path.display(), state.name());
+        Failure::input(format!("{path}: {state}; run the sweep again"))
+    })
 }
 
 /// How a tile stands, by all its files.
@@ -94,8 +82,7 @@ pub(super) fn refused(
 pub fn state(planned: &Planned, tile: usize) -> State {
     Content::kept(&planned.plan)
         .into_iter()
-        .map(|content| read(planned, content, tile).0)
-        .find(|state| *state != State::Done)
+        .find_map(|content| read(planned, content, tile).err())
         .unwrap_or(State::Done)
 }
 

@@ -47,7 +47,6 @@ impl Plan {
         let (arms, work) = self.curves(&BLOCKS, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
-        let chosen = single::by_rank(&ratios);
         let mut results = SuiteResults {
             kind: suite.kind,
             source: suite.source.clone(),
@@ -63,13 +62,14 @@ impl Plan {
             work,
             records: facts,
             clusters: suite.clusters.clone(),
-            chosen,
+            chosen: [0; 3],
             arms,
             single: Vec::new(),
             stripes: Vec::new(),
             adjusted: Vec::new(),
             contents: self.contents(&records, progress)?,
         };
+        results.chosen = self.shown_alone(&results, &ratios)?;
         for frequency in 0..FREQUENCIES_RAD_S.len() {
             let single =
                 self.single(frequency, &BLOCKS, &records, &results)?;

@@ -15,7 +15,7 @@ use rocking_common::findings::Measured;
 use rocking_common::paper::{FREQUENCIES_RAD_S, position};
 
 /// Level of the intervals.
-const LEVEL: f64 = 0.95;
+pub(crate) const LEVEL: f64 = 0.95;
 
 /// Median with its exact order-statistic interval; what was never reached
 /// counts as infinite, what is NaN does not count.

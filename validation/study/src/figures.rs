@@ -35,7 +35,9 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
             )?);
         }
     }
-    out.push(quantiles::slendernesses(&results.ordinary, &drawn)?);
+    for arm in &drawn {
+        out.push(quantiles::slendernesses(&results.ordinary, *arm)?);
+    }
     for arm in &drawn {
         out.extend(ratios::adjusted(&results.ordinary, *arm)?);
     }

@@ -1,13 +1,11 @@
 //! Everything that a study found, as [`Findings`].
 
 use rocking::record::{AsideCount, SetAside};
-use rocking::statistics::{Clusters, Proportion, clusters};
+use rocking::statistics::Proportion;
 
 use crate::analyses::{Plan, SuiteResults};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
-use crate::inference::LEVEL;
-use crate::normality;
 use crate::questions::{self, Answer};
 use crate::results::Results;
 use crate::stripes::{adjusted_split, of_arm};
@@ -16,6 +14,7 @@ use rocking_common::findings::{
     Suite, Table, Topic, Unit,
 };
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
+use rocking_common::suites::earthquakes;
 use rocking_draw::figures::Stripe;
 
 /// All findings of a study.
@@ -77,11 +76,6 @@ fn suite(suite: &SuiteResults) -> Suite {
     }
 }
 
-/// Number of earthquakes, where they are known.
-fn earthquakes(clusters: &Clusters) -> Option<usize> {
-    (clusters.unit() == clusters::Unit::Earthquake).then_some(clusters.count())
-}
-
 /// What a suite set aside, by reason.
 #[must_use]
 pub fn set_aside(found: &SetAside) -> Vec<Aside> {
@@ -132,22 +126,7 @@ fn shares(results: &Results) -> Table {
     for d in &results.distributions {
         for block in &d.blocks {
             let (original, shifted) = block.shares();
-            let band = |k: usize| block.bands[k].as_ref();
-            let null = |k| match band(k).and_then(normality::ends) {
-                Some((low, high)) => [low, high],
-                None => [f64::NAN; 2],
-            };
-            let [low, high] = null(0);
-            let [shifted_low, shifted_high] = null(1);
-            let values = [
-                block.shift,
-                original,
-                low,
-                high,
-                shifted,
-                shifted_low,
-                shifted_high,
-            ];
+            let values = [block.shift, original, shifted];
             rows.push(Row {
                 at: Place {
                     suite: Some(d.kind),
@@ -161,27 +140,16 @@ fn shares(results: &Results) -> Table {
             });
         }
     }
-    let null = "null band of the share";
     let share = "share of demand levels accepted as";
+    let (plain, shifted) =
+        (format!("{share} lognormal"), format!("{share} shifted lognormal"));
     Table {
         topic: Topic::AcceptedShares,
-        quantities: [
-            ("im_r", "shift IM_R".to_owned()),
-            ("original", format!("{share} lognormal")),
-            ("original_null_low", format!("{null} accepted, lower end")),
-            ("original_null_high", format!("{null} accepted, upper end")),
-            ("shifted", format!("{share} shifted lognormal")),
-            (
-                "shifted_null_low",
-                format!("{null} accepted when shifted, lower end"),
-            ),
-            (
-                "shifted_null_high",
-                format!("{null} accepted when shifted, upper end"),
-            ),
-        ]
-        .map(|(name, words)| quantity(name, Unit::One, &words))
-        .into(),
+        quantities: vec![
+            quantity("im_r", Unit::One, "shift IM_R"),
+            quantity("original", Unit::Share, &plain),
+            quantity("shifted", Unit::Share, &shifted),
+        ],
         rows,
     }
 }
@@ -240,7 +208,7 @@ fn single(results: &Results) -> Table {
             ),
             quantity(
                 "median_distance",
-                Unit::One,
+                Unit::Distance,
                 "median normalized distance of histories to alpha = 0.10",
             ),
             quantity(
@@ -250,7 +218,7 @@ fn single(results: &Results) -> Table {
             ),
             quantity(
                 "median_ln_im",
-                Unit::One,
+                Unit::Distance,
                 "median |ln| of the ratio of intensities to alpha = 0.10",
             ),
         ],
@@ -334,12 +302,14 @@ fn adjustment(results: &Results) -> anyhow::Result<Table> {
             quantity(
                 "median_alpha_to_0.25",
                 Unit::One,
-                "the same where the adjusted alpha is 0.25 at most",
+                "median ratio of demands where the adjusted alpha is 0.25 \
+                 at most",
             ),
             quantity(
                 "median_alpha_above_0.25",
                 Unit::One,
-                "the same where the adjusted alpha is above 0.25",
+                "median ratio of demands where the adjusted alpha is above \
+                 0.25",
             ),
             quantity(
                 "usable_alpha_above_0.25",
@@ -354,7 +324,7 @@ fn adjustment(results: &Results) -> anyhow::Result<Table> {
 /// Of as many records of the kind, how many would be usable.
 fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
     let share = Proportion::try_new(stripe.usable, stripe.records)?;
-    let (low, high) = share.interval(LEVEL)?;
+    let (low, high) = share.interval(estimates::LEVEL)?;
     let n = stripe.records as f64;
     Ok(Measured {
         value: stripe.usable as f64,
@@ -387,7 +357,11 @@ fn overturning(results: &Results) -> Table {
     }
     Table {
         topic: Topic::Overturning,
-        quantities: vec![quantity("median", Unit::One, "median overturning")],
+        quantities: vec![quantity(
+            "median",
+            Unit::One,
+            "median overturning intensity",
+        )],
         rows,
     }
 }

@@ -14,7 +14,7 @@ mod refuted;
 mod rule;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, Measured, Quantifier, Region, Tested,
+    ClaimResult, Detail, LEVEL, Measured, Quantifier, Region, Tested,
 };
 use rocking_common::paper::{Arm, Verdict};
 
@@ -23,8 +23,8 @@ pub use draws::{
     Draw, Draws, LEAST_DECIDING, MORE, Measure, REPLICATES, Replicated,
     SUBSAMPLES, Scheme,
 };
-use known::{Caution, Known, p_value};
-pub use rule::{Cell, LEVEL, OWN, Rule};
+use known::{Caution, Known, p_of};
+pub use rule::{Cell, Rule};
 
 /// A result. Where an end that decides lies within four errors of the draws
 /// from its limit, the verdict is inconclusive.
@@ -63,6 +63,7 @@ pub fn judge(
             cells: None,
             deciding_cell: None,
             details: Vec::new(),
+            power: None,
         };
         match rule.quantifier {
             Quantifier::One => one(rule, cells, &known, caution, &mut result),
@@ -121,10 +122,14 @@ fn one(
         (result.low, result.high) = ends.both();
         result.monte_carlo_error = ends.deciding_error(rule.region);
         result.interval = Some(ends.way);
-        result.by_equivalence = Some(ends.verdict(rule.region, caution));
-        let p = |verdict| p_value(of, rule.region, verdict);
-        let both = (p(Verdict::Confirmed), p(Verdict::NotConfirmed));
-        result.p = if both.0 < both.1 { both.0 } else { both.1 };
+        let verdict = ends.verdict(rule.region, caution);
+        result.by_equivalence = Some(verdict);
+        if caution == Caution::FULL {
+            result.p = p_of(of, rule.region, verdict);
+            if verdict == Verdict::Inconclusive {
+                result.power = known.power(0, &ends, LEVEL, rule.region);
+            }
+        }
     }
     if !measured.halves.is_empty() {
         let halves = Replicated::column(&measured.halves, 0);

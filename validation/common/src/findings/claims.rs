@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::measured::{Measured, Unit};
 use crate::json::nine;
 use crate::paper::{Arm, Section, SuiteKind, Verdict};
+use crate::words::named;
 
 /// One statement of the paper, and what was found about it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -120,6 +121,16 @@ impl Theme {
     }
 }
 
+/// Error of a decision: the probability that a verdict is given although the
+/// truth lies on the other side of the limit; of "every cell", that any cell
+/// is refuted although it lies in the region.
+pub const ERROR: f64 = 0.05;
+
+/// Level of the interval of every verdict. Each end is a one-sided limit with
+/// [`ERROR`], so that a region holds the whole interval where both one-sided
+/// tests say so (Schuirmann, J. Pharmacokin. Biopharm. 15 (1987) 657).
+pub const LEVEL: f64 = 1.0 - 2.0 * ERROR;
+
 /// How many of its cells a statement speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -225,32 +236,17 @@ impl fmt::Display for Region {
     }
 }
 
-/// On what a statement was tested.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Tested {
-    /// No records are needed.
-    None,
-    /// The ordinary suite.
-    Ordinary,
-    /// The pulse-type suite.
-    PulseType,
-    /// A comparison of the two.
-    Both,
-}
-
-impl Tested {
-    /// The name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Ordinary => "ordinary",
-            Self::PulseType => "pulse-type",
-            Self::Both => "both",
-        }
+named! {
+    /// On what a statement was tested.
+    pub enum Tested {
+        /// No records are needed.
+        None = "none",
+        /// The ordinary suite.
+        Ordinary = "ordinary",
+        /// The pulse-type suite.
+        PulseType = "pulse-type",
+        /// A comparison of the two.
+        Both = "both",
     }
 }
 
@@ -275,8 +271,8 @@ pub struct ClaimResult {
     /// cell, of "most" and "almost all" the share of cells in the region.
     #[serde(with = "nine")]
     pub value: f64,
-    /// Lower end of its interval, of 95 %, or of 90 % for one cell among
-    /// many; missing for an identity.
+    /// Lower end of its interval, of [`LEVEL`]: that which decides. Missing
+    /// for an identity.
     #[serde(with = "nine")]
     pub low: f64,
     /// Upper end of it.
@@ -292,8 +288,10 @@ pub struct ClaimResult {
     pub by_criterion: Option<Verdict>,
     /// Verdict by practical equivalence; none for an identity.
     pub by_equivalence: Option<Verdict>,
-    /// The one-sided p-value of that verdict: of the value on the other side
-    /// of the limit. Where nothing is decided, the smaller of both sides.
+    /// The one-sided p-value of that verdict: the least error at which the
+    /// interval lies on one side of the limit. At most [`ERROR`] where
+    /// something is decided. Where nothing is, the smaller of both sides,
+    /// with the ends moved by four errors of the draws: above [`ERROR`].
     #[serde(with = "nine")]
     pub p: f64,
     /// Which cell decides, or where the one value is.
@@ -306,6 +304,22 @@ pub struct ClaimResult {
     pub deciding_cell: Option<Detail>,
     /// What else was measured, by name.
     pub details: Vec<Detail>,
+    /// Of an inconclusive result, what such a suite is able to decide.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power: Option<Power>,
+}
+
+/// What a suite like this one is able to decide, were the truth as estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Power {
+    /// Probability that its interval decides as the estimate says.
+    #[serde(with = "nine")]
+    pub probability: f64,
+    /// How many times as many earthquakes, or records, decide with 80 %:
+    /// infinite where a hundred times as many do not.
+    #[serde(with = "nine")]
+    pub times: f64,
 }
 
 impl ClaimResult {
@@ -335,8 +349,6 @@ pub enum Interval {
     Accelerated,
     /// Bootstrap, percentiles.
     Percentile,
-    /// Bootstrap, one cell among many by itself.
-    Own,
     /// Bootstrap, the share of the cells in the region.
     ShareOfCells,
     /// Bootstrap, simultaneous over the cells that may lie outside.
@@ -354,16 +366,14 @@ impl Interval {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Accelerated => "95 %, bootstrap, BCa",
-            Self::Percentile => "95 %, bootstrap, percentile",
-            Self::Own => "90 %, bootstrap, of this cell alone",
-            Self::ShareOfCells => "95 %, bootstrap of the share of cells",
+            Self::Accelerated => "bootstrap, BCa",
+            Self::Percentile => "bootstrap, percentile",
+            Self::ShareOfCells => "bootstrap of the share of cells",
             Self::Simultaneous => {
-                "95 %, bootstrap, at once for all cells (Holm, or Romano and \
-                 Wolf)"
+                "bootstrap, at once for all cells (Romano and Wolf)"
             }
             Self::Subsampling => {
-                "95 %, subsamples of 90 %, with the range of leaving one out"
+                "subsamples of 90 %, with the range of leaving one out"
             }
             Self::Exact => "exact, records as the unit",
             Self::ExactSimultaneous => {

@@ -4,13 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
 
-/// A number, and its 95 % interval where there is one.
+/// A number, and its interval where there is one: of 95 %, and in a claim of
+/// [`LEVEL`](super::LEVEL).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct Measured {
     /// The value; NaN where there are no data.
     pub value: f64,
-    /// 95 % interval.
+    /// The interval.
     pub interval: Option<(f64, f64)>,
 }
 

@@ -1,7 +1,7 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
 use super::common;
-use super::heading::{Figure, Heading};
+use super::heading::Heading;
 use rocking::statistics::Boxplot;
 
 use crate::axis::Axis;
@@ -14,12 +14,11 @@ use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, optional};
 use rocking_common::words::letter;
+use serde::{Deserialize, Serialize};
 
 /// Notched boxplots of paired ratios, stripe by stripe.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Boxplots {
-    /// The words.
-    pub heading: Heading,
     /// What is compared, in markup: `*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}`.
     pub ratio_label: String,
     /// Panels row by row.
@@ -29,7 +28,7 @@ pub struct Boxplots {
 }
 
 /// One pair of blocks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BoxPanel {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -41,7 +40,7 @@ pub struct BoxPanel {
 }
 
 /// One level of the intensity.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stripe {
     /// The level.
     pub level: f64,
@@ -67,14 +66,9 @@ impl Stripe {
 }
 
 impl Boxplots {
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading)
-    }
-
     /// One row a stripe, then one row an outlier:
     /// `panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value`.
-    fn csv(&self) -> String {
+    pub(super) fn csv(&self) -> String {
         let mut table = Table::headed(
             "panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value",
         );
@@ -141,14 +135,14 @@ const WIDEST: (f64, f64) = (0.1, 10.0);
 /// Width about 1, in ln, within which the axis of every figure is linear.
 const STRETCH: f64 = 0.005;
 
-fn scene(figure: &Boxplots) -> Scene {
+pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Scene {
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
     let grid = Grid::new(figure.panels.len(), figure.columns);
     let width = match grid.columns {
         1 | 2 => 400.0,
         3 => 262.0,
-        _ => 196.0,
+        _ => 166.0,
     };
     let grid = Grid { right: 44.0, ..grid }.plot(width, height);
     let (low, high) = ratio_range(figure);
@@ -177,7 +171,7 @@ fn scene(figure: &Boxplots) -> Scene {
         let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
-    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let (mut scene, grid) = common::scene(heading, grid, &legend);
     let level = common::intensity(Intensity::Pga);
     for (i, shown) in figure.panels.iter().enumerate() {
         let levels = shown.stripes.iter().map(|s| common::short(s.level));

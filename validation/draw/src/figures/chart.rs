@@ -1,7 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
 use super::common;
-use super::heading::{Figure, Heading};
+use super::heading::Heading;
 use super::series::{Mark, Series};
 use crate::axis::Axis;
 use crate::colour::Pen;
@@ -10,9 +10,9 @@ use crate::grid::Grid;
 use crate::legend::Entry;
 use crate::panel::Panel;
 use crate::scene::Scene;
-use crate::text::Horizontal;
-use rocking_common::table::{Table, number};
+use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
+use serde::{Deserialize, Serialize};
 
 /// Columns of a panel within which a line is its ends and extremes.
 const COLUMNS: usize = 1120;
@@ -33,7 +33,7 @@ pub struct Chart {
 }
 
 /// One pair of axes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChartPanel {
     /// Title in markup, or nothing; what follows a line break stands below it.
     pub title: String,
@@ -46,7 +46,7 @@ pub struct ChartPanel {
 }
 
 /// One axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChartAxis {
     /// Label with unit, in markup.
     pub label: String,
@@ -73,7 +73,7 @@ impl From<Axis> for ChartAxis {
 pub type Ends = Option<(f64, f64)>;
 
 /// Another unit of an axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Second {
     /// How many of it make 1 of the axis.
     pub factor: f64,
@@ -112,7 +112,7 @@ impl ChartAxis {
 }
 
 /// Scale of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Linear.
     Linear,
@@ -133,41 +133,60 @@ impl ChartPanel {
 }
 
 /// How a chart is laid out and written, where that is not as usual.
-#[derive(Clone, Default)]
-pub struct Layout<'a> {
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Layout {
     /// Sizes; none: by the number of columns.
     pub grid: Option<Grid>,
     /// Entries behind those of the labels.
     pub legend: Vec<Entry>,
-    /// Whether the panels of a row share their letter.
-    pub by_row: bool,
-    /// Columns of the CSV that name a series; none: `series`.
-    pub keys: &'a [&'a str],
-    /// Columns of its numbers; none: `x,y,y_low,y_high`.
-    pub numbers: &'a [Column],
+    /// Columns of the CSV that name a series.
+    pub keys: Vec<String>,
+    /// Columns of its numbers.
+    pub numbers: Vec<(String, Of)>,
 }
 
-/// A column of numbers: its name, what it has of a point, and its digits.
-pub type Column = (&'static str, fn(&Datum) -> f64, fn(f64) -> String);
+impl Layout {
+    /// The usual layout, with columns of the CSV that name a series, and
+    /// columns of its numbers.
+    pub fn of(keys: &[&str], numbers: &[Column]) -> Self {
+        let column = |(name, of): &Column| ((*name).into(), *of);
+        Self {
+            keys: keys.iter().map(|key| (*key).into()).collect(),
+            numbers: numbers.iter().map(column).collect(),
+            ..Self::default()
+        }
+    }
+}
 
-/// A point with the ends of its interval, NaN where it has none.
-pub struct Datum {
+/// A column of numbers: its name, and what it has of a point.
+pub type Column = (&'static str, Of);
+
+/// What a column has of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Of {
     /// Abscissa.
-    pub x: f64,
+    X,
     /// Ordinate.
-    pub y: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
+    Y,
+    /// Lower end of the interval.
+    Low,
+    /// Upper end of the interval.
+    High,
 }
 
-const NUMBERS: [Column; 4] = [
-    ("x", |d| d.x, number),
-    ("y", |d| d.y, number),
-    ("y_low", |d| d.low, number),
-    ("y_high", |d| d.high, number),
-];
+pub(super) const NUMBERS: [Column; 4] =
+    [("x", Of::X), ("y", Of::Y), ("y_low", Of::Low), ("y_high", Of::High)];
+
+/// Significant digits of a number that is drawn: more than a drawing shows.
+pub const DIGITS: usize = 6;
+
+/// What a chart draws, and how it is laid out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Panels {
+    pub(super) panels: Vec<ChartPanel>,
+    pub(super) columns: usize,
+    pub(super) layout: Layout,
+}
 
 impl Chart {
     /// The chart without the points of its lines that lie within a tenth of
@@ -192,39 +211,14 @@ impl Chart {
         }
         self
     }
+}
 
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(&self, reading: impl Into<String>) -> Figure {
-        self.laid_out(&Layout::default(), reading)
-    }
-
-    /// The figure in this layout.
-    pub fn laid_out(
-        &self,
-        layout: &Layout<'_>,
-        reading: impl Into<String>,
-    ) -> Figure {
-        let (scene, csv) = (scene(self, layout), self.csv(layout));
-        Figure::new(&self.heading, scene, csv, reading.into())
-    }
-
-    /// The letter of a panel.
-    fn letter(&self, panel: usize, layout: &Layout<'_>) -> String {
-        let row = panel / self.columns.max(1);
-        letter(if layout.by_row { row } else { panel })
-    }
-
+impl Panels {
     /// The numbers of every series that has keys, a row a point.
-    fn csv(&self, layout: &Layout<'_>) -> String {
-        let (mut keys, mut numbers) = (layout.keys, layout.numbers);
-        if keys.is_empty() {
-            keys = &["series"];
-        }
-        if numbers.is_empty() {
-            numbers = &NUMBERS;
-        }
-        let names = numbers.iter().map(|column| column.0);
-        let names = keys.iter().copied().chain(names);
+    pub(super) fn csv(&self) -> String {
+        let Layout { keys, numbers, .. } = &self.layout;
+        let names = numbers.iter().map(|(name, _)| name.as_str());
+        let names = keys.iter().map(String::as_str).chain(names);
         let names: Vec<&str> = ["panel"].into_iter().chain(names).collect();
         let mut table = Table::new(&names);
         for (i, panel) in self.panels.iter().enumerate() {
@@ -233,9 +227,16 @@ impl Chart {
                 for (k, (x, y)) in series.points().enumerate() {
                     let ends = series.interval.get(k).copied();
                     let (low, high) = ends.unwrap_or((f64::NAN, f64::NAN));
-                    let datum = Datum { x, y, low, high };
-                    let cells = numbers.iter().map(|c| c.2(c.1(&datum)));
-                    let first = [self.letter(i, layout)].into_iter();
+                    let cells = numbers.iter().map(|(_, of)| {
+                        let value = match of {
+                            Of::X => x,
+                            Of::Y => y,
+                            Of::Low => low,
+                            Of::High => high,
+                        };
+                        digits(value, DIGITS)
+                    });
+                    let first = [letter(i)].into_iter();
                     let keys = series.keys.iter().cloned();
                     table.row(first.chain(keys).chain(cells));
                 }
@@ -285,12 +286,12 @@ fn grid(panels: usize, columns: usize) -> Grid {
     let grid = Grid::new(panels, columns);
     match grid.columns {
         1 => grid.plot(560.0, 320.0),
-        2 => grid.plot(440.0, 280.0),
+        2 => grid.plot(440.0, 200.0),
         _ => grid,
     }
 }
 
-fn scene(figure: &Chart, layout: &Layout<'_>) -> Scene {
+pub(super) fn scene(heading: &Heading, figure: &Panels) -> Scene {
     let mut labels: Vec<&str> = Vec::new();
     let mut legend: Vec<Entry> = Vec::new();
     for series in figure.panels.iter().flat_map(|p| &p.series) {
@@ -304,8 +305,9 @@ fn scene(figure: &Chart, layout: &Layout<'_>) -> Scene {
             legend.push(Entry::new(sample, label));
         }
     }
-    legend.extend(layout.legend.iter().cloned());
-    let mut grid = layout
+    legend.extend(figure.layout.legend.iter().cloned());
+    let mut grid = figure
+        .layout
         .grid
         .unwrap_or_else(|| grid(figure.panels.len(), figure.columns));
     if figure.panels.iter().any(|p| p.x.second.is_some()) {
@@ -314,7 +316,7 @@ fn scene(figure: &Chart, layout: &Layout<'_>) -> Scene {
     if figure.panels.iter().any(|p| p.title.contains('\n')) {
         grid = grid.with_subtitles();
     }
-    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let (mut scene, grid) = common::scene(heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let (x, y) = axes(shown);
         let second = shown.x.second.as_ref().map(|second| {
@@ -339,7 +341,7 @@ fn scene(figure: &Chart, layout: &Layout<'_>) -> Scene {
             shown.title.split_once('\n').unwrap_or((&shown.title, ""));
         let title = match figure.panels.len() {
             1 => title.to_owned(),
-            _ => format!("({}) {title}", figure.letter(i, layout)),
+            _ => common::panel_title(i, title),
         };
         panel.finish(&title, subtitle);
     }
@@ -436,8 +438,7 @@ fn outer_words(panel: &mut Panel<'_>, all: &[Series]) {
     let of = |mark| all.iter().filter(move |s| s.mark == mark);
     let corner: Vec<&Series> = of(Mark::Corner).collect();
     for (k, note) in corner.iter().rev().enumerate() {
-        let at = (0.985, 0.96 - 0.06 * k as f64);
-        panel.note(note.label.as_str(), at, Horizontal::Right);
+        panel.corner(note.label.as_str(), k);
     }
     let mut last = f64::INFINITY;
     for words in of(Mark::Edge) {

@@ -31,6 +31,9 @@ pub fn caption(heading: &Heading) -> Caption {
     if let Some(arm) = heading.arm {
         title += &format!(" (arm {})", arm.letter());
     }
+    if let Some(motions) = heading.motions {
+        title += &format!(" ({} motions)", motions.name());
+    }
     Caption { name, title, description: heading.description.clone() }
 }
 

@@ -1,7 +1,8 @@
 //! A map of fates in the plane of frequency and amplitude.
 
 use super::common;
-use super::heading::{Figure, Heading};
+use super::figure::{Drawn, Figure};
+use super::heading::Heading;
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::grid::Grid;
@@ -64,7 +65,11 @@ pub struct FateMap {
 impl FateMap {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading)
+        Figure::new(
+            &self.heading,
+            Drawn::Other(scene(self), self.csv()),
+            reading,
+        )
     }
 
     /// `what,frequency_over_p,amplitude_from,amplitude_to`: in each column

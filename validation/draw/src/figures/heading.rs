@@ -1,11 +1,12 @@
-//! A figure, and the words that go with it.
+//! The words that go with a figure.
 
-use crate::scene::Scene;
 use rocking_common::findings::Theme;
 use rocking_common::paper::Arm;
+use rocking_common::words::named;
+use serde::{Deserialize, Serialize};
 
 /// The words that go with a figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Heading {
     /// File stem, unique in a report: `figure-06-c`.
     pub name: String,
@@ -19,12 +20,25 @@ pub struct Heading {
     pub arm: Option<Arm>,
     /// Its number, where it has one.
     pub number: Option<u32>,
-    /// Where it belongs.
+    /// Whose motions it shows, where a page has it of both.
+    pub motions: Option<Motions>,
+    /// Where it belongs, which is not kept: the number says it.
+    #[serde(skip)]
     pub place: Place,
 }
 
+named! {
+    /// Motions that a figure of the paper is drawn of.
+    pub enum Motions {
+        /// Recorded in earthquakes.
+        Recorded = "recorded",
+        /// Synthetic, made by this program.
+        Embedded = "embedded",
+    }
+}
+
 /// Where a figure belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Place {
     /// To the answers.
     Answers,
@@ -43,6 +57,7 @@ pub enum Place {
     /// To that comparison block by block.
     SuitesByBlock,
     /// To the questions beyond the paper.
+    #[default]
     Beyond,
 }
 
@@ -55,26 +70,26 @@ const NUMBERED: [(Place, bool); 21] = {
     };
     [
         (Folded(Choices), false),
-        (Opens(SingleRecords), false),
+        (Folded(SingleRecords), false),
         (Folded(SingleRecords), false),
         (Opens(SingleRecords), false),
         (Folded(SingleRecords), false),
         (Opens(Statistics), true),
-        (Opens(Statistics), true),
-        (Answers, false),
+        (Folded(Statistics), true),
+        (Answers, true),
         (Folded(Statistics), true),
         (Folded(Statistics), true),
-        (Opens(Lognormality), false),
+        (Folded(Lognormality), false),
         (Opens(Lognormality), false),
         (Folded(Lognormality), true),
         (Folded(Lognormality), false),
+        (Folded(Fragilities), false),
         (Opens(Fragilities), false),
-        (Answers, false),
-        (Opens(Fragilities), false),
+        (Folded(Fragilities), false),
         (Folded(Fragilities), false),
         (Checks, false),
         (Proof, false),
-        (Proof, false),
+        (Checks, false),
     ]
 };
 
@@ -87,7 +102,8 @@ impl Heading {
     ) -> Self {
         let (name, title) = (name.into(), title.into());
         let (description, place) = (description.into(), Place::Beyond);
-        Self { name, title, description, arm: None, number: None, place }
+        let (arm, number, motions) = (None, None, None);
+        Self { name, title, description, arm, number, motions, place }
     }
 
     /// The same words of an arm.
@@ -111,50 +127,50 @@ impl Heading {
         Self { place, arm, number: Some(number), ..words }
     }
 
+    /// The same figure of these motions, where a page has it of both; of the
+    /// recorded ones its name ends in `-recorded`.
+    pub fn of_motions(self, motions: Motions) -> Self {
+        let words = match self.number {
+            Some(number) => {
+                Self::numbered(number, self.title, self.description, self.arm)
+            }
+            None => self,
+        };
+        let suffix = match motions {
+            Motions::Recorded => "-recorded",
+            Motions::Embedded => "",
+        };
+        let name = words.name + suffix;
+        Self { name, motions: Some(motions), ..words }
+    }
+
+    /// Whether both are the same figure, be it of other motions.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        let key = |one: &Self| (one.number, one.own_arm());
+        self.number.is_some() && key(self) == key(other)
+    }
+
     /// The arm, where it is drawn once for each.
     pub fn own_arm(&self) -> Option<Arm> {
         let by_arm = |n: u32| NUMBERED[n as usize - 1].1;
         self.arm.filter(|_| self.number.is_some_and(by_arm))
     }
 
-    /// What stands before its title: `Figure 6, arm C`.
+    /// What stands before its title: `Figure 6, arm C, recorded motions`.
     pub fn label(&self) -> String {
-        match (self.number, self.own_arm(), self.place) {
-            (Some(n), Some(arm), _) => {
-                format!("Figure {n}, arm {}", arm.letter())
-            }
-            (Some(n), None, _) => format!("Figure {n}"),
-            (None, _, Place::Speed) => "Speed".into(),
-            (None, ..) => "Beyond the paper".into(),
+        let Some(number) = self.number else {
+            return match self.place {
+                Place::Speed => "Speed".into(),
+                _ => "Beyond the paper".into(),
+            };
+        };
+        let mut label = format!("Figure {number}");
+        if let Some(arm) = self.own_arm() {
+            label += &format!(", arm {}", arm.letter());
         }
-    }
-}
-
-/// A figure: its words, its shapes and its numbers.
-#[derive(Debug)]
-pub struct Figure {
-    /// The words that go with it.
-    pub heading: Heading,
-    /// The shapes, before they are written.
-    pub scene: Scene,
-    /// The numbers, one header line, long format.
-    pub csv: String,
-    /// What one sees, in one sentence made from the numbers.
-    pub reading: String,
-}
-
-impl Figure {
-    pub(super) fn new(
-        heading: &Heading,
-        scene: Scene,
-        csv: String,
-        reading: String,
-    ) -> Self {
-        Self { heading: heading.clone(), scene, csv, reading }
-    }
-
-    /// The drawing.
-    pub fn svg(&self) -> String {
-        self.scene.svg()
+        if let Some(motions) = self.motions {
+            label += &format!(", {} motions", motions.name());
+        }
+        label
     }
 }

@@ -1,8 +1,9 @@
 //! Figures 2 and 3: response histories.
 
-use super::chart::{Chart, ChartPanel, Column, Layout};
+use super::chart::{Chart, ChartPanel, Column, Layout, Of};
 use super::common;
-use super::heading::{Figure, Heading};
+use super::figure::Figure;
+use super::heading::Heading;
 use super::series::{Look, Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};
@@ -10,7 +11,7 @@ use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::panel::Marker;
 use rocking_common::paper::Intensity;
-use rocking_common::table::{number, point};
+use rocking_common::table::number;
 
 const WIDTH_PX: f64 = 272.0;
 
@@ -18,8 +19,7 @@ const WIDTH_PX: f64 = 272.0;
 const FLOOR: f64 = 1e-4;
 
 const KEYS: [&str; 5] = ["p_rad_s", "record", "im", "intensity", "alpha_rad"];
-const NUMBERS: [Column; 2] =
-    [("time_s", |d| d.x, point), ("theta_over_alpha", |d| d.y, point)];
+const NUMBERS: [Column; 2] = [("time_s", Of::X), ("theta_over_alpha", Of::Y)];
 
 /// One record at one frequency parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,13 +65,8 @@ pub fn histories(
     let grid = Grid { left: 72.0, width: WIDTH_PX, ..grid };
     let panels = shown.iter().map(panel).collect();
     let chart = Chart { heading, panels, columns };
-    let layout = Layout {
-        grid: Some(grid),
-        legend,
-        keys: &KEYS,
-        numbers: &NUMBERS,
-        ..Layout::default()
-    };
+    let layout =
+        Layout { grid: Some(grid), legend, ..Layout::of(&KEYS, &NUMBERS) };
     chart.thinned((WIDTH_PX, grid.height)).laid_out(&layout, reading)
 }
 

@@ -6,12 +6,13 @@ use crate::legend::Sample;
 use crate::markup;
 use crate::panel::Marker;
 use crate::text::Horizontal;
+use serde::{Deserialize, Serialize};
 
 /// What is drawn in one way: its numbers are the rows of the CSV.
 ///
 /// An abscissa of +infinity is an overturned block: its line goes on level
 /// from 1 to the end of the axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     /// Legend in markup; the same label has the same colour in every panel,
     /// an empty one is drawn in grey and has no legend.
@@ -22,11 +23,16 @@ pub struct Series {
     /// How it is drawn.
     pub mark: Mark,
     /// Abscissas.
+    #[serde(with = "numbers")]
     pub x: Vec<f64>,
     /// Ordinates.
+    #[serde(with = "numbers")]
     pub y: Vec<f64>,
     /// Intervals of the ordinates, or of the abscissas with
     /// [`Mark::Quantiles`]; empty: none.
+    #[serde(serialize_with = "numbers::ends")]
+    #[serde(deserialize_with = "numbers::intervals")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub interval: Vec<(f64, f64)>,
 }
 
@@ -77,7 +83,7 @@ impl Series {
 }
 
 /// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Mark {
     /// A line, over a band where there are intervals.
     Line,
@@ -106,7 +112,7 @@ pub enum Mark {
 }
 
 /// Pens, fills and marks of a series; those it does not have are none.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Look {
     /// The line.
     pub pen: Option<Pen>,
@@ -191,5 +197,41 @@ impl Mark {
             }
             _ => look.band.map(Sample::Band),
         }
+    }
+}
+
+/// Numbers in JSON, which tell infinity; the ends of intervals are lower,
+/// upper, lower and so on.
+mod numbers {
+    use rocking_common::json::Extended;
+    use serde::{Deserialize as _, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        values: &[f64],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_seq(values.iter().copied().map(Extended))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<f64>, D::Error> {
+        let kept = Vec::<Extended>::deserialize(from)?;
+        Ok(kept.into_iter().map(|Extended(x)| x).collect())
+    }
+
+    pub(super) fn ends<S: Serializer>(
+        intervals: &[(f64, f64)],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        let ends = intervals.iter().flat_map(|(low, high)| [*low, *high]);
+        serialize(&ends.collect::<Vec<_>>(), to)
+    }
+
+    pub(super) fn intervals<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<(f64, f64)>, D::Error> {
+        let ends = deserialize(from)?;
+        Ok(ends.chunks_exact(2).map(|ends| (ends[0], ends[1])).collect())
     }
 }

@@ -1,7 +1,8 @@
 //! Figure 1: the block and its symbols.
 
 use super::common;
-use super::heading::{Figure, Heading};
+use super::figure::{Drawn, Figure};
+use super::heading::Heading;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::scene::Scene;
@@ -22,7 +23,11 @@ pub struct BlockSketch {
 impl BlockSketch {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading)
+        Figure::new(
+            &self.heading,
+            Drawn::Other(scene(self), self.csv()),
+            reading,
+        )
     }
 
     /// `quantity,value,unit`.

@@ -4,15 +4,24 @@ mod made_up;
 mod spare;
 mod xml;
 
+use super::Figure;
 use crate::geometry::Rect;
 use crate::scene::WANTED_BYTES;
+use rocking_common::paper::Arm;
+
+/// The figures of the recorded suites.
+fn recorded() -> Vec<Figure> {
+    let kept = include_str!("../../../../fixtures/recorded/figures.json");
+    serde_json::from_str(kept).unwrap()
+}
 
 /// Writes each demonstration figure where `ROCKING_FIGURES` says, to be
 /// looked at.
 #[test]
 fn writes_them_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let name = &figure.heading.name;
         let svg = figure.svg();
         std::fs::write(format!("{folder}/{name}.svg"), svg).unwrap();
@@ -32,7 +41,8 @@ fn same_bytes_twice_below_the_limit() {
 
 #[test]
 fn svg_is_well_formed_and_has_no_number_that_is_none() {
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let svg = figure.svg();
         let name = &figure.heading.name;
         xml::check(&svg).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -57,8 +67,9 @@ fn says_so_in_words_where_there_is_nothing_to_draw() {
 
 #[test]
 fn text_lies_inside_the_figure() {
-    for figure in made_up::all().iter().chain(&spare::all()) {
-        let scene = &figure.scene;
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
+        let scene = figure.scene();
         let all = scene.extent();
         for text in scene.texts() {
             let e = text.extent();
@@ -81,8 +92,9 @@ fn text_does_not_lie_on_text() {
             || a.bottom < b.top + 1.5
             || b.bottom < a.top + 1.5
     };
-    for figure in made_up::all().iter().chain(&spare::all()) {
-        let scene = &figure.scene;
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
+        let scene = figure.scene();
         let texts: Vec<_> = scene.texts().collect();
         for (i, a) in texts.iter().enumerate() {
             for b in &texts[i + 1..] {
@@ -99,9 +111,55 @@ fn text_does_not_lie_on_text() {
 }
 
 #[test]
+fn a_kept_figure_is_drawn_as_before() {
+    use super::{Chart, ChartAxis, ChartPanel, Mark, Series};
+    let (axis, nan) = (|| ChartAxis::linear("", (0.0, 4.0)), f64::NAN);
+    let (x, y) = (vec![1.0, 2.0, f64::INFINITY], vec![1.0, nan, 3.0]);
+    let ends = vec![(0.5, 1.5), (nan, nan), (2.0, f64::INFINITY)];
+    let line = Series::new("a", Mark::Line, x, y).with(ends);
+    let panels = vec![ChartPanel::new("t", axis(), axis(), vec![line])];
+    let heading = made_up::heading("kept", None);
+    let gaps = Chart { heading, panels, columns: 1 }.figure("A gap.");
+    let mut figures = made_up::all();
+    figures.push(gaps);
+    let mut kept = 0;
+    for figure in &figures {
+        // What is neither chart nor boxplots is not kept.
+        let Ok(text) = serde_json::to_string(figure) else { continue };
+        let back: Figure = serde_json::from_str(&text).unwrap();
+        assert_eq!(back.svg(), figure.svg());
+        assert_eq!(back.csv(), figure.csv());
+        assert_eq!(back.reading, figure.reading);
+        kept += 1;
+    }
+    assert_eq!(kept, figures.len() - 2);
+}
+
+#[test]
+fn a_figure_of_other_motions_has_another_name() {
+    use super::{Heading, Motions};
+    let of = |motions| {
+        let heading = Heading::numbered(6, "t", "d", Some(Arm::C));
+        heading.of_motions(motions)
+    };
+    let both = [of(Motions::Recorded), of(Motions::Embedded)];
+    let names = both.each_ref().map(|h| h.name.as_str());
+    assert_eq!(names, ["figure-06-c-recorded", "figure-06-c"]);
+    assert_eq!(both[0].label(), "Figure 6, arm C, recorded motions");
+    assert!(both[0].is_beside(&both[1]));
+    let others = [(6, Some(Arm::A)), (7, Some(Arm::C))];
+    for (number, arm) in others {
+        let other = Heading::numbered(number, "t", "d", arm);
+        assert!(!other.is_beside(&both[0]), "{number}");
+    }
+    let beyond = made_up::heading("beyond", None);
+    assert!(!beyond.is_beside(&beyond));
+}
+
+#[test]
 fn csv_has_a_header_and_rows_of_its_length() {
     for figure in made_up::all() {
-        let csv = &figure.csv;
+        let csv = figure.csv();
         let mut reader = csv::Reader::from_reader(csv.as_bytes());
         let width = reader.headers().unwrap().len();
         let rows = reader.records().map(|r| r.unwrap().len());

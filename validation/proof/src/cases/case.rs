@@ -213,13 +213,15 @@ pub enum Status {
 }
 
 /// One declared case.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Case {
-    /// `family/name`.
+    /// `family/name`; in the file the name alone.
+    #[serde(rename = "name")]
     pub id: String,
-    /// Name of the family.
+    /// Name of the family; not in the file.
     pub family: String,
-    /// Kind of evidence, from the family.
+    /// Kind of evidence, from the family; not in the file.
     pub kind: Kind,
     /// What is claimed.
     pub claim: String,
@@ -230,6 +232,7 @@ pub struct Case {
     /// When it is run.
     pub cost: Cost,
     /// Input of the method.
+    #[serde(default)]
     pub input: toml::Table,
     /// What is expected.
     pub expect: Expect,

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use super::attainable::Attainable;
 use super::case::Family;
-use super::error::CaseError;
+use super::error::Fault;
 
 /// Tables that are merged key by key. Every other value, a bound or a list
 /// too, replaces the inherited one as a whole.
@@ -29,7 +29,6 @@ type Flat = BTreeMap<Path, Value>;
 
 /// Defaults, the later ones over the earlier ones.
 pub(super) struct Defaults {
-    family: String,
     method: Option<String>,
     layers: Vec<Layer>,
 }
@@ -57,7 +56,7 @@ fn of_method(method: &str) -> String {
 
 impl Defaults {
     /// The defaults of a family.
-    pub fn new(id: &str, family: Family) -> Self {
+    pub fn new(family: Family) -> Self {
         let pair = |key: &str, value: Value| (key.to_owned(), value);
         let status = Table::from_iter([pair("expect", "pass".into())]);
         let all = Table::from_iter([
@@ -73,16 +72,16 @@ impl Defaults {
         for (method, table) in family.method {
             layers.push(Layer::new(of_method(&method), table));
         }
-        Self { family: id.to_owned(), method, layers }
+        Self { method, layers }
     }
 
     /// The case with what it inherits.
     ///
     /// # Errors
-    /// [`CaseError`] for a value that equals the inherited one, for a
+    /// [`Fault`] for a value that equals the inherited one, for a
     /// quantity in `without` that is not inherited, and for bounds that
     /// cannot be computed.
-    pub fn complete(&mut self, case: Table) -> Result<Table, CaseError> {
+    pub fn complete(&mut self, case: Table) -> Result<Table, Fault> {
         let named = case.get("name").and_then(Value::as_str);
         let name = format!("case `{}`", named.unwrap_or_default());
         let stated = case.get("method").and_then(Value::as_str);
@@ -115,17 +114,12 @@ impl Defaults {
         mut values: Flat,
         place: &str,
         attainable: &Attainable,
-    ) -> Result<(), CaseError> {
-        let family = || self.family.clone();
+    ) -> Result<(), Fault> {
         for name in without(&mut values) {
             let path = path(&["tolerance", "bounds", &name]);
             if found.remove(&path).is_none() {
                 let place = place.to_owned();
-                return Err(CaseError::Absent {
-                    family: family(),
-                    place,
-                    name,
-                });
+                return Err(Fault::Absent { place, name });
             }
         }
         // Another document, and another basis, bring their own words.
@@ -142,17 +136,12 @@ impl Defaults {
         }
         for (path, value) in &mut values {
             attainable.resolve(path, value).map_err(|message| {
-                let message =
-                    format!("{place}: {}: {message}", path.join("."));
-                CaseError::Form { family: family(), message }
+                let key = path.join(".");
+                Fault::Form(format!("{place}: {key}: {message}"))
             })?;
             if found.get(path).is_some_and(|(_, below)| below == value) {
                 let (place, key) = (place.to_owned(), path.join("."));
-                return Err(CaseError::Repeated {
-                    family: family(),
-                    place,
-                    key,
-                });
+                return Err(Fault::Repeated { place, key });
             }
         }
         found.extend(values.into_iter().map(|(p, v)| (p, (index, v))));
@@ -162,16 +151,13 @@ impl Defaults {
     /// Refuses a default that no case has inherited.
     ///
     /// # Errors
-    /// [`CaseError::Idle`] with the first one.
-    pub fn all_used(&self) -> Result<(), CaseError> {
+    /// [`Fault::Idle`] with the first one.
+    pub fn all_used(&self) -> Result<(), Fault> {
         for layer in &self.layers[1..] {
             let idle = |path: &&Path| !layer.used.contains(*path);
             if let Some(path) = layer.values.keys().find(idle) {
-                return Err(CaseError::Idle {
-                    family: self.family.clone(),
-                    place: layer.name.clone(),
-                    key: path.join("."),
-                });
+                let (place, key) = (layer.name.clone(), path.join("."));
+                return Err(Fault::Idle { place, key });
             }
         }
         Ok(())

@@ -9,99 +9,51 @@ pub(super) const LARGEST: usize = 256 << 10;
 
 /// Why a file of cases was refused.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[error("cases/{family}.toml: {fault}")]
+pub struct CaseError {
+    /// The family.
+    pub family: String,
+    /// What is wrong with its file.
+    pub fault: Fault,
+}
+
+/// What is wrong with a file of cases; `place` is a case, or a table of
+/// defaults.
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum CaseError {
-    /// The file is not of the expected form.
-    #[error("cases/{family}.toml: {message}")]
-    Form {
-        /// The family.
-        family: String,
-        /// What is wrong, with its line or its case.
-        message: String,
-    },
+pub enum Fault {
+    /// The file is not of the expected form; with its line or its case.
+    #[error("{0}")]
+    Form(String),
     /// A value equals the one that its case would inherit.
-    #[error(
-        "cases/{family}.toml: {place}: `{key}` repeats the inherited value: \
-         leave it out"
-    )]
-    Repeated {
-        /// The family.
-        family: String,
-        /// The case, or the table of defaults.
-        place: String,
-        /// The key.
-        key: String,
-    },
+    #[error("{place}: `{key}` repeats the inherited value: leave it out")]
+    Repeated { place: String, key: String },
     /// No case inherits a default.
-    #[error("cases/{family}.toml: {place}: no case inherits `{key}`")]
-    Idle {
-        /// The family.
-        family: String,
-        /// The table of defaults.
-        place: String,
-        /// The key.
-        key: String,
-    },
+    #[error("{place}: no case inherits `{key}`")]
+    Idle { place: String, key: String },
     /// A case does without a bound that it does not inherit.
     #[error(
-        "cases/{family}.toml: {place}: `tolerance.without` names `{name}`, \
-         of which no bound is inherited"
+        "{place}: `tolerance.without` names `{name}`, whose bound is not \
+         inherited"
     )]
-    Absent {
-        /// The family.
-        family: String,
-        /// The case, or the table of defaults.
-        place: String,
-        /// The quantity.
-        name: String,
-    },
+    Absent { place: String, name: String },
     /// No hand writes so many cases, and parsing takes a hundred times the
     /// text's memory.
-    #[error("cases/{family}.toml: {bytes} bytes: expected at most {LARGEST}")]
-    Long {
-        /// The family.
-        family: String,
-        /// Length of the text.
-        bytes: usize,
-    },
+    #[error("{0} bytes: expected at most {LARGEST}")]
+    Long(usize),
     /// Two cases have one name.
-    #[error("cases/{family}.toml: two cases are named `{name}`")]
-    Duplicate {
-        /// The family.
-        family: String,
-        /// The name.
-        name: String,
-    },
+    #[error("two cases are named `{0}`")]
+    Duplicate(String),
     /// A file without cases proves nothing.
-    #[error("cases/{family}.toml: no case")]
-    Empty {
-        /// The family.
-        family: String,
-    },
+    #[error("no case")]
+    Empty,
     /// A name is not of lower-case letters, digits, points and hyphens.
-    #[error("cases/{family}.toml: case name `{name}`")]
-    Name {
-        /// The family.
-        family: String,
-        /// The name.
-        name: String,
-    },
+    #[error("case name `{0}`")]
+    Name(String),
     /// A bound is negative or not a number.
-    #[error("{id}: bound of `{quantity}` is {bound:?}")]
-    BadBound {
-        /// The case.
-        id: String,
-        /// The quantity.
-        quantity: String,
-        /// What was found.
-        bound: Bound,
-    },
+    #[error("case `{name}`: bound of `{quantity}` is {bound:?}")]
+    BadBound { name: String, quantity: String, bound: Bound },
     /// A text that must say something is empty.
-    #[error("{id}: `{field}` says nothing")]
-    Silent {
-        /// The case.
-        id: String,
-        /// The field.
-        field: &'static str,
-    },
+    #[error("case `{name}`: `{field}` says nothing")]
+    Silent { name: String, field: &'static str },
 }

@@ -5,11 +5,9 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::case::{
-    Bound, Case, Cost, Expect, Family, Kind, Source, Status, Tolerance,
-};
+use super::case::{Bound, Case, Family};
 use super::defaults::{Defaults, expand};
-use super::error::{CaseError, LARGEST};
+use super::error::{CaseError, Fault, LARGEST};
 use super::families::FAMILIES;
 use super::pinned;
 
@@ -19,21 +17,6 @@ struct File {
     family: Family,
     #[serde(default)]
     case: Vec<Table>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    name: String,
-    claim: String,
-    source: Source,
-    method: String,
-    cost: Cost,
-    #[serde(default)]
-    input: Table,
-    expect: Expect,
-    tolerance: Tolerance,
-    status: Status,
 }
 
 /// All embedded families, in the order of [`FAMILIES`], with the accepted
@@ -65,40 +48,46 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
 /// assert!(error.to_string().contains("unknown field `x`"));
 /// ```
 pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>, CaseError> {
+    let refused = |fault| CaseError { family: family.to_owned(), fault };
+    load(family, text).map_err(refused)
+}
+
+fn load(family: &str, text: &str) -> Result<Vec<Case>, Fault> {
     if text.len() > LARGEST {
-        let (family, bytes) = (family.to_owned(), text.len());
-        return Err(CaseError::Long { family, bytes });
+        return Err(Fault::Long(text.len()));
     }
-    let form = |message: String| CaseError::Form {
-        family: family.to_owned(),
-        message,
-    };
-    let file: File =
-        toml::from_str(text).map_err(|error| form(error.to_string()))?;
+    let file: File = toml::from_str(text)
+        .map_err(|error| Fault::Form(error.to_string()))?;
     if file.case.is_empty() {
-        return Err(CaseError::Empty { family: family.to_owned() });
+        return Err(Fault::Empty);
     }
-    let kind = file.family.kind;
-    let mut defaults = Defaults::new(family, file.family);
+    let kind = file.family.kind.name();
+    let mut defaults = Defaults::new(file.family);
     let mut names = BTreeSet::new();
     let mut cases = Vec::with_capacity(file.case.len());
     for declared in file.case {
-        for case in expand(declared).map_err(form)? {
-            let case = defaults.complete(case)?;
-            let entry = read(case).map_err(form)?;
-            if !names.insert(entry.name.clone()) {
-                let (family, name) = (family.to_owned(), entry.name);
-                return Err(CaseError::Duplicate { family, name });
+        for case in expand(declared).map_err(Fault::Form)? {
+            let mut case = defaults.complete(case)?;
+            for (key, value) in [("family", family), ("kind", kind)] {
+                if case.insert(key.into(), value.into()).is_some() {
+                    return Err(Fault::Form(format!("unknown field `{key}`")));
+                }
             }
-            cases.push(check(family, kind, entry)?);
+            let mut case = read(case).map_err(Fault::Form)?;
+            if !names.insert(case.id.clone()) {
+                return Err(Fault::Duplicate(case.id));
+            }
+            check(&case)?;
+            case.id = format!("{family}/{}", case.id);
+            cases.push(case);
         }
     }
     defaults.all_used()?;
     Ok(cases)
 }
 
-/// A case that has all it inherits.
-fn read(case: Table) -> Result<Entry, String> {
+/// A case that has all it inherits; its id is still its name.
+fn read(case: Table) -> Result<Case, String> {
     let name = case.get("name").and_then(Value::as_str);
     let place = format!("case `{}`", name.unwrap_or_default());
     Value::Table(case)
@@ -106,27 +95,25 @@ fn read(case: Table) -> Result<Entry, String> {
         .map_err(|error: toml::de::Error| format!("{place}: {error}"))
 }
 
-fn check(family: &str, kind: Kind, entry: Entry) -> Result<Case, CaseError> {
+fn check(case: &Case) -> Result<(), Fault> {
+    let name = || case.id.clone();
     let known = |c: char| {
         c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c)
     };
-    if entry.name.is_empty() || !entry.name.chars().all(known) {
-        let (family, name) = (family.to_owned(), entry.name);
-        return Err(CaseError::Name { family, name });
+    if case.id.is_empty() || !case.id.chars().all(known) {
+        return Err(Fault::Name(name()));
     }
-    let id = format!("{family}/{}", entry.name);
     let texts = [
-        ("claim", &entry.claim),
-        ("source.cite", &entry.source.cite),
-        ("expect.origin", &entry.expect.origin),
-        ("tolerance.because", &entry.tolerance.because),
+        ("claim", &case.claim),
+        ("source.cite", &case.source.cite),
+        ("expect.origin", &case.expect.origin),
+        ("tolerance.because", &case.tolerance.because),
     ];
-    for (field, text) in texts {
-        if text.trim().is_empty() {
-            return Err(CaseError::Silent { id, field });
-        }
+    let is_empty = |(_, text): &(_, &String)| text.trim().is_empty();
+    if let Some((field, _)) = texts.into_iter().find(is_empty) {
+        return Err(Fault::Silent { name: name(), field });
     }
-    for (quantity, bound) in &entry.tolerance.bounds {
+    for (quantity, bound) in &case.tolerance.bounds {
         let sound = match bound {
             Bound::Exact => true,
             Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
@@ -138,20 +125,8 @@ fn check(family: &str, kind: Kind, entry: Entry) -> Result<Case, CaseError> {
         };
         if !sound {
             let (quantity, bound) = (quantity.clone(), bound.clone());
-            return Err(CaseError::BadBound { id, quantity, bound });
+            return Err(Fault::BadBound { name: name(), quantity, bound });
         }
     }
-    Ok(Case {
-        id,
-        family: family.to_owned(),
-        kind,
-        claim: entry.claim,
-        source: entry.source,
-        method: entry.method,
-        cost: entry.cost,
-        input: entry.input,
-        expect: entry.expect,
-        tolerance: entry.tolerance,
-        status: entry.status,
-    })
+    Ok(())
 }

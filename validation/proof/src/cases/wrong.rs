@@ -1,4 +1,4 @@
-//! Wrong models by name: what a case must be able to tell from the right one.
+//! Wrong models by name: what a case must distinguish from the right one.
 
 use rocking_common::words::named;
 
@@ -135,6 +135,10 @@ named! {
         OtherInterval = "other-interval",
         /// An interval for each cell alone where all are meant.
         PointwiseIntervals = "pointwise-intervals",
+        /// Holm's steps over percentiles of a bootstrap.
+        HolmByPercentiles = "holm-by-percentiles",
+        /// Cells of few records enter a share of cells.
+        SurvivorsEnter = "survivors-enter",
         /// Percentiles of the share of the replicates' points.
         ShareOfPoints = "share-of-points",
         /// Records of one earthquake taken as independent.

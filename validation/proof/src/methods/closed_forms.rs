@@ -1,20 +1,18 @@
 //! Grids of blocks and pulses against the oracles.
 
-use std::convert::Infallible;
+use anyhow::{Result, bail};
 
-use rocking::excitation::{PulseName, PulseParameter};
-
-use super::method::{Answer, Context, MethodError};
+use super::method::{Answer, Context, SPEEDS, pairs};
 use crate::edge::{around, edge};
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};
 use crate::scene::{
-    Engine, Forcing, Model, Overturning, PulseKind, Scene, Trace, rescaled,
+    Engine, Forcing, Model, Overturning, PulseName, Scene, rescaled,
 };
 
 /// Free rocking of every combination of block, loss and release.
-pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
+pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         restitution: Vec<f64>,
@@ -22,60 +20,32 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
         release: Vec<f64>,
         impacts: usize,
     }
-    let mut answer = Answer::default();
-    for &alpha in &slenderness_rad {
-        for &p in &frequency_rad_s {
-            for &eta in &restitution {
-                for &release in &release {
-                    let rotation_rad = release * alpha;
-                    let scene = Scene {
-                        model: equation,
-                        ..Scene::new(
-                            [alpha, p, 9.81],
-                            eta,
-                            Forcing::Free { rotation_rad },
-                        )
-                    };
-                    let trace = context.engine.respond(&scene)?;
-                    let oracle = match equation {
-                        Model::Nonlinear => free_rocking::nonlinear,
-                        Model::Linearized => free_rocking::linearized,
-                    };
-                    let form = oracle(alpha, eta, rotation_rad, impacts);
-                    put_free(&mut answer, &trace, &form, p);
-                }
-            }
-        }
+    let oracle = match equation {
+        Model::Nonlinear => free_rocking::nonlinear,
+        Model::Linearized => free_rocking::linearized,
+    };
+    let blocks = pairs(&slenderness_rad, &frequency_rad_s);
+    let releases = pairs(&restitution, &release);
+    for ((alpha, p), (eta, release)) in pairs(&blocks, &releases) {
+        let rotation_rad = release * alpha;
+        let forcing = Forcing::Free { rotation_rad };
+        let scene = Scene::new([alpha, p, 9.81], eta, forcing);
+        let trace = context.engine.respond(&scene.in_equation(equation))?;
+        let form = oracle(alpha, eta, rotation_rad, impacts);
+        let (seen, units) = (&trace.impacts, [p, p]);
+        answer.put_impacts("impact-speeds-p", seen, units, &form.impacts);
+        let settling = form.settling_p;
+        answer.put(
+            "rest-time-p",
+            trace.rest_s.map(|t| t * p),
+            settling.is_finite().then_some(settling),
+        );
     }
-    Ok(answer)
-}
-
-fn put_free(
-    answer: &mut Answer,
-    trace: &Trace,
-    form: &free_rocking::FreeRocking,
-    p: f64,
-) {
-    let impacts = || trace.impacts.iter().take(form.impact_times_p.len());
-    answer.put(
-        "impact-times-p",
-        impacts().map(|i| i.time_s * p),
-        form.impact_times_p.iter().copied(),
-    );
-    answer.put(
-        "impact-speeds-p",
-        impacts().map(|i| i.speed_before_rad_s / p),
-        form.impact_speeds_p.iter().copied(),
-    );
-    answer.put(
-        "rest-time-p",
-        trace.rest_s.map(|t| t * p),
-        form.settling_p.is_finite().then_some(form.settling_p),
-    );
+    Ok(())
 }
 
 /// Pulses in Eq. 2 over amplitudes and durations.
-pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
+pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         pulse: PulseName, amplitudes: Vec<f64>,
         /// Frequencies over p, or durations or periods times p.
@@ -85,90 +55,64 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         blocks: Vec<[f64; 3]>,
         impacts: usize,
     }
-    let mut answer = Answer::default();
-    for &a in &amplitudes {
-        for &scale in &scales {
-            let pulse = shaped(pulse, a, scale);
-            for &eta in &restitution {
-                let form = linear::respond(pulse, eta, impacts);
-                for block in &blocks {
-                    let scene = linear_scene(pulse, eta, *block, None);
-                    let trace = context.engine.respond(&scene)?;
-                    put_pulse(&mut answer, &trace, &form, *block);
-                }
-            }
+    let shapes = pairs(&amplitudes, &scales);
+    for ((a, scale), eta) in pairs(&shapes, &restitution) {
+        let pulse = Forcing::pulse(pulse, a, scale);
+        let Forcing::Pulse(kind) = pulse else { continue };
+        let form = linear::respond(kind, eta, impacts);
+        for block in &blocks {
+            let [alpha, p, _] = *block;
+            let scene = linear_scene(&pulse, eta, *block);
+            let trace = context.engine.respond(&scene)?;
+            let (seen, units) = (&trace.impacts, [p, p * alpha]);
+            answer.put_impacts(SPEEDS, seen, units, &form.impacts);
+            let time = |t: Option<f64>| t.map(|t| t * p);
+            answer.put("uplift-time-p", time(trace.uplift_s), form.uplift);
+            let over = time(trace.overturned_s);
+            answer.put("alpha-time-p", over, form.overturned);
+            answer.put("side", [trace.first_side], [form.side]);
         }
     }
-    Ok(answer)
-}
-
-fn put_pulse(
-    answer: &mut Answer,
-    trace: &Trace,
-    form: &linear::Response,
-    [alpha, p, _]: [f64; 3],
-) {
-    let impacts = || trace.impacts.iter().take(form.impacts.len());
-    answer.put(
-        "impact-times-p",
-        impacts().map(|i| i.time_s * p),
-        form.impacts.iter().map(|i| i.0),
-    );
-    answer.put(
-        "impact-speeds",
-        impacts().map(|i| i.speed_before_rad_s / (p * alpha)),
-        form.impacts.iter().map(|i| i.1),
-    );
-    answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), form.uplift);
-    answer.put(
-        "alpha-time-p",
-        trace.overturned_s.map(|t| t * p),
-        form.overturned,
-    );
-    answer.put("side", [trace.first_side], [form.side]);
-}
-
-/// The pulse of this name, for a block with p = 1 rad/s and
-/// g alpha = 1 m/s2.
-fn shaped(name: PulseName, amplitude: f64, scale: f64) -> PulseKind {
-    use PulseParameter as P;
-    let Ok(kind) = name.kind(|parameter| {
-        Ok::<_, Infallible>(match parameter {
-            P::Amplitude | P::Velocity => amplitude,
-            P::Omega | P::Duration | P::Period | P::Frequency => scale,
-            P::Cycles => 4.0,
-            P::Gamma => 1.5,
-            P::Phase => 0.25,
-        })
-    });
-    kind
+    Ok(())
 }
 
 /// A block (alpha, p, g) in Eq. 2 under the pulse that acts on one with
 /// p = 1 rad/s and g alpha = 1 m/s2 as it does on this one.
 pub(super) fn linear_scene(
-    pulse: PulseKind,
+    pulse: &Forcing,
     restitution: f64,
     block: [f64; 3],
-    until_p: Option<f64>,
 ) -> Scene {
     let [alpha, p, g] = block;
-    let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
-    Scene {
-        model: Model::Linearized,
-        until_s: until_p.map(|t| t / p),
-        ..Scene::new([alpha, p, g], restitution, forcing)
-    }
+    let forcing = match pulse {
+        Forcing::Pulse(kind) => Forcing::Pulse(rescaled(*kind, g * alpha, p)),
+        other => other.clone(),
+    };
+    Scene::new(block, restitution, forcing).in_equation(Model::Linearized)
+}
+
+/// Where a pulse begins to overturn such a block without an impact, within
+/// 1e-6 of an amplitude.
+pub(super) fn overturns_from(
+    context: &Context,
+    (pulse, scale): (PulseName, f64),
+    block: [f64; 3],
+    near: f64,
+) -> Result<f64> {
+    flip(near, |a| {
+        let pulse = Forcing::pulse(pulse, a, scale);
+        let scene = linear_scene(&pulse, 0.92, block).until(200.0 / block[1]);
+        overturns_at_once(context.engine, scene)
+    })
 }
 
 /// Amplitudes at which a pulse overturns without impact.
-pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
+pub fn critical(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         pulse: PulseName, scales: Vec<f64>,
         /// Block: alpha (rad), p (rad/s), g (m/s2).
         block: [f64; 3],
     }
-    let mut answer = Answer::default();
     for &scale in &scales {
         let condition = match pulse {
             PulseName::HalfSine => overturning::sine_without_impact(1, scale),
@@ -176,27 +120,20 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
             PulseName::OneCosine => overturning::one_cosine(scale),
             PulseName::Rectangle => overturning::rectangle(scale),
             PulseName::Triangle => overturning::triangle(scale),
-            other => {
-                return Err(MethodError::Input(format!("pulse `{other}`")));
-            }
+            other => bail!("pulse `{other}`"),
         };
-        let found = flip(condition, |a| {
-            let pulse = shaped(pulse, a, scale);
-            let until = Some(200.0);
-            let mut scene = linear_scene(pulse, 0.92, block, until);
-            scene.overturning = Overturning::HalfPi;
-            overturns_at_once(context.engine, &scene)
-        })?;
+        let found = overturns_from(context, (pulse, scale), block, condition)?;
         answer.put("critical-amplitude", [found], [condition]);
     }
-    Ok(answer)
+    Ok(())
 }
 
+/// Whether a scene ends beyond pi/2, before any impact.
 pub(super) fn overturns_at_once(
     engine: &dyn Engine,
-    scene: &Scene,
-) -> Result<bool, MethodError> {
-    let trace = engine.respond(scene)?;
+    scene: Scene,
+) -> Result<bool> {
+    let trace = engine.respond(&scene.to(Overturning::HalfPi))?;
     Ok(trace.overturned_s.is_some() && trace.impacts.is_empty())
 }
 
@@ -204,29 +141,28 @@ pub(super) fn overturns_at_once(
 /// it does not.
 pub(super) fn flip(
     near: f64,
-    above: impl Fn(f64) -> Result<bool, MethodError>,
-) -> Result<f64, MethodError> {
+    above: impl Fn(f64) -> Result<bool>,
+) -> Result<f64> {
     edge(around(near, 1e-6), 1e-13, above)
 }
 
 /// The frequency beyond which a one-sine pulse cannot overturn after an
 /// impact.
-pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
+pub fn fold(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; restitution: Vec<f64>, block: [f64; 3]);
-    let mut answer = Answer::default();
     for &eta in &restitution {
         let (omega, a) = overturning::fold(eta);
+        let scene = |omega: f64| {
+            let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
+            linear_scene(&pulse, eta, block)
+        };
         let found = flip(omega, |omega| {
-            let pulse =
-                PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
-            let mut scene = linear_scene(pulse, eta, block, Some(200.0));
-            scene.overturning = Overturning::HalfPi;
-            let trace = context.engine.respond(&scene)?;
-            Ok(trace.overturned_s.is_none())
+            let scene = scene(omega).until(200.0 / block[1]);
+            let scene = scene.to(Overturning::HalfPi);
+            Ok(context.engine.respond(&scene)?.overturned_s.is_none())
         })?;
         answer.put("fold", [found], [omega]);
-        let pulse = PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
-        let scene = linear_scene(pulse, eta, block, None);
+        let scene = scene(omega);
         let seen = context.state(&scene, scene.forcing.end_s())?;
         answer.put(
             "rotation-at-pulse-end",
@@ -234,42 +170,28 @@ pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
             [2.0 - 1.0 / (eta * eta)],
         );
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Critical durations of rectangular pulses in Eq. 1.
-pub(super) fn durations(context: &Context) -> Result<Answer, MethodError> {
+pub fn durations(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         /// Acceleration over g tan(alpha).
         intensity: Vec<f64>,
     }
-    let mut answer = Answer::default();
-    for &alpha in &slenderness_rad {
-        for &p in &frequency_rad_s {
-            for &intensity in &intensity {
-                let pull = intensity * libm::tan(alpha);
-                let form =
-                    Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };
-                let critical = form.critical_duration_s();
-                let found = flip(critical, |duration_s| {
-                    let scene = Scene {
-                        overturning: Overturning::HalfPi,
-                        until_s: Some(200.0 / p),
-                        ..Scene::new(
-                            [alpha, p, 9.81],
-                            0.92,
-                            Forcing::Pulse(PulseKind::Rectangle {
-                                amplitude: pull * 9.81,
-                                duration_s,
-                            }),
-                        )
-                    };
-                    overturns_at_once(context.engine, &scene)
-                })?;
-                answer.put("critical-duration-p", [found * p], [critical * p]);
-            }
-        }
+    let blocks = pairs(&slenderness_rad, &frequency_rad_s);
+    for ((alpha, p), intensity) in pairs(&blocks, &intensity) {
+        let pull = intensity * libm::tan(alpha);
+        let form = Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };
+        let critical = form.critical_duration_s();
+        let found = flip(critical, |duration_s| {
+            let name = PulseName::Rectangle;
+            let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
+            let scene = Scene::new([alpha, p, 9.81], 0.92, pulse);
+            overturns_at_once(context.engine, scene.until(200.0 / p))
+        })?;
+        answer.put("critical-duration-p", [found * p], [critical * p]);
     }
-    Ok(answer)
+    Ok(())
 }

@@ -1,12 +1,13 @@
 //! Order of convergence of the fixed-order steps of Eq. 1.
 
-use rocking::integrator::{Order, Response};
+use anyhow::Result;
+use rocking::integrator::{Impact, Order};
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel};
 use crate::engine;
 use crate::naive::{Events, Naive, Rules};
-use crate::scene::{Engine as _, EngineError, Forcing, Scene};
+use crate::scene::{Engine as _, Forcing, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,7 +26,7 @@ const FINEST: usize = 16;
 
 /// Observed order in the step: the same broken line with more samples. The
 /// slope is signed, so an error that grows has a negative one.
-pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
+pub fn order(context: &Context, answer: &mut Answer) -> Result<()> {
     let input: Input = context.input()?;
     let order = match (input.order, context.wrong) {
         // A series that stops two terms early.
@@ -41,14 +42,10 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             let events = Events::StepEnds;
             let rules = Rules { events, ..Rules::default() };
             let trace = Naive(rules).respond(&scene)?;
-            let first = trace.impacts.first();
-            return Ok::<_, EngineError>([
-                trace.peak_ratio,
-                first.map_or(f64::NAN, |i| i.time_s),
-                first.map_or(f64::NAN, |i| i.speed_before_rad_s),
-            ]);
+            return anyhow::Ok(measures(trace.peak_ratio, &trace.impacts));
         }
-        engine::respond_at_order(&scene, order).map(|r| measures(&r))
+        let found = engine::respond_at_order(&scene, order)?;
+        Ok(measures(found.peak_ratio, &found.impacts))
     };
     let truth = run(FINEST, Order::Ten)?;
     let mut errors = Vec::new();
@@ -59,7 +56,6 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
                 .map(|k: usize| (found[k] - truth[k]).abs() / truth[k].abs()),
         );
     }
-    let mut answer = Answer::default();
     let names = ["peak", "impact-time", "impact-speed"];
     for (k, name) in names.iter().enumerate() {
         let steps = input.divisions.windows(2);
@@ -70,7 +66,7 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             answer.put(&format!("order-of-{name}"), [slope], [due]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 fn divided(input: &Input, division: usize) -> Scene {
@@ -81,21 +77,15 @@ fn divided(input: &Input, division: usize) -> Scene {
         fine.extend((0..division).map(|k| pair[0] + rise * k as f64));
     }
     fine.extend(input.acceleration_m_s2.last());
-    Scene::new(
-        [alpha, p, 9.81],
-        eta,
-        Forcing::Samples {
-            dt_s: input.dt_s / division as f64,
-            acceleration_m_s2: fine,
-        },
-    )
+    let forcing = Forcing::samples(input.dt_s / division as f64, fine);
+    Scene::new([alpha, p, 9.81], eta, forcing)
 }
 
 /// Peak, and time and speed of the first impact.
-fn measures(response: &Response) -> [f64; 3] {
-    let first = response.impacts.first();
+fn measures(peak_ratio: f64, impacts: &[Impact]) -> [f64; 3] {
+    let first = impacts.first();
     [
-        response.peak_ratio,
+        peak_ratio,
         first.map_or(f64::NAN, |i| i.time_s),
         first.map_or(f64::NAN, |i| i.speed_before_rad_s),
     ]

@@ -1,9 +1,7 @@
 //! Which analyses of a curve are flagged: scenes that graze, as levels of an
 //! incremental dynamic analysis.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
-
+use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
@@ -17,8 +15,9 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 use rocking::record::Accelerogram;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
-use crate::scene::{EngineError, Forcing};
+use super::memo::Memo;
+use super::method::{Answer, Context, WrongModel};
+use crate::scene::Forcing;
 use crate::trials::{Stratum, trial};
 
 /// Difference of a peak ratio that counts as another peak.
@@ -44,18 +43,21 @@ struct Level {
     at_landing: f64,
 }
 
-/// Levels by the number of scenes: a wrong model needs no run of its own.
-static FOUND: Mutex<BTreeMap<u64, Arc<Vec<Level>>>> =
-    Mutex::new(BTreeMap::new());
+/// Levels by the number of scenes.
+static FOUND: Memo<u64, Level> = Memo::new();
 
 /// Peaks and fates that a curve calls resolved and that are others in wider
 /// arithmetic; levels at which the lanes give another result.
-pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
+pub fn first_hops(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Scenes whose first hop grazes: this many, from index 0 on.
         first_hops: u64,
     }
-    let found = all(first_hops)?;
+    let found = FOUND.get(first_hops, |count| {
+        let all = (0..*count).into_par_iter().map(level);
+        let all = all.collect::<Result<Vec<Option<Level>>>>()?;
+        Ok(all.into_iter().flatten().collect())
+    })?;
     let at_landing = context.is(WrongModel::RoundingAtTheLanding);
     let resolved = |level: &Level, point: &IdaPoint| {
         if at_landing {
@@ -70,7 +72,6 @@ pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     let silent = |level: &Level, point: &IdaPoint| {
         resolved(level, point) && level.is_other(point, ANOTHER)
     };
-    let mut answer = Answer::default();
     let alone = count(&|level| silent(level, &level.alone));
     answer.put("wrong-and-resolved", alone, [0.0]);
     let lanes = count(&|level| silent(level, &level.lanes));
@@ -87,7 +88,7 @@ pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     answer.see("unresolved", count(&|level| !level.alone.resolution.resolved));
     let open = count(&|level| !level.certified.resolution.resolved);
     answer.see("unresolved-when-certified", open);
-    Ok(answer)
+    Ok(())
 }
 
 impl Level {
@@ -102,24 +103,8 @@ impl Level {
     }
 }
 
-/// Levels, from memory where they were analysed before.
-fn all(count: u64) -> Result<Arc<Vec<Level>>, MethodError> {
-    let lock = || FOUND.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(found) = lock().get(&count) {
-        return Ok(Arc::clone(found));
-    }
-    let found: Vec<Option<Level>> = (0..count)
-        .into_par_iter()
-        .map(level)
-        .collect::<Result<_, MethodError>>()?;
-    let found: Arc<Vec<Level>> =
-        Arc::new(found.into_iter().flatten().collect());
-    lock().insert(count, Arc::clone(&found));
-    Ok(found)
-}
-
 /// The scene of an index as the one level of a curve.
-fn level(index: u64) -> Result<Option<Level>, MethodError> {
+fn level(index: u64) -> Result<Option<Level>> {
     let Some(trial) = trial(Stratum::FirstHop, index)? else {
         return Ok(None);
     };
@@ -128,11 +113,10 @@ fn level(index: u64) -> Result<Option<Level>, MethodError> {
         return Ok(None);
     };
     let record = Accelerogram::try_new(trial.name, dt_s, acceleration_m_s2);
-    let record = NormalisedRecord::new(&record.map_err(refused)?);
+    let record = NormalisedRecord::new(&record?);
     let block = Block::try_new(of.slenderness_rad, of.frequency_rad_s);
-    let block = block.map_err(refused)?;
-    let restitution =
-        Restitution::constant(of.restitution).map_err(refused)?;
+    let block = block?;
+    let restitution = Restitution::constant(of.restitution)?;
     let pga_g = record.pga_g();
     let analysis = Analysis {
         model: of.model,
@@ -144,14 +128,14 @@ fn level(index: u64) -> Result<Option<Level>, MethodError> {
     };
     let point = |points: &[IdaPoint]| {
         let point = points.iter().find(|point| point.pga_g == pga_g);
-        point.copied().ok_or_else(|| refused("the level is not analysed"))
+        point.copied().context("the level is not analysed")
     };
-    let alone = point(&curve(&record, &analysis).map_err(refused)?.points)?;
+    let alone = point(&curve(&record, &analysis)?.points)?;
     let certifying = Analysis { certify: true, ..analysis };
     let batch = Batch::default();
     let records = std::slice::from_ref(&record);
     let both = curves(records, &[analysis, certifying], &batch);
-    let both = both.map_err(refused)?;
+    let both = both?;
     let lanes = point(&both[0][0].points)?;
     let certified = point(&both[1][0].points)?;
     let scene = Scene {
@@ -168,22 +152,18 @@ fn level(index: u64) -> Result<Option<Level>, MethodError> {
         truth => truth,
     };
     let options = Certify { work_limit: WORK, ..Certify::default() };
-    let error = certify(&scene, &options).map_err(refused)?.error;
+    let error = certify(&scene, &options)?.error;
     // A level that is not assessed is as good as one that is not flagged.
     let error = error.unwrap_or(0.0).max(ANOTHER);
     let at_landing = at_landing(&scene, of.restitution, &record)?;
     Ok(Some(Level { alone, lanes, certified, error, truth, at_landing }))
 }
 
-fn refused(error: impl std::fmt::Display) -> MethodError {
-    EngineError::Refused(error.to_string()).into()
-}
-
 /// Fate and peak in wider arithmetic; none where that does not decide.
-fn truth<N: Real>(scene: &Scene) -> Result<Option<(bool, f64)>, MethodError> {
+fn truth<N: Real>(scene: &Scene) -> Result<Option<(bool, f64)>> {
     let observe =
         Observe { accuracy: true, work_limit: WORK, ..Observe::default() };
-    let response = respond_precise::<N>(scene, &observe).map_err(refused)?;
+    let response = respond_precise::<N>(scene, &observe)?;
     let clear = response.assessment() == Assessment::Clear;
     let overturned = response.outcome.is_overturned();
     Ok(clear.then(|| (overturned, response.peak_ratio.to_f64())))
@@ -195,11 +175,11 @@ fn at_landing(
     scene: &Scene,
     eta: f64,
     record: &NormalisedRecord,
-) -> Result<f64, MethodError> {
+) -> Result<f64> {
     let observe = Observe { events: true, ..Observe::default() };
-    let run = integrator::respond(scene, &observe).map_err(refused)?;
+    let run = integrator::respond(scene, &observe)?;
     let solver = Solver { peak_only: true, ..Solver::default() };
-    let quick = solver.respond(scene, &Observe::default()).map_err(refused)?;
+    let quick = solver.respond(scene, &Observe::default())?;
     let (alpha, p) =
         (scene.block.slenderness_rad(), scene.block.frequency_rad_s());
     let threshold = uplift_threshold(&scene.block, scene.model);

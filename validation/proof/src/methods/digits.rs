@@ -1,35 +1,16 @@
 //! Significant digits that single, double and double-double precision reach
 //! on the reference trajectories and the hard cases.
 
-use std::fmt::Write as _;
-
+use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::{fates, hard};
-use crate::cases::{Case, CaseError, load_all};
+use super::fates;
+use crate::cases::{Case, load_all};
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Model, Overturning, Scene};
-
-/// Why there is no table.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DigitsError {
-    /// The cases cannot be read.
-    #[error(transparent)]
-    Case(#[from] CaseError),
-    /// A scene cannot be run.
-    #[error("{id}: {source}")]
-    Scene {
-        /// The case.
-        id: String,
-        /// What went wrong.
-        source: MethodError,
-    },
-}
 
 /// What a precision reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,33 +53,26 @@ const IMPACTS: usize = 10;
 /// Every reference trajectory and hard case that moves, hard cases first.
 ///
 /// # Errors
-/// [`DigitsError`] where a case cannot be read or run.
-pub fn digits() -> Result<Vec<Row>, DigitsError> {
-    let mut cases: Vec<Case> = load_all()?
-        .into_iter()
-        .filter(|case| {
-            case.family == "hard-cases" || case.method == "trajectory"
-        })
-        .collect();
-    cases.sort_by_key(|case| case.family != "hard-cases");
-    let rows: Vec<Option<Row>> = cases
-        .par_iter()
-        .map(|case| {
-            let id = case.id.clone();
-            row(case).map_err(|source| DigitsError::Scene { id, source })
-        })
-        .collect::<Result<_, _>>()?;
+/// An error where a case cannot be read or run.
+pub fn digits() -> Result<Vec<Row>> {
+    let mut cases = load_all()?;
+    let is_hard = |case: &Case| case.family == "hard-cases";
+    cases.retain(|case| is_hard(case) || case.method == "trajectory");
+    cases.sort_by_key(|case| !is_hard(case));
+    let rows = cases.par_iter().map(|case| row(case).context(case.id.clone()));
+    let rows: Vec<Option<Row>> = rows.collect::<Result<_>>()?;
     Ok(rows.into_iter().flatten().collect())
 }
 
-fn row(case: &Case) -> Result<Option<Row>, MethodError> {
+fn row(case: &Case) -> Result<Option<Row>> {
     let (scene, truth) = match case.method.as_str() {
         "trajectory" => {
             let (scene, truth) = reference(case)?;
             (scene, Some(truth))
         }
-        "response" => (fates::scene_of(case)?, None),
-        "double-against-double-double" => (hard::scene_of(case)?, None),
+        "response" | "double-against-double-double" => {
+            (fates::scene_of(case)?, None)
+        }
         _ => return Ok(None),
     };
     let mut runs = Vec::new();
@@ -132,7 +106,7 @@ fn row(case: &Case) -> Result<Option<Row>, MethodError> {
 }
 
 /// Scene and truth of a trajectory, under the criterion that it is about.
-fn reference(case: &Case) -> Result<(Scene, WideTrace), MethodError> {
+fn reference(case: &Case) -> Result<(Scene, WideTrace)> {
     let entry = case.input.get("entry").and_then(toml::Value::as_str);
     let entry = references::trajectory(entry.unwrap_or_default())?;
     let tangency = case.id.contains("-flip-");
@@ -209,20 +183,13 @@ pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
 /// The table as CSV.
 #[must_use]
 pub fn digits_csv(rows: &[Row]) -> String {
-    let mut text = String::from(DIGITS_HEADER);
-    for row in rows {
+    let line = |row: &Row| {
         let truth =
             if row.has_reference { "36 digits" } else { "double-double" };
-        let cells: Vec<String> =
-            row.end.iter().chain(&row.impacts).map(|r| r.text()).collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{},{},{truth},{}",
-            row.id,
-            row.equation,
-            cells.join(",")
-        );
-    }
-    text
+        let reached = row.end.iter().chain(&row.impacts).map(|r| r.text());
+        let reached: Vec<String> = reached.collect();
+        let (id, equation) = (&row.id, row.equation);
+        format!("{id},{equation},{truth},{}\n", reached.join(","))
+    };
+    rows.iter().fold(DIGITS_HEADER.to_owned(), |text, row| text + &line(row))
 }

@@ -1,77 +1,43 @@
 //! The end of observation about an overturning or an uplift, and pulses that
 //! rise to the uplift threshold, against times and fates of 40 digits.
 
+use anyhow::{Result, bail};
 use rocking::integrator::{Assessment, Certified, Observe, Outcome, Response};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::method::{Answer, Context, MethodError};
-use crate::arithmetic::decimal;
+use super::cells::{Csv, Row, csv};
+use super::method::{Answer, Context};
 use crate::engine::{certify, respond};
-use crate::scene::{Forcing, Overturning, PulseKind, Scene};
+use crate::scene::{Forcing, Overturning, Scene};
 use crate::trials::{Reading, Seen};
 
-const ENDS: &str = include_str!("../../../../fixtures/oracles/ends.csv");
-
-/// A row of the file: a scene and what is known of it.
-struct Row {
-    scene: Scene,
-    values: Vec<DoubleDouble>,
-}
+const ENDS: Csv = csv!("oracles/ends.csv");
 
 /// Relative error of a peak that is right to all digits of a double.
 const PRINTED: f64 = 0.5 * f64::EPSILON;
 
-fn missing(what: &str) -> MethodError {
-    let what = what.to_owned();
-    MethodError::Reference { file: "fixtures/oracles/ends.csv", what }
-}
-
-/// The rows of a kind.
-fn rows(kind: &str) -> Result<Vec<Row>, MethodError> {
-    let lines =
-        ENDS.lines().filter(|line| line.split(',').next() == Some(kind));
-    lines.map(|line| row(line).ok_or_else(|| missing(line))?).collect()
-}
-
-fn row(line: &str) -> Option<Result<Row, MethodError>> {
-    let cells: Vec<&str> = line.split(',').collect();
-    let [_, law, criterion, alpha, p, eta, g, shape, _, values, given] =
-        cells[..]
-    else {
-        return None;
+/// The scenes of a kind, each with three numbers that are known of it.
+fn scenes(kind: &str) -> Result<Vec<(Scene, [DoubleDouble; 3])>> {
+    let of = |row: Row| {
+        let given = row.list(10, ';')?;
+        let forcing = match (row.text(7), given.as_slice()) {
+            ("record", [dt_s, samples @ ..]) => {
+                Forcing::samples(*dt_s, samples.to_vec())
+            }
+            (pulse, [amplitude, scale]) => {
+                Forcing::pulse(pulse.parse()?, *amplitude, *scale)
+            }
+            (other, _) => bail!(ENDS.lacks(other)),
+        };
+        let [alpha, p, eta, gravity] = row.numbers(3)?;
+        let scene = Scene::new([alpha, p, gravity], eta, forcing)
+            .in_equation(row.text(1).parse()?)
+            .to(row.text(2).parse()?);
+        let known = <[DoubleDouble; 3]>::try_from(row.decimals(9)?);
+        Ok((scene, known.map_err(|_| ENDS.lacks("three values"))?))
     };
-    let number = |text: &str| text.parse::<f64>().ok();
-    let given = given.split(';').map(number).collect::<Option<Vec<_>>>()?;
-    let (first, rest) = given.split_first()?;
-    let amplitude = *first;
-    let forcing = match (shape, rest) {
-        ("record", samples) => Forcing::Samples {
-            dt_s: *first,
-            acceleration_m_s2: samples.to_vec(),
-        },
-        ("rectangle", [duration_s]) => {
-            let duration_s = *duration_s;
-            Forcing::Pulse(PulseKind::Rectangle { amplitude, duration_s })
-        }
-        ("triangle", [duration_s]) => {
-            let duration_s = *duration_s;
-            Forcing::Pulse(PulseKind::Triangle { amplitude, duration_s })
-        }
-        ("one-sine", [omega_rad_s]) => {
-            let omega_rad_s = *omega_rad_s;
-            Forcing::Pulse(PulseKind::OneSine { amplitude, omega_rad_s })
-        }
-        _ => return None,
-    };
-    let overturning = criterion.parse().ok()?;
-    let block = [number(alpha)?, number(p)?, number(g)?];
-    let scene = Scene::new(block, number(eta)?, forcing);
-    let values = values.split(';').map(decimal).collect::<Option<Vec<_>>>()?;
-    Some(law.parse().map_err(MethodError::Name).map(|model| Row {
-        scene: Scene { model, overturning, ..scene },
-        values,
-    }))
+    ENDS.rows(kind)?.into_iter().map(of).collect()
 }
 
 /// What is true of a run.
@@ -123,7 +89,7 @@ impl Counts {
         scene: &Scene,
         (due, one_fate): (Due, bool),
         reading: Reading,
-    ) -> Result<(), MethodError> {
+    ) -> Result<()> {
         let until_s = scene.until_s;
         let observe =
             Observe { accuracy: true, until_s, ..Observe::default() };
@@ -151,8 +117,7 @@ impl Counts {
         Ok(())
     }
 
-    fn answer(&self) -> Answer {
-        let mut answer = Answer::default();
+    fn put(&self, answer: &mut Answer) {
         for (name, count) in [
             ("wrong-and-clear", self.wrong_and_clear),
             ("certified-wrong", self.certified_wrong),
@@ -168,7 +133,6 @@ impl Counts {
         ] {
             answer.see(name, [value]);
         }
-        answer
     }
 }
 
@@ -178,18 +142,15 @@ fn moved(x: f64, ulps: i64) -> f64 {
 }
 
 /// Overturned before the end or not, lifted before it or not, and how far.
-pub(super) fn ends(context: &Context) -> Result<Answer, MethodError> {
+pub fn ends(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Units in the last place between the double next to an event and the
         /// end, to either side.
         ulps: Vec<i64>,
     }
-    let reading = Reading::of(context.wrong);
+    let reading = Reading(context.wrong);
     let mut counts = Counts::default();
-    for Row { mut scene, values } in rows("end")? {
-        let [lifted_s, over_s, rate] = values[..] else {
-            return Err(missing("three values of an end"));
-        };
+    for (mut scene, [lifted_s, over_s, rate]) in scenes("end")? {
         let alpha = DoubleDouble::from_f64(scene.slenderness_rad);
         let limit = match scene.overturning {
             Overturning::Alpha => DoubleDouble::one(),
@@ -214,21 +175,20 @@ pub(super) fn ends(context: &Context) -> Result<Answer, MethodError> {
             }
         }
     }
-    Ok(counts.answer())
+    counts.put(answer);
+    Ok(())
 }
 
 /// Pulses whose peak is some units in the last place from the threshold.
-pub(super) fn touches(context: &Context) -> Result<Answer, MethodError> {
-    let reading = Reading::of(context.wrong);
+pub fn touches(context: &Context, answer: &mut Answer) -> Result<()> {
+    let reading = Reading(context.wrong);
     let mut counts = Counts::default();
-    for Row { scene, values } in rows("touch")? {
-        let [lifts, peak, one_fate] = values[..] else {
-            return Err(missing("three values of a touch"));
-        };
+    for (scene, [lifts, peak, one_fate]) in scenes("touch")? {
         let is = |x: DoubleDouble| x > DoubleDouble::zero();
         let due =
             if is(lifts) { Due::Rocked(Some(peak)) } else { Due::NoUplift };
         counts.take(&scene, (due, is(one_fate)), reading)?;
     }
-    Ok(counts.answer())
+    counts.put(answer);
+    Ok(())
 }

@@ -1,21 +1,22 @@
 //! The error estimate against the true error.
 
-use rand::RngExt as _;
+use anyhow::{Result, bail};
 use rayon::prelude::*;
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};
 use crate::references;
-use crate::scene::{Forcing, Model, Overturning, Scene};
+use crate::scene::{Model, Overturning, Scene};
+use crate::trials::Draw;
 
 /// One scene's verdict.
 enum Comparison {
     /// Error of the peak ratio over its estimate.
     Ratio(f64),
-    /// The fates differ, and the run says that it cannot tell.
+    /// The fates differ, and the run says that its fate is not resolved.
     Open,
     /// The fates differ, and the run is sure of its own.
     Wrong,
@@ -28,7 +29,7 @@ const SHARES: [(&str, usize); 3] =
     [("median-ratio", 50), ("upper-decile-ratio", 90), ("largest-ratio", 100)];
 
 /// Error of the peak over its estimate, over many scenes.
-pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
+pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Random scenes; none: the reference trajectories.
         #[serde(default)]
@@ -39,9 +40,7 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
     let arithmetic = match arithmetic.as_str() {
         "double" => Arithmetic::Double,
         "double-double" => Arithmetic::DoubleDouble,
-        other => {
-            return Err(MethodError::Input(format!("arithmetic `{other}`")));
-        }
+        other => bail!("arithmetic `{other}`"),
     };
     let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
     let all = if scenes == 0 {
@@ -56,7 +55,7 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
                 let truth = WideTrace::run(&scene, Arithmetic::DoubleDouble)?;
                 Ok(compare(&run, &truth, f64::EPSILON))
             })
-            .collect::<Result<Vec<_>, MethodError>>()?
+            .collect::<Result<Vec<_>>>()?
     };
     let mut ratios = Vec::new();
     let (mut wrong, mut open) = (0.0, 0.0);
@@ -69,7 +68,6 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     ratios.sort_by(f64::total_cmp);
-    let mut answer = Answer::default();
     let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
     answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
     answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
@@ -80,7 +78,7 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
         let ratio = ratios.get(last * percent / 100);
         answer.see(name, [ratio.copied().unwrap_or(f64::NAN)]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
@@ -98,9 +96,7 @@ fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
     }
 }
 
-fn against_references(
-    arithmetic: Arithmetic,
-) -> Result<Vec<Comparison>, MethodError> {
+fn against_references(arithmetic: Arithmetic) -> Result<Vec<Comparison>> {
     let mut found = Vec::new();
     let unit = match arithmetic {
         Arithmetic::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
@@ -125,9 +121,8 @@ fn against_references(
 /// A random block under random filtered noise, uniform or uniform in the
 /// logarithm over the ranges of the study and beyond.
 fn drawn(streams: &Streams, index: u64) -> Scene {
-    let mut stream = streams.stream(index);
-    let mut uniform =
-        |low: f64, high: f64| low + (high - low) * stream.random::<f64>();
+    let mut draw = Draw(streams.stream(index));
+    let mut uniform = |low: f64, high: f64| draw.uniform(low, high);
     let alpha = uniform(0.02, 0.4);
     let p = libm::exp(uniform(libm::log(0.5), libm::log(8.0)));
     let eta = uniform(0.7, 1.0);
@@ -136,7 +131,7 @@ fn drawn(streams: &Streams, index: u64) -> Scene {
     let intensity = libm::exp(uniform(0.05, 1.5));
     let count = uniform(100.0, 500.0) as usize;
     let (mut fast, mut slow) = (0.0, 0.0);
-    let mut samples: Vec<f64> = (0..count)
+    let samples: Vec<f64> = (0..count)
         .map(|k| {
             let white = uniform(-1.0, 1.0);
             fast += 0.3 * (white - 0.5 * fast);
@@ -145,18 +140,9 @@ fn drawn(streams: &Streams, index: u64) -> Scene {
             slow * share * (1.0 - share)
         })
         .collect();
-    let mut scene = Scene {
-        model: if linear { Model::Linearized } else { Model::Nonlinear },
-        overturning: if uniform(0.0, 1.0) < 0.3 {
-            Overturning::HalfPi
-        } else {
-            Overturning::Alpha
-        },
-        ..Scene::new([alpha, p, 9.81], eta, Forcing::NONE)
-    };
-    let peak = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-    let factor = intensity * scene.threshold_m_s2() / peak;
-    samples.iter_mut().for_each(|x| *x *= factor);
-    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
-    scene
+    let half_pi = uniform(0.0, 1.0) < 0.3;
+    Scene::at_rest([alpha, p], eta)
+        .in_equation(if linear { Model::Linearized } else { Model::Nonlinear })
+        .to(if half_pi { Overturning::HalfPi } else { Overturning::Alpha })
+        .shaken(dt_s, samples, intensity)
 }

@@ -1,28 +1,35 @@
 //! Whole scenes written in the case, and the fates of records over levels.
 
+use anyhow::{Context as _, Result, bail};
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, input_of};
-use super::wrong::scale;
+use super::method::{Answer, Context, input_of};
 use crate::cases::Case;
 use crate::engine::Core;
 use crate::references;
 use crate::scene::{
-    Engine as _, Forcing, Model, Overturning, PulseKind, Scene,
+    Engine as _, Forcing, Model, Overturning, PulseName, Scene,
 };
 
+/// A scene that a case writes out.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SceneInput {
+pub(super) struct Written {
     equation: Model,
     slenderness_rad: f64,
     frequency_rad_s: f64,
     restitution: f64,
-    #[serde(default)]
     half_sine: Option<Sine>,
-    #[serde(default)]
+    /// A record of the references, scaled to PGA over the threshold.
+    named: Option<(String, f64)>,
     record: Option<Samples>,
     until_s: Option<f64>,
+    /// The whole motion times each of these, where there are such.
+    #[serde(default)]
+    factors: Vec<f64>,
+    /// Impacts compared.
+    #[serde(default)]
+    pub impacts: usize,
 }
 
 #[derive(Deserialize)]
@@ -35,68 +42,81 @@ struct Sine {
 /// A record written as runs of straight lines.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Samples {
+struct Samples {
     dt_s: f64,
     /// Corner points: sample number and acceleration in m/s2.
     corners: Vec<(usize, f64)>,
 }
 
 impl Samples {
-    pub(super) fn forcing(&self) -> Result<Forcing, MethodError> {
+    fn forcing(&self) -> Result<Forcing> {
         let mut samples = Vec::new();
         for pair in self.corners.windows(2) {
             let [(from, a), (to, b)] = pair else { continue };
             if to <= from {
-                let text = format!("corner {to} after corner {from}");
-                return Err(MethodError::Input(text));
+                bail!("corner {to} after corner {from}");
             }
             let rise = (b - a) / (to - from) as f64;
             samples.extend((0..to - from).map(|k| a + rise * k as f64));
         }
         samples.extend(self.corners.last().map(|corner| corner.1));
-        Ok(Forcing::Samples { dt_s: self.dt_s, acceleration_m_s2: samples })
+        Ok(Forcing::samples(self.dt_s, samples))
     }
 }
 
-/// The scene that a case writes out.
-pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
-    let input: SceneInput = input_of(case)?;
-    let forcing = match (&input.half_sine, &input.record) {
-        (Some(sine), None) => Forcing::Pulse(PulseKind::HalfSine {
-            amplitude: sine.amplitude_m_s2,
-            omega_rad_s: sine.omega_rad_s,
-        }),
-        (None, Some(record)) => record.forcing()?,
-        _ => {
-            let text = "one of `half_sine` and `record`".to_owned();
-            return Err(MethodError::Input(text));
-        }
-    };
-    Ok(Scene {
-        model: input.equation,
-        until_s: input.until_s,
-        ..Scene::new(
-            [input.slenderness_rad, input.frequency_rad_s, 9.81],
-            input.restitution,
-            forcing,
-        )
-    })
+impl Written {
+    /// The scene with each of the factors.
+    pub(super) fn scenes(&self) -> Result<Vec<Scene>> {
+        let block = [self.slenderness_rad, self.frequency_rad_s];
+        let scene = Scene::at_rest(block, self.restitution);
+        let scene = Scene { until_s: self.until_s, ..scene };
+        let scene = scene.in_equation(self.equation);
+        let scene = match (&self.half_sine, &self.named, &self.record) {
+            (Some(sine), None, None) => {
+                let (a, omega) = (sine.amplitude_m_s2, sine.omega_rad_s);
+                scene.under(|_| Forcing::pulse(PulseName::HalfSine, a, omega))
+            }
+            (None, Some((name, intensity)), None) => {
+                let (dt_s, samples) = references::record(name)?;
+                scene.shaken(dt_s, samples, *intensity)
+            }
+            (None, None, Some(record)) => {
+                let forcing = record.forcing()?;
+                scene.under(|_| forcing)
+            }
+            _ => bail!("expected one of `half_sine`, `named` and `record`"),
+        };
+        let scaled = |factor: &f64| {
+            let mut scene = scene.clone();
+            scene.forcing.scale(*factor);
+            scene
+        };
+        Ok(match self.factors.as_slice() {
+            [] => vec![scene],
+            factors => factors.iter().map(scaled).collect(),
+        })
+    }
+}
+
+/// The first scene that a case writes out.
+pub(super) fn scene_of(case: &Case) -> Result<Scene> {
+    let scenes = input_of::<Written>(case)?.scenes()?;
+    scenes.into_iter().next().context("no scene")
 }
 
 /// Peak, fate and counts of a scene; what is expected is in the case.
-pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
+pub fn response(context: &Context, answer: &mut Answer) -> Result<()> {
     let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
-    let mut answer = Answer::default();
     answer.see("peak-ratio", [trace.peak_ratio]);
     answer.see("uplifts", [trace.uplifts as f64]);
     let over = f64::from(trace.overturned_s.is_some());
     answer.see("overturned", [over]);
-    Ok(answer)
+    Ok(())
 }
 
 /// Fates of one record over levels of 0.01 g, under both criteria.
-pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
+pub fn levels(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         record: String, slenderness_rad: f64, frequency_rad_s: f64,
         first_level_g: f64,
@@ -106,27 +126,21 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
     }
     let (dt_s, record) = references::record(&record)?;
     let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-    let mut answer = Answer::default();
     answer.put("impact-in-between", [], []);
     for (k, letter) in letters.chars().enumerate() {
         let level_g = first_level_g + 0.01 * k as f64;
-        let mut scene = Scene::new(
-            [slenderness_rad, frequency_rad_s, 9.81],
-            0.92,
-            Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
-        );
-        scale(&mut scene.forcing, level_g * 9.81 / peak);
+        let mut forcing = Forcing::samples(dt_s, record.clone());
+        forcing.scale(level_g * 9.81 / peak);
+        let block = [slenderness_rad, frequency_rad_s, 9.81];
+        let scene = Scene::new(block, 0.92, forcing);
         let first = context.engine.respond(&scene)?.overturned_s;
-        scene.overturning = Overturning::HalfPi;
-        let trace = context.engine.respond(&scene)?;
+        let trace = context.engine.respond(&scene.to(Overturning::HalfPi))?;
         let last = trace.overturned_s;
         let (alpha, half_pi) = match letter {
             'S' => (0.0, 0.0),
             'R' => (1.0, 0.0),
             'r' | 'O' => (1.0, 1.0),
-            other => {
-                return Err(MethodError::Input(format!("letter `{other}`")));
-            }
+            other => bail!("letter `{other}`"),
         };
         let seen = |x: Option<f64>| f64::from(x.is_some());
         answer.put("reaches-alpha", [seen(first)], [alpha]);
@@ -135,19 +149,16 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
         if let (Some(first), Some(last)) = (first, last) {
             let back = |t: f64| t > first && t < last;
             let back = trace.impacts.iter().any(|i| back(i.time_s));
-            answer.put(
-                "impact-in-between",
-                [f64::from(back)],
-                [f64::from(letter == 'r')],
-            );
+            let due = f64::from(letter == 'r');
+            answer.put("impact-in-between", [f64::from(back)], [due]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Eq. 2 on every record of an embedded suite: the scaled record on the
 /// reference block against the record as it is on the adjusted block.
-pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
+pub fn adjustment(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         suite: String, slenderness_rad: f64, frequency_rad_s: f64,
         /// PGA/(g alpha).
@@ -156,30 +167,20 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     let suite = match suite.as_str() {
         "ordinary" => rocking_synthesis::ordinary(),
         "pulse" => rocking_synthesis::pulse(),
-        other => return Err(MethodError::Input(format!("suite `{other}`"))),
+        other => bail!("suite `{other}`"),
     };
-    let suite = suite.map_err(|e| MethodError::Oracle(e.to_string()))?;
-    let mut answer = Answer::default();
+    let suite = suite?;
     let mut differences = Vec::new();
     for pair in &suite {
         let record = &pair.components[0];
         for &im in &intensities {
             let alpha = slenderness_rad;
             let factor = im * alpha / record.pga_g();
-            let scene = |slenderness_rad: f64, factor: f64| Scene {
-                model: Model::Linearized,
-                ..Scene::new(
-                    [slenderness_rad, frequency_rad_s, 1.0],
-                    0.92,
-                    Forcing::Samples {
-                        dt_s: record.dt_s(),
-                        acceleration_m_s2: record
-                            .samples_g()
-                            .iter()
-                            .map(|a| a * factor)
-                            .collect(),
-                    },
-                )
+            let scene = |slenderness_rad: f64, factor: f64| {
+                let block = [slenderness_rad, frequency_rad_s, 1.0];
+                let forcing = Forcing::record(record, factor);
+                let scene = Scene::new(block, 0.92, forcing);
+                scene.in_equation(Model::Linearized)
             };
             // A slenderness above pi/2 is none.
             let adjusted = record.pga_g() / im;
@@ -193,5 +194,5 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     let at = |share: usize| differences[differences.len() * share / 10];
     answer.put("median-difference", [at(5)], [0.0]);
     answer.put("upper-decile-difference", [at(9)], [0.0]);
-    Ok(answer)
+    Ok(())
 }

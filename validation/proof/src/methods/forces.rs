@@ -1,9 +1,10 @@
 //! Forces at the pivot, against closed forms and against how the momentum of
 //! the centre of mass changes along a history.
 
+use anyhow::{Context as _, Result, bail};
 use rocking::integrator::{Forces, Observe};
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel, pairs};
 use crate::engine;
 use crate::scene::{Forcing, Model, Scene};
 
@@ -11,30 +12,27 @@ use crate::scene::{Forcing, Model, Scene};
 const ARM: f64 = 0.75;
 
 /// The forces that the core reports, for the scene as the wrong model has it.
-fn forces(context: &Context, scene: &Scene) -> Result<Forces, MethodError> {
+fn forces(context: &Context, scene: &Scene) -> Result<Forces> {
     let observe =
         Observe { forces: true, until_s: scene.until_s, ..Observe::default() };
     let run = engine::respond(&context.altered(scene), &observe)?;
-    run.forces.ok_or_else(|| MethodError::Oracle("no forces".to_owned()))
+    run.forces.context("no forces")
 }
 
 /// A record that goes up to `intensity` times the threshold and back.
-pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
+pub fn uplift(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: f64,
         /// Peak of the record over the threshold.
         intensity: f64,
     }
-    let mut answer = Answer::default();
     for &alpha in &slenderness_rad {
-        let block = [alpha, frequency_rad_s, 9.81];
-        let mut scene = Scene {
-            model: equation,
-            ..Scene::new(block, 0.92, Forcing::NONE)
-        };
-        let peak = intensity * scene.threshold_m_s2();
-        let acceleration_m_s2 = vec![0.0, 0.5 * peak, peak, 0.5 * peak, 0.0];
-        scene.forcing = Forcing::Samples { dt_s: 0.01, acceleration_m_s2 };
+        let scene = Scene::at_rest([alpha, frequency_rad_s], 0.92);
+        let scene = scene.in_equation(equation).under(|threshold| {
+            let peak = intensity * threshold;
+            let samples = vec![0.0, 0.5 * peak, peak, 0.5 * peak, 0.0];
+            Forcing::samples(0.01, samples)
+        });
         let found = forces(context, &scene)?;
         let threshold = match scene.model {
             Model::Nonlinear => libm::tan(alpha),
@@ -43,73 +41,58 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
         let expected = threshold * intensity.min(1.0);
         answer.put("friction", [found.friction], [expected]);
         if intensity < 1.0 {
-            answer.put(
-                "least-normal",
-                [found.least_normal_over_weight],
-                [1.0],
-            );
+            let normal = found.least_normal_over_weight;
+            answer.put("least-normal", [normal], [1.0]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Places at which the energy's orbit is looked at.
 const PLACES: usize = 200_000;
 
-/// Rocking without loss: one orbit, on which the energy tells velocity and
+/// Rocking without loss: one orbit, on which the energy gives velocity and
 /// acceleration at every rotation.
-pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
+pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, initial_ratio: Vec<f64>,
     }
-    let mut answer = Answer::default();
-    for &alpha in &slenderness_rad {
-        for &initial_ratio in &initial_ratio {
-            let p = 3.0;
-            let scene = Scene {
-                model: equation,
-                until_s: Some(20.0 / p),
-                ..Scene::new(
-                    [alpha, p, 9.81],
-                    1.0,
-                    Forcing::Free { rotation_rad: initial_ratio * alpha },
-                )
+    for (alpha, initial_ratio) in pairs(&slenderness_rad, &initial_ratio) {
+        let p = 3.0;
+        let rotation_rad = initial_ratio * alpha;
+        let release = Forcing::Free { rotation_rad };
+        let scene = Scene::new([alpha, p, 9.81], 1.0, release);
+        let scene = scene.in_equation(equation).until(20.0 / p);
+        let found = forces(context, &scene)?;
+        let top = alpha * (1.0 - initial_ratio);
+        let (mut friction, mut normal) = (0.0_f64, f64::INFINITY);
+        for k in 0..=PLACES {
+            let part = k as f64 / PLACES as f64;
+            let phi = top + (alpha - top) * part;
+            let (push, speed2) = match scene.model {
+                Model::Nonlinear => {
+                    (-libm::sin(phi), 2.0 * (libm::cos(top) - libm::cos(phi)))
+                }
+                Model::Linearized => (-phi, phi * phi - top * top),
             };
-            let found = forces(context, &scene)?;
-            let top = alpha * (1.0 - initial_ratio);
-            let (mut friction, mut normal) = (0.0_f64, f64::INFINITY);
-            for k in 0..=PLACES {
-                let part = k as f64 / PLACES as f64;
-                let phi = top + (alpha - top) * part;
-                let (push, speed2) = match scene.model {
-                    Model::Nonlinear => (
-                        -libm::sin(phi),
-                        2.0 * (libm::cos(top) - libm::cos(phi)),
-                    ),
-                    Model::Linearized => (-phi, phi * phi - top * top),
-                };
-                let speed2 =
-                    context.or(WrongModel::WithoutCentripetal, 0.0, speed2);
-                let (s, c) = libm::sincos(phi);
-                let h = ARM * (push * c + speed2 * s);
-                let n = 1.0 + ARM * (push * s - speed2 * c);
-                friction = friction.max(h.abs() / n);
-                normal = normal.min(n);
-            }
-            answer.put("friction", [found.friction], [friction]);
-            answer.put(
-                "least-normal",
-                [found.least_normal_over_weight],
-                [normal],
-            );
+            let speed2 =
+                context.or(WrongModel::WithoutCentripetal, 0.0, speed2);
+            let (s, c) = libm::sincos(phi);
+            let h = ARM * (push * c + speed2 * s);
+            let n = 1.0 + ARM * (push * s - speed2 * c);
+            friction = friction.max(h.abs() / n);
+            normal = normal.min(n);
         }
+        answer.put("friction", [found.friction], [friction]);
+        let found = found.least_normal_over_weight;
+        answer.put("least-normal", [found], [normal]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Second differences of the position of the centre of mass, from the
 /// rotations of a history alone: the pivot gives what they and gravity ask.
-pub(super) fn momentum(context: &Context) -> Result<Answer, MethodError> {
+pub fn momentum(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         equation: Model, blocks: Vec<[f64; 2]>, restitution: f64,
         /// Peak over the threshold, and phase of a sample in rad.
@@ -118,26 +101,22 @@ pub(super) fn momentum(context: &Context) -> Result<Answer, MethodError> {
         /// Interval of the differences, times p.
         interval_p: f64,
     }
-    let mut answer = Answer::default();
     for &[alpha, p] in &blocks {
-        let mut scene = Scene {
-            model: equation,
-            ..Scene::new([alpha, p, 9.81], restitution, Forcing::NONE)
-        };
+        let scene = Scene::at_rest([alpha, p], restitution);
+        let mut scene = scene.in_equation(equation);
         let peak = intensity * scene.threshold_m_s2();
         let dt_s = dt_p / p;
         let sample = |k: usize| peak * libm::sin(phase * k as f64);
         scene.until_s = Some(1.3 * dt_s * samples as f64);
         let samples: Vec<f64> = (0..samples).map(sample).collect();
-        scene.forcing =
-            Forcing::Samples { dt_s, acceleration_m_s2: samples.clone() };
+        scene.forcing = Forcing::samples(dt_s, samples.clone());
         let found = forces(context, &scene)?;
         let (friction, normal) =
             differences(context, &scene, &samples, interval_p / p)?;
         answer.put("friction", [found.friction], [friction]);
         answer.put("least-normal", [found.least_normal_over_weight], [normal]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Largest |H|/N and least N/(m g) of a scene, by differences over `h`.
@@ -146,9 +125,9 @@ fn differences(
     scene: &Scene,
     samples: &[f64],
     h: f64,
-) -> Result<(f64, f64), MethodError> {
+) -> Result<(f64, f64)> {
     let Forcing::Samples { dt_s, .. } = scene.forcing else {
-        return Err(MethodError::Oracle("no samples".to_owned()));
+        bail!("no samples");
     };
     let (alpha, g) = (scene.slenderness_rad, scene.gravity_m_s2);
     let p = scene.frequency_rad_s;

@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
+use anyhow::{Context as _, Result, bail};
+use rocking::intensity::{Measures, PairMeasures, Settings};
 use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::cells::{Csv, csv};
+use super::method::{Answer, Context, WrongModel};
 
-const EXPECTED: &str = "fixtures/oracles/intensity.csv";
-const EXPECTED_CSV: &str =
-    include_str!("../../../../fixtures/oracles/intensity.csv");
+const EXPECTED: Csv = csv!("oracles/intensity.csv");
 const PAIR_CSV: &str =
     include_str!("../../../../fixtures/oracles/intensity-pair.csv");
 
@@ -30,10 +30,7 @@ enum Motion {
 }
 
 impl Motion {
-    fn record(
-        &self,
-        first: Option<&Accelerogram>,
-    ) -> Result<Accelerogram, MethodError> {
+    fn record(&self, first: Option<&Accelerogram>) -> Result<Accelerogram> {
         let (dt_s, samples) = match self {
             Self::Listed { dt_s, samples_g } => (*dt_s, samples_g.clone()),
             Self::Sines { rate_hz, count, terms } => {
@@ -47,17 +44,14 @@ impl Motion {
                 (1.0 / rate_hz, (0..*count).map(at).collect())
             }
             Self::Parallel { angle_deg } => {
-                let first = first.ok_or_else(|| {
-                    MethodError::Input("parallel to nothing".into())
-                })?;
+                let first = first.context("parallel to nothing")?;
                 let factor = libm::tan(angle_deg.to_radians());
                 let scaled = first.samples_g().iter().map(|a| factor * a);
                 (first.dt_s(), scaled.collect())
             }
             Self::Synthetic { column } => (0.02, pair_column(*column)),
         };
-        Accelerogram::try_new("case", dt_s, samples)
-            .map_err(|e| MethodError::Input(e.to_string()))
+        Ok(Accelerogram::try_new("case", dt_s, samples)?)
     }
 }
 
@@ -80,12 +74,8 @@ fn velocity(record: &Accelerogram) -> Option<Accelerogram> {
     Accelerogram::try_new("velocity", record.dt_s(), samples).ok()
 }
 
-fn refused(error: IntensityError) -> MethodError {
-    MethodError::Oracle(error.to_string())
-}
-
 /// Measures of one or two components.
-pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
+pub fn measures(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Name of the motion in the file of expected values.
         motion: String,
@@ -93,19 +83,11 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         of: Vec<String>,
         first: Motion, second: Option<Motion>,
     }
-    let rows: Vec<[&str; 4]> = EXPECTED_CSV
-        .lines()
-        .filter_map(|line| {
-            <[&str; 4]>::try_from(line.split(',').collect::<Vec<_>>()).ok()
-        })
-        .filter(|row| row[0] == motion)
-        .collect();
-    let mut periods: Vec<(&str, f64)> = Vec::new();
-    for row in &rows {
-        if let Some(text) = row[2].strip_prefix("sa_")
-            && !periods.iter().any(|(known, _)| *known == text)
-        {
-            periods.push((text, parse(text)?));
+    let rows = EXPECTED.rows(&motion)?;
+    let mut periods: Vec<f64> = Vec::new();
+    for period in rows.iter().filter_map(|row| period(row.text(2))) {
+        if !periods.contains(&period) {
+            periods.push(period);
         }
     }
     let stretch = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
@@ -113,9 +95,8 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
     let settings = Settings::try_new(
         STANDARD_GRAVITY_M_S2,
         damping,
-        periods.iter().map(|(_, t)| stretch * t).collect(),
-    )
-    .map_err(refused)?;
+        periods.iter().map(|t| stretch * t).collect(),
+    )?;
     let mut first = first.record(None)?;
     let mut second = match &second {
         Some(motion) => Some(motion.record(Some(&first))?),
@@ -128,55 +109,46 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
     let mut found: Vec<(&str, Measures)> = Vec::new();
     match &second {
         Some(second) => {
-            let pair = PairMeasures::of(&first, second, &settings)
-                .map_err(refused)?;
-            let rotd50 = match context.wrong {
+            let pair = PairMeasures::of(&first, second, &settings)?;
+            let (mut mean, mut rotd50) = (pair.geometric_mean, pair.rotd50);
+            match context.wrong {
                 Some(WrongModel::GeometricMeanForRotd50) => {
-                    pair.geometric_mean.clone()
+                    rotd50.clone_from(&mean);
                 }
-                _ => pair.rotd50,
-            };
-            let mean = context.or(
-                WrongModel::Rotd50ForGeometricMean,
-                rotd50.clone(),
-                pair.geometric_mean,
-            );
+                Some(WrongModel::Rotd50ForGeometricMean) => {
+                    mean.clone_from(&rotd50);
+                }
+                _ => {}
+            }
             let [one, two] = pair.components;
-            found.extend([
-                ("first", one),
-                ("second", two),
-                ("geometric_mean", mean),
-                ("rotd50", rotd50),
-            ]);
+            found.extend([("first", one), ("second", two)]);
+            found.extend([("geometric_mean", mean), ("rotd50", rotd50)]);
         }
         None => {
-            let one = Measures::of(&first, &settings).map_err(refused)?;
+            let one = Measures::of(&first, &settings)?;
             found.push(("first", one));
         }
     }
-    let mut answer = Answer::default();
     for of in &of {
         let measures = found.iter().find(|(name, _)| name == of);
         let Some((_, measures)) = measures else {
-            return Err(MethodError::Input(format!("no measures of `{of}`")));
+            bail!("no measures of `{of}`");
         };
-        for row in rows.iter().filter(|row| row[1] == of) {
-            let position = row[2]
-                .strip_prefix("sa_")
-                .and_then(|t| periods.iter().position(|(p, _)| *p == t));
-            let own = value(measures, row[2], position, context.wrong)
-                .ok_or_else(|| MethodError::Reference {
-                    file: EXPECTED,
-                    what: format!("`{}` is no measure", row[2]),
-                })?;
-            let name = match position {
+        for row in rows.iter().filter(|row| row.text(1) == of) {
+            let name = row.text(2);
+            let place = |t| periods.iter().position(|own| *own == t);
+            let place = period(name).and_then(place);
+            let own = value(measures, name, place, context.wrong);
+            let none = || EXPECTED.lacks(format!("`{name}` is no measure"));
+            let own = [own.ok_or_else(none)?];
+            let name = match place {
                 Some(_) => "spectral-acceleration-g".to_owned(),
-                None => row[2].replace('_', "-"),
+                None => name.replace('_', "-"),
             };
-            answer.put(&name, [own], [parse(row[3])?]);
+            answer.put(&name, own, [row.number(3)?]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 fn value(
@@ -204,9 +176,7 @@ fn value(
     })
 }
 
-fn parse(text: &str) -> Result<f64, MethodError> {
-    text.parse().map_err(|_| MethodError::Reference {
-        file: EXPECTED,
-        what: format!("`{text}` is no number"),
-    })
+/// The period of a spectral acceleration, s.
+fn period(name: &str) -> Option<f64> {
+    name.strip_prefix("sa_")?.parse().ok()
 }

@@ -1,14 +1,14 @@
 //! What must not change: mirror image, shift in time, resampling, padding,
 //! units; and how Eq. 1 departs from similarity.
 
+use anyhow::{Result, bail};
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError};
-use super::wrong::scale;
+use super::method::{Answer, Context, SPEEDS};
 use crate::engine::Core;
 use crate::references;
-use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
+use crate::scene::{Engine, Forcing, Model, PulseName, Scene, Trace};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -31,7 +31,7 @@ enum Change {
 const SHIFT: usize = 64;
 
 /// A record and its changed twin on several blocks.
-pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
+pub fn invariance(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         change: Change, equation: Model, record: String,
         /// PGA over the uplift threshold.
@@ -46,38 +46,26 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
     if let Some(count) = samples {
         record.truncate(count);
     }
-    let mut answer = Answer::default();
     for [alpha, p, eta] in blocks {
-        let mut scene = Scene {
-            model: equation,
-            ..Scene::new(
-                [alpha, p, 9.81],
-                eta,
-                Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
-            )
-        };
+        let scene = Scene::at_rest([alpha, p], eta).in_equation(equation);
+        let scene = scene.shaken(dt_s, record.clone(), intensity);
         let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let factor = intensity * scene.threshold_m_s2() / peak;
-        scale(&mut scene.forcing, factor);
         let expected = Core.respond(&scene)?;
         let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
-        let shift_s = match change {
-            Change::Shift => SHIFT as f64 * dt_s,
-            _ => 0.0,
-        };
-        let mirror = match change {
-            Change::Mirror => -1.0,
-            _ => 1.0,
+        let (shift_s, mirror) = match change {
+            Change::Shift => (SHIFT as f64 * dt_s, 1.0),
+            Change::Mirror => (0.0, -1.0),
+            _ => (0.0, 1.0),
         };
         let speed_ratio = alpha / twin.slenderness_rad;
         compare(
-            &mut answer,
+            answer,
             (&observed, &expected),
             (p, shift_s, mirror, speed_ratio),
         );
     }
-    Ok(answer)
+    Ok(())
 }
 
 fn compare(
@@ -91,16 +79,10 @@ fn compare(
     let speeds = |trace: &Trace, ratio: f64| -> Vec<f64> {
         trace.impacts.iter().map(|i| i.speed_before_rad_s * ratio).collect()
     };
-    answer.put(
-        "impact-times-p",
-        times(observed, shift_s),
-        times(expected, 0.0),
-    );
-    answer.put(
-        "impact-speeds",
-        speeds(observed, speed_ratio),
-        speeds(expected, 1.0),
-    );
+    let due = times(expected, 0.0);
+    answer.put("impact-times-p", times(observed, shift_s), due);
+    let due = speeds(expected, 1.0);
+    answer.put(SPEEDS, speeds(observed, speed_ratio), due);
     answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
     answer.put(
         "alpha-time-p",
@@ -110,15 +92,11 @@ fn compare(
     answer.put("side", [observed.first_side * mirror], [expected.first_side]);
 }
 
-fn twin(
-    scene: &Scene,
-    change: Change,
-    peak_m_s2: f64,
-) -> Result<Scene, MethodError> {
+fn twin(scene: &Scene, change: Change, peak_m_s2: f64) -> Result<Scene> {
     let mut twin = scene.clone();
     let Forcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
     else {
-        return Err(MethodError::Input("no record".to_owned()));
+        bail!("no record");
     };
     let a = acceleration_m_s2;
     match change {
@@ -153,7 +131,7 @@ fn twin(
 
 /// Relative change of the first peak of Eq. 1 against Eq. 2 as alpha grows,
 /// and the order of that change between the two smallest alphas.
-pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
+pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         omega_over_p: f64, amplitude: f64,
         /// `g-tan-alpha` or `g-alpha`.
@@ -161,26 +139,16 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         slenderness_rad: Vec<f64>, frequency_rad_s: f64,
     }
     let p = frequency_rad_s;
-    let first_speed = |alpha: f64, equation| -> Result<f64, MethodError> {
+    let first_speed = |alpha: f64, equation| -> Result<f64> {
         let over = match (equation, over.as_str()) {
             (Model::Linearized, _) | (_, "g-alpha") => alpha,
             (_, "g-tan-alpha") => libm::tan(alpha),
-            (_, other) => {
-                return Err(MethodError::Input(format!("over `{other}`")));
-            }
+            (_, other) => bail!("over `{other}`"),
         };
-        let scene = Scene {
-            model: equation,
-            ..Scene::new(
-                [alpha, p, 9.81],
-                0.92,
-                Forcing::Pulse(PulseKind::OneSine {
-                    amplitude: amplitude * 9.81 * over,
-                    omega_rad_s: omega_over_p * p,
-                }),
-            )
-        };
-        let trace = context.engine.respond(&scene)?;
+        let (a, omega) = (amplitude * 9.81 * over, omega_over_p * p);
+        let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
+        let scene = Scene::new([alpha, p, 9.81], 0.92, pulse);
+        let trace = context.engine.respond(&scene.in_equation(equation))?;
         let impact = trace.impacts.first();
         Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
     };
@@ -191,13 +159,12 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         changes.push(speed / linear - 1.0);
     }
     let [a, b, ..] = slenderness_rad.as_slice() else {
-        return Err(MethodError::Input("two slendernesses".to_owned()));
+        bail!("two slendernesses");
     };
     let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
-    let mut answer = Answer::default();
     answer.see("order", [order]);
     answer.see("change", changes);
-    Ok(answer)
+    Ok(())
 }
 
 /// Median over a suite's records of the peak theta/alpha over that of alpha =
@@ -215,18 +182,16 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
 /// The slendernesses are those given or, of Figure 9, those on which each
 /// record as it is has that intensity, tan(alpha) = PGA/(g IM); their closed
 /// form is divided out record by record.
-pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
+pub fn sine_bias(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// None: adjusted to each record.
         #[serde(default)]
         slenderness_rad: Vec<f64>,
         frequencies_rad_s: Vec<f64>, intensity: f64,
     }
-    let suite = rocking_synthesis::pulse()
-        .map_err(|e| MethodError::Oracle(e.to_string()))?;
+    let suite = rocking_synthesis::pulse()?;
     let closed_form =
         |alpha: f64| (libm::sin(alpha) / alpha) / (libm::sin(0.1) / 0.1);
-    let mut answer = Answer::default();
     let mut left = Vec::new();
     for &p in &frequencies_rad_s {
         let peak = |alpha: f64, record: &Accelerogram| {
@@ -243,7 +208,7 @@ pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
                         .collect(),
                 },
             );
-            Ok::<_, MethodError>(context.engine.respond(&scene)?.peak_ratio)
+            anyhow::Ok(context.engine.respond(&scene)?.peak_ratio)
         };
         let mut worst: f64 = 0.0;
         let cells: Vec<Option<f64>> = match slenderness_rad.as_slice() {
@@ -276,5 +241,5 @@ pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
     if let [(p, a), .., (q, b)] = left[..] {
         answer.see("order-in-p", [libm::log(b / a) / libm::log(q / p)]);
     }
-    Ok(answer)
+    Ok(())
 }

@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use anyhow::{Context as _, Result};
 use rocking::integrator::{HistoryPoint, Observe};
+use rocking::statistics::Clusters;
 use serde::de::DeserializeOwned;
 
 use crate::cases::Case;
 use crate::engine;
-use crate::scene::{Engine, Scene};
+use crate::scene::{Engine, Impact, Scene};
 
 pub(super) use crate::cases::WrongModel;
-pub(super) use crate::error::MethodError;
 
 /// Reads the fields of a case's input into variables of the same names.
 macro_rules! input {
@@ -58,6 +59,33 @@ impl Answer {
     ) {
         self.observed.entry(name.to_owned()).or_default().extend(observed);
     }
+
+    /// Adds impacts, as many as are listed: times times `rate`, and under
+    /// the name `speeds` the speeds before them over `unit`. A block that
+    /// goes on where it should not shows in its fate.
+    pub fn put_impacts(
+        &mut self,
+        speeds: &str,
+        seen: &[Impact],
+        [rate, unit]: [f64; 2],
+        listed: &[(f64, f64)],
+    ) {
+        let seen = seen.iter().take(listed.len());
+        let (due, due_speeds): (Vec<f64>, Vec<f64>) =
+            listed.iter().copied().unzip();
+        let times = seen.clone().map(|impact| impact.time_s * rate);
+        self.put("impact-times-p", times, due);
+        let found = seen.map(|impact| impact.speed_before_rad_s / unit);
+        self.put(speeds, found, due_speeds);
+    }
+}
+
+/// The usual name of the speeds before impacts.
+pub(super) const SPEEDS: &str = "impact-speeds";
+
+/// Every pair from two lists, the first of them slowest.
+pub(super) fn pairs<A: Copy, B: Copy>(a: &[A], b: &[B]) -> Vec<(A, B)> {
+    a.iter().flat_map(|a| b.iter().map(|b| (*a, *b))).collect()
 }
 
 /// What a method works with.
@@ -74,8 +102,8 @@ impl Context<'_> {
     /// The case's input.
     ///
     /// # Errors
-    /// [`MethodError::Input`] for missing, unknown or malformed keys.
-    pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
+    /// An error for missing, unknown or malformed keys.
+    pub fn input<T: DeserializeOwned>(&self) -> Result<T> {
         input_of(self.case)
     }
 
@@ -87,6 +115,15 @@ impl Context<'_> {
     /// `mistaken` where this is the mistake that is made, else `right`.
     pub(super) fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
         if self.is(wrong) { mistaken } else { right }
+    }
+
+    /// What is drawn anew: earthquakes, or records where these are mistaken
+    /// for the unit.
+    pub(super) fn drawn(&self, clusters: &Clusters) -> Clusters {
+        match self.is(WrongModel::RecordsAsUnit) {
+            true => Clusters::singletons(clusters.records()),
+            false => clusters.clone(),
+        }
     }
 
     /// The scene as the wrong model sees it, where that changes the input;
@@ -105,7 +142,7 @@ impl Context<'_> {
         &self,
         scene: &Scene,
         time_s: f64,
-    ) -> Result<HistoryPoint, MethodError> {
+    ) -> Result<HistoryPoint> {
         let observe = Observe {
             history_interval_s: Some(time_s),
             until_s: Some(1.5 * time_s),
@@ -122,9 +159,7 @@ impl Context<'_> {
     }
 }
 
-pub(super) fn input_of<T: DeserializeOwned>(
-    case: &Case,
-) -> Result<T, MethodError> {
+pub(super) fn input_of<T: DeserializeOwned>(case: &Case) -> Result<T> {
     let table = toml::Value::Table(case.input.clone());
-    table.try_into().map_err(|e| MethodError::Input(e.to_string()))
+    table.try_into().context("input")
 }

@@ -1,14 +1,14 @@
 //! States along a trajectory: checkpoints, the turning point of every hop,
 //! and the end of a pulse.
 
-use super::method::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::references::{self, LINEAR_PULSES};
 use crate::scene::Overturning;
+use anyhow::Result;
 
 /// Checkpoints of trajectories, and the peak of every hop that they list.
-pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
+pub fn trajectories(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entries: Vec<String>);
-    let mut answer = Answer::default();
     for entry in &entries {
         let case = references::trajectory(entry)?;
         let scene = case.scene(Overturning::HalfPi)?;
@@ -36,15 +36,14 @@ pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
             answer.put("velocity-at-hop-peaks", [speed], [0.0]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Coordinates on the growing and the decaying manifold of the saddle,
 /// z - 1 + z' and z - 1 - z', where a pulse in Eq. 2 ends.
-pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
+pub fn pulse_ends(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; block: [f64; 3]);
     let [alpha, p, _] = block;
-    let mut answer = Answer::default();
     for case in &LINEAR_PULSES.read()?.cases {
         let Some(due) = &case.expected.state_at_pulse_end else { continue };
         let scene = case.scene(block, Overturning::HalfPi)?;
@@ -55,5 +54,5 @@ pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
         answer.put("growing", [z - 1.0 + w], [due.growing.near]);
         answer.put("decaying", [z - 1.0 - w], [due.decaying.near]);
     }
-    Ok(answer)
+    Ok(())
 }

@@ -3,11 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use anyhow::{Result, bail};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::method::{Answer, Context, MethodError, WrongModel};
-use crate::arithmetic::decimal;
+use super::cells::{Csv, csv};
+use super::method::{Answer, Context, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};
 use crate::references::{self, Digits, Expected, LINEAR_PULSES, RECT_PULSE};
 use crate::scene::{Forcing, Model, Overturning, Scene};
@@ -77,16 +78,14 @@ impl Errors {
         }
     }
 
-    fn answer(self) -> Answer {
-        let mut answer = Answer::default();
+    fn put(self, answer: &mut Answer) {
         for (name, error) in self.0 {
             answer.put(name, [error], [0.0]);
         }
-        answer
     }
 }
 
-fn run(context: &Context, scene: &Scene) -> Result<WideTrace, MethodError> {
+fn run(context: &Context, scene: &Scene) -> Result<WideTrace> {
     let arithmetic = match context.wrong {
         Some(WrongModel::F64Constants) => Arithmetic::RoundedConstants,
         Some(WrongModel::F64Inputs) => Arithmetic::DoubleDoubleOfRounded,
@@ -96,7 +95,7 @@ fn run(context: &Context, scene: &Scene) -> Result<WideTrace, MethodError> {
 }
 
 /// A trajectory of 36 digits, under both criteria.
-pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
+pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entry: String);
     let case = references::trajectory(&entry)?;
     let mut errors = Errors::default();
@@ -105,7 +104,8 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
         let trace = run(context, &scene)?;
         put_trajectory(&mut errors, &case.expected, &scene, &trace);
     }
-    Ok(errors.answer())
+    errors.put(answer);
+    Ok(())
 }
 
 fn put_trajectory(
@@ -135,7 +135,7 @@ fn put_trajectory(
 }
 
 /// A pulse in Eq. 2 on blocks that scale exactly.
-pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
+pub fn linear_pulse(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entry: usize, blocks: Vec<[f64; 3]>);
     let case = LINEAR_PULSES.entry(entry)?;
     let due = &case.expected;
@@ -143,8 +143,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     for block in blocks {
         let [alpha, p, g] = block;
         if block.iter().any(|x| libm::frexp(*x).0 != 0.5) {
-            let text = format!("block {alpha}, {p}, {g}: powers of two");
-            return Err(MethodError::Input(text));
+            bail!("block {alpha}, {p}, {g}: powers of two");
         }
         let trace = run(context, &case.scene(block, Overturning::Alpha)?)?;
         let units = [1.0 / p, p * alpha];
@@ -157,76 +156,56 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
         let over = due.overturned.and_then(time);
         errors.compare("error-of-alpha-time-p", trace.overturned_s, over, p);
     }
-    Ok(errors.answer())
+    errors.put(answer);
+    Ok(())
 }
 
 /// Free rocking to 40 digits, by the project's own generator.
-const FREE: &str = include_str!("../../../../fixtures/oracles/free.csv");
+const FREE: Csv = csv!("oracles/free.csv");
 
-/// One scene of the file.
-#[derive(Default)]
-struct FreeRow {
-    times: Vec<DoubleDouble>,
-    speeds: Vec<DoubleDouble>,
-    settling: Option<DoubleDouble>,
-}
+/// Times and speeds of the impacts of a scene, and when it comes to rest.
+type Free = [Vec<DoubleDouble>; 3];
 
 /// Free rocking in one of the equations, every block of the file.
-pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
+pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; equation: Model, frequency_rad_s: f64);
     let p = frequency_rad_s;
-    let lacks = |line: &str| MethodError::Reference {
-        file: "fixtures/oracles/free.csv",
-        what: format!("line `{line}`"),
-    };
-    let mut rows: BTreeMap<[&str; 3], FreeRow> = BTreeMap::new();
-    for line in FREE.lines().skip(1) {
-        let cells: Vec<&str> = line.split(',').collect();
-        let [law, alpha, eta, ratio, quantity, _, value] = cells[..] else {
-            return Err(lacks(line));
+    let mut scenes: BTreeMap<[&str; 3], (Scene, Free)> = BTreeMap::new();
+    for row in FREE.rows(equation.name())? {
+        let [alpha, eta, ratio] = row.numbers(1)?;
+        let release = Forcing::Free { rotation_rad: alpha * ratio };
+        let scene = Scene::new([alpha, p, 9.81], eta, release);
+        let name = [1, 2, 3].map(|column| row.text(column));
+        let entry = scenes.entry(name);
+        let new = || (scene.in_equation(equation), Free::default());
+        let [times, speeds, rest] = &mut entry.or_insert_with(new).1;
+        let list = match row.text(4) {
+            "time" => times,
+            "speed" => speeds,
+            _ => rest,
         };
-        if law != equation.name() {
-            continue;
-        }
-        let value = decimal(value).ok_or_else(|| lacks(line))?;
-        let row = rows.entry([alpha, eta, ratio]).or_default();
-        match quantity {
-            "time" => row.times.push(value),
-            "speed" => row.speeds.push(value),
-            _ => row.settling = Some(value),
-        }
+        list.push(row.decimal(6)?);
     }
-    let number = |text: &str| text.parse().map_err(|_| lacks(text));
     let mut errors = Errors::default();
-    for ([alpha, eta, ratio], row) in &rows {
-        let alpha: f64 = number(alpha)?;
-        let scene = Scene {
-            model: equation,
-            ..Scene::new(
-                [alpha, p, 9.81],
-                number(eta)?,
-                Forcing::Free { rotation_rad: alpha * number(ratio)? },
-            )
-        };
-        let trace = run(context, &scene)?;
-        let unit = DoubleDouble::from_f64(p);
-        let listed: Vec<_> = row
-            .times
-            .iter()
-            .zip(&row.speeds)
-            .map(|(t, v)| (*t / unit, *v * unit))
-            .collect();
+    let unit = DoubleDouble::from_f64(p);
+    for (scene, [times, speeds, rest]) in scenes.values() {
+        let trace = run(context, scene)?;
+        let pairs = times.iter().zip(speeds);
+        let listed: Vec<_> =
+            pairs.map(|(t, v)| (*t / unit, *v * unit)).collect();
         errors.impacts(&trace.impacts, &listed, p);
-        let rest = row.settling.map(|t| t / unit);
+        let rest = rest.last().map(|t| *t / unit);
         errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);
     }
-    Ok(errors.answer())
+    errors.put(answer);
+    Ok(())
 }
 
 /// Rectangular pulse in Eq. 1, by elliptic integrals.
-pub(super) fn rectangular_pulse(
+pub fn rectangular_pulse(
     context: &Context,
-) -> Result<Answer, MethodError> {
+    answer: &mut Answer,
+) -> Result<()> {
     input!(context; entry: usize);
     let case = RECT_PULSE.entry(entry)?;
     let p = case.p.near;
@@ -245,5 +224,6 @@ pub(super) fn rectangular_pulse(
             errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);
         }
     }
-    Ok(errors.answer())
+    errors.put(answer);
+    Ok(())
 }

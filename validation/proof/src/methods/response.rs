@@ -1,32 +1,12 @@
 //! Single responses against references: impacts, peaks, rest, overturning.
 
-use super::method::{Answer, Context, MethodError};
-use crate::references::{
-    self, Digits, FREE_ROCKING, Hit, LINEAR_PULSES, RECT_PULSE,
-};
-use crate::scene::{Forcing, Model, Overturning, Scene, Trace};
+use anyhow::Result;
 
-/// Impact times times `rate` and speeds over `unit_speed`, as many as the
-/// reference lists; a block that goes on where it should not shows in its
-/// fate. The reference's own times are multiplied by `scale`.
-fn put_impacts(
-    answer: &mut Answer,
-    trace: &Trace,
-    listed: &[Hit],
-    [rate, unit_speed, scale]: [f64; 3],
-) {
-    let impacts = || trace.impacts.iter().take(listed.len());
-    answer.put(
-        "impact-times-p",
-        impacts().map(|i| i.time_s * rate),
-        listed.iter().map(|hit| hit.t.near * scale),
-    );
-    answer.put(
-        "impact-speeds",
-        impacts().map(|i| i.speed_before_rad_s / unit_speed),
-        listed.iter().map(Hit::speed),
-    );
-}
+use super::method::{Answer, Context, SPEEDS};
+use crate::references::{
+    self, Digits, FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, hits,
+};
+use crate::scene::{Forcing, Model, Overturning, Scene};
 
 /// A time that there may be, found and due, each times `p`.
 fn put_time(
@@ -41,19 +21,17 @@ fn put_time(
 }
 
 /// A sampled or pulse trajectory of 36 digits.
-pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
+pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entry: String);
     let case = references::trajectory(&entry)?;
     let due = &case.expected;
     let scene = case.scene(Overturning::HalfPi)?;
     let p = scene.frequency_rad_s;
     let trace = context.engine.respond(&scene)?;
-    let first = Scene { overturning: Overturning::Alpha, ..scene };
-    let first = context.engine.respond(&first)?;
+    let first = context.engine.respond(&scene.to(Overturning::Alpha))?;
 
-    let mut answer = Answer::default();
     let mut put = |name: &str, found, due| {
-        put_time(&mut answer, name, found, due, p);
+        put_time(answer, name, found, due, p);
     };
     let uplift = due.uplifts.first();
     put("uplift-time-p", trace.uplift_s, uplift.map(|u| u.t));
@@ -70,24 +48,28 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     answer.put("uplifts", [trace.uplifts as f64], [due.n_uplifts]);
     let side = uplift.map_or(0.0, |u| u.side);
     answer.put("side", [trace.first_side], [side]);
-    put_impacts(&mut answer, &trace, &due.impacts, [p, 1.0, p]);
-    Ok(answer)
+    answer.put_impacts(
+        SPEEDS,
+        &trace.impacts,
+        [p, 1.0],
+        &hits(&due.impacts, p),
+    );
+    Ok(())
 }
 
 /// A pulse in Eq. 2 on several blocks: theta/alpha against p t is the same.
-pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
+pub fn linear_pulse(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entry: usize, blocks: Vec<[f64; 3]>);
     let case = LINEAR_PULSES.entry(entry)?;
     let due = &case.expected;
     // Later hops are free and decay: the largest of those listed is the peak.
     let peak = due.hops.iter().fold(0.0, |a: f64, hop| a.max(hop.near));
-    let mut answer = Answer::default();
     for block in blocks {
         let [alpha, p, _] = block;
         let scene = case.scene(block, Overturning::Alpha)?;
         let trace = context.engine.respond(&scene)?;
-        let units = [p, p * alpha, 1.0];
-        put_impacts(&mut answer, &trace, &due.impacts, units);
+        let (seen, units) = (&trace.impacts, [p, p * alpha]);
+        answer.put_impacts(SPEEDS, seen, units, &hits(&due.impacts, 1.0));
         answer.put("side", [trace.first_side], [due.side]);
         let time = |t: Option<f64>| t.map(|t| t * p);
         let uplift = [due.uplift_tau.near];
@@ -98,11 +80,11 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             answer.put("peak-ratio", [trace.peak_ratio], [peak]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Free rocking: impacts and settling time.
-pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
+pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entry: usize, equation: Model);
     let case = FREE_ROCKING.entry(entry)?;
     let due = match equation {
@@ -112,33 +94,34 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let [alpha, p, rotation_rad] =
         [case.alpha, case.p, case.theta0].map(|digits| digits.near);
     let release = Forcing::Free { rotation_rad };
-    let scene = Scene {
-        model: equation,
-        ..Scene::new([alpha, p, 9.81], case.eta.near, release)
-    };
-    let trace = context.engine.respond(&scene)?;
-    let mut answer = Answer::default();
-    put_impacts(&mut answer, &trace, &due.impacts, [p, 1.0, p]);
+    let scene = Scene::new([alpha, p, 9.81], case.eta.near, release);
+    let trace = context.engine.respond(&scene.in_equation(equation))?;
+    answer.put_impacts(
+        SPEEDS,
+        &trace.impacts,
+        [p, 1.0],
+        &hits(&due.impacts, p),
+    );
     answer.put("peak-ratio", [trace.peak_ratio], [rotation_rad / alpha]);
     let settling = Some(due.settling_time);
-    put_time(&mut answer, "rest-time-p", trace.rest_s, settling, p);
-    Ok(answer)
+    put_time(answer, "rest-time-p", trace.rest_s, settling, p);
+    Ok(())
 }
 
 /// Rectangular pulse in Eq. 1, by elliptic integrals.
-pub(super) fn rectangular_pulse(
+pub fn rectangular_pulse(
     context: &Context,
-) -> Result<Answer, MethodError> {
+    answer: &mut Answer,
+) -> Result<()> {
     input!(context; entry: usize);
     let case = RECT_PULSE.entry(entry)?;
     let p = case.p.near;
     let run = |criterion| context.engine.respond(&case.scene(criterion));
     let trace = run(Overturning::HalfPi)?;
-    let mut answer = Answer::default();
     answer.put("side", [trace.first_side], [-1.0]);
     answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [0.0]);
     let mut put = |name: &str, found, due| {
-        put_time(&mut answer, name, found, due, p);
+        put_time(answer, name, found, due, p);
     };
     let half_pi = case.overturned(Overturning::HalfPi);
     if half_pi.is_some() {
@@ -146,14 +129,19 @@ pub(super) fn rectangular_pulse(
         let alpha = case.overturned(Overturning::Alpha);
         let first = run(Overturning::Alpha)?;
         put("alpha-time-p", first.overturned_s, alpha);
-        return Ok(answer);
+        return Ok(());
     }
     put("peak-time-p", trace.peak_time_s, case.t_peak);
     if case.settling_time.is_some() {
         put("rest-time-p", trace.rest_s, case.settling_time);
     }
-    put_impacts(&mut answer, &trace, &case.impacts, [p, 1.0, p]);
+    answer.put_impacts(
+        SPEEDS,
+        &trace.impacts,
+        [p, 1.0],
+        &hits(&case.impacts, p),
+    );
     let peak = case.peak_over_alpha.map(|peak| peak.near);
     answer.put("peak-ratio", [trace.peak_ratio], peak);
-    Ok(answer)
+    Ok(())
 }

@@ -3,10 +3,11 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel};
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
 use crate::scene::{Engine as _, Forcing, Overturning};
+use anyhow::{Result, bail};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,10 +26,9 @@ struct Input {
 
 /// Slope of the root mean square error of the impact times, over steps that
 /// set the impacts anywhere in a step.
-pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
+pub fn orders(context: &Context, answer: &mut Answer) -> Result<()> {
     let input: Input = context.input()?;
     let late = context.is(WrongModel::OrderTooLow);
-    let mut answer = Answer::default();
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),
         ("step-ends", Events::StepEnds),
@@ -48,7 +48,7 @@ pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
         let slope = libm::log(coarse / fine) / libm::log(f64::from(finer));
         answer.see(&format!("order-{name}"), [slope]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 fn error(
@@ -56,13 +56,13 @@ fn error(
     events: Events,
     divisions: &[u32],
     finer: u32,
-) -> Result<f64, MethodError> {
+) -> Result<f64> {
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
         let scene = case.scene(Overturning::HalfPi)?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {
-            return Err(MethodError::Input(format!("`{entry}`: no record")));
+            bail!("`{entry}`: no record");
         };
         for &division in divisions {
             let step_p =

@@ -3,11 +3,13 @@
 
 use std::f64::consts::PI;
 
-use super::closed_forms::{flip, linear_scene, overturns_at_once};
-use super::method::{Answer, Context, MethodError, WrongModel};
+use anyhow::Result;
+
+use super::closed_forms::{overturns_at_once, overturns_from};
+use super::method::{Answer, Context, WrongModel, pairs};
 use crate::edge::{around, edge};
 use crate::oracles::overturning::sine_without_impact;
-use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
+use crate::scene::{Forcing, Model, PulseName, Scene};
 
 /// Least amplitude at which a sine that never ends overturns without impact:
 /// Housner's for the half sine, and the limit of many half cycles.
@@ -17,7 +19,7 @@ fn semi_infinite(omega: f64) -> f64 {
 
 /// Housner's sqrt(1 + Omega^2) over the least amplitude at which a half sine
 /// overturns.
-pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
+pub fn approximation(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         omega_over_p: Vec<f64>,
         /// Block: alpha (rad), p (rad/s), g (m/s2).
@@ -29,61 +31,48 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
         let exact = sine_without_impact(1, omega);
         let condition =
             context.or(WrongModel::SemiInfiniteSine, classic, exact);
-        let found = flip(condition, |a| {
-            let pulse =
-                PulseKind::HalfSine { amplitude: a, omega_rad_s: omega };
-            let until = Some(200.0);
-            let mut scene = linear_scene(pulse, 0.92, block, until);
-            scene.overturning = Overturning::HalfPi;
-            overturns_at_once(context.engine, &scene)
-        })?;
+        let sine = (PulseName::HalfSine, omega);
+        let found = overturns_from(context, sine, block, condition)?;
         ratios.push(classic / found);
     }
-    let mut answer = Answer::default();
     answer.see("classic-over-exact", ratios);
-    Ok(answer)
+    Ok(())
 }
 
 /// Least amplitudes at which sines of N half periods overturn without
 /// impact. The core reads such a sine as a record, whose broken line lies
 /// below the curve by the second order of the interval: extrapolated from
 /// two intervals to none.
-pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
+pub fn many(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         half_cycles: Vec<u32>, omega_over_p: Vec<f64>, block: [f64; 3],
         /// Intervals that a half cycle is divided into, and then into twice as
         /// many.
         intervals: u32,
     }
-    let mut answer = Answer::default();
-    for &half_cycles in &half_cycles {
-        for &omega in &omega_over_p {
-            let exact = sine_without_impact(half_cycles, omega);
-            let due = context.or(
-                WrongModel::SemiInfiniteSine,
-                semi_infinite(omega),
-                exact,
-            );
-            let critical = |intervals: u32| {
-                edge(around(exact, 1e-3), 1e-13, |a| {
-                    let [alpha, p, g] = block;
-                    let sine = (a * (g * alpha), omega * p, half_cycles);
-                    let scene = Scene {
-                        model: Model::Linearized,
-                        overturning: Overturning::HalfPi,
-                        until_s: Some(200.0 / p),
-                        ..Scene::new(block, 0.92, broken(sine, intervals))
-                    };
-                    overturns_at_once(context.engine, &scene)
-                })
-            };
-            let coarse = critical(intervals)?;
-            let fine = critical(2 * intervals)?;
-            let found = fine + (fine - coarse) / 3.0;
-            answer.put("critical-amplitude", [found], [due]);
-        }
+    for (half_cycles, omega) in pairs(&half_cycles, &omega_over_p) {
+        let exact = sine_without_impact(half_cycles, omega);
+        let due = context.or(
+            WrongModel::SemiInfiniteSine,
+            semi_infinite(omega),
+            exact,
+        );
+        let critical = |intervals: u32| {
+            edge(around(exact, 1e-3), 1e-13, |a| {
+                let [alpha, p, g] = block;
+                let sine = (a * (g * alpha), omega * p, half_cycles);
+                let forcing = broken(sine, intervals);
+                let scene = Scene::new(block, 0.92, forcing);
+                let scene = scene.in_equation(Model::Linearized);
+                overturns_at_once(context.engine, scene.until(200.0 / p))
+            })
+        };
+        let coarse = critical(intervals)?;
+        let fine = critical(2 * intervals)?;
+        let found = fine + (fine - coarse) / 3.0;
+        answer.put("critical-amplitude", [found], [due]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// A sine (amplitude in m/s2, rad/s, half periods) as a broken line with so
@@ -99,8 +88,7 @@ fn broken(
         let phase = PI * f64::from(part) / f64::from(intervals);
         sign * amplitude_m_s2 * libm::sin(phase)
     };
-    Forcing::Samples {
-        dt_s: PI / (omega_rad_s * f64::from(intervals)),
-        acceleration_m_s2: (0..=half_cycles * intervals).map(sample).collect(),
-    }
+    let dt_s = PI / (omega_rad_s * f64::from(intervals));
+    let samples = (0..=half_cycles * intervals).map(sample);
+    Forcing::samples(dt_s, samples.collect())
 }

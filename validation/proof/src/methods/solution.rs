@@ -1,9 +1,10 @@
 //! The numerical error itself: energy in flight; and the work that a run
 //! takes.
 
+use anyhow::Result;
 use rocking::integrator::Observe;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel, pairs};
 use crate::engine;
 use crate::references;
 use crate::scene::{Forcing, Model, Overturning, Scene, other};
@@ -11,7 +12,7 @@ use crate::scene::{Forcing, Model, Overturning, Scene, other};
 /// Energy above the base over that of the saddle, along a history in free
 /// flight, divided by eta^2 for each impact met: it stays what it was when
 /// the pulse ended.
-pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
+pub fn energy(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         restitution: f64,
@@ -26,66 +27,58 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
         equation,
     );
     let mut worst = Vec::new();
-    for &alpha in &slenderness_rad {
-        for &p in &frequency_rad_s {
-            let mut scene = Scene {
-                model: equation,
-                until_s: Some((duration_p + 12.0) / p),
-                ..Scene::new([alpha, p, 9.81], restitution, Forcing::NONE)
-            };
-            // A record of a rectangle and then of zeros: the block flies
-            // through intervals of silence, step by step.
-            let dt_s = 0.02 / p;
-            let on = (duration_p / 0.02).round() as usize;
-            let mut samples = vec![intensity * scene.threshold_m_s2(); on];
-            samples.resize(on + 800, 0.0);
-            scene.forcing =
-                Forcing::Samples { dt_s, acceleration_m_s2: samples };
-            let observe = Observe {
-                events: true,
-                history_interval_s: Some(0.013 / p),
-                until_s: scene.until_s,
-                ..Observe::default()
-            };
-            let run = engine::respond(&scene, &observe)?;
-            let quiet_s = (on + 1) as f64 * dt_s;
-            let eta2 = restitution * restitution;
-            let eta2 = if context.is(WrongModel::EtaOnceInEnergy) {
-                restitution
-            } else {
-                eta2
-            };
-            let mut start = None;
-            let mut deviation: f64 = 0.0;
-            for point in &run.history {
-                if point.time_s < quiet_s {
-                    continue;
-                }
-                let met = |t: f64| {
-                    let times = run.impacts.iter().map(|i| i.time_s);
-                    times.filter(|x| *x >= quiet_s && *x <= t).count()
-                };
-                let mut gain = 1.0;
-                for _ in 0..met(point.time_s) {
-                    gain *= eta2;
-                }
-                let u = point.rotation_rad.abs();
-                let w = point.velocity_rad_s / p;
-                let e = level(law, alpha, u, w) / gain;
-                let reference = *start.get_or_insert(e);
-                let saddle = level(law, alpha, alpha, 0.0);
-                deviation = deviation.max((e - reference).abs() / saddle);
+    for (alpha, p) in pairs(&slenderness_rad, &frequency_rad_s) {
+        // A record of a rectangle and then of zeros: the block flies
+        // through intervals of silence, step by step.
+        let dt_s = 0.02 / p;
+        let on = (duration_p / 0.02).round() as usize;
+        let scene = Scene::at_rest([alpha, p], restitution)
+            .in_equation(equation)
+            .until((duration_p + 12.0) / p)
+            .under(|threshold| {
+                let mut samples = vec![intensity * threshold; on];
+                samples.resize(on + 800, 0.0);
+                Forcing::samples(dt_s, samples)
+            });
+        let observe = Observe {
+            events: true,
+            history_interval_s: Some(0.013 / p),
+            until_s: scene.until_s,
+            ..Observe::default()
+        };
+        let run = engine::respond(&scene, &observe)?;
+        let quiet_s = (on + 1) as f64 * dt_s;
+        let eta2 = restitution * restitution;
+        let eta2 = context.or(WrongModel::EtaOnceInEnergy, restitution, eta2);
+        let mut start = None;
+        let mut deviation: f64 = 0.0;
+        for point in &run.history {
+            if point.time_s < quiet_s {
+                continue;
             }
-            if start.is_none() {
-                deviation = f64::NAN;
+            let met = |t: f64| {
+                let times = run.impacts.iter().map(|i| i.time_s);
+                times.filter(|x| *x >= quiet_s && *x <= t).count()
+            };
+            let mut gain = 1.0;
+            for _ in 0..met(point.time_s) {
+                gain *= eta2;
             }
-            worst.push(deviation);
+            let u = point.rotation_rad.abs();
+            let w = point.velocity_rad_s / p;
+            let e = level(law, alpha, u, w) / gain;
+            let reference = *start.get_or_insert(e);
+            let saddle = level(law, alpha, alpha, 0.0);
+            deviation = deviation.max((e - reference).abs() / saddle);
         }
+        if start.is_none() {
+            deviation = f64::NAN;
+        }
+        worst.push(deviation);
     }
-    let mut answer = Answer::default();
     let zeros = vec![0.0; worst.len()];
     answer.put("energy-drift-over-saddle", worst, zeros);
-    Ok(answer)
+    Ok(())
 }
 
 /// Energy above the base: w^2/2 + 2 sin(u/2) sin(alpha - u/2), or
@@ -101,9 +94,8 @@ fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
 }
 
 /// What runs of reference trajectories cost, apart from what they give.
-pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
+pub fn work(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; entries: Vec<String>);
-    let mut answer = Answer::default();
     for entry in &entries {
         let case = references::trajectory(entry)?;
         let scene = context.altered(&case.scene(Overturning::Alpha)?);
@@ -119,5 +111,5 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
             answer.expected.remove(name);
         }
     }
-    Ok(answer)
+    Ok(())
 }

@@ -1,9 +1,10 @@
 //! Square waves in Eq. 1, chained exactly; the engine reads them as records
 //! whose jumps are ramps over two intervals.
 
+use anyhow::Result;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::method::{Answer, Context, WrongModel};
 use crate::oracles::square::{SquareWave, State};
 use crate::scene::{Forcing, Overturning, Scene};
 
@@ -34,12 +35,7 @@ impl Input {
     /// The wave as a record: a sample at a jump has the mean of both sides,
     /// which keeps the first moment and leaves an error of the second order
     /// in the interval.
-    fn scene(
-        &self,
-        stretches: &[(f64, usize)],
-        intervals: usize,
-        criterion: Overturning,
-    ) -> Scene {
+    fn scene(&self, stretches: &[(f64, usize)], intervals: usize) -> Scene {
         let [alpha, p, eta] = self.block;
         let unit = 9.81 * libm::tan(alpha);
         let mut samples: Vec<f64> = Vec::new();
@@ -52,24 +48,16 @@ impl Input {
             let more = samples.len() + units * intervals;
             samples.resize(more, level * unit);
         }
-        Scene {
-            overturning: criterion,
-            ..Scene::new(
-                [alpha, p, 9.81],
-                eta,
-                Forcing::Samples {
-                    dt_s: self.unit_p / (intervals as f64 * p),
-                    acceleration_m_s2: samples,
-                },
-            )
-        }
+        let dt_s = self.unit_p / (intervals as f64 * p);
+        let forcing = Forcing::samples(dt_s, samples);
+        Scene::new([alpha, p, 9.81], eta, forcing).to(Overturning::HalfPi)
     }
 
     /// What `measure` sees, extrapolated from two intervals to none.
     fn extrapolated(
         &self,
-        measure: impl Fn(usize) -> Result<Vec<f64>, MethodError>,
-    ) -> Result<Vec<f64>, MethodError> {
+        measure: impl Fn(usize) -> Result<Vec<f64>>,
+    ) -> Result<Vec<f64>> {
         let coarse = measure(self.intervals)?;
         let fine = measure(2 * self.intervals)?;
         if coarse.len() != fine.len() {
@@ -81,10 +69,9 @@ impl Input {
 }
 
 /// Impacts, peak and end of the motion during square waves.
-pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
+pub fn chained(context: &Context, answer: &mut Answer) -> Result<()> {
     let input: Input = context.input()?;
     let [alpha, p, _] = input.block;
-    let mut answer = Answer::default();
     for wave in &input.waves {
         let form = input.wave(wave);
         let due = form.motion();
@@ -92,7 +79,7 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let count = due.impacts.len();
         let seen = |of: fn(f64, f64) -> f64| {
             input.extrapolated(|intervals| {
-                let scene = input.scene(wave, intervals, Overturning::HalfPi);
+                let scene = input.scene(wave, intervals);
                 let trace = context.engine.respond(&scene)?;
                 let impacts = trace.impacts.iter().take(count);
                 Ok(impacts
@@ -109,7 +96,7 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let list = listed.map(|i| i.1 / alpha);
         answer.put("impact-speeds", speeds, list);
         let end = input.extrapolated(|intervals| {
-            let scene = input.scene(wave, intervals, Overturning::HalfPi);
+            let scene = input.scene(wave, intervals);
             let seen = context.state(&scene, end_p / p)?;
             Ok(vec![
                 seen.rotation_rad / alpha,
@@ -120,22 +107,21 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let list = [side * y / alpha, side * w / alpha];
         answer.put("state-at-end", end, list);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Fates after square waves, by where the block is, which way it moves and
 /// whether its energy passes the saddle.
-pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
+pub fn exclusions(context: &Context, answer: &mut Answer) -> Result<()> {
     let input: Input = context.input()?;
     let [alpha, p, _] = input.block;
-    let mut answer = Answer::default();
     for wave in &input.waves {
         let form = input.wave(wave);
         let motion = form.motion();
         let end = motion.end;
         let due = form.ending(end);
         let end_s = form.stretches.iter().map(|s| s.1).sum::<f64>() / p;
-        let scene = input.scene(wave, input.intervals, Overturning::HalfPi);
+        let scene = input.scene(wave, input.intervals);
         let trace = context.engine.respond(&scene)?;
         let before = motion.impacts.len();
         // Sides change at each impact.
@@ -152,7 +138,7 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
         };
         answer.put("overturned-side", [fate], [due.overturned]);
         let speed = input.extrapolated(|intervals| {
-            let scene = input.scene(wave, intervals, Overturning::HalfPi);
+            let scene = input.scene(wave, intervals);
             let trace = context.engine.respond(&scene)?;
             let after = trace.impacts.get(before);
             Ok(after
@@ -164,5 +150,5 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
         let due = due.impact.map(|v| v / alpha);
         answer.put("impact-speed-after", speed, due);
     }
-    Ok(answer)
+    Ok(())
 }

@@ -2,7 +2,6 @@
 //! published critical values, other packages, and simulated truths.
 
 mod calibration;
-mod cells;
 mod choice;
 mod earthquakes;
 mod equations;
@@ -11,6 +10,7 @@ mod inference;
 mod inversion;
 mod lilliefors;
 mod nist;
+mod power;
 mod proportion;
 mod risk;
 mod truths;
@@ -27,6 +27,7 @@ pub(super) use lilliefors::{
     asymptotics, draws, largest, mean, null, published, table,
 };
 pub(super) use nist::moments;
+pub(super) use power::power;
 pub(super) use proportion::intervals as proportions;
 pub(super) use risk::{annual_frequency, cornell, interval};
 pub(super) use two_samples::two_samples;

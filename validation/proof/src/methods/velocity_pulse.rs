@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
+use anyhow::Result;
 use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
 use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, MethodError, WrongModel};
+use super::cells::{Csv, csv};
+use super::method::{Answer, Context, WrongModel};
 
-const EXPECTED: &str = "fixtures/oracles/velocity_pulse.csv";
-const EXPECTED_CSV: &str =
-    include_str!("../../../../fixtures/oracles/velocity_pulse.csv");
+const EXPECTED: Csv = csv!("oracles/velocity_pulse.csv");
 
 /// Sampling interval in s, and number of samples.
 const SAMPLES: (f64, usize) = (0.01, 3000);
@@ -58,11 +58,7 @@ impl Input {
             / STANDARD_GRAVITY_M_S2
     }
 
-    fn component(
-        &self,
-        share: f64,
-        number: f64,
-    ) -> Result<Accelerogram, MethodError> {
+    fn component(&self, share: f64, number: f64) -> Result<Accelerogram> {
         let samples = (0..SAMPLES.1)
             .map(|i| {
                 let t = SAMPLES.0 * i as f64;
@@ -75,20 +71,18 @@ impl Input {
                 (a * 1e6).round() / 1e6
             })
             .collect();
-        Accelerogram::try_new("case", SAMPLES.0, samples)
-            .map_err(|e| MethodError::Input(e.to_string()))
+        Ok(Accelerogram::try_new("case", SAMPLES.0, samples)?)
     }
 }
 
 /// The five candidates of a pair, and whether one is a pulse.
-pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
+pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
     let input: Input = context.input()?;
     let (sin, cos) = libm::sincos(input.angle_deg.to_radians());
     let first = input.component(cos, 1.0)?;
     let second = match context.wrong {
         Some(WrongModel::OneComponent) => {
-            Accelerogram::try_new("case", SAMPLES.0, vec![0.0; SAMPLES.1])
-                .map_err(|e| MethodError::Input(e.to_string()))?
+            Accelerogram::try_new("case", SAMPLES.0, vec![0.0; SAMPLES.1])?
         }
         _ => input.component(sin, 2.0)?,
     };
@@ -98,8 +92,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         0.01 * STANDARD_GRAVITY_M_S2,
         STANDARD_GRAVITY_M_S2,
     );
-    let found = candidates(&first, &second, gravity_m_s2)
-        .map_err(|e| MethodError::Oracle(e.to_string()))?;
+    let found = candidates(&first, &second, gravity_m_s2)?;
     let quantities: [(&str, Quantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
@@ -110,17 +103,9 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         ("indicator", |c| c.indicator),
         ("late", |c| f64::from(u8::from(c.late))),
     ];
-    let mut answer = Answer::default();
     for (name, value) in quantities {
-        let row = EXPECTED_CSV
-            .lines()
-            .map(|line| line.split(',').collect::<Vec<_>>())
-            .find(|row| row[0] == input.motion && row.get(1) == Some(&name))
-            .ok_or_else(|| MethodError::Reference {
-                file: EXPECTED,
-                what: format!("no `{name}` of `{}`", input.motion),
-            })?;
-        let expected = row[2..].iter().filter_map(|x| x.parse().ok());
+        let row = EXPECTED.row(&[&input.motion, name])?;
+        let expected = row.numbers::<5>(2)?;
         answer.put(&name.replace('_', "-"), found.iter().map(value), expected);
     }
     let late = context.is(WrongModel::LatePulsesKept);
@@ -135,5 +120,5 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         let known = shown.period_s * input.frequency_hz;
         answer.see("period-over-known", [known]);
     }
-    Ok(answer)
+    Ok(())
 }

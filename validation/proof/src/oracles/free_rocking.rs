@@ -1,17 +1,14 @@
-//! Free rocking from rest at an initial rotation: every impact, every peak
-//! and the settling time in closed form.
+//! Free rocking from rest at an initial rotation: every impact and
+//! the settling time in closed form.
 
 use super::carlson::rf;
 
 /// What free rocking does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeRocking {
-    /// Times of the impacts, in units of 1/p.
-    pub impact_times_p: Vec<f64>,
-    /// Speeds just before them, over p.
-    pub impact_speeds_p: Vec<f64>,
-    /// Peak |theta|/alpha after each of them.
-    pub peak_ratios: Vec<f64>,
+    /// Times of the impacts, in units of 1/p, and speeds just before them,
+    /// over p.
+    pub impacts: Vec<(f64, f64)>,
     /// Sum of the infinite series of impacts, in units of 1/p; infinite
     /// without loss.
     pub settling_p: f64,
@@ -43,11 +40,6 @@ pub fn nonlinear(
     let quarter = |d: f64, q2: f64| {
         (0.5 * d).sqrt() * rf(q2 * c * c, q2 * (1.0 - q2), s * s * (1.0 - q2))
     };
-    let peak = |d: f64| {
-        let psi = 2.0 * libm::asin((s * s - 0.5 * d).sqrt());
-        2.0 * libm::asin(0.5 * d / libm::sin(0.5 * (alpha_rad + psi)))
-            / alpha_rad
-    };
     // A hop at the end of the series lasts 2 v / sin(alpha).
     let short = |v: f64| 2.0 * v / libm::sin(alpha_rad);
     series(
@@ -56,7 +48,6 @@ pub fn nonlinear(
         impacts,
         alpha_rad,
         |d| 2.0 * quarter(d, s * s - 0.5 * d),
-        peak,
         short,
     )
 }
@@ -85,10 +76,6 @@ pub fn linearized(
         impacts,
         alpha_rad,
         |d| 2.0 * libm::atanh(speed(d)),
-        |d| {
-            let v = speed(d);
-            v * v / (1.0 + (1.0 - v * v).sqrt())
-        },
         |v| 2.0 * v / alpha_rad,
     )
 }
@@ -135,18 +122,13 @@ pub fn chatter(
             2.0 * libm::atanh(v / down(side))
         }
     };
-    let mut answer = FreeRocking {
-        impact_times_p: Vec::new(),
-        impact_speeds_p: Vec::new(),
-        peak_ratios: Vec::new(),
-        settling_p: f64::INFINITY,
-    };
+    let mut answer =
+        FreeRocking { impacts: Vec::new(), settling_p: f64::INFINITY };
     let (mut time, mut v, mut side) = (time_p, eta * speed_p, 1.0);
-    while v > TAIL * alpha_rad || answer.impact_times_p.len() < impacts {
+    while v > TAIL * alpha_rad || answer.impacts.len() < impacts {
         time += hop(side, v);
-        if answer.impact_times_p.len() < impacts {
-            answer.impact_times_p.push(time);
-            answer.impact_speeds_p.push(v);
+        if answer.impacts.len() < impacts {
+            answer.impacts.push((time, v));
         }
         v *= eta;
         side = -side;
@@ -162,28 +144,19 @@ fn series(
     impacts: usize,
     alpha_rad: f64,
     hop: impl Fn(f64) -> f64,
-    peak: impl Fn(f64) -> f64,
     short_hop: impl Fn(f64) -> f64,
 ) -> FreeRocking {
-    let mut answer = FreeRocking {
-        impact_times_p: Vec::new(),
-        impact_speeds_p: Vec::new(),
-        peak_ratios: Vec::new(),
-        settling_p: f64::INFINITY,
-    };
+    let mut answer =
+        FreeRocking { impacts: Vec::new(), settling_p: f64::INFINITY };
     let mut energy = first_energy;
     let mut time = first_quarter;
     loop {
         let speed = (2.0 * energy).sqrt();
-        let listed = answer.impact_times_p.len() >= impacts;
+        let listed = answer.impacts.len() >= impacts;
         if !listed {
-            answer.impact_times_p.push(time);
-            answer.impact_speeds_p.push(speed);
+            answer.impacts.push((time, speed));
         }
         energy *= eta * eta;
-        if !listed {
-            answer.peak_ratios.push(peak(energy));
-        }
         if listed && eta == 1.0 {
             return answer;
         }

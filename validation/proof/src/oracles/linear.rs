@@ -4,7 +4,7 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::scene::{Forcing, PulseKind};
+use crate::scene::{Forcing, PulseKind, ricker_beta};
 
 /// What the block does.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -15,8 +15,6 @@ pub struct Response {
     pub side: f64,
     /// Impacts: p t and |theta'|/(p alpha).
     pub impacts: Vec<(f64, f64)>,
-    /// Largest |theta|/alpha; infinite where it reaches 1.
-    pub peak: f64,
     /// When |theta| reaches alpha.
     pub overturned: Option<f64>,
 }
@@ -72,9 +70,7 @@ fn at(pulse: PulseKind, piece: usize, t: f64) -> Particular {
         PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
             let rate = TAU / (3.0_f64.sqrt() * period_s);
             let bell = Bell::at(rate, t - 0.5 * cycles * period_s);
-            let r = 3.0 - 6.0_f64.sqrt();
-            let beta = 6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r);
-            let scale = amplitude / (beta * rate * rate * rate);
+            let scale = amplitude / (ricker_beta() * rate * rate * rate);
             // w'' = w + G.
             Particular {
                 a: -scale * bell.third,
@@ -220,7 +216,7 @@ pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
             // The free branch is followed until its fate is settled.
             let last = if over { t + 60.0 } else { end };
             let hop = Hop::new((!over).then_some((pulse, k)), side, t, (z, w));
-            match next(&hop, last, &mut response) {
+            match next(&hop, last) {
                 Next::Reached(state) => {
                     (z, w) = state;
                     t = last;
@@ -228,7 +224,6 @@ pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
                 }
                 Next::Overturned(at) => {
                     response.overturned = Some(at);
-                    response.peak = f64::INFINITY;
                     return response;
                 }
                 Next::Impact(at, speed) => {
@@ -251,7 +246,7 @@ enum Next {
 }
 
 /// First event of a hop before `end`.
-fn next(hop: &Hop, end: f64, response: &mut Response) -> Next {
+fn next(hop: &Hop, end: f64) -> Next {
     let length = end - hop.start;
     let at = |k: usize| {
         let share = k as f64 / POINTS as f64;
@@ -279,7 +274,6 @@ fn next(hop: &Hop, end: f64, response: &mut Response) -> Next {
                 let at = hop.root(low, stop, |state| state.0);
                 return Next::Impact(at, hop.state(at).1.abs());
             }
-            response.peak = response.peak.max(z);
             low = stop;
         }
         (before, old) = (now, new);

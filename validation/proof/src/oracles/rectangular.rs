@@ -1,7 +1,6 @@
 //! Rectangular pulse on the nonlinear block: gravity is turned by
 //! psi = atan(a/g), and the motion is again that of a pendulum.
 
-use super::bisect;
 use super::carlson::rf;
 
 /// A block (alpha, p) under a constant acceleration `pull` = a/g > tan
@@ -38,14 +37,6 @@ impl Rectangular {
         let s = libm::sin(0.5 * y_rad) * libm::sin(0.5 * y_rad + delta);
         let q2 = q * q;
         s.sqrt() / rate * rf(q2 * (1.0 - s1), q2 * (1.0 - q2), s1 * (1.0 - q2))
-    }
-
-    /// Rotation reached after `t_s` of the pulse, rad.
-    #[must_use]
-    pub fn rotation_rad(&self, t_s: f64) -> f64 {
-        let (delta, _) = self.turned();
-        let most = std::f64::consts::PI - delta;
-        bisect(0.0, most * (1.0 - 1e-9), |y| self.time_s(y) - t_s)
     }
 
     /// Shortest pulse that overturns, s: the one that lifts the block to

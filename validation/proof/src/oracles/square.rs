@@ -35,8 +35,6 @@ pub struct State {
 pub struct Motion {
     /// Times and speeds just before each impact during the wave.
     pub impacts: Vec<(f64, f64)>,
-    /// Largest |theta| during the wave, rad.
-    pub peak_rad: f64,
     /// State where the wave ends.
     pub end: State,
 }
@@ -139,7 +137,6 @@ impl SquareWave {
         let first = self.stretches.first().map_or(0.0, |s| s.0);
         let mut state = State { side: -first.signum(), y: 0.0, w: 0.0 };
         let mut impacts = Vec::new();
-        let mut peak_rad: f64 = 0.0;
         let mut start = 0.0;
         for &(pull, duration) in &self.stretches {
             let mut left = duration;
@@ -150,15 +147,8 @@ impl SquareWave {
                 // A hop that starts at the base and outwards is not there
                 // again at once.
                 let ahead = hit > 0.0 && hit <= left;
-                // Its top, where u is least.
-                let top = -hop.clock(hop.u, hop.inward);
-                if hop.turns() && hop.u > 0.0 && top > 0.0 && top < left {
-                    let least = libm::asin((-hop.kappa).sqrt());
-                    peak_rad = peak_rad.max(hop.turned - 2.0 * least);
-                }
                 if !ahead {
                     state = hop.after(state.side, left);
-                    peak_rad = peak_rad.max(state.y);
                     break;
                 }
                 let s = libm::sin(base);
@@ -170,7 +160,7 @@ impl SquareWave {
             }
             start += duration;
         }
-        Motion { impacts, peak_rad, end: state }
+        Motion { impacts, end: state }
     }
 
     /// What becomes of the block after the wave, by energy.

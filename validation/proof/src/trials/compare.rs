@@ -41,65 +41,39 @@ impl Seen {
     }
 }
 
-/// How a certificate is read: as it is, or in a wrong way.
+/// How a certificate is read: as it is, or as a wrong model reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reading {
-    /// As it is.
-    Whole,
-    /// Uplifts, contacts and rests left out.
-    WithoutBranches,
-    /// The end of observation left out.
-    WithoutEnd,
-    /// An overturned run is taken for infinitely far from the other fate.
-    MarginInfinity,
-    /// Every error a tenth of what it is.
-    TenthOfTheError,
-    /// Every error a hundredth of what it is.
-    HundredthOfTheError,
-}
+pub struct Reading(pub Option<WrongModel>);
 
 impl Reading {
-    /// The reading of a wrong model.
-    #[must_use]
-    pub fn of(wrong: Option<WrongModel>) -> Self {
-        match wrong {
-            Some(WrongModel::WithoutBranches) => Self::WithoutBranches,
-            Some(WrongModel::WithoutEnd) => Self::WithoutEnd,
-            Some(WrongModel::MarginInfinity) => Self::MarginInfinity,
-            Some(WrongModel::TenthOfTheError) => Self::TenthOfTheError,
-            Some(WrongModel::HundredthOfTheError) => Self::HundredthOfTheError,
-            _ => Self::Whole,
-        }
-    }
+    /// The certificate as it is.
+    pub const WHOLE: Self = Self(None);
 
     /// Factor on every error.
     fn factor(self) -> f64 {
-        match self {
-            Self::TenthOfTheError => 0.1,
-            Self::HundredthOfTheError => 0.01,
-            Self::Whole
-            | Self::WithoutBranches
-            | Self::WithoutEnd
-            | Self::MarginInfinity => 1.0,
+        match self.0 {
+            Some(WrongModel::TenthOfTheError) => 0.1,
+            Some(WrongModel::HundredthOfTheError) => 0.01,
+            _ => 1.0,
         }
     }
 
     /// Whether the run may be relied on.
     #[must_use]
     pub fn is_clear(self, seen: &Seen) -> bool {
-        let certificate = seen.certificate;
+        let is = |wrong| self.0 == Some(wrong);
         Decision::ALL.into_iter().all(|decision| {
             let left_out = match decision {
                 Decision::Uplift | Decision::Contact | Decision::Rest => {
-                    self == Self::WithoutBranches
+                    is(WrongModel::WithoutBranches)
                 }
                 Decision::Overturning => {
-                    self == Self::MarginInfinity && seen.overturned
+                    is(WrongModel::MarginInfinity) && seen.overturned
                 }
-                Decision::End => self == Self::WithoutEnd,
+                Decision::End => is(WrongModel::WithoutEnd),
                 Decision::Propagation => false,
             };
-            let ratio = certificate.of(decision).ratio / self.factor();
+            let ratio = seen.certificate.of(decision).ratio / self.factor();
             left_out || ratio >= CLEARANCE
         })
     }
@@ -170,7 +144,7 @@ pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
 /// Work of a run in wider arithmetic: a step there takes up to a millisecond.
 const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
-/// The truth as one arithmetic tells it.
+/// The truth by one arithmetic.
 fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
     let observe = Observe {
         accuracy: true,
@@ -201,7 +175,7 @@ fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
 ///     Judgement, Reading, Stratum, compare, trial,
 /// };
 /// let trial = trial(Stratum::Ordinary, 0)?.unwrap();
-/// let judgement = Judgement::of(&compare(&trial)?, Reading::Whole);
+/// let judgement = Judgement::of(&compare(&trial)?, Reading::WHOLE);
 /// assert!(matches!(judgement, Judgement::Right | Judgement::Within(_)));
 /// # Ok::<(), rocking_proof::scene::EngineError>(())
 /// ```

@@ -4,7 +4,7 @@ use rand::RngExt as _;
 use rocking::streams::{Stream, below, standard_normal};
 
 /// A stream, and what is drawn from it.
-pub(super) struct Draw(pub Stream);
+pub(crate) struct Draw(pub Stream);
 
 impl Draw {
     /// Uniform in [low, high).

@@ -69,7 +69,7 @@ pub(super) fn ending(
         };
         if until_s > 0.0 {
             scene.until_s = Some(until_s);
-            return Ok(Some((name, scene)));
+            return Ok(Some((name.to_owned(), scene)));
         }
     }
     Ok(None)
@@ -83,20 +83,13 @@ pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<Named> {
         let (_, mut scene) = ordinary_record(draw, LONGEST);
         let threshold = scene.threshold_m_s2();
         let peak = moved(threshold, few(draw, NEAR_THRESHOLD));
-        if let Forcing::Samples { acceleration_m_s2: samples, .. } =
-            &mut scene.forcing
-        {
-            let most = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-            let below = draw.uniform(0.1, 0.95) * threshold / most;
-            samples.iter_mut().for_each(|x| *x *= below);
-            samples[0] = peak * draw.sign();
-        }
-        return Some(("touch of a first sample", scene));
+        let most = scene.forcing.peak();
+        scene.forcing.scale(draw.uniform(0.1, 0.95) * threshold / most);
+        scene.forcing.amplitudes_mut()[0] = peak * draw.sign();
+        return Some(("touch, first sample".into(), scene));
     }
     let (kind, mut scene) = under_pulse(draw, which);
-    let name = TOUCHES
-        .into_iter()
-        .find(|name| name.ends_with(&format!(" {kind}")))?;
+    let name = format!("touch, {kind}");
     let threshold = scene.threshold_m_s2();
     let Forcing::Pulse(kind) = &mut scene.forcing else { return None };
     let pulse = Pulse::try_new(*kind).ok()?.with_pga(threshold).ok()?;
@@ -106,15 +99,3 @@ pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<Named> {
     *amplitude = size.copysign(*amplitude);
     Some((name, scene))
 }
-
-/// Names of the scenes under a pulse.
-const TOUCHES: [&str; PULSES] = [
-    "touch of a one-sine",
-    "touch of a half-sine",
-    "touch of a one-cosine",
-    "touch of a rectangle",
-    "touch of a triangle",
-    "touch of a symmetric Ricker",
-    "touch of an antisymmetric Ricker",
-    "touch of a Mavroeidis",
-];

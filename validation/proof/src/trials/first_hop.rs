@@ -26,7 +26,7 @@ pub(super) fn first_hop(
 ) -> Result<Option<Named>, EngineError> {
     for _ in 0..ATTEMPTS {
         if let Some(scene) = grazing(draw)? {
-            return Ok(Some(("first hop", scene)));
+            return Ok(Some(("first hop".to_owned(), scene)));
         }
     }
     Ok(None)
@@ -53,7 +53,7 @@ fn grazing(draw: &mut Draw) -> Result<Option<Scene>, EngineError> {
     let threshold = plain.threshold_m_s2();
     let at = move |amplitude: f64| {
         let samples = shape.iter().map(|x| x * amplitude).collect();
-        let forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+        let forcing = Forcing::samples(dt_s, samples);
         Scene { forcing, ..plain.clone() }
     };
     let until_s = Some((first - 1) as f64 * dt_s);

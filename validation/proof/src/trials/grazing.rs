@@ -57,7 +57,7 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let then = shock(draw, &scene, first, *dt_s)?;
     let at = |factor: f64| {
         let samples = first.iter().map(|x| x * factor);
-        with_samples(&scene, samples.chain(then.iter().copied()).collect())
+        scene.with_samples(samples.chain(then.iter().copied()).collect())
     };
     let impacts = |scene: &Scene| {
         let response = run_until(scene, late)?;
@@ -81,17 +81,17 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     if !((peak(&a.0)? - peak(&b.0)?).abs() > COUNTS) {
         return Ok(None);
     }
-    Ok(Some(("contact", near(draw, NEAR, a, b))))
+    Ok(Some(("contact".to_owned(), near(draw, NEAR, a, b))))
 }
 
 /// An amplitude between two fates.
 fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
     // A block that is released stands: a record takes that place.
-    let (kind, scene) = match which % PULSES {
+    let (kind, mut scene) = match which % PULSES {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
         k => under_pulse(draw, k),
     };
-    let size = amplitude(&scene);
+    let size = scene.forcing.peak();
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
     let search =
         Search { at, see: overturns, turns: differ, first: usize::MAX };
@@ -99,25 +99,8 @@ fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
     let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
     };
-    let name = FATES
-        .into_iter()
-        .find(|name| name.strip_prefix("fate ") == Some(kind))
-        .unwrap_or("fate");
-    Ok(Some((name, near(draw, NEAR_FATE, a, b))))
+    Ok(Some((format!("fate {kind}"), near(draw, NEAR_FATE, a, b))))
 }
-
-/// Names of the scenes between two fates.
-const FATES: [&str; PULSES] = [
-    "fate one-sine",
-    "fate half-sine",
-    "fate one-cosine",
-    "fate rectangle",
-    "fate triangle",
-    "fate symmetric Ricker",
-    "fate antisymmetric Ricker",
-    "fate Mavroeidis",
-    "fate filtered noise",
-];
 
 /// A peak or a plateau at the threshold of uplift, then a shock.
 fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
@@ -138,8 +121,8 @@ fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
     let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
     let skipped = if draw.chance(0.7) { strong } else { 0 };
     samples.extend(then.into_iter().skip(skipped).map(|x| sign * x));
-    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
-    Ok(("uplift", scene))
+    scene.forcing = Forcing::samples(dt_s, samples);
+    Ok(("uplift".to_owned(), scene))
 }
 
 /// A rest that just comes before the next uplift, or just does not.
@@ -147,7 +130,7 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.05);
     let dt_s = in_p / scene.frequency_rad_s;
-    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
     let first: Vec<f64> = if draw.chance(0.5) {
@@ -160,7 +143,7 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let scaled_first =
         |factor: f64| first.iter().map(move |x| x * (size * factor));
     let events = Observe { events: true, ..Observe::default() };
-    let alone = with_samples(&scene, scaled_first(1.0).collect());
+    let alone = scene.with_samples(scaled_first(1.0).collect());
     let alone = respond(&alone, &events)?;
     let quiet = alone.rest_time_s.map_or(-1.0, |t| t / dt_s) as i64
         - first.len() as i64;
@@ -173,7 +156,7 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let at = |factor: f64| {
         let zeros = std::iter::repeat_n(0.0, quiet);
         let samples = scaled_first(factor).chain(zeros);
-        with_samples(&scene, samples.chain(again.iter().copied()).collect())
+        scene.with_samples(samples.chain(again.iter().copied()).collect())
     };
     let late = (first.len() + quiet + lifts) as f64 * dt_s;
     let uplifts = |scene: &Scene| Ok(run_until(scene, late)?.work.uplifts);
@@ -182,7 +165,7 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let Some([a, b]) = search.sides(draw, &linear(0.8, 1.2))? else {
         return Ok(None);
     };
-    Ok(Some(("rest", near(draw, NEAR, a, b))))
+    Ok(Some(("rest".to_owned(), near(draw, NEAR, a, b))))
 }
 
 /// A clear shock that makes the highest peak, then long shaking at the
@@ -192,7 +175,7 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let p = scene.frequency_rad_s;
     let in_p = draw.log(0.02, 0.1);
     let dt_s = in_p / p;
-    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
     let half = std::f64::consts::PI / length as f64;
@@ -205,7 +188,7 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let shaking = normalised(noise(draw, n, turns * in_p));
     let at = |amplitude: f64| {
         let shaking = shaking.iter().map(|x| x * amplitude);
-        with_samples(&scene, first.iter().copied().chain(shaking).collect())
+        scene.with_samples(first.iter().copied().chain(shaking).collect())
     };
     let search =
         Search { at, see: overturns, turns: differ, first: usize::MAX };
@@ -213,7 +196,7 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
     };
-    Ok(Some(("late chaos", near(draw, NEAR_FATE, a, b))))
+    Ok(Some(("late chaos".to_owned(), near(draw, NEAR_FATE, a, b))))
 }
 
 /// A shock after what came before: strong, but in most cases not so strong
@@ -232,7 +215,7 @@ fn shock(
     let mut whole = scene.clone();
     for _ in 0..tries {
         let all = before.iter().chain(&samples).copied().collect();
-        whole.forcing = Forcing::Samples { dt_s, acceleration_m_s2: all };
+        whole.forcing = Forcing::samples(dt_s, all);
         let response = respond(&whole, &Observe::default())?;
         if !response.outcome.is_overturned() {
             break;
@@ -240,14 +223,6 @@ fn shock(
         samples.iter_mut().for_each(|x| *x *= 0.8);
     }
     Ok(samples)
-}
-
-fn with_samples(scene: &Scene, samples: Vec<f64>) -> Scene {
-    let mut scene = scene.clone();
-    if let Forcing::Samples { acceleration_m_s2, .. } = &mut scene.forcing {
-        *acceleration_m_s2 = samples;
-    }
-    scene
 }
 
 fn run_until(scene: &Scene, until_s: f64) -> Result<Response, EngineError> {
@@ -267,12 +242,6 @@ fn differ(a: &bool, b: &bool) -> bool {
 pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
     if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }
-}
-
-/// Amplitude of the ground motion; of samples the peak.
-fn amplitude(scene: &Scene) -> f64 {
-    let mut forcing = scene.forcing.clone();
-    forcing.amplitudes_mut().iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
 /// The scene with another amplitude than its own.

@@ -17,7 +17,7 @@ const LONG: usize = 100_000;
 const SHARE_OF_LONG: f64 = 1.0 / 256.0;
 
 /// What a kind of excitation is called, and a scene.
-pub(super) type Named = (&'static str, Scene);
+pub(super) type Named = (String, Scene);
 
 /// Ranges of a stratum.
 struct Ranges {
@@ -68,7 +68,7 @@ pub(super) fn ordinary(draw: &mut Draw) -> Named {
     let kind = if two { Kind::TwoShocks } else { Kind::Filtered };
     let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
-    (kind.name(), scene)
+    (kind.name().to_owned(), scene)
 }
 
 /// A scene at the ends of what is accepted.
@@ -97,7 +97,7 @@ pub(super) fn extreme(draw: &mut Draw) -> Named {
     let intensity = draw.log(EXTREME.intensity[0], EXTREME.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
     let threshold = scene.threshold_m_s2();
-    if let Forcing::Samples { acceleration_m_s2: a, .. } = &mut scene.forcing {
+    if let Some(a) = scene.forcing.samples_mut() {
         if draw.chance(0.1) {
             let round = |x: f64| (x * 1e3).round() / 1e3;
             a.iter_mut().for_each(|x| *x = round(*x));
@@ -107,30 +107,18 @@ pub(super) fn extreme(draw: &mut Draw) -> Named {
             a[at] = threshold * draw.sign();
         }
     }
-    (kind.name(), scene)
+    (kind.name().to_owned(), scene)
 }
 
 /// A block at rest, without ground motion; restitution 1.
 fn block(draw: &mut Draw, ranges: &Ranges) -> Scene {
     let linear = draw.chance(0.3);
     let half_pi = draw.chance(0.3);
-    Scene {
-        model: if linear { Model::Linearized } else { Model::Nonlinear },
-        overturning: if half_pi {
-            Overturning::HalfPi
-        } else {
-            Overturning::Alpha
-        },
-        ..Scene::new(
-            [
-                draw.uniform(ranges.alpha[0], ranges.alpha[1]),
-                draw.log(ranges.p[0], ranges.p[1]),
-                1.0,
-            ],
-            1.0,
-            Forcing::NONE,
-        )
-    }
+    let alpha = draw.uniform(ranges.alpha[0], ranges.alpha[1]);
+    let p = draw.log(ranges.p[0], ranges.p[1]);
+    Scene::new([alpha, p, 1.0], 1.0, Forcing::NONE)
+        .in_equation(if linear { Model::Linearized } else { Model::Nonlinear })
+        .to(if half_pi { Overturning::HalfPi } else { Overturning::Alpha })
 }
 
 /// Gives a scene a record of a kind with a peak over the threshold.
@@ -145,11 +133,11 @@ fn record(
     let mut samples = kind.samples(draw, n, dt_s);
     let peak = intensity * scene.threshold_m_s2();
     samples.iter_mut().for_each(|x| *x *= peak);
-    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+    scene.forcing = Forcing::samples(dt_s, samples);
 }
 
 /// Gives a scene a pulse, or a rotation to be released from.
-fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> &'static str {
+fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> String {
     let which = draw.below(PULSES);
     shaped(draw, scene, ranges, which)
 }
@@ -178,7 +166,7 @@ pub(super) fn ordinary_record(draw: &mut Draw, longest: usize) -> Named {
     let n = draw.count(100, longest);
     let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
     record(draw, &mut scene, Kind::Filtered, n, dt_s, intensity);
-    (Kind::Filtered.name(), scene)
+    (Kind::Filtered.name().to_owned(), scene)
 }
 
 fn shaped(
@@ -186,7 +174,7 @@ fn shaped(
     scene: &mut Scene,
     ranges: &Ranges,
     which: usize,
-) -> &'static str {
+) -> String {
     let intensity = draw.log(ranges.intensity[0], ranges.intensity[1]);
     let amplitude = intensity * scene.threshold_m_s2() * draw.sign();
     let in_p = draw.log(ranges.period[0], ranges.period[1]);
@@ -204,7 +192,7 @@ fn shaped(
         let ratio = ratio.min(1.0 - 1e-14);
         let rotation_rad = scene.slenderness_rad * ratio;
         scene.forcing = Forcing::Free { rotation_rad };
-        return "free";
+        return "free".to_owned();
     };
     let Ok(kind) = pulse.kind(|parameter| {
         Ok::<_, Infallible>(match parameter {
@@ -221,10 +209,5 @@ fn shaped(
         })
     });
     scene.forcing = Forcing::Pulse(kind);
-    match pulse {
-        PulseName::RickerSymmetric => "symmetric Ricker",
-        PulseName::RickerAntisymmetric => "antisymmetric Ricker",
-        PulseName::MavroeidisPapageorgiou => "Mavroeidis",
-        other => other.name(),
-    }
+    pulse.to_string()
 }

@@ -125,11 +125,7 @@ fn finer<'a, V>(
     let own = scene.clone();
     let at: Made<'a> = Rc::new(move |size: f64| {
         let mut scene = own.clone();
-        if let Forcing::Samples { acceleration_m_s2: a, .. } =
-            &mut scene.forcing
-        {
-            a[place] = sign * size;
-        }
+        scene.forcing.amplitudes_mut()[place] = sign * size;
         scene
     });
     let here = see(scene)?;

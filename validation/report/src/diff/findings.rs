@@ -1,26 +1,48 @@
-//! Findings of a study as items: claims by name, tables row by row.
+//! Findings of a study as items: the answers, claims by name, tables cell by
+//! cell in the order of consequence.
 
 use std::collections::BTreeSet;
 
-use super::flaw::flaw;
-use super::item::{Content, Item, Limit};
+use anyhow::bail;
+
+use super::item::{Content, Item};
+use super::moved::{Limit, Number};
+use crate::answers::{Answered, answers};
 use rocking_common::findings::{
-    Claim, Findings, Measured, Place, Question, Suite, Table, Tested, Topic,
+    Claim, ClaimResult, Effect, Findings, Measured, Quantifier, Row, Suite,
+    Table, Unit,
 };
 
 /// The items of a study's findings.
 pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
     let mut out = Vec::new();
+    for own in answers(findings)? {
+        let Answered { question, answer, verdicts, .. } = own;
+        let mut own = Owner::new(&mut out, "answers", question.clone());
+        own.item("", &question, Content::Answer(verdicts, answer));
+    }
+    let mut tables: Vec<&Table> = findings.tables.iter().collect();
+    tables.sort_by_key(|table| table.topic);
+    tables.iter().for_each(|table| cells(&mut out, table));
+    for by_paper in [false, true] {
+        let claims = findings.claims.iter();
+        claims.for_each(|claim| verdicts(&mut out, claim, by_paper));
+    }
     findings.claims.iter().for_each(|c| claim(&mut out, c));
     settings(&mut out, findings);
     findings.suites.iter().for_each(|s| suite(&mut out, s));
-    findings.tables.iter().for_each(|t| table(&mut out, t));
-    findings.questions.iter().for_each(|q| question(&mut out, q));
+    for question in &findings.questions {
+        let owner = format!("question {}", question.id);
+        let mut own = Owner::new(&mut out, "questions", owner);
+        own.text("question", &question.question);
+        own.text("answer", &question.answer);
+        own.text("data", &question.data);
+    }
     let mut seen = BTreeSet::new();
     for item in &out {
-        if !seen.insert((&item.owner, &item.name)) {
-            let found = format!("\"{}\" twice", item.name);
-            return Err(flaw(&item.owner, &found, "it once"));
+        if !seen.insert(item.key()) {
+            let Item { owner, name, .. } = item;
+            bail!("{owner}: found \"{name}\" twice, expected it once");
         }
     }
     Ok(out)
@@ -29,59 +51,86 @@ pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
 /// Items of one owner.
 struct Owner<'a> {
     out: &'a mut Vec<Item>,
+    topic: &'static str,
     owner: String,
-    group: String,
+    place: String,
 }
 
-impl Owner<'_> {
-    fn item(&mut self, name: &str, words: String, content: Content) {
-        let (owner, group) = (self.owner.clone(), self.group.clone());
+impl<'a> Owner<'a> {
+    fn new(
+        out: &'a mut Vec<Item>,
+        topic: &'static str,
+        owner: String,
+    ) -> Self {
+        Self { out, topic, owner, place: String::new() }
+    }
+
+    /// An item whose name holds its place too.
+    fn item(&mut self, name: &str, words: &str, content: Content) {
+        let Self { topic, owner, place, .. } = self;
         self.out.push(Item {
-            owner,
-            name: name.into(),
-            group,
-            words,
+            topic,
+            owner: owner.clone(),
+            name: format!("{name}, {place}"),
+            words: words.into(),
+            place: place.clone(),
             content,
         });
     }
 
     fn text(&mut self, name: &str, text: &str) {
         let words = format!("{}: {name}", self.owner);
-        self.item(name, words, Content::Text(text.into()));
+        self.item(name, &words, Content::Text(text.into()));
     }
 
     fn setting(&mut self, name: &str, text: String) {
-        self.item(name, name.into(), Content::Setting(text));
+        let words = match self.owner.as_str() {
+            "settings" => name.into(),
+            owner => format!("{owner}, {name}"),
+        };
+        self.item(name, &words, Content::Setting(text));
     }
 
-    /// A value, and its interval if it has one.
-    fn measured(&mut self, name: &str, words: String, measured: Measured) {
-        let Measured { value, interval } = measured;
-        let limit = match interval {
-            Some((low, high)) => Limit::Interval(low, high),
-            None => Limit::None,
-        };
-        if let Some((low, high)) = interval {
-            let ends = Content::Text(format!("{low} .. {high}"));
-            let words = format!("{words}, 95 % interval");
-            self.item(&format!("{name} interval"), words, ends);
+    /// An interval: shown, and judged by nothing.
+    fn interval(&mut self, name: &str, measured: Measured) {
+        if let Some((low, high)) = measured.interval {
+            self.text(
+                &format!("{name}, interval"),
+                &format!("{low} .. {high}"),
+            );
         }
-        self.item(name, words, Content::Number { value, limit });
+    }
+}
+
+/// A claim by its plain words and its name.
+fn named(claim: &Claim) -> String {
+    let Claim { id, plain, measure, .. } = claim;
+    let words = if plain.is_empty() { measure } else { plain };
+    format!("\"{words}\" ({id})")
+}
+
+/// The verdicts on a claim: by the limits here, or by the paper's criterion.
+fn verdicts(out: &mut Vec<Item>, claim: &Claim, by_paper: bool) {
+    let mut own = Owner::new(out, "claims", format!("claim {}", claim.id));
+    let by = if by_paper { ", by the paper's criterion" } else { "" };
+    let words = named(claim) + by;
+    for result in &claim.results {
+        let here = result.by_equivalence;
+        let found = if by_paper { result.by_criterion } else { here };
+        let Some(verdict) = found else { continue };
+        own.place = result.place();
+        let content = Content::Verdict(verdict.name().into());
+        own.item(&format!("verdict{by}"), &words, content);
     }
 }
 
 fn claim(out: &mut Vec<Item>, claim: &Claim) {
     let id = &claim.id;
-    let owner = format!("claim {id}");
-    let group = String::from("claims");
-    let mut own = Owner { out, owner, group };
+    let mut own = Owner::new(out, "claims", format!("claim {id}"));
     let region = claim.region.map_or(String::new(), |r| r.to_string());
-    let quantifier = claim.quantifier.map_or("", |q| q.words());
-    own.item(
-        "region",
-        format!("claim {id}: region"),
-        Content::Setting(format!("{quantifier}: {region}")),
-    );
+    let rule = claim.quantifier.map_or("", Quantifier::words);
+    own.setting("region", format!("{rule}: {region}"));
+    let section = claim.section.to_string();
     for (name, text) in [
         ("measure", &claim.measure),
         ("blocks", &claim.blocks),
@@ -91,52 +140,36 @@ fn claim(out: &mut Vec<Item>, claim: &Claim) {
         ("criterion", &claim.criterion),
         ("case", &claim.case),
         ("note", &claim.note),
+        ("section", &section),
     ] {
         own.text(name, text);
     }
-    own.text("section", &claim.section.to_string());
+    let words = format!("value of {}", named(claim));
     for result in &claim.results {
-        let owner = format!("claim {id}, {}", result.place());
-        let group = match result.suite {
-            Tested::None => "claims without records".to_owned(),
-            Tested::Both => "both suites: claims".to_owned(),
-            suite => format!("{} suite: claims", suite.name()),
+        own.place = result.place();
+        let effect = Effect::of_claim(claim.region, result.unit);
+        let number = Number {
+            decided_at: decided_at(claim, result),
+            ..Number::new(result.value, Limit::of(effect, result.unit))
         };
-        let mut own = Owner { out: &mut *out, owner, group };
-        let place = result.place();
-        for (name, words, verdict) in [
-            ("verdict", "", result.by_equivalence),
-            (
-                "verdict by the paper's criterion",
-                ", by the paper's criterion",
-                result.by_criterion,
-            ),
-        ] {
-            if let Some(verdict) = verdict {
-                own.item(
-                    name,
-                    format!("{id}, {place}{words}, \"{}\"", claim.quote),
-                    Content::Verdict(verdict.name().into()),
-                );
-            }
-        }
-        let words = format!("{id}: {}, {place}", claim.measure);
-        own.measured("value", words, result.measured());
+        own.item("value", &words, Content::Number(number));
         own.text("at", &result.at);
-        let cell = result.deciding_cell.iter();
-        let named = cell.map(|cell| ("deciding cell", cell));
-        let others = result.details.iter().map(|d| (d.name.as_str(), d));
-        for (name, detail) in named.chain(others) {
-            let words = format!("{id}: {}, {place}", detail.name);
-            own.measured(name, words, detail.measured);
+        own.interval("value", result.measured());
+        for detail in result.deciding_cell.iter().chain(&result.details) {
+            own.interval(&detail.name, detail.measured);
+            own.text(&detail.name, &detail.measured.value.to_string());
         }
     }
 }
 
+/// The cell whose value a result has, where a claim is about every cell.
+fn decided_at(claim: &Claim, result: &ClaimResult) -> String {
+    let one_of_many = claim.quantifier == Some(Quantifier::All);
+    if one_of_many { result.at.clone() } else { String::new() }
+}
+
 fn settings(out: &mut Vec<Item>, findings: &Findings) {
-    let owner = String::from("settings");
-    let group = owner.clone();
-    let mut own = Owner { out, owner, group };
+    let mut own = Owner::new(out, "settings", "settings".into());
     own.text("version", &findings.version);
     let settings = &findings.settings;
     let arms: Vec<&str> = settings.arms.iter().map(|a| a.letter()).collect();
@@ -147,88 +180,53 @@ fn settings(out: &mut Vec<Item>, findings: &Findings) {
 }
 
 fn suite(out: &mut Vec<Item>, suite: &Suite) {
-    let owner = format!("{} suite: suite and work", suite.kind);
-    let group = owner.clone();
-    let mut own = Owner { out, owner, group };
+    let owner = format!("{} suite", suite.kind);
+    let mut own = Owner::new(out, "suites", owner);
+    let sha256: String = suite.sha256.chars().take(8).collect();
+    let records = format!("{}, sha256 {sha256}", suite.records);
+    own.setting("records", records);
     own.setting("source", suite.source.clone());
     own.setting("component rule", suite.component_rule.clone());
-    own.setting("sha256", suite.sha256.clone());
-    let none = String::from("none");
-    own.setting("remarks", suite.remarks.clone().unwrap_or(none));
+    own.setting("remarks", suite.remarks.clone().unwrap_or_default());
     let aside = suite.set_aside.iter();
     let aside = aside.map(|a| format!("{} {}", a.files, a.code));
-    let aside = aside.collect::<Vec<_>>().join(", ");
-    let nothing = aside.is_empty().then(|| String::from("none"));
-    own.setting("set aside", nothing.unwrap_or(aside));
+    own.setting("set aside", aside.collect::<Vec<_>>().join(", "));
     own.text("shown alone", &suite.shown_alone.join(", "));
-    let again = &suite.first_overturnings_reevaluated;
-    let ends = "first overturnings reevaluated";
-    for (name, value) in [
-        ("records".to_owned(), suite.records as f64),
-        ("analyses".to_owned(), suite.analyses as f64),
-        ("unresolved by double precision".to_owned(), suite.unresolved as f64),
-        (format!("{ends} all"), again.all as f64),
-        (
-            format!("{ends} resolved by double"),
-            again.resolved_by_double as f64,
-        ),
-        (
-            format!("{ends} resolved by double double"),
-            again.resolved_by_double_double as f64,
-        ),
-        (
-            format!("{ends} resolved by octuple"),
-            again.resolved_by_octuple as f64,
-        ),
-        (format!("{ends} unresolved"), again.unresolved as f64),
-        (format!("{ends} wrong in double"), again.wrong_in_double as f64),
-        (
-            "largest shift of an overturning quantile if all open fates \
-             flipped"
-                .to_owned(),
-            suite.largest_shift_if_flipped,
-        ),
-    ] {
-        own.measured(&name, name.clone(), Measured::exact(value));
-    }
+    let work = (
+        suite.analyses,
+        suite.unresolved,
+        suite.first_overturnings_reevaluated,
+    );
+    own.text("work", &format!("{work:?}"));
+    let limit = Limit::of(Effect::of(Unit::Share), Unit::Share);
+    let shift = Number::new(suite.largest_shift_if_flipped, limit);
+    let words = "shift of overturning quantiles if all open fates flipped";
+    let words = format!("{}: {words}", own.owner);
+    own.item("shift", &words, Content::Number(shift));
 }
 
-fn table(out: &mut Vec<Item>, table: &Table) {
-    for row in &table.rows {
-        let Place { suite, intensity, .. } = row.at;
-        let topic = table.topic.words();
-        let group = suite.map_or(topic.to_owned(), |suite| {
-            format!("{suite} suite: {topic}")
-        });
-        let intensity = intensity.map_or("", |intensity| intensity.words());
-        let place = row.at.to_string();
-        let parts = [group.as_str(), intensity, place.as_str()];
-        let parts: Vec<&str> =
-            parts.into_iter().filter(|part| !part.is_empty()).collect();
-        let owner = parts.join(", ");
-        let mut own = Owner { out, owner, group };
-        for (quantity, value) in table.quantities.iter().zip(&row.values) {
-            let mut words = quantity.words.clone();
-            if !intensity.is_empty() {
-                let of = match table.topic {
-                    Topic::Overturning => " ",
-                    _ => ", by ",
-                };
-                words += &format!("{of}{intensity}");
-            }
-            if !place.is_empty() {
-                words += &format!(" at {place}");
-            }
-            own.measured(&quantity.name, words, *value);
+/// The cells of a table, those of a quantity, suite and intensity measure
+/// together.
+fn cells(out: &mut Vec<Item>, table: &Table) {
+    let topic = table.topic.words();
+    let mut own = Owner::new(out, topic, topic.into());
+    for (k, quantity) in table.quantities.iter().enumerate() {
+        let effect = table.topic.smallest_effect(quantity.unit);
+        let limit = Limit::of(effect, quantity.unit);
+        for Row { at, values } in &table.rows {
+            let suite = at.suite.map(|suite| suite.to_string());
+            let intensity = at.intensity.map(|im| im.words().to_owned());
+            let part = [intensity, suite].into_iter().flatten();
+            let part: String = part.map(|one| format!(", {one}")).collect();
+            let number = Number {
+                p_rad_s: at.p_rad_s,
+                ..Number::new(values[k].value, limit)
+            };
+            own.place = at.to_string();
+            let name = format!("{}{part}", quantity.name);
+            let words = format!("{}{part}", quantity.words);
+            own.item(&name, &words, Content::Number(number));
+            own.interval(&name, values[k]);
         }
     }
-}
-
-fn question(out: &mut Vec<Item>, question: &Question) {
-    let owner = format!("questions beyond the paper, {}", question.id);
-    let group = "questions beyond the paper".into();
-    let mut own = Owner { out, owner, group };
-    own.text("question", &question.question);
-    own.text("answer", &question.answer);
-    own.text("data", &question.data);
 }

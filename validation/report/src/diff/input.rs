@@ -1,30 +1,38 @@
 //! Finds and reads what is to be compared; refuses what it does not know.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{anyhow, bail};
-use serde_json::{Map, Value};
+use anyhow::{Context as _, bail};
+use serde::Deserialize;
+use serde_json::Value;
 
 use rocking_common::files::is_interrupted;
 use rocking_common::findings::Findings;
+use rocking_proof::verdict::snapshot;
 
-use super::flaw::{flaw, kind};
 use super::item::Item;
-use super::strict::Strict;
 use super::{cases, findings};
 
 /// Names of the files that can be compared.
-const NAMES: [&str; 2] = ["findings.json", "validation.json"];
+pub(super) const NAMES: [&str; 2] = ["findings.json", "validation.json"];
+
+/// What must stand in a file of results.
+const EXPECTED: &str =
+    "expected findings of a study or results of declared cases";
 
 /// The results of one side.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Results {
     /// Where they were read.
     pub path: PathBuf,
     /// Findings of a study.
-    pub findings: Option<Vec<Item>>,
-    /// Results of declared cases.
-    pub cases: Option<Vec<Item>>,
+    pub findings: Option<Findings>,
+    /// First overturning intensities of the block of Figure 11 by record,
+    /// where the data of a study lie beside its findings.
+    pub overturnings: BTreeMap<String, f64>,
+    /// Items and normal text of each of the files that can be compared.
+    pub(super) sheets: [Option<(Vec<Item>, String)>; 2],
 }
 
 impl Results {
@@ -33,9 +41,10 @@ impl Results {
     /// # Errors
     /// For what is missing, no JSON, or JSON of another form.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
-        let mut results = Self::none(path);
+        let mut results = Self { path: path.into(), ..Self::default() };
         let shown = path.display();
-        if !std::fs::metadata(path).map_err(|e| unread(path, &e))?.is_dir() {
+        let meta = std::fs::metadata(path).with_context(|| unread(path))?;
+        if !meta.is_dir() {
             results.add(path)?;
             return Ok(results);
         }
@@ -57,7 +66,7 @@ impl Results {
             }
             results.add(place)?;
         }
-        if results.findings.is_none() && results.cases.is_none() {
+        if results.sheets.iter().all(Option::is_none) {
             bail!(
                 "{shown}: no results there, expected findings.json or \
                  validation.json in it or in its folder data"
@@ -66,14 +75,15 @@ impl Results {
         Ok(results)
     }
 
-    fn none(path: &Path) -> Self {
-        Self { path: path.to_owned(), findings: None, cases: None }
-    }
-
     fn add(&mut self, path: &Path) -> anyhow::Result<()> {
         let text =
-            std::fs::read_to_string(path).map_err(|e| unread(path, &e))?;
-        self.parse(&text).map_err(|e| anyhow!("{}: {e}", path.display()))
+            std::fs::read_to_string(path).with_context(|| unread(path))?;
+        self.parse(&text).with_context(|| path.display().to_string())?;
+        if self.findings.is_some() {
+            let beside = path.with_file_name("figure-11.csv");
+            self.overturnings = overturnings(&beside);
+        }
+        Ok(())
     }
 
     /// Results from the text of a file; `path` only appears in messages.
@@ -81,45 +91,53 @@ impl Results {
     /// # Errors
     /// For what is no JSON, or JSON of another form.
     pub fn from_text(path: &Path, text: &str) -> anyhow::Result<Self> {
-        let mut results = Self::none(path);
+        let mut results = Self { path: path.into(), ..Self::default() };
         let parsed = results.parse(text);
-        parsed.map_err(|e| anyhow!("{}: {e}", path.display()))?;
+        parsed.with_context(|| path.display().to_string())?;
         Ok(results)
     }
 
     fn parse(&mut self, text: &str) -> anyhow::Result<()> {
-        let parsed: Result<Strict, _> = serde_json::from_str(text);
-        let Strict(value) =
-            parsed.map_err(|e| anyhow!("{e}, expected JSON"))?;
-        let expected = "findings of a study or results of declared cases";
-        let Value::Object(map) = &value else {
-            return Err(flaw("top", kind(&value), expected));
-        };
-        if map.contains_key("claims") {
-            let findings =
-                Findings::parse(text).map_err(anyhow::Error::msg)?;
-            self.findings = Some(findings::items(&findings)?);
-        } else if looks_like_cases(map) {
-            self.cases = Some(cases::items(map)?);
-        } else {
-            let keys: Vec<&str> =
-                map.keys().take(3).map(String::as_str).collect();
-            let found = format!("the keys `{}`", keys.join("`, `"));
-            return Err(flaw("top", &found, expected));
+        let value: Value =
+            serde_json::from_str(text).context("expected JSON")?;
+        if value.get("claims").is_some() {
+            let read = Findings::parse(text).map_err(anyhow::Error::msg)?;
+            self.sheets[0] = Some((findings::items(&read)?, read.text()));
+            self.findings = Some(read);
+            return Ok(());
         }
+        let read: snapshot::Results =
+            serde_json::from_str(text).context(EXPECTED)?;
+        if read.is_empty() {
+            bail!("found no results, {EXPECTED}");
+        }
+        let normal = serde_json::to_string(&read)?;
+        self.sheets[1] = Some((cases::items(&read)?, normal));
         Ok(())
     }
 }
 
-/// What the system said, and what was expected.
-fn unread(path: &Path, error: &std::io::Error) -> anyhow::Error {
-    anyhow!(
-        "{}: {error}; expected findings.json, validation.json, or a folder \
-         with one of them",
-        path.display()
-    )
+fn unread(path: &Path) -> String {
+    let expected = "a folder with one of them";
+    format!("{}: expected {}, or {expected}", path.display(), NAMES.join(", "))
 }
 
-fn looks_like_cases(map: &Map<String, Value>) -> bool {
-    !map.is_empty() && map.values().all(|v| v.get("verdict").is_some())
+/// A row of the data of Figure 11.
+#[derive(Deserialize)]
+struct Capacity {
+    im: String,
+    record: String,
+    edp: f64,
+    intensity: f64,
+}
+
+/// The first overturning intensities in the data of Figure 11: the
+/// capacities at demand 1, in PGA.
+fn overturnings(path: &Path) -> BTreeMap<String, f64> {
+    let Ok(mut table) = csv::Reader::from_path(path) else {
+        return BTreeMap::new();
+    };
+    let rows = table.deserialize::<Capacity>().filter_map(Result::ok);
+    let ends = rows.filter(|row| row.im == "pga" && row.edp == 1.0);
+    ends.map(|row| (row.record, row.intensity)).collect()
 }

@@ -8,7 +8,8 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 
-use crate::diff;
+use rocking_common::findings::LEVEL;
+use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
 use rocking_proof::cases::{Case, CaseError, Cost, load_all};
@@ -22,8 +23,6 @@ const DIGITS: &str = "precision.csv";
 
 /// Method of the cases that measure the coverage of the study's intervals.
 const COVERAGE: &str = "coverage-of-inference";
-/// Level of the intervals of the findings.
-const LEVEL: f64 = 0.95;
 
 /// How to get what is not there.
 pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
@@ -37,6 +36,7 @@ pub struct Proof {
     place: String,
     results: snapshot::Results,
     digits: String,
+    hash: String,
 }
 
 /// Shares of simulated suites in which intervals hold the truth: of each
@@ -47,13 +47,13 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// The shares of intervals of 95 %, in a sentence.
+    /// The shares of the findings' intervals, in a sentence.
     pub fn words(&self) -> String {
         let own = self.rows.iter().filter(|row| row.1 == LEVEL);
         let (low, high) = range(own.map(|row| row.2));
         format!(
             "Coverage. In simulated suites, whose truth is known, intervals \
-             of 95 % hold it in {} to {}: the annex says which.",
+             of 90 % hold it in {} to {}: the annex says which.",
             percent(low, 1),
             percent(high, 1)
         )
@@ -100,16 +100,15 @@ impl Proof {
         digits: String,
     ) -> anyhow::Result<Self> {
         let path = folder.join(RESULTS);
-        // Refuses what has another form.
-        diff::Results::from_text(&path, results)?;
-        let results: snapshot::Results =
-            serde_json::from_str(results).unwrap_or_default();
+        let hash = sha256_hex(results.as_bytes());
+        let results: snapshot::Results = serde_json::from_str(results)
+            .map_err(|e| anyhow!("{}: {e}, expected JSON", path.display()))?;
         same_cases(&path, &load_all()?, &results)?;
         whole_table(&folder.join(DIGITS), &digits)?;
         // The same words wherever the folder lies.
         let place = Path::new(folder.file_name().unwrap_or_default());
         let place = place.join(RESULTS).display().to_string();
-        Ok(Self { place, results, digits })
+        Ok(Self { place, results, digits, hash })
     }
 
     /// What a folder holds; none where neither file is there.
@@ -121,6 +120,12 @@ impl Proof {
         (there(RESULTS) || there(DIGITS))
             .then(|| Self::read(folder))
             .transpose()
+    }
+
+    /// Its files, each with its hash.
+    pub fn hashes(&self) -> [(String, String); 2] {
+        let digits = sha256_hex(self.digits.as_bytes());
+        [(RESULTS.into(), self.hash.clone()), (DIGITS.into(), digits)]
     }
 
     /// The results by id.

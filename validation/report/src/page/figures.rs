@@ -8,8 +8,9 @@ use rocking_draw::figures::Figure;
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
 const WIDE_PX: f64 = 640.0;
 
-/// The figure with title, reading and data.
-pub fn figure(shown: &Figure) -> Markup {
+/// A figure with title, reading and data; under it, folded, the same figure
+/// of other motions.
+pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
     let heading = &shown.heading;
     let (name, title, number) =
         (&heading.name, &heading.title, heading.label());
@@ -17,20 +18,28 @@ pub fn figure(shown: &Figure) -> Markup {
     let called = if heading.number.is_some() { &number } else { title };
     let label = format!("{called}, drawing");
     let svg = shown.svg();
-    let class = if shown.scene.extent().right > WIDE_PX {
+    let class = if shown.scene().extent().right > WIDE_PX {
         "scroll drawing wide"
     } else {
         "scroll drawing"
     };
     html! {
         figure.figure id=(name) {
-            p.title { (number) ". " (title) }
+            figcaption {
+                p.title { (number) ". " (title) }
+                p {
+                    (shown.reading) " "
+                    a href={ "data/" (name) ".csv" } { "Numbers" } "."
+                }
+            }
             div class=(class) role="region" aria-label=(label) tabindex="0" {
                 (PreEscaped(inline(&svg)))
             }
-            figcaption {
-                (shown.reading) " "
-                a href={ "data/" (name) ".csv" } { "Numbers" } "."
+            @for other in others {
+                details.beside {
+                    summary { "Show: " (other.heading.label()) }
+                    (figure(other, &[]))
+                }
             }
         }
     }

@@ -14,18 +14,22 @@ use crate::evidence::families::Family;
 pub struct ReportInput<'a> {
     /// Title of the page.
     pub title: String,
-    /// One sentence under the title.
-    pub subtitle: String,
-    /// Name and value: the paper, the program, its input, the command.
+    /// What it is about and what was done, a paragraph each.
+    pub intro: Vec<String>,
+    /// Name and value: the program, its input, the command.
     pub head: Vec<(String, String)>,
     /// What is signed for, and by whom or when if that was given.
     pub signatures: Vec<(String, Option<String>)>,
     /// The questions that a reader asks first, each with its answer.
     pub answers: Vec<AnswerRow>,
+    /// Where other motions answer otherwise.
+    pub otherwise: Option<String>,
     /// Drawings beside them.
     pub first: Vec<&'a Figure>,
-    /// Suites of the columns of the answers and findings: those of the run
-    /// at hand stand last.
+    /// Scope, intended use and criteria.
+    pub scope: Chapter<'a>,
+    /// Suites of the columns of the findings: those of the run at hand stand
+    /// last.
     pub columns: Vec<Column>,
     /// The findings by theme.
     pub findings: Vec<Shown<'a>>,
@@ -44,7 +48,9 @@ pub struct ReportInput<'a> {
     pub evidence: Chapter<'a>,
     /// Further chapters in order: speed, suites, limits, provenance.
     pub chapters: Vec<Chapter<'a>>,
-    /// Chapters that are folded on a screen and whole on paper.
+    /// The data files beside the page, each with its hash.
+    pub files: PlainTable,
+    /// Chapters that are folded on a screen and left out on paper.
     pub annexes: Vec<Chapter<'a>>,
 }
 
@@ -53,12 +59,10 @@ pub struct ReportInput<'a> {
 pub struct AnswerRow {
     /// What is asked.
     pub question: String,
-    /// The answer, fifteen words at most.
+    /// The answer: a sentence of 25 words at most.
     pub answer: String,
-    /// Size of the effect with its interval and unit.
+    /// Its numbers, each with interval, unit and suite.
     pub effect: String,
-    /// What each column's suites say.
-    pub columns: Vec<String>,
     /// Anchor and words of where it is shown.
     pub shown: Vec<(String, String)>,
 }

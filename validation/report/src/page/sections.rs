@@ -1,10 +1,10 @@
 //! The page's sections, in order.
 
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::figures;
 use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
-use super::table::{self, scrolled};
+use super::table::{self, joined, scrolled};
 use crate::evidence::families::{Family, rejects, source, tolerance, worst};
 use crate::quantity::{remarks, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
@@ -13,20 +13,36 @@ use rocking_common::words::capital;
 use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot::CaseResult;
 
-/// What the page is about, and who signs for it.
+/// A block, at rest and tilted.
+const SKETCH: &str = include_str!("sketch.svg");
+
+/// Eqs. 1 to 7 as MathML, in a table.
+const EQUATIONS: &str = include_str!("equations.html");
+
+/// What the page is about.
 pub fn head(input: &ReportInput<'_>) -> Markup {
     html! {
-        @if !input.head.is_empty() { (list(&input.head)) }
-        @if !input.signatures.is_empty() {
-            ul.signatures {
-                @for (what, given) in &input.signatures {
-                    li {
-                        (what) ": "
-                        @if let Some(words) = given {
-                            (words)
-                        } @else {
-                            span.line { span.unseen { "to be filled in" } "\u{a0}" }
-                        }
+        div.about {
+            div {
+                h1 { (input.title) }
+                @for words in &input.intro { p { (words) } }
+            }
+            (PreEscaped(SKETCH))
+        }
+    }
+}
+
+/// Who signs for the page, or lines to sign on.
+fn signatures(signed: &[(String, Option<String>)]) -> Markup {
+    html! {
+        ul.signatures {
+            @for (what, given) in signed {
+                li {
+                    (what) ": "
+                    @if let Some(words) = given {
+                        (words)
+                    } @else {
+                        span.line { span.unseen { "to be filled in" } "\u{a0}" }
                     }
                 }
             }
@@ -46,8 +62,17 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
         };
     add(!i.answers.is_empty(), "answers", "Answers", &|| {
         html! {
-            (answers(&i.answers, &i.columns))
+            (answers(&i.answers))
+            @if let Some(words) = &i.otherwise { p { (words) } }
             (drawings(&i.first))
+        }
+    });
+    add(!i.scope.text.is_empty(), i.scope.id, &i.scope.title, &|| {
+        html! {
+            div.columns { @for words in &i.scope.text { p { (joined(words)) } } }
+            @for part in &i.scope.folded {
+                (folded(part.id, &part.title, &chapter(part)))
+            }
         }
     });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
@@ -66,7 +91,8 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     });
     add(!i.method.is_empty(), "method", "Method and glossary", &|| {
         html! {
-            div.columns { @for words in &i.method { p { (words) } } }
+            div.columns { @for words in &i.method { p { (joined(words)) } } }
+            (folded("equations", "Equations", &PreEscaped(EQUATIONS.into())))
             @if !i.glossary.is_empty() {
                 h3 { "Glossary" }
                 div.columns { (list(&i.glossary)) }
@@ -84,9 +110,16 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     for one in &i.chapters {
         add(true, one.id, &one.title, &|| chapter(one));
     }
+    add(true, "provenance", "Provenance and sign-off", &|| {
+        html! {
+            (folded("inputs", "Program, suites, command", &list(&i.head)))
+            (signatures(&i.signatures))
+        }
+    });
     let annexes = !i.annexes.is_empty() || !i.families.is_empty();
     add(annexes, "annexes", "Annexes", &|| {
         html! {
+            (folded("files", &i.files.title, &table::untitled(&i.files)))
             @if !i.findings.is_empty() {
                 (folded("all-results", "Every result", &every_result(i)))
             }
@@ -106,12 +139,9 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
 /// A heading whose part is folded on a screen.
 fn folded(id: &str, title: &str, body: &Markup) -> Markup {
     html! {
-        div id=(id) {
-            h3 { (title) }
-            details {
-                summary { "Show: " (title) }
-                (body)
-            }
+        details.part id=(id) {
+            summary { h3 { (title) } }
+            (body)
         }
     }
 }
@@ -121,7 +151,7 @@ fn list(pairs: &[(String, String)]) -> Markup {
         dl {
             @for (name, value) in pairs {
                 dt { (name) }
-                dd { (value) }
+                dd { (joined(value)) }
             }
         }
     }
@@ -132,7 +162,13 @@ fn chapter(one: &Chapter<'_>) -> Markup {
         @for words in &one.text { p { (words) } }
         @if !one.list.is_empty() { (list(&one.list)) }
         (drawings(&one.figures))
-        @for t in &one.tables { (table::plain(t)) }
+        @for t in &one.tables {
+            @if t.title == one.title {
+                div id=(t.name) { (table::untitled(t)) }
+            } @else {
+                (table::plain(t))
+            }
+        }
         @for part in &one.folded {
             (folded(part.id, &part.title, &chapter(part)))
         }
@@ -142,15 +178,17 @@ fn chapter(one: &Chapter<'_>) -> Markup {
 fn drawings(shown: &[&Figure]) -> Markup {
     html! {
         @if !shown.is_empty() {
-            div.figures { @for f in shown { (figures::figure(f)) } }
+            div.figures {
+                @for same in shown.chunk_by(|a, b| beside(a, b)) {
+                    (figures::figure(same[0], &same[1..]))
+                }
+            }
         }
     }
 }
 
-fn answers(rows: &[AnswerRow], columns: &[Column]) -> Markup {
-    let mut head = vec!["Question", "Answer", "Effect (95 % interval)"];
-    head.extend(columns.iter().map(|column| column.name));
-    head.push("Shown in");
+fn answers(rows: &[AnswerRow]) -> Markup {
+    let head = ["Question", "Answer", "Numbers (90 % interval)", "Shown in"];
     let body = html! {
         table.cards.answers {
             caption {
@@ -161,13 +199,10 @@ fn answers(rows: &[AnswerRow], columns: &[Column]) -> Markup {
                 @for row in rows {
                     tr {
                         th scope="row" { (row.question) }
-                        td data-label="Answer" { strong { (row.answer) } }
-                        td data-label="Effect" { (row.effect) }
-                        @for (column, words) in
-                            columns.iter().zip(&row.columns)
-                        {
-                            td data-label=(column.name) { (words) }
+                        td data-label="Answer" {
+                            strong { (joined(&row.answer)) }
                         }
+                        td data-label="Numbers" { (joined(&row.effect)) }
                         td data-label="Shown in" { (links(&row.shown)) }
                     }
                 }
@@ -188,10 +223,11 @@ fn links(shown: &[(String, String)]) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "A cell shows the value and its 95 % interval. Where the limit is \
+        "A cell shows the value and the 90 % interval that decides: each end \
+         misses in a nominal 5 % (simulated: Coverage, under Proof). Where the limit is \
          about a share of cells, it is that of the cells with 30 records or \
          more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
-         suites of this run. Values on all suites and arms, measures and reasons: "
+         suites of the first column. Values on all suites and arms, measures and reasons: "
         a href="#all-results" { "every result" } "."
     }
 }
@@ -295,9 +331,13 @@ fn came_out<'a>(
 }
 
 fn called(figures: &[&Figure]) -> String {
-    let names: Vec<String> =
-        figures.iter().map(|f| f.heading.label()).collect();
+    let each = figures.chunk_by(|a, b| beside(a, b));
+    let names: Vec<String> = each.map(|f| f[0].heading.label()).collect();
     names.join(", ")
+}
+
+fn beside(a: &Figure, b: &Figure) -> bool {
+    a.heading.is_beside(&b.heading)
 }
 
 /// Suites of the columns of a table of findings.
@@ -362,7 +402,7 @@ fn quotation(claim: &Claim) -> Markup {
 fn finding(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         td data-label="In plain words" {
-            (claim.plain) ": " span.source { (rule_text(claim)) }
+            (claim.plain) ": " span.source { (joined(&rule_text(claim))) }
             @if !claim.criterion.is_empty() {
                 span.source { ". The paper: " (claim.criterion) }
             }
@@ -415,7 +455,7 @@ fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
         div.outcome {
             @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
             @if !place.is_empty() { span.source { (place) ": " } }
-            (value_text(claim, one))
+            (joined(&value_text(claim, one)))
             @if let Some(verdict) = one.by_criterion {
                 "; the paper: " (short(verdict))
             }
@@ -509,7 +549,7 @@ fn families(families: &[Family]) -> Markup {
 
 fn cases(family: &Family) -> Markup {
     let body = html! {
-        table.cards {
+        table.cards.cases {
             caption { span { "Cases of the family " (family.name) "." } }
             (table::head(&[
                 "Case", "Claim", "Source", "Tolerance and why",
@@ -523,11 +563,11 @@ fn cases(family: &Family) -> Markup {
                         td data-label="Claim" { (c.claim) }
                         td data-label="Source" { (source(c)) }
                         td data-label="Tolerance and why" {
-                            (tolerance(c)) " "
-                            span.source { (c.tolerance.because) }
+                            (joined(&tolerance(c))) " "
+                            span.source { (joined(&c.tolerance.because)) }
                         }
                         td data-label="Worst share of tolerance" { (worst(result)) }
-                        td data-label="Rejects" { (rejects(c, result)) }
+                        td data-label="Rejects" { (joined(&rejects(c, result))) }
                         td data-label="Result" {
                             @if result.is_some_and(CaseResult::passed) {
                                 span.verdict.yes { "✓ passed" }

@@ -40,16 +40,43 @@ pub fn head<T: Render>(names: &[T]) -> Markup {
     }
 }
 
+/// No line breaks between a number and its per cent, or within a power.
+pub fn joined(text: &str) -> String {
+    let text = text.replace(" %", "\u{a0}%");
+    let digit = |c: char| c.is_ascii_digit();
+    let mut parts = text.split("e-");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let power = out.ends_with(digit) && part.starts_with(digit);
+        out += if power { "e-\u{2060}" } else { "e-" };
+        out += part;
+    }
+    out
+}
+
 fn line(cells: &[String]) -> Markup {
     html! {
         tr {
             @for (k, cell) in cells.iter().enumerate() {
                 @if k == 0 {
-                    th scope="row" { (cell) }
+                    th scope="row" { (joined(cell)) }
                 } @else {
-                    td { (cell) }
+                    td { (joined(cell)) }
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::joined;
+
+    #[test]
+    fn numbers_stay_whole_and_names_stay_as_they_are() {
+        assert_eq!(joined("5 % of 1e-9."), "5\u{a0}% of 1e-\u{2060}9.");
+        for name in ["data/table-01.csv", "one-sine-0", "e-1", ""] {
+            assert_eq!(joined(name), name);
         }
     }
 }

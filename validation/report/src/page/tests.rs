@@ -33,8 +33,7 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
     };
     ReportInput {
         title: "Rocking: what was verified, what was found".into(),
-        subtitle: "Free-standing blocks under 86 + 44 records".into(),
-        head: vec![("Paper".into(), "Made-up authors".into())],
+        intro: vec!["Free-standing blocks under 86 + 44 records".into()],
         signatures: vec![
             ("Issued".into(), Some("a day".into())),
             ("Approved by".into(), None),
@@ -43,10 +42,14 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
             question: "Is slenderness normalized out?".into(),
             answer: "Nearly: for ratios; open for quantiles.".into(),
             effect: "-0.9 % (-1 to -0.8 %)".into(),
-            columns: vec!["7 results for it".into(); 2],
-            shown: vec![("figure-08".into(), "Figure 8".into())],
+            shown: vec![("figure-08-c".into(), "Figure 8".into())],
         }],
+        otherwise: Some("Other motions say the same.".into()),
         first: Vec::new(),
+        scope: Chapter {
+            text: vec!["Made-up numbers.".into()],
+            ..Chapter::titled("scope", "Scope")
+        },
         columns: ["recorded suites", "embedded suites"].map(column).into(),
         findings: vec![Shown {
             theme: Theme::Statistics,
@@ -61,15 +64,20 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
         glossary: vec![("p".into(), "frequency parameter".into())],
         evidence: Chapter::default(),
         chapters: vec![Chapter {
-            id: "provenance",
-            title: "Provenance".into(),
             text: vec!["Two suites only.".into()],
-            list: vec![(
-                "suite ordinary".into(),
-                "sha256 ".to_owned() + &"ab1".repeat(21),
-            )],
-            ..Chapter::default()
+            ..Chapter::titled("limits", "Limits")
         }],
+        head: vec![(
+            "suite ordinary".into(),
+            "sha256 ".to_owned() + &"ab1".repeat(21),
+        )],
+        files: PlainTable {
+            name: "list-of-files".into(),
+            title: "Files".into(),
+            reading: "Each with its hash.".into(),
+            header: words(&["file", "SHA-256"]),
+            rows: vec![words(&["data/table-1.csv", &"ab1".repeat(21)])],
+        },
         annexes: vec![Chapter {
             id: "blocks",
             title: "Blocks".into(),
@@ -119,7 +127,29 @@ fn asks_nothing_of_network_or_scripts() {
         assert!(!html.contains(word), "{word}");
     }
     let plain = html.replace("http://www.w3.org/2000/svg", "");
+    let plain = plain.replace("meta http-equiv=", "");
     assert!(!plain.contains("http"));
+    // And a browser lets nothing through.
+    assert!(html.contains("content=\"default-src 'none'; style-src "));
+}
+
+/// Suites and files are named by users.
+#[test]
+fn hostile_names_stay_text() {
+    let name = "<script>alert(1)</script>\" onload='b()' x=\"&lt;";
+    let figures = sketches();
+    let mut input = made_up(&figures);
+    input.head[0].1 = name.into();
+    input.chapters[0].text[0] = name.into();
+    input.annexes[0].tables[0].rows[0][0] = name.into();
+    input.annexes[0].tables[0].title = name.into();
+    input.intro[0] = name.into();
+    let html = page(&input);
+    let escaped = "&lt;script&gt;alert(1)&lt;/script&gt;&quot; onload='b()' \
+                   x=&quot;&amp;lt;";
+    // The title of a table also names its box.
+    assert_eq!(html.matches(escaped).count(), 6);
+    assert!(!html.contains("<script") && !html.contains("\" onload"));
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn heyoka_agreed_with_the_reference() {
 fn draws_the_same_bytes_twice() {
     let draw = || {
         let figure = Timings::kept().expect("tables").figure();
-        (figure.svg(), figure.csv)
+        (figure.svg(), figure.csv())
     };
     let (svg, csv) = draw();
     assert_eq!((&svg, &csv), (&draw().0, &draw().1));

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::terminal::note;
 use rocking_common::paper::SuiteKind;
 use rocking_common::suites::inputs::sha256_hex;
-use rocking_report::output::{FINDINGS, Files};
+use rocking_report::output::{FIGURES, FINDINGS, Files};
 use rocking_report::stale;
 use rocking_surrogate::{self as surrogate, Surrogate};
 
@@ -21,6 +21,8 @@ const RECORDED: [&str; 2] =
 
 /// What a study of them found.
 const RECORDED_FINDINGS: &str = "fixtures/recorded/findings.json";
+/// What its figures draw.
+const RECORDED_FIGURES: &str = "fixtures/recorded/figures.json";
 /// Embedded and recorded suites side by side.
 const COMPARISON: &str = "fixtures/comparison/suites.csv";
 /// The blocks that the surrogate is fitted to.
@@ -62,22 +64,26 @@ pub(super) fn made(words: &mut String) -> Result<Files, Failure> {
         note("study of the recorded suites");
         let [ordinary, pulse] = RECORDED;
         let suites = ["--ordinary", ordinary, "--pulse", pulse];
-        let text = |arms: &[&str], name: &str| -> Result<String, Failure> {
-            let files = study::report(&[&suites, arms].concat(), None)?;
+        let text = |files: &Files, name: &str| -> Result<String, Failure> {
             let file = files.get(name).ok_or_else(|| {
                 Failure::gate(format!("the study writes no {name}"))
             })?;
             Ok(String::from_utf8_lossy(file).into_owned())
         };
-        let found = text(&[], FINDINGS)?;
+        let all = study::report(&suites, None)?;
+        let found = text(&all, FINDINGS)?;
         let old = super::file(RECORDED_FINDINGS)?;
         let path = Path::new(RECORDED_FINDINGS);
-        *words += &stale::compared(path, &old, &found, 0.0);
+        *words += &stale::compared(path, &old, &found);
         put(RECORDED_FINDINGS, found);
-        put(COMPARISON, text(&["--arms", "C"], "data/suites.csv")?);
+        put(RECORDED_FIGURES, text(&all, FIGURES)?);
+        let of_c =
+            study::report(&[&suites, &["--arms", "C"][..]].concat(), None)?;
+        put(COMPARISON, text(&of_c, "data/suites.csv")?);
     } else {
         note(&format!(
-            "left as they are: {RECORDED_FINDINGS} and {COMPARISON}, no {}",
+            "left as they are: {RECORDED_FINDINGS}, {RECORDED_FIGURES} and \
+             {COMPARISON}, no {}",
             RECORDED.join(", ")
         ));
     }

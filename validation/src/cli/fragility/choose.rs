@@ -35,7 +35,9 @@ pub(super) struct Args {
 /// # Errors
 /// [`Failure`] for a sample that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let sample = input::sample(&args.sample)?.censored()?;
+    let file = input::sample(&args.sample)?;
+    input::records_as_unit(&file);
+    let sample = file.censored()?;
     let draws = args.bootstrap.draws();
     let found = args.threads.run(|| choose(&sample, args.shift, draws))?;
     args.json.show(&found.at(args.sample.display())?)

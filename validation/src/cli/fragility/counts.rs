@@ -8,7 +8,8 @@ use clap::Args as ClapArgs;
 use indexmap::IndexMap;
 use rocking::procedures::counts::Outcome;
 use rocking::procedures::{
-    CountsFragility, Draws, ProcedureError, fit_outcomes, fit_stripes,
+    CountsFragility, Draws, ProcedureError, Sampled, fit_outcomes,
+    fit_stripes, sample_outcomes,
 };
 use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
@@ -79,6 +80,16 @@ impl Counted {
                 fit_outcomes(outcomes, clusters, shift, draws)
             }
         }
+    }
+
+    /// The fits to draws of the records; none of counts alone.
+    pub(super) fn sampled(
+        &self,
+        shift: f64,
+        draws: Draws,
+    ) -> Option<Result<Sampled, ProcedureError>> {
+        let Self::Records(outcomes, clusters) = self else { return None };
+        Some(sample_outcomes(outcomes, clusters, shift, draws))
     }
 
     /// The counts.

@@ -331,7 +331,11 @@ impl Level {
                 if options.method == FitMethod::MaximumLikelihood =>
             {
                 let found = fit_stripes(&counted.stripes(), shift);
-                Ok((found.at(place)?.fitted, None))
+                let drawn = options
+                    .draws
+                    .and_then(|draws| counted.sampled(shift, draws));
+                let drawn = drawn.transpose().at(place)?;
+                Ok((found.at(place)?.fitted, drawn))
             }
             (Values::Counts(_), ..) => refused(
                 "counts: expected --shift with a number and --method mle",

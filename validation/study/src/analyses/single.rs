@@ -9,7 +9,9 @@ use rocking::excitation::NormalisedRecord;
 use super::plan::{Plan, no_arm};
 use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
 use crate::runs::capacities;
-use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
+use rocking_common::paper::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+};
 
 /// Interval at which histories are compared and drawn, in s.
 pub const HISTORY_INTERVAL_S: f64 = 0.01;
@@ -18,7 +20,33 @@ pub const HISTORY_INTERVAL_S: f64 = 0.01;
 /// compared: from just above uplift to where blocks begin to overturn.
 pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
 
+/// What the smallest blocks must reach under a record that is shown alone,
+/// standing: its figures then show motions and curves, not a fall. Intensity,
+/// and rotation over slenderness there.
+const ROCKS: (f64, f64) = (1.5, 0.05);
+
 impl Plan {
+    /// The records that are shown alone: those at ranks 1/6, 3/6 and 5/6 of
+    /// PGV/PGA among the records under which the smallest block of every
+    /// slenderness rocks ([`ROCKS`]), or among all if these are fewer than
+    /// three.
+    pub(super) fn shown_alone(
+        &self,
+        results: &SuiteResults,
+        ratios: &[f64],
+    ) -> anyhow::Result<[usize; 3]> {
+        let curves = results.curves(self.common()).ok_or_else(no_arm)?;
+        let smallest = FREQUENCIES_RAD_S.len() - 1;
+        let rocks = |record: usize| {
+            (0..SLENDERNESSES_RAD.len()).all(|s| {
+                let curve = &curves[position(smallest, s)][record];
+                let demand = curve.edp_at(ROCKS.0);
+                demand.is_some_and(|e| e.is_finite() && e >= ROCKS.1)
+            })
+        };
+        Ok(by_rank_among(ratios, rocks))
+    }
+
     pub(super) fn single(
         &self,
         frequency: usize,
@@ -116,10 +144,22 @@ fn apart(
     })
 }
 
+/// [`by_rank`] among the records that rock, or among all if these are fewer
+/// than three.
+fn by_rank_among(ratios: &[f64], rocks: impl Fn(usize) -> bool) -> [usize; 3] {
+    let mut records: Vec<usize> =
+        (0..ratios.len()).filter(|record| rocks(*record)).collect();
+    if records.len() < 3 {
+        records = (0..ratios.len()).collect();
+    }
+    let own: Vec<f64> = records.iter().map(|r| ratios[*r]).collect();
+    by_rank(&own).map(|place| records[place])
+}
+
 /// Positions of the records at ranks 1/6, 3/6 and 5/6 of `ratios` (PGV/PGA):
 /// of n values in rising order those numbered ceil(n/6), ceil(n/2) and
 /// ceil(5n/6). Equal ratios keep their order.
-pub(super) fn by_rank(ratios: &[f64]) -> [usize; 3] {
+fn by_rank(ratios: &[f64]) -> [usize; 3] {
     let mut order: Vec<usize> = (0..ratios.len()).collect();
     order.sort_by(|a, b| ratios[*a].total_cmp(&ratios[*b]));
     [1, 3, 5].map(|sixths| {
@@ -187,6 +227,14 @@ mod tests {
         assert_eq!(by_rank(&rising(44)), [7, 21, 36]);
         let falling: Vec<f64> = rising(86).into_iter().rev().collect();
         assert_eq!(by_rank(&falling), [71, 43, 14]);
+    }
+
+    #[test]
+    fn records_that_do_not_rock_are_not_shown_alone() {
+        let falling: Vec<f64> = (0..8).rev().map(f64::from).collect();
+        // Of 1, 3, 5, 7 the last has the smallest ratio: ranks 1, 2 and 4.
+        assert_eq!(by_rank_among(&falling, |r| r % 2 == 1), [7, 5, 1]);
+        assert_eq!(by_rank_among(&falling, |r| r < 2), by_rank(&falling));
     }
 
     #[test]

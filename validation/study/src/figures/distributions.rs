@@ -9,13 +9,13 @@ use crate::results::Results;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
 };
-use rocking_common::table::{number as cell, point};
+use rocking_common::table::number as cell;
 use rocking_common::words::percent;
 use rocking_draw::axis::{Axis, Tick};
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
+    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Of, Series,
 };
 use rocking_draw::grid::Grid;
 use rocking_draw::legend::{Entry, Sample};
@@ -28,7 +28,7 @@ const ORIGINAL: Ink = Ink::Series(0);
 const SHIFTED: Ink = Ink::Series(2);
 
 /// Size of a panel of Figure 11, in px.
-const SIZE_PX: (f64, f64) = (440.0, 250.0);
+const SIZE_PX: (f64, f64) = (440.0, 220.0);
 
 /// Figure 11: p = 1, alpha = 0.20.
 pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
@@ -135,14 +135,15 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let layout = Layout {
         grid: Some(Grid::new(panels.len(), 2).plot(SIZE_PX.0, SIZE_PX.1)),
         legend,
-        by_row: true,
-        keys: &["im", "shift", "record"],
-        numbers: &[
-            ("edp", |d| d.x, cell),
-            ("intensity", |d| d.y, point),
-            ("q16", |d| d.low, point),
-            ("q84", |d| d.high, point),
-        ],
+        ..Layout::of(
+            &["im", "shift", "record"],
+            &[
+                ("edp", Of::X),
+                ("intensity", Of::Y),
+                ("q16", Of::Low),
+                ("q84", Of::High),
+            ],
+        )
     };
     let times =
         |(of, _): ([f64; 3], f64), less: f64| (of[2] - less) / (of[0] - less);
@@ -180,7 +181,7 @@ struct Share {
     /// Position of the block among the fifteen.
     block: usize,
     arm: usize,
-    /// Accepted share of the levels, in percent.
+    /// Accepted share of the levels.
     accepted: f64,
     /// Central 95 % band of that for lognormal samples whose levels are as
     /// dependent as these, where it was computed.
@@ -225,9 +226,8 @@ pub(super) fn shares(
                     shares.push(Share {
                         block,
                         arm,
-                        accepted: 100.0
-                            * if shifted { above } else { original },
-                        band: band.map(|(a, b)| (100.0 * a, 100.0 * b)),
+                        accepted: if shifted { above } else { original },
+                        band,
                         levels: tested(tests),
                     });
                 }
@@ -236,13 +236,13 @@ pub(super) fn shares(
             let own = || shares.iter().filter(|s| drawn[s.arm] == common);
             let mean =
                 own().fold(0.0, |s, b| s + b.accepted) / own().count() as f64;
-            means.push(percent(mean / 100.0, 1));
+            means.push(percent(mean, 1));
             let least = shares.iter().map(|s| s.levels).min();
             fewest = fewest.min(least.unwrap_or(0));
             let sample = if shifted { "shifted" } else { "original" };
             let (name, records) = (suite.kind.name(), suite.records.len());
             let mut series = groups(&shares, levels);
-            let expected = (0.0, 100.0 * (1.0 - LEVEL));
+            let expected = (0.0, 1.0 - LEVEL);
             series.push(Series::note(Mark::Across(EXPECTED), "", expected));
             for share in &shares {
                 let block = BLOCKS[share.block];
@@ -262,13 +262,15 @@ pub(super) fn shares(
                 ));
             }
             let alphas = BLOCKS.map(|b| format!("{:.2}", b.slenderness_rad()));
-            let tens = [0, 20, 40, 60, 80, 100]
-                .map(|k| Tick { at: f64::from(k), label: k.to_string() });
+            let percents = [0, 25, 50, 75, 100].map(|k: u32| Tick {
+                at: f64::from(k) / 100.0,
+                label: k.to_string(),
+            });
             panels.push(ChartPanel::new(
                 format!("{records} {name} records, {sample} sample"),
                 Axis::named(&alphas).label("*α* (rad)"),
-                Axis::linear(0.0, 128.0, 5)
-                    .with_ticks(tens.into())
+                Axis::linear(-0.04, 1.36, 5)
+                    .with_ticks(percents.into())
                     .label("accepted levels (%)"),
                 series,
             ));
@@ -292,24 +294,25 @@ pub(super) fn shares(
         legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let layout = Layout {
-        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 230.0)),
+        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 190.0)),
         legend,
-        by_row: false,
-        keys: &[
-            "suite",
-            "records",
-            "im",
-            "sample",
-            "arm",
-            "p_rad_s",
-            "alpha_rad",
-            "levels",
-        ],
-        numbers: &[
-            ("share", |d| d.y / 100.0, cell),
-            ("null_low", |d| d.low / 100.0, cell),
-            ("null_high", |d| d.high / 100.0, cell),
-        ],
+        ..Layout::of(
+            &[
+                "suite",
+                "records",
+                "im",
+                "sample",
+                "arm",
+                "p_rad_s",
+                "alpha_rad",
+                "levels",
+            ],
+            &[
+                ("share", Of::Y),
+                ("null_low", Of::Low),
+                ("null_high", Of::High),
+            ],
+        )
     };
     let rests = if fewest < levels {
         format!(
@@ -347,21 +350,19 @@ pub(super) fn shares(
     ))
 }
 
-/// A mark on its stem, over its band.
-fn mark_of(share: &Share, arms: usize, keys: [String; 8]) -> [Series; 3] {
+/// A mark over its band.
+fn mark_of(share: &Share, arms: usize, keys: [String; 8]) -> [Series; 2] {
     let aside = 0.34 * (share.arm as f64 - 0.5 * (arms - 1) as f64);
     let x = (share.block + 1) as f64 + aside;
     let y = share.accepted;
     let ink = Ink::Series(share.block % SLENDERNESSES_RAD.len());
     let band = Look::band(NULL_BAND);
-    let stem = Look::line(Pen::new(ink, 0.8));
-    let mark = Look::marks(ARMS[share.arm], 3.2, ink);
+    let mark = Look::marks(ARMS[share.arm], 3.6, ink);
     let ends: Vec<(f64, f64)> = share.band.into_iter().collect();
     [
         Series::of(band, vec![x - 0.15, x + 0.15], vec![y; 2])
             .with(ends.repeat(2))
             .keyed([]),
-        Series::of(stem, vec![x; 2], vec![0.0, y]).keyed([]),
         Series::of(mark, vec![x], vec![y]).with(ends).keyed(keys),
     ]
 }
@@ -381,8 +382,8 @@ fn groups(shares: &[Share], all: usize) -> Vec<Series> {
         };
         let centred = Mark::Words(Horizontal::Centre);
         let p = common::frequency(p);
-        notes.push(Series::note(centred, p, (middle, 117.5)));
-        notes.push(Series::note(centred, words, (middle, 105.5)));
+        notes.push(Series::note(centred, p, (middle, 1.24)));
+        notes.push(Series::note(centred, words, (middle, 1.08)));
         if k + 1 < FREQUENCIES_RAD_S.len() {
             let between = Mark::Upright(Pen::new(Ink::Muted, 0.5));
             let x = ((k + 1) * of_each) as f64 + 0.5;

@@ -86,10 +86,8 @@ pub(super) fn constants(
         panels.push(ChartPanel::new(title, x(), exceedance(), series));
     }
     let layout = Layout {
-        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 290.0)),
-        keys: &KEYS,
-        numbers: &NUMBERS[..2],
-        ..Layout::default()
+        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 230.0)),
+        ..Layout::of(&KEYS, &NUMBERS[..2])
     };
     let heading = Heading::numbered(
         18,
@@ -99,7 +97,7 @@ pub(super) fn constants(
         Some(arm),
     );
     let chart = Chart { heading, panels, columns: 2 };
-    Ok(chart.thinned((440.0, 290.0)).laid_out(
+    Ok(chart.thinned((440.0, 230.0)).laid_out(
         &layout,
         format!(
             "Largest distance of USFL7 to the empirical fragility for c = \

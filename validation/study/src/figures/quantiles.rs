@@ -16,7 +16,7 @@ use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Column, Figure, Heading, Layout, Mark, Series,
+    Chart, ChartPanel, Column, Figure, Heading, Layout, Mark, Of, Series,
 };
 use rocking_draw::grid::Grid;
 use rocking_draw::legend::{Entry, Sample};
@@ -27,100 +27,70 @@ use rocking_draw::text::Horizontal;
 const MOST_POINTS: usize = 160;
 
 /// Columns of the CSV.
-const KEYS: [&str; 4] = ["p_rad_s", "note", "im", "group"];
+const KEYS: [&str; 3] = ["p_rad_s", "im", "group"];
 const NUMBERS: [Column; 4] = [
-    ("intensity", |d| d.y, number),
-    ("q16", |d| d.low, number),
-    ("q50", |d| d.x, number),
-    ("q84", |d| d.high, number),
+    ("intensity", Of::Y),
+    ("q16", Of::Low),
+    ("q50", Of::X),
+    ("q84", Of::High),
 ];
 
 /// Quantile curves of what is compared at one frequency parameter.
 struct Compared {
     p_rad_s: f64,
-    /// More words for the panel's title, or nothing.
-    note: String,
     groups: Vec<Series>,
 }
 
-/// Figure 8: a row a frequency parameter, a column an arm.
+/// Figure 8.
 pub(super) fn slendernesses(
     suite: &SuiteResults,
-    arms: &[Arm],
+    arm: Arm,
 ) -> anyhow::Result<Figure> {
-    let mut by_arm = Vec::new();
-    for arm in arms {
-        let curves = suite.curves(*arm).ok_or_else(no_arm)?;
-        by_arm.push(panels(|frequency| {
-            SLENDERNESSES_RAD
-                .iter()
-                .enumerate()
-                .map(|(slenderness, alpha)| {
-                    let label = format!("*α* = {alpha:.2} rad");
-                    group(label, &curves[position(frequency, slenderness)])
-                })
-                .collect()
-        })?);
-    }
-    let words = spread_in_words(arms, &by_arm);
-    let mut panels = Vec::new();
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for (arm, own) in arms.iter().zip(&by_arm) {
-            let note = format!("arm {}", arm.letter());
-            let Compared { p_rad_s, groups, .. } = &own[frequency];
-            let (p_rad_s, groups) = (*p_rad_s, groups.clone());
-            panels.push(Compared { p_rad_s, note, groups });
-        }
-    }
+    let curves = suite.curves(arm).ok_or_else(no_arm)?;
+    let panels = panels(|frequency| {
+        SLENDERNESSES_RAD
+            .iter()
+            .enumerate()
+            .map(|(slenderness, alpha)| {
+                let label = format!("*α* = {alpha:.2} rad");
+                group(label, &curves[position(frequency, slenderness)])
+            })
+            .collect()
+    })?;
+    let words = spread_in_words(&panels);
     let heading = Heading::numbered(
         8,
         "16/50/84 % demand given intensity, five slendernesses",
-        "Three quantile curves for each slenderness; a row a frequency \
-         parameter, a column an arm of the grid, both on the same scale; a \
-         curve ends where its quantile is overturned.",
-        None,
+        "Three quantile curves for each slenderness, one panel a frequency \
+         parameter; a curve ends where its quantile is overturned.",
+        Some(arm),
     );
-    Ok(figure(heading, &panels, arms.len(), words))
+    Ok(figure(heading, &panels, words))
 }
 
-fn figure(
-    heading: Heading,
-    panels: &[Compared],
-    columns: usize,
-    words: String,
-) -> Figure {
-    let grid = Grid { right: 40.0, ..Grid::new(panels.len(), columns) };
-    let grid = match grid.columns {
-        2 => grid.plot(330.0, 190.0),
-        _ => grid.plot(264.0, grid.height),
-    };
+fn figure(heading: Heading, panels: &[Compared], words: String) -> Figure {
+    let columns = panels.len();
+    let grid = Grid { right: 40.0, ..Grid::new(columns, columns) };
+    let grid = grid.plot(264.0, grid.height);
     let legend = [(1.8, "median"), (0.9, "16 and 84 %")].map(|(width, of)| {
         Entry::new(Sample::Line(Pen::new(Ink::Text, width)), of)
     });
     let layout = Layout {
         grid: Some(grid),
         legend: legend.into(),
-        keys: &KEYS,
-        numbers: &NUMBERS,
-        ..Layout::default()
+        ..Layout::of(&KEYS, &NUMBERS)
     };
     let shown = panels.iter().map(|one| {
-        let same = |p: &&Compared| p.p_rad_s == one.p_rad_s;
-        let (low, high) = levels(panels.iter().filter(same));
-        let mut title = common::frequency(one.p_rad_s);
-        if !one.note.is_empty() {
-            title += &format!(", {}", common::words(&one.note));
-        }
+        let (low, high) = levels(one);
         let groups = one.groups.iter().map(|group| {
             group.clone().keyed([
                 number(one.p_rad_s),
-                one.note.clone(),
                 Intensity::Pga.name().into(),
                 plain(&group.label),
             ])
         });
         ChartPanel::new(
-            title,
+            common::frequency(one.p_rad_s),
             demand(),
             Axis::linear(low, high, 6)
                 .label(common::intensity(Intensity::Pga)),
@@ -148,10 +118,10 @@ fn overturns(group: &Series, quantile: usize) -> Option<f64> {
     group.y.get(at).copied()
 }
 
-/// Ends of the intensity axis of some panels: 1, or the lowest level shown,
-/// and a little above the last overturning level.
-fn levels<'a>(panels: impl Iterator<Item = &'a Compared>) -> (f64, f64) {
-    let groups: Vec<&Series> = panels.flat_map(|p| &p.groups).collect();
+/// Ends of the intensity axis of a panel: 1, or the lowest level shown, and a
+/// little above the last overturning level.
+fn levels(panel: &Compared) -> (f64, f64) {
+    let groups = &panel.groups;
     let ends = groups
         .iter()
         .map(|g| overturns(g, 0).or(g.y.last().copied()).unwrap_or(1.0));
@@ -185,28 +155,21 @@ fn edge_words(groups: &[Series]) -> Vec<Series> {
 }
 
 /// How far the slendernesses are apart where the median overturns.
-fn spread_in_words(arms: &[Arm], by_arm: &[Vec<Compared>]) -> String {
-    let mut out = Vec::new();
-    for (arm, panels) in arms.iter().zip(by_arm) {
-        let spreads: Vec<String> = panels
-            .iter()
-            .map(|panel| {
-                let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
-                let (low, high) = range(panel.groups.iter().map(first));
-                format!(
-                    "{} at p = {}",
-                    percent(high / low - 1.0, 1),
-                    panel.p_rad_s
-                )
-            })
-            .collect();
-        out.push(format!(
-            "On arm {} the five medians overturn within {} of one another.",
-            arm.letter(),
-            spreads.join(", ")
-        ));
-    }
-    out.join(" ")
+fn spread_in_words(panels: &[Compared]) -> String {
+    let spreads: Vec<String> = panels
+        .iter()
+        .map(|panel| {
+            let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
+            let (low, high) = range(panel.groups.iter().map(first));
+            let p = panel.p_rad_s;
+            format!("{} at p = {p}", percent(high / low - 1.0, 1))
+        })
+        .collect();
+    format!(
+        "Median overturning intensities of the five shapes differ by at most \
+         {}.",
+        spreads.join(", ")
+    )
 }
 
 pub(super) fn adjusted(
@@ -238,7 +201,7 @@ pub(super) fn adjusted(
     let words = format!(
         "The median demand becomes overturning {words}, by procedure."
     );
-    Ok(figure(heading, &panels, 3, words))
+    Ok(figure(heading, &panels, words))
 }
 
 fn panels(
@@ -249,7 +212,7 @@ fn panels(
         .enumerate()
         .map(|(frequency, p_rad_s)| {
             let groups = groups(frequency)?;
-            Ok(Compared { p_rad_s, note: String::new(), groups })
+            Ok(Compared { p_rad_s, groups })
         })
         .collect()
 }

@@ -43,23 +43,17 @@ pub(super) fn slendernesses(
     }
     let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
     let reading = medians_in_words(&panels);
-    Ok(Some(
-        Boxplots {
-            heading: Heading::numbered(
-                number,
-                format!("Paired ratios of demands to alpha = 0.10, {p}"),
-                "Notched boxplots of the ratio of peak rotation over \
-                 slenderness to that of the block with alpha = 0.10 under the \
-                 same record, by stripe of intensity; the share of usable \
-                 ratios stands at the right.",
-                Some(arm),
-            ),
-            ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
-            panels,
-            columns: 4,
-        }
-        .figure(reading),
-    ))
+    let heading = Heading::numbered(
+        number,
+        format!("Paired ratios of demands to alpha = 0.10, {p}"),
+        "Notched boxplots of the ratio of peak rotation over slenderness to \
+         that of the block with alpha = 0.10 under the same record, by stripe \
+         of intensity; the share of usable ratios stands at the right.",
+        Some(arm),
+    );
+    let ratio_label = "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into();
+    let boxes = Boxplots { ratio_label, panels, columns: 4 };
+    Ok(Some(boxes.figure(&heading, reading)))
 }
 
 /// Figure 9; none where stripes were not run.
@@ -80,22 +74,17 @@ pub(super) fn adjusted(
         })
         .collect::<anyhow::Result<Vec<_>>>()?;
     let reading = medians_in_words(&panels);
-    Ok(Some(
-        Boxplots {
-            heading: Heading::numbered(
-                9,
-                "Slenderness adjustment against record scaling",
-                "Notched boxplots of the ratio of demands: unscaled record on \
-                 a block of adjusted slenderness over scaled record on the \
-                 block with alpha = 0.10, by stripe of intensity.",
-                Some(arm),
-            ),
-            ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
-            panels,
-            columns: 3,
-        }
-        .figure(reading),
-    ))
+    let heading = Heading::numbered(
+        9,
+        "Slenderness adjustment against record scaling",
+        "Notched boxplots of the ratio of demands: unscaled record on a \
+         block of adjusted slenderness over scaled record on the block with \
+         alpha = 0.10, by stripe of intensity.",
+        Some(arm),
+    );
+    let ratio_label = "*θ̃*_{adjusted} / *θ̃*_{scaled}".into();
+    let boxes = Boxplots { ratio_label, panels, columns: 3 };
+    Ok(Some(boxes.figure(&heading, reading)))
 }
 
 /// Boxes of Figure 9 by frequency parameter; none where stripes were not

@@ -5,13 +5,14 @@ use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
-use rocking_common::table::{number as cell, point};
+use rocking_common::table::number as cell;
 use rocking_draw::axis::Axis;
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
     BlockSketch, Chart, ChartPanel, Column, Figure, Heading, History,
-    HistoryPanel, Layout, Mark, Series, histories,
+    HistoryPanel, Layout, Mark, Of, Series, histories,
 };
+use rocking_draw::grid::Grid;
 
 pub(super) fn sketch() -> Figure {
     BlockSketch {
@@ -98,11 +99,10 @@ fn apart_in_words(suite: &SuiteResults) -> String {
 
 /// Side of a panel of IDA curves, in px.
 const WIDTH_PX: f64 = 288.0;
-const HEIGHT_PX: f64 = 222.0;
+const HEIGHT_PX: f64 = 160.0;
 /// Columns of their CSV.
 const KEYS: [&str; 4] = ["p_rad_s", "record", "im", "alpha_rad"];
-const NUMBERS: [Column; 2] =
-    [("intensity", |d| d.y, cell), ("edp", |d| d.x, point)];
+const NUMBERS: [Column; 2] = [("intensity", Of::Y), ("edp", Of::X)];
 
 /// The axis of the demand, past 1 so that overturning stays inside.
 pub(super) fn demand() -> Axis {
@@ -169,9 +169,9 @@ pub(super) fn curves(
          record.",
         Some(arm),
     );
+    let grid = Grid::new(panels.len(), 3).plot(WIDTH_PX, HEIGHT_PX);
+    let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let chart = Chart { heading, panels, columns: 3 };
-    let layout =
-        Layout { keys: &KEYS, numbers: &NUMBERS, ..Layout::default() };
     Ok(chart.thinned((WIDTH_PX, HEIGHT_PX)).laid_out(
         &layout,
         format!(

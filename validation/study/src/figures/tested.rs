@@ -14,7 +14,7 @@ use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
+    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Of, Series,
 };
 use rocking_draw::legend::{Entry, Sample};
 use rocking_draw::panel::Marker;
@@ -284,9 +284,10 @@ pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     }
     let layout = Layout {
         legend,
-        keys: &["alpha_rad", "p_rad_s", "im", "sample", "quantity"],
-        numbers: &[("at", |d| d.x, number), ("value", |d| d.y, number)],
-        ..Layout::default()
+        ..Layout::of(
+            &["alpha_rad", "p_rad_s", "im", "sample", "quantity"],
+            &[("at", Of::X), ("value", Of::Y)],
+        )
     };
     let heading = Heading::numbered(
         13,

@@ -6,8 +6,10 @@ use rayon::prelude::*;
 use super::draws::{Draws, Replicated};
 use super::known::{Caution, Known};
 use super::refuted::refuted;
-use super::rule::{LEVEL, OWN};
-use rocking_common::findings::{Measured, Region, Tested};
+use rocking_common::findings::{LEVEL, Measured, Region, Tested};
+
+/// Level of a band that is drawn and decides nothing.
+const BAND: f64 = 0.95;
 
 impl Replicated {
     /// The central share of the replicates of every cell, wider by what few
@@ -23,15 +25,14 @@ impl Replicated {
             .into_par_iter()
             .map(|k| {
                 let values = Self::column(&self.replicates, k);
-                let e = clusters.estimate(self.points[k], &values, LEVEL)?;
+                let e = clusters.estimate(self.points[k], &values, BAND)?;
                 (10 * e.used > 9 * e.replicates).then_some((e.low, e.high))
             })
             .collect()
     }
 }
 
-/// Each cell of a measure with the interval by which a claim on it is judged:
-/// of one cell at 95 %, of several each its own at 90 %.
+/// Each cell of a measure with the interval by which a claim on it is judged.
 #[must_use]
 pub fn by_cell(
     draws: &Draws,
@@ -41,8 +42,7 @@ pub fn by_cell(
 ) -> Vec<Measured> {
     let known = Known::new(draws, tested, range, measured);
     let count = measured.points.len();
-    let level = if count == 1 { LEVEL } else { OWN };
-    (0..count).map(|k| known.shown(k, known.drawn(k, level))).collect()
+    (0..count).map(|k| known.shown(k, known.drawn(k, LEVEL))).collect()
 }
 
 /// How many cells are shown to lie below a limit, and how many above, all of
@@ -59,7 +59,7 @@ pub fn at_once(
     let none = vec![false; measured.points.len()];
     let outside = |region| {
         let found = refuted(&known, region, &none, Caution::FULL);
-        found.ends.iter().flatten().count()
+        found.out.iter().filter(|out| **out).count()
     };
     (outside(Region::Above(limit)), outside(Region::Below(limit)))
 }

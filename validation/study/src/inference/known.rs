@@ -4,11 +4,13 @@
 use rayon::prelude::*;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::confidence::Confidence;
-use rocking::statistics::{Clusters, ExtendedSample};
+use rocking::statistics::{Clusters, ExtendedSample, power};
 
 use super::draws::{Draws, LEAST_DECIDING, REPLICATES, Replicated, Scheme};
 use rocking::statistics::resampling::Subsampling;
-use rocking_common::findings::{Interval, Measured, Region, Tested};
+use rocking_common::findings::{
+    ERROR, Interval, LEVEL, Measured, Power, Region, Tested,
+};
 use rocking_common::paper::Verdict;
 
 /// An interval; the standard error of each end over sets of draws; the ends
@@ -25,14 +27,15 @@ pub(super) struct Ends {
 impl Ends {
     /// The ends, each moved outwards by so many errors.
     fn moved(&self, by: f64) -> (f64, f64) {
-        let low = self.low - by * self.errors.0;
-        let high = self.high + by * self.errors.1;
+        // Not moved by no error: an error may be infinite.
+        let away = |error: f64| if by == 0.0 { 0.0 } else { by * error };
+        let low = self.low - away(self.errors.0);
+        let high = self.high + away(self.errors.1);
         (clipped(low, self.range), clipped(high, self.range))
     }
 
     pub(super) fn both(&self) -> (f64, f64) {
-        // Not moved by no error: an error may be infinite.
-        (clipped(self.low, self.range), clipped(self.high, self.range))
+        self.moved(0.0)
     }
 
     /// On which side of a region the interval lies, wherever other draws put
@@ -60,6 +63,8 @@ pub(super) struct Caution(f64);
 impl Caution {
     /// That of a verdict.
     pub(super) const FULL: Self = Self(4.0);
+    /// That of the p-value of what is decided.
+    pub(super) const NONE: Self = Self(0.0);
 
     /// The same where so many times as many are drawn.
     pub(super) fn with(self, times: usize) -> Self {
@@ -195,6 +200,35 @@ impl<'a> Known<'a> {
         if few { self.exact(k, level) } else { self.drawn(k, level) }
     }
 
+    /// What a suite like this one is able to decide where the truth is the
+    /// value of a cell, whose interval it is; none without replicates.
+    pub(super) fn power(
+        &self,
+        k: usize,
+        ends: &Ends,
+        level: f64,
+        region: Region,
+    ) -> Option<Power> {
+        let column = Replicated::column(&self.measured.replicates, k);
+        let point = self.measured.points[k];
+        if self.measured.scheme == Scheme::Counted {
+            let decides = decides(point, region, self.range);
+            let count = *self.measured.counts.get(k)?;
+            let found = power::Power::of_count(count, level, decides);
+            return Some(stored(&found));
+        }
+        let deviations = match self.measured.scheme {
+            Scheme::Subsampling => self.rule.deviations(&column),
+            _ => self.clusters.deviations(point, &column),
+        };
+        let student = match ends.way {
+            // Its unit is the record.
+            Interval::Exact => 1.0,
+            _ => self.clusters.student_over_normal(LEVEL),
+        };
+        power_of(point, ends, student, &deviations, region)
+    }
+
     /// A cell with its interval.
     pub(super) fn shown(&self, k: usize, ends: Option<Ends>) -> Measured {
         Measured {
@@ -204,22 +238,78 @@ impl<'a> Known<'a> {
     }
 }
 
-/// The least one-sided level at which an interval lies on one side of a
-/// region: by bisection, 1 where the value itself does not.
+/// What such a suite is able to decide where the truth is `point`, by the
+/// deviations of suites from it.
+pub(super) fn power_of(
+    point: f64,
+    ends: &Ends,
+    student: f64,
+    deviations: &[f64],
+    region: Region,
+) -> Option<Power> {
+    let decides = decides(point, region, ends.range);
+    let Ends { low, high, .. } = *ends;
+    let found =
+        power::Power::of((point, low, high), student, deviations, decides);
+    (!deviations.is_empty()).then(|| stored(&found))
+}
+
+/// Whether an interval lies on the side of the limit where `point` lies.
+fn decides(
+    point: f64,
+    region: Region,
+    range: (f64, f64),
+) -> impl Fn(f64, f64) -> bool {
+    let wanted = region.verdict(point, point);
+    move |low, high| {
+        region.verdict(clipped(low, range), clipped(high, range)) == wanted
+    }
+}
+
+fn stored(found: &power::Power) -> Power {
+    Power { probability: found.probability, times: found.times }
+}
+
+/// The p-value of a verdict by the interval of one value, given at any level:
+/// the smaller of the two sides' where nothing is decided, with the ends
+/// moved by `caution`.
+pub(super) fn p_of(
+    ends: impl Fn(f64) -> Option<Ends>,
+    region: Region,
+    verdict: Verdict,
+) -> f64 {
+    let side =
+        |wanted, caution| p_value(&ends, region, wanted, ERROR, caution);
+    match verdict {
+        Verdict::Inconclusive => {
+            let inside = side(Verdict::Confirmed, Caution::FULL);
+            let outside = side(Verdict::NotConfirmed, Caution::FULL);
+            if inside < outside { inside } else { outside }
+        }
+        decided => side(decided, Caution::NONE),
+    }
+}
+
+/// The least one-sided error at which an interval lies on one side of a
+/// region: by bisection on that side of `error` where it lies, 1 where the
+/// value itself does not.
 pub(super) fn p_value(
     ends: impl Fn(f64) -> Option<Ends>,
     region: Region,
     wanted: Verdict,
+    error: f64,
+    caution: Caution,
 ) -> f64 {
     let lies = |p: f64| {
         let ends = ends(1.0 - 2.0 * p);
-        ends.is_some_and(|e| {
-            let (low, high) = e.both();
-            region.verdict(low, high) == wanted
-        })
+        ends.is_some_and(|e| e.verdict(region, caution) == wanted)
     };
-    // What 2000 draws cannot distinguish from 0, and next to no width at all.
-    let (mut no, mut yes) = (0.5 / REPLICATES as f64, 0.499);
+    // Of one value what 2000 draws cannot distinguish from 0, and next to no
+    // width at all.
+    let least = error / ERROR * 0.5 / REPLICATES as f64;
+    let most = 0.499;
+    let (mut no, mut yes) =
+        if lies(error) { (least, error) } else { (error, most) };
     if lies(no) {
         return no;
     }

@@ -8,13 +8,13 @@
 
 use super::draws::LEAST_DECIDING;
 use super::draws::Scheme;
-use super::known::{Caution, Ends, Known, clipped, p_value};
+use super::known::{Caution, Ends, Known, clipped, p_of, p_value, power_of};
 use super::refuted::refuted;
-use super::rule::{Cell, FAMILY, LEVEL, OWN, Rule};
+use super::rule::{Cell, Rule};
 use rocking::statistics::confidence::Confidence;
 use rocking_common::findings::{
-    CellCounts, ClaimResult, Detail, Interval, Measured, Quantifier, Region,
-    Unit,
+    CellCounts, ClaimResult, Detail, ERROR, Interval, LEVEL, Measured,
+    Quantifier, Region, Unit,
 };
 use rocking_common::paper::Verdict;
 
@@ -52,7 +52,7 @@ pub(super) fn many(
     let left_out: Vec<bool> =
         (0..cells.len()).map(|k| shown[k] || !among(k)).collect();
     let refuted = refuted(known, rule.region, &left_out, caution);
-    let outside = refuted.ends.iter().flatten().count();
+    let outside = refuted.out.iter().filter(|out| **out).count();
     let mut counts = CellCounts {
         deciding: deciding.len(),
         inside: shown.iter().filter(|shown| **shown).count(),
@@ -68,7 +68,7 @@ pub(super) fn many(
             Verdict::Inconclusive
         };
         let bears = |cell: &&Deciding| match verdict {
-            Verdict::NotConfirmed => refuted.ends[cell.k].is_some(),
+            Verdict::NotConfirmed => refuted.out[cell.k],
             Verdict::Confirmed => true,
             Verdict::Inconclusive => !shown[cell.k],
         };
@@ -83,21 +83,33 @@ pub(super) fn many(
         result.value = known.measured.points[worst.k];
         (result.low, result.high) = ends.both();
         result.monte_carlo_error = ends.deciding_error(rule.region);
-        result.interval = Some(own_way(ends.way));
+        result.interval = Some(ends.way);
         result.at = named(&cells[worst.k], known);
         result.by_equivalence = Some(verdict);
-        result.p = match verdict {
-            Verdict::NotConfirmed => refuted.p,
-            _ if caution != Caution::FULL => f64::NAN,
-            _ => {
-                let largest = deciding.iter().map(|cell| {
+        if caution == Caution::FULL {
+            // All cells are shown to lie inside where the last one is.
+            let inside = |caution| {
+                let each = deciding.iter().map(|cell| {
                     let records = cells[cell.k].records;
                     let ends = |level| known.cell(cell.k, records, level);
-                    p_value(ends, rule.region, Verdict::Confirmed)
+                    let wanted = Verdict::Confirmed;
+                    p_value(ends, rule.region, wanted, ERROR, caution)
                 });
-                largest.fold(0.0, |most, p| if p > most { p } else { most })
+                each.fold(0.0, |most, p| if p > most { p } else { most })
+            };
+            result.p = match verdict {
+                Verdict::Confirmed => inside(Caution::NONE),
+                Verdict::NotConfirmed => refuted.p,
+                Verdict::Inconclusive => {
+                    let p = inside(Caution::FULL);
+                    if p < refuted.p { p } else { refuted.p }
+                }
+            };
+            if verdict == Verdict::Inconclusive {
+                let level = refuted.level[worst.k];
+                result.power = known.power(worst.k, &ends, level, rule.region);
             }
-        };
+        }
     } else {
         counts.inside = discovered(rule.region, cells, known, &deciding);
         let drawn = drawn(&deciding, cells);
@@ -121,7 +133,7 @@ pub(super) fn many(
 /// Cells with a value and an interval of their own.
 fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
     let of = |(k, cell): (usize, &Cell)| {
-        let ends = known.cell(k, cell.records, OWN)?;
+        let ends = known.cell(k, cell.records, LEVEL)?;
         let there = known.measured.points[k].is_finite();
         there.then_some(Deciding { k, ends })
     };
@@ -134,14 +146,6 @@ fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
 fn drawn<'a>(deciding: &'a [Deciding], cells: &[Cell]) -> Vec<&'a Deciding> {
     let enough = |cell: &&Deciding| cells[cell.k].records >= LEAST_DECIDING;
     deciding.iter().filter(enough).collect()
-}
-
-/// How an interval of one cell among many is called.
-fn own_way(way: Interval) -> Interval {
-    match way {
-        Interval::Accelerated | Interval::Percentile => Interval::Own,
-        other => other,
-    }
 }
 
 /// The name of a cell; of few records, whose they are.
@@ -174,7 +178,7 @@ fn worst<'a>(
 }
 
 /// Number of cells shown to lie inside with a false discovery rate of
-/// [`FAMILY`]: the largest k whose share of that level shows k cells
+/// [`ERROR`]: the largest k whose share of that level shows k cells
 /// (Benjamini and Hochberg, J. R. Statist. Soc. B 57 (1995) 289).
 fn discovered(
     region: Region,
@@ -185,7 +189,7 @@ fn discovered(
     let total = deciding.len() as f64;
     let mut count = deciding.len();
     loop {
-        let level = 1.0 - 2.0 * FAMILY * count as f64 / total;
+        let level = 1.0 - 2.0 * ERROR * count as f64 / total;
         let inside = |cell: &&Deciding| {
             let ends = known.cell(cell.k, cells[cell.k].records, level);
             ends.is_some_and(|ends| {
@@ -226,8 +230,7 @@ fn share(
         return;
     };
     let ends = |level: f64| {
-        let half_width = known.clusters.half_width(level);
-        let found = confidence.interval_of_share(value, half_width);
+        let found = confidence.interval_of_share(value, known.clusters, level);
         Some(Ends {
             low: found.low,
             high: found.high,
@@ -246,9 +249,14 @@ fn share(
     result.interval = Some(own.way);
     let verdict = own.verdict(region, caution);
     result.by_equivalence = Some(verdict);
-    let p = |verdict| p_value(ends, region, verdict);
-    let both = (p(Verdict::Confirmed), p(Verdict::NotConfirmed));
-    result.p = if both.0 < both.1 { both.0 } else { both.1 };
+    if caution == Caution::FULL {
+        result.p = p_of(ends, region, verdict);
+        if verdict == Verdict::Inconclusive {
+            let deviations = known.clusters.deviations(value, &values);
+            let student = known.clusters.student_over_normal(LEVEL);
+            result.power = power_of(value, &own, student, &deviations, region);
+        }
+    }
 }
 
 /// The middle and the 90 % value over the cells of the distance from the

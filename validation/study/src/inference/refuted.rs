@@ -1,48 +1,46 @@
 //! Which of many cells are shown to lie outside their region, all of them at
 //! once.
 
-use rayon::prelude::*;
 use rocking::statistics::normal;
+use rocking::statistics::step_down::StepDown;
 
-use super::draws::REPLICATES;
 use super::draws::{Replicated, Scheme};
 use super::known::Ends;
 use super::known::{Caution, Known, p_value};
-use super::rule::{FAMILY, LEVEL};
-use rocking_common::findings::{Interval, Region};
+use rocking_common::findings::{ERROR, Interval, LEVEL, Region};
 use rocking_common::paper::Verdict;
 
-/// Replicates beyond a limit that resolve it.
-const LEAST_BEYOND: f64 = 5.0;
-
-/// The cells that are shown to lie outside, with their simultaneous limits,
-/// and the smallest adjusted p-value.
+/// The cells that are shown to lie outside.
 pub(super) struct Refuted {
+    /// Whether each cell is.
+    pub(super) out: Vec<bool>,
+    /// The simultaneous limits of each cell whose value lies outside.
     pub(super) ends: Vec<Option<Ends>>,
+    /// The level of each cell's own interval that gives such limits.
+    pub(super) level: Vec<f64>,
+    /// The smallest adjusted p-value.
     pub(super) p: f64,
 }
 
-/// Refutes cells with a family-wise error of [`FAMILY`]: at most that is the
+/// Refutes cells with a family-wise error of [`ERROR`]: at most that is the
 /// probability that any cell is refuted although it lies in the region.
 ///
-/// By Holm's steps over the cells' own limits where draws resolve these: exact
-/// ones, and those of a bootstrap of 20 cells or fewer. Of more cells by the
-/// largest studentized deviation over them, stepwise (Romano and Wolf,
-/// Econometrica 73 (2005) 1237), ratios on the scale of their logarithm.
-/// Cells that are `shown` to lie inside cannot be refuted and leave the
-/// maximum (Romano, Shaikh and Wolf, Econometrica 82 (2014) 1979).
+/// By Holm's steps over the cells' own limits where these are exact or of
+/// subsamples. By the largest studentized deviation over the cells, stepwise
+/// (Romano and Wolf, Econometrica 73 (2005) 1237), where they are of a
+/// bootstrap, ratios on the scale of their logarithm: the ends that Holm's
+/// steps ask of a bootstrap lie among its last draws, and fall short of their
+/// level (declared cases `family-on-the-edge`). Cells that are `shown` to lie
+/// inside cannot be refuted and leave the maximum (Romano, Shaikh and Wolf,
+/// Econometrica 82 (2014) 1979).
 pub(super) fn refuted(
     known: &Known<'_>,
     region: Region,
     shown: &[bool],
     caution: Caution,
 ) -> Refuted {
-    // Draws beyond the limit of the first step.
-    let beyond = FAMILY / shown.len() as f64 * REPLICATES as f64;
     match known.measured.scheme {
-        Scheme::Bootstrap if beyond < LEAST_BEYOND => {
-            by_maximum(known, region, shown, caution)
-        }
+        Scheme::Bootstrap => by_maximum(known, region, shown, caution),
         _ => by_holm(known, region, shown, caution),
     }
 }
@@ -55,30 +53,45 @@ fn by_holm(
     caution: Caution,
 ) -> Refuted {
     let count = shown.len();
+    let mut found = Refuted {
+        out: vec![false; count],
+        ends: vec![None; count],
+        level: vec![LEVEL; count],
+        p: 1.0,
+    };
+    let wanted = Verdict::NotConfirmed;
+    let first = ERROR / count as f64;
+    let p_of = |k: usize, caution| {
+        let ends = |level| known.drawn(k, level);
+        p_value(ends, region, wanted, first, caution)
+    };
     let outside =
         |k: &usize| !shown[*k] && !region.holds(known.measured.points[*k]);
-    let p_of = |k: usize| {
-        p_value(|level| known.drawn(k, level), region, Verdict::NotConfirmed)
-    };
     let mut all: Vec<(f64, usize)> =
-        (0..count).filter(outside).map(|k| (p_of(k), k)).collect();
+        (0..count).filter(outside).map(|k| (p_of(k, caution), k)).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut ends = vec![None; count];
+    let mut step = 0;
     for (rank, (_, k)) in all.iter().enumerate() {
-        let level = 1.0 - 2.0 * FAMILY / (count - rank) as f64;
-        let found = known
-            .drawn(*k, level)
-            .filter(|e| e.verdict(region, caution) == Verdict::NotConfirmed);
-        let Some(found) = found else { break };
-        let way = match found.way {
+        // Once a cell stays, so do all that follow.
+        let open = step == rank;
+        let level = 1.0 - 2.0 * ERROR / (count - step) as f64;
+        let Some(ends) = known.drawn(*k, level) else { continue };
+        let out = open && ends.verdict(region, caution) == wanted;
+        let way = match ends.way {
             Interval::Exact => Interval::ExactSimultaneous,
-            Interval::Subsampling => Interval::Subsampling,
-            _ => Interval::Simultaneous,
+            other => other,
         };
-        ends[*k] = Some(Ends { way, ..found });
+        step += usize::from(out);
+        found.out[*k] = out;
+        found.ends[*k] = Some(Ends { way, ..ends });
+        found.level[*k] = level;
     }
-    let p = all.first().map_or(1.0, |(p, _)| p * count as f64);
-    Refuted { ends, p: if p < 1.0 { p } else { 1.0 } }
+    if let Some((p, k)) = all.first() {
+        let p = if found.out[*k] { p_of(*k, Caution::NONE) } else { *p };
+        let adjusted = p * count as f64;
+        found.p = if adjusted < 1.0 { adjusted } else { 1.0 };
+    }
+    found
 }
 
 /// The scale on which cells are compared.
@@ -114,15 +127,6 @@ impl Scale {
             Region::Above(limit) => limit - y,
         }
     }
-
-    /// A deviation towards the outside.
-    fn outwards(self, by: f64) -> f64 {
-        match self.region {
-            Region::Within(..) => by.abs(),
-            Region::Below(_) => by,
-            Region::Above(_) => -by,
-        }
-    }
 }
 
 fn by_maximum(
@@ -132,67 +136,58 @@ fn by_maximum(
     caution: Caution,
 ) -> Refuted {
     let scale = Scale::of(region);
-    let points = &known.measured.points;
-    let mut ends = vec![None; points.len()];
-    let none = |ends| Refuted { ends, p: 1.0 };
-    let mut active: Vec<(usize, f64)> = (0..points.len())
+    let Replicated { points, replicates, .. } = known.measured;
+    let count = points.len();
+    let mut found = Refuted {
+        out: vec![false; count],
+        ends: vec![None; count],
+        level: vec![LEVEL; count],
+        p: 1.0,
+    };
+    let active: Vec<(usize, f64)> = (0..count)
         .filter(|k| !shown[*k])
         .filter_map(|k| Some((k, spread(known.measured, k, scale)?)))
         .collect();
-    let studentized =
-        |(k, s): &(usize, f64)| scale.beyond(scale.on(points[*k])) / s;
-    if !active.iter().any(|cell| studentized(cell) > 0.0) {
-        return none(ends);
+    let statistics: Vec<f64> = active
+        .iter()
+        .map(|(k, s)| scale.beyond(scale.on(points[*k])) / s)
+        .collect();
+    if !statistics.iter().any(|x| *x > 0.0) {
+        return found;
     }
-    // Student's t and the bias of the variance of few earthquakes.
-    let wider =
-        known.clusters.half_width(LEVEL) / normal::quantile(0.5 + 0.5 * LEVEL);
-    let mut p = 1.0;
-    loop {
-        let mut largest = known
-            .measured
-            .replicates
-            .par_iter()
-            .map(|row| {
-                let of = |(k, s): &(usize, f64)| {
-                    let by = scale.on(row[*k]) - scale.on(points[*k]);
-                    wider * scale.outwards(by) / s
-                };
-                active
-                    .iter()
-                    .map(of)
-                    .filter(|x| x.is_finite())
-                    .fold(0.0, |most, x| if x > most { x } else { most })
-            })
-            .collect::<Vec<f64>>();
-        largest.sort_by(f64::total_cmp);
-        let count = largest.len() as f64;
-        let error = (FAMILY * (1.0 - FAMILY) / count).sqrt();
-        let at = 1.0 - FAMILY + caution.errors() * error;
-        let place = (at * count).ceil() as usize;
-        let critical = largest[place.clamp(1, largest.len()) - 1];
-        if p == 1.0 {
-            let top = active.iter().map(studentized).fold(0.0, f64::max);
-            let beyond = largest.partition_point(|x| *x < top);
-            p = (1.0 + count - beyond as f64) / (1.0 + count);
-        }
-        let (out, left): (Vec<_>, Vec<_>) =
-            active.iter().partition(|cell| studentized(cell) > critical);
-        for (k, s) in &out {
-            let y = scale.on(points[*k]);
-            ends[*k] = Some(Ends {
-                low: scale.back(y - critical * s),
-                high: scale.back(y + critical * s),
+    // Deviations to both sides: those to one side alone are too small where
+    // a measure is skewed or ends there. Student's t and the bias of the
+    // variance of few earthquakes.
+    let wider = known.clusters.half_width(1.0 - ERROR)
+        / normal::quantile(1.0 - 0.5 * ERROR);
+    let deviation = |row: usize, place: usize| {
+        let (k, s) = active[place];
+        let by = scale.on(replicates[row][k]) - scale.on(points[k]);
+        wider * by.abs() / s
+    };
+    let of = |caution: Caution| {
+        let rows = replicates.len();
+        StepDown::new(&statistics, rows, deviation, ERROR, caution.errors())
+    };
+    let steps = of(caution);
+    found.p = match steps.rejected.contains(&true) {
+        true => of(Caution::NONE).p,
+        false => steps.p,
+    };
+    for (place, (k, s)) in active.iter().enumerate() {
+        if statistics[place] > 0.0 {
+            let (y, by) = (scale.on(points[*k]), steps.critical[place] * s);
+            found.out[*k] = steps.rejected[place];
+            found.ends[*k] = Some(Ends {
+                low: scale.back(y - by),
+                high: scale.back(y + by),
                 errors: (0.0, 0.0),
                 range: (f64::NEG_INFINITY, f64::INFINITY),
                 way: Interval::Simultaneous,
             });
         }
-        if out.is_empty() || left.is_empty() {
-            return Refuted { ends, p };
-        }
-        active = left;
     }
+    found
 }
 
 /// Standard deviation of a cell over the replicates; none where no replicate

@@ -1,17 +1,6 @@
-//! What a claim asks of its cells, and the levels that it is held to.
+//! What a claim asks of its cells.
 
 use rocking_common::findings::{Quantifier, Region, Unit};
-
-/// Level of the interval of one value, and of a share of cells.
-pub const LEVEL: f64 = 0.95;
-
-/// Level of the interval of a cell among many: the region holds all of it
-/// where both one-sided tests of 5 % say so.
-pub const OWN: f64 = 0.9;
-
-/// Error of a statement about many cells at once: the probability that any
-/// cell is refuted wrongly, or the expected share of those wrongly shown.
-pub(super) const FAMILY: f64 = 0.05;
 
 /// What a claim asks of its cells.
 #[derive(Clone, Copy, Debug)]

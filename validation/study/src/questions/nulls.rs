@@ -11,7 +11,7 @@ use crate::results::Results;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, demand_index, demands,
 };
-use rocking_common::words::{capital, range};
+use rocking_common::words::{capital, percent, range};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
@@ -23,6 +23,8 @@ const PLACES: [f64; 12] =
 
 /// Replicates at each of them.
 const REPLICATES: u64 = 2000;
+/// Standard error of the ratio of a critical value to the table's at so many.
+const STANDARD_ERROR: f64 = 0.016;
 
 /// One block under both nulls.
 struct Row {
@@ -145,29 +147,33 @@ fn between(values: &[f64], edp: f64) -> f64 {
 }
 
 fn figure(rows: &[(&'static str, f64, Row)], arm: Arm) -> Figure {
-    // One scale for both suites, in whole per cent.
+    // One scale for both suites, wide enough that scatter does not look like
+    // a trend.
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter().copied());
     let (low, high) = range(ratios);
-    let ends = ((100.0 * low).floor() / 100.0, (100.0 * high).ceil() / 100.0);
-    let ends = (low < high).then_some(ends);
+    let ends = (low.min(0.9), high.max(1.1));
+    let ends = (low <= high).then_some(ends);
     let panel = |kind: &str| {
-        let series = FREQUENCIES_RAD_S
-            .iter()
-            .map(|p| {
-                let at = |k: usize| {
-                    let own: Vec<f64> = rows
-                        .iter()
-                        .filter(|(suite, q, _)| *suite == kind && q == p)
-                        .map(|(.., row)| row.ratios[k])
-                        .filter(|x| x.is_finite())
-                        .collect();
-                    (median(&own).value, range(own.into_iter()))
-                };
-                let (y, ends) = (0..PLACES.len()).map(at).unzip();
-                let label = format!("*p* = {p} rad/s");
-                Series::new(label, Mark::Line, PLACES.to_vec(), y).with(ends)
-            })
-            .collect();
+        let series = FREQUENCIES_RAD_S.iter().map(|p| {
+            let at = |k: usize| {
+                let own: Vec<f64> = rows
+                    .iter()
+                    .filter(|(suite, q, _)| *suite == kind && q == p)
+                    .map(|(.., row)| row.ratios[k])
+                    .filter(|x| x.is_finite())
+                    .collect();
+                (median(&own).value, range(own.into_iter()))
+            };
+            let (y, ends) = (0..PLACES.len()).map(at).unzip();
+            let label = format!("*p* = {p} rad/s");
+            let marks = Mark::LineAndPoints;
+            Series::new(label, marks, PLACES.to_vec(), y).with(ends)
+        });
+        let around = [-1.0, 1.0].map(|side| {
+            let y = vec![1.0 + side * 1.96 * STANDARD_ERROR; 2];
+            Series::new("", Mark::Dashed, vec![0.0, 1.0], y).keyed([])
+        });
+        let series = around.into_iter().chain(series).collect();
         ChartPanel {
             title: format!("{kind} records"),
             x: ChartAxis::linear("*θ̃*", (0.0, 1.0)),
@@ -197,9 +203,11 @@ fn words(rows: &[(&'static str, f64, Row)]) -> String {
     format!(
         "Estimating IM_R anew moves the 5 % critical value by {} to {} %. \
          A point rests on {REPLICATES} replicates and has a standard error \
-         of 1.6 %. Bands span the five slendernesses.",
+         of {}: what lies between the dashed lines may be its scatter. Bars \
+         span the five slendernesses.",
         signed(low),
-        signed(high)
+        signed(high),
+        percent(STANDARD_ERROR, 1)
     )
 }
 

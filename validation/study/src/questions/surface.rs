@@ -7,9 +7,11 @@ use super::answer::{Answer, Rows, number, word};
 use crate::fits::Fits;
 use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
+use rocking_draw::colour::{Ink, Pen};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Look, Mark, Series,
 };
+use rocking_draw::panel::Marker;
 use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
 };
@@ -267,14 +269,18 @@ fn errors(
         }
     }
     let (low, high) = FREQUENCY_RANGE_RAD_S;
+    let bars = Some(Pen::new(Ink::Muted, 0.4));
+    let look = Look { bars, ..Look::marks(Marker::Dot, 2.2, Ink::Series(0)) };
     Ok(ChartPanel {
         title: format!("{suite}: error of the median"),
         x: axis,
         y: ChartAxis::linear("surface − analyses (%)", (-30.0, 30.0)),
         series: vec![
             Series::new("", Mark::Dashed, vec![low, high], vec![0.0, 0.0]),
-            Series::new("error, with the records' 95 %", Mark::Points, x, y)
-                .with(interval),
+            Series::of(look, x, y)
+                .with(interval)
+                .labelled("error, with the records' 95 %")
+                .keyed(["error".into()]),
         ],
     })
 }

@@ -30,11 +30,12 @@ pub fn normal(i: usize) -> f64 {
 }
 
 pub fn all() -> Vec<Figure> {
+    let arm = Some(Arm::C);
     vec![
         sketch().figure(String::new()),
         histories(heading("figure-02", None), &motions(), 3, String::new()),
-        boxplots(4).figure(String::new()),
-        boxplots(8).figure(String::new()),
+        boxplots(4).figure(&heading("figure-06", arm), String::new()),
+        boxplots(8).figure(&heading("figure-07", arm), String::new()),
         chart().figure(String::new()),
         fates().figure(String::new()),
     ]
@@ -131,7 +132,6 @@ pub fn boxplots(panels: usize) -> Boxplots {
             .collect(),
     };
     Boxplots {
-        heading: heading(&format!("figure-06-{panels}"), Some(Arm::C)),
         ratio_label: "*r*_{*α*} = *θ̃*_{*α*} / *θ̃*_{0.10}".into(),
         panels: (0..panels).map(panel).collect(),
         columns: if panels == 4 { 2 } else { 4 },

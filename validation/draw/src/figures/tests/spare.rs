@@ -16,7 +16,6 @@ pub fn all() -> Vec<Figure> {
     motions[2].record = "A_very_long_name_".repeat(9);
 
     let mut boxplots = made_up::boxplots(4);
-    boxplots.heading = heading("spare-06", Some(Arm::C));
     boxplots.panels[0].stripes.clear();
     for stripe in &mut boxplots.panels[1].stripes {
         stripe.summary = None;
@@ -39,7 +38,7 @@ pub fn all() -> Vec<Figure> {
 
     vec![
         histories(heading("spare-02", None), &motions, 3, String::new()),
-        boxplots.figure(String::new()),
+        boxplots.figure(&heading("spare-06", Some(Arm::C)), String::new()),
         chart.figure(String::new()),
     ]
 }

@@ -5,6 +5,7 @@
 //! digit printed is taken off first. A case's bound is then a false-alarm
 //! rate and nothing else.
 
+use anyhow::{Context as _, Result, bail};
 use libm::{exp, lgamma, log};
 use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking::statistics::boxplot::median_interval;
@@ -18,11 +19,9 @@ use rocking::statistics::paired::{
     equivalence, hodges_lehmann, sign_equivalence,
 };
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
-use serde::Deserialize;
 
-use super::cells::refused;
-use super::truths::Truth;
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use super::truths::{Truth, share};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 /// Deviation in standard errors, half a printed unit taken off.
 fn gap(difference: f64, rounding: f64, error: f64) -> f64 {
@@ -38,14 +37,14 @@ fn rate_gap(
     rounding: f64,
 ) -> (f64, f64) {
     let trials = outcomes.len() as f64;
-    let ours = outcomes.iter().filter(|x| **x).count() as f64 / trials;
+    let ours = share(outcomes);
     let theirs = if reference == 0 { 0.0 } else { 1.0 / reference as f64 };
     let error = (rate * (1.0 - rate) * (1.0 / trials + theirs)).sqrt();
     (ours, gap(ours - rate, rounding, error))
 }
 
 /// Rejected shares of four tests.
-pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
+pub fn rejection(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, level: f64,
         /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
@@ -55,25 +54,21 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         reference: Vec<u64>,
         rounding: f64,
     }
-    let critical = match context.wrong {
-        // Of the fully specified distribution, asymptotically.
-        Some(WrongModel::PlainKolmogorov) => {
-            (-0.5 * log(0.5 * level) / n as f64).sqrt()
-        }
-        _ => Table::embedded().critical_value(n, level).map_err(refused)?.0,
-    };
+    // Of the fully specified distribution, asymptotically.
+    let known = (-0.5 * log(0.5 * level) / n as f64).sqrt();
+    let tabled = Table::embedded().critical_value(n, level)?.0;
+    let critical = context.or(WrongModel::PlainKolmogorov, known, tabled);
     let judged = rates.len();
     let found = truth.map(&context.case.id, n, trials, |values| {
-        let sample = Sample::try_new(values).map_err(refused)?;
-        let d = Statistic::try_new(&sample).map_err(refused)?.d;
+        let sample = Sample::try_new(values)?;
+        let d = Statistic::try_new(&sample)?.d;
         let mut out = [d > critical, false, false, false];
         let tests = [anderson_darling, cramer_von_mises, shapiro_wilk];
         for (out, test) in out[1..].iter_mut().zip(tests).take(judged - 1) {
-            *out = test(&sample).map_err(refused)?.p_value < level;
+            *out = test(&sample)?.p_value < level;
         }
         Ok(out)
     })?;
-    let mut answer = Answer::default();
     let references = rates.iter().zip(&reference);
     for (k, (rate, reference)) in references.enumerate() {
         let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
@@ -81,12 +76,12 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         answer.put("rate", [ours], [*rate]);
         answer.put("standardised-gap", [gap], [0.0]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Share of the samples in which an interval covers the truth, or a test
 /// says what it says with a known probability.
-pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
+pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, procedure: String, rate: f64,
         reference: u64, rounding: f64,
@@ -103,10 +98,9 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
         covers(procedure, truth, context.wrong, values)
     })?;
     let (ours, gap) = rate_gap(&outcomes, rate, reference, rounding);
-    let mut answer = Answer::default();
     answer.put("rate", [ours], [rate]);
     answer.put("standardised-gap", [gap], [0.0]);
-    Ok(answer)
+    Ok(())
 }
 
 /// Resamples of a bootstrap.
@@ -117,14 +111,13 @@ fn covers(
     truth: Truth,
     wrong: Option<WrongModel>,
     values: &[f64],
-) -> Result<bool, MethodError> {
-    let sample = || ExtendedSample::try_new(values).map_err(refused);
+) -> Result<bool> {
+    let sample = || ExtendedSample::try_new(values);
     let inside = |low: f64, x: f64, high: f64| low <= x && x <= high;
     Ok(match procedure {
         "notch" => {
             let boxplot =
-                Boxplot::try_new(&sample()?, QuantileType::default())
-                    .map_err(refused)?;
+                Boxplot::try_new(&sample()?, QuantileType::default())?;
             inside(boxplot.notch_low, 0.0, boxplot.notch_high)
         }
         "exact-interval" => {
@@ -133,7 +126,7 @@ fn covers(
         }
         "hodges-lehmann" => {
             let ratios: Vec<f64> = values.iter().map(|y| exp(*y)).collect();
-            let found = hodges_lehmann(&ratios).map_err(refused)?;
+            let found = hodges_lehmann(&ratios)?;
             inside(found.low, 1.0, found.high)
         }
         // On the edge of equivalence the test says "equivalent" at its
@@ -142,16 +135,14 @@ fn covers(
             let ratios: Vec<f64> =
                 values.iter().map(|y| 1.05 * exp(0.03 * y)).collect();
             let p = match procedure {
-                "mean-equivalence" => {
-                    equivalence(&ratios, 0.05).map_err(refused)?.p_value
-                }
-                _ => sign_equivalence(&ratios, 0.05).map_err(refused)?.p_value,
+                "mean-equivalence" => equivalence(&ratios, 0.05)?.p_value,
+                _ => sign_equivalence(&ratios, 0.05)?.p_value,
             };
             p < 0.05
         }
         "bootstrap-beta" | "accelerated-beta" | "normal-beta" => {
             let Truth::Lognormal { dispersion } = truth else {
-                return Err(MethodError::Input("a lognormal truth".into()));
+                bail!("a lognormal truth");
             };
             let (low, high) = dispersion_interval(procedure, values)?;
             inside(low, dispersion, high)
@@ -160,18 +151,13 @@ fn covers(
         "smallest-value-as-shift" => {
             rejects_above_the_smallest(wrong, values)?
         }
-        other => {
-            return Err(MethodError::Input(format!("procedure {other}")));
-        }
+        other => bail!("procedure {other}"),
     })
 }
 
 /// 95 % interval of the dispersion (moment fit) by the bootstrap, or by its
 /// normal approximation with divisor 2n.
-fn dispersion_interval(
-    procedure: &str,
-    values: &[f64],
-) -> Result<(f64, f64), MethodError> {
+fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<(f64, f64)> {
     let n = values.len();
     let of = |values: &[f64]| -> f64 {
         ExtendedSample::try_new(values)
@@ -198,7 +184,7 @@ fn dispersion_interval(
     } else {
         estimate(point, &replicates, 0.95)
     };
-    let found = found.ok_or_else(|| MethodError::Oracle("none".into()))?;
+    let found = found.context("none")?;
     Ok((found.low, found.high))
 }
 
@@ -211,15 +197,15 @@ const NULL_REPLICATES: u64 = 400;
 fn rejects_above_the_smallest(
     wrong: Option<WrongModel>,
     values: &[f64],
-) -> Result<bool, MethodError> {
+) -> Result<bool> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let above = values.iter().filter(|x| **x > least);
     let logs: Vec<f64> = above.map(|x| log(x - least)).collect();
-    let sample = Sample::try_new(&logs).map_err(refused)?;
-    let d = Statistic::try_new(&sample).map_err(refused)?.d;
+    let sample = Sample::try_new(&logs)?;
+    let d = Statistic::try_new(&sample)?.d;
     if wrong == Some(WrongModel::KnownShift) {
         let table = Table::embedded().critical_value(logs.len(), 0.05);
-        return Ok(d > table.map_err(refused)?.0);
+        return Ok(d > table?.0);
     }
     let simulate = |values: &[f64]| {
         ShiftedNull::smallest_value(values, NULL_REPLICATES, 0)
@@ -235,79 +221,65 @@ fn rejects_above_the_smallest(
     } else {
         simulate(values)
     };
-    Ok(null.map_err(refused)?.null.p_value(d).value <= 0.05)
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BiasInput {
-    dispersion: f64,
-    n: usize,
-    trials: u64,
-    estimator: FitMethod,
-    /// Mean of the estimated dispersion over the true one; none where a
-    /// closed form gives it.
-    dispersion_ratio: Option<f64>,
-    /// Mean of the estimated log-mean over the true dispersion.
-    log_mean: f64,
-    /// Trials behind the two, 0 for exact ones.
-    reference: u64,
-    rounding: f64,
+    Ok(null?.null.p_value(d).value <= 0.05)
 }
 
 /// Means of a fit's parameters over lognormal samples.
-pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
-    let input: BiasInput = context.input()?;
-    let method = match (context.wrong, input.estimator) {
+pub fn bias(context: &Context, answer: &mut Answer) -> Result<()> {
+    input! { context;
+        dispersion: f64, n: usize, trials: u64, estimator: FitMethod,
+        /// Mean of the estimated dispersion over the true one; none where a
+        /// closed form gives it.
+        dispersion_ratio: Option<f64>,
+        /// Mean of the estimated log-mean over the true dispersion.
+        log_mean: f64,
+        /// Trials behind the two, 0 for exact ones.
+        reference: u64,
+        rounding: f64,
+    }
+    let method = match (context.wrong, estimator) {
         (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
             FitMethod::MaximumLikelihood
         }
-        (
-            Some(WrongModel::OtherDivisor),
-            FitMethod::Censored(quantile_type),
-        ) => FitMethod::Trimmed(quantile_type),
+        (Some(WrongModel::OtherDivisor), FitMethod::Censored(kind)) => {
+            FitMethod::Trimmed(kind)
+        }
         (Some(WrongModel::OtherDivisor), _) => FitMethod::Moment,
         (_, own) => own,
     };
-    let dispersion = input.dispersion;
     let truth = Truth::Lognormal { dispersion };
-    let fits =
-        truth.map(&context.case.id, input.n, input.trials, |values| {
-            let sample = ExtendedSample::try_new(values).map_err(refused)?;
-            let fit = fit(&sample, 0.0, method).map_err(refused)?;
-            let own = fit.distribution;
-            Ok((own.dispersion() / dispersion, own.log_mean() / dispersion))
-        })?;
-    let expected =
-        input.dispersion_ratio.unwrap_or_else(|| mean_of_deviation(&input));
-    let mut answer = Answer::default();
-    let ratios: Vec<f64> = fits.iter().map(|f| f.0).collect();
-    let means: Vec<f64> = fits.iter().map(|f| f.1).collect();
+    let fits = truth.map(&context.case.id, n, trials, |values| {
+        let sample = ExtendedSample::try_new(values)?;
+        let own = fit(&sample, 0.0, method)?.distribution;
+        Ok((own.dispersion() / dispersion, own.log_mean() / dispersion))
+    })?;
+    let known = || mean_of_deviation(n as f64, estimator);
+    let expected = dispersion_ratio.unwrap_or_else(known);
+    let (ratios, means): (Vec<f64>, Vec<f64>) = fits.into_iter().unzip();
     for (name, values, expected) in
-        [("dispersion", ratios, expected), ("log-mean", means, input.log_mean)]
+        [("dispersion", ratios, expected), ("log-mean", means, log_mean)]
     {
-        let sample = Sample::try_new(&values).map_err(refused)?;
+        let sample = Sample::try_new(&values)?;
         let trials = values.len() as f64;
         let variance = sample.sum_of_squares() / (trials - 1.0);
-        let theirs = match input.reference {
+        let theirs = match reference {
             0 => 0.0,
             trials => 1.0 / trials as f64,
         };
         let error = (variance * (1.0 / trials + theirs)).sqrt();
-        let gap = gap(sample.mean() - expected, input.rounding, error);
+        let gap = gap(sample.mean() - expected, rounding, error);
         answer.put(name, [sample.mean()], [expected]);
         answer.put("standardised-gap", [gap], [0.0]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// E(s)/sigma of a normal sample: c4(n) = sqrt(2/(n - 1)) Gamma(n/2)/
 /// Gamma((n - 1)/2), times sqrt((n - 1)/n) for divisor n.
-fn mean_of_deviation(input: &BiasInput) -> f64 {
-    let n = input.n as f64;
+fn mean_of_deviation(n: f64, estimator: FitMethod) -> f64 {
     let c4 = (2.0 / (n - 1.0)).sqrt()
         * exp(lgamma(0.5 * n) - lgamma(0.5 * (n - 1.0)));
-    match input.estimator {
+    match estimator {
         FitMethod::MaximumLikelihood => c4 * ((n - 1.0) / n).sqrt(),
         _ => c4,
     }

@@ -1,35 +1,33 @@
 //! Families of distributions beside each other, against SciPy and mpmath.
 
+use anyhow::{Result, anyhow};
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::choice::{Distribution, Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const CHOICE: Csv = csv!("oracles/choice.csv");
 
 /// Likelihood, criteria and distances of every family in the file.
-pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
+pub fn choice(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// The sample as the file names it.
         name: String,
     }
-    let sample = ExtendedSample::try_new(&sample).map_err(refused)?;
-    let mut answer = Answer::default();
+    let sample = ExtendedSample::try_new(&sample)?;
     for row in CHOICE.rows(&name)? {
         let mut models = Model::ALL.into_iter();
         let model = models.find(|model| model.to_string() == row.text(1));
-        let model = model.ok_or_else(|| {
-            MethodError::Input(format!("model {}", row.text(1)))
-        })?;
-        let mut found = candidate(&sample, 0.0, model).map_err(refused)?;
+        let model = model.ok_or_else(|| anyhow!("model {}", row.text(1)))?;
+        let mut found = candidate(&sample, 0.0, model)?;
         if (context.wrong, model)
             == (Some(WrongModel::OtherDivisor), Model::Lognormal)
         {
             let other = fit(&sample, 0.0, FitMethod::Moment);
-            let other = other.map_err(refused)?;
+            let other = other?;
             let value = other.log_likelihood.unwrap_or(f64::NAN);
             found.aic += 2.0 * (found.log_likelihood - value);
             found.bic += 2.0 * (found.log_likelihood - value);
@@ -55,11 +53,11 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
             (&place("kolmogorov"), found.kolmogorov),
             (&place("anderson-darling"), found.anderson_darling),
         ];
-        row.put(&mut answer, 5, &quantities)?;
+        row.put(answer, 5, &quantities)?;
         let name = place("parameters");
         let parameters: Vec<_> =
             parameters.iter().map(|own| (name.as_str(), *own)).collect();
-        row.put(&mut answer, 2, &parameters)?;
+        row.put(answer, 2, &parameters)?;
     }
-    Ok(answer)
+    Ok(())
 }

@@ -5,6 +5,7 @@
 //! times the dispersion, with standard normal u and e and the intraclass
 //! correlation c.
 
+use anyhow::{Result, anyhow};
 use libm::exp;
 use rayon::prelude::*;
 use rocking::fragility::hazard::{Hazard, HazardOptions};
@@ -17,8 +18,9 @@ use rocking::statistics::{CensoredSample, Clusters, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 use serde::Deserialize;
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use super::truths::{Shape, share};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context};
 
 const VALUES: Csv = csv!("oracles/earthquakes.csv");
 
@@ -27,31 +29,6 @@ const DISPERSION: f64 = 0.5;
 
 /// Replicates of an interval.
 const REPLICATES: usize = 400;
-
-/// Records by earthquake of the recorded suites.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Shape {
-    Ordinary,
-    Pulse,
-}
-
-impl Shape {
-    fn clusters(self) -> Clusters {
-        let sizes: &[usize] = match self {
-            Self::Ordinary => &[
-                12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1,
-                1, 1,
-            ],
-            Self::Pulse => &[6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1],
-        };
-        let labels = sizes
-            .iter()
-            .enumerate()
-            .flat_map(|(g, size)| std::iter::repeat_n(g.to_string(), *size));
-        Clusters::from_labels(labels)
-    }
-}
 
 /// What is judged.
 #[derive(Clone, Copy, Deserialize)]
@@ -73,18 +50,14 @@ enum Measure {
 
 /// Share of simulated suites whose interval holds the truth, or whose slope
 /// on an attribute without meaning is rejected at 5 %.
-pub(crate) fn rates(context: &Context) -> Result<Answer, MethodError> {
+pub fn rates(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         measure: Measure, suite: Shape, intraclass: f64, trials: u64,
     }
     let shape = suite.clusters();
-    let records = || Clusters::singletons(shape.records());
-    let taken = match context.wrong {
-        Some(WrongModel::RecordsAsUnit) => records(),
-        _ => shape.clone(),
-    };
+    let taken = context.drawn(&shape);
     let streams = Streams::new(&format!("cases/{}", context.case.id), 0);
-    let trial = |index: u64| -> Result<bool, MethodError> {
+    let trial = |index: u64| -> Result<bool> {
         let mut stream = streams.stream(index);
         let mut normals = |n: usize| -> Vec<f64> {
             (0..n).map(|_| standard_normal(&mut stream)).collect()
@@ -104,23 +77,17 @@ pub(crate) fn rates(context: &Context) -> Result<Answer, MethodError> {
         if matches!(measure, Measure::Slope) {
             let x: Vec<f64> =
                 (0..logs.len()).map(|r| attribute[shape.of(r)]).collect();
-            let found = mixed(&x, &logs, &taken).map_err(refused)?;
+            let found = mixed(&x, &logs, &taken)?;
             return Ok(found.p_value < 0.05);
         }
         let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
         holds(measure, &values, &taken, index)
     };
-    let found = (0..trials)
-        .into_par_iter()
-        .panic_fuse()
-        .map(trial)
-        .collect::<Result<Vec<bool>, _>>()?;
-    let rate =
-        found.iter().filter(|x| **x).count() as f64 / found.len() as f64;
+    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
+    let rate = share(&found.collect::<Result<Vec<bool>>>()?);
     let nominal = if matches!(measure, Measure::Slope) { 0.05 } else { 0.95 };
-    let mut answer = Answer::default();
     answer.put("rate", [rate], [nominal]);
-    Ok(answer)
+    Ok(())
 }
 
 /// Whether the interval of a measure holds its truth.
@@ -129,13 +96,13 @@ fn holds(
     values: &[f64],
     clusters: &Clusters,
     seed: u64,
-) -> Result<bool, MethodError> {
+) -> Result<bool> {
     const AT: f64 = 0.7;
     let draws = Draws { replicates: REPLICATES, seed };
     let inside = |low: Option<f64>, x: f64, high: Option<f64>| {
         low.is_some_and(|low| low <= x) && high.is_some_and(|high| x <= high)
     };
-    let truth = Lognormal::try_new(0.0, 0.0, DISPERSION).map_err(refused)?;
+    let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?;
     if matches!(measure, Measure::Counts) {
         let stripe = |&im: &f64| {
             let of = move |(record, x): (usize, &f64)| Outcome {
@@ -149,10 +116,10 @@ fn holds(
         let draws = Draws { replicates: REPLICATES / 2, seed };
         let outcomes: Vec<Outcome> = levels.iter().flat_map(stripe).collect();
         let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
-        let median = found.map_err(refused)?.median;
+        let median = found?.median;
         return Ok(inside(median.low, 1.0, median.high));
     }
-    let sample = CensoredSample::try_new(values, &[]).map_err(refused)?;
+    let sample = CensoredSample::try_new(values, &[])?;
     let options = FitOptions {
         draws: Some(draws),
         clusters: Some(clusters.clone()),
@@ -167,11 +134,11 @@ fn holds(
             fitted,
             sampled,
         };
-        let fit = fit_sample(&sample, &options).map_err(refused)?;
-        let sampled = options.sampled(&sample).map_err(refused)?;
+        let fit = fit_sample(&sample, &options)?;
+        let sampled = options.sampled(&sample)?;
         let all = [exposed(fit.fitted, sampled)];
-        let found = risk(&hazard.map_err(refused)?, &all, 50.0);
-        let found = found.map_err(refused)?;
+        let found = risk(&hazard?, &all, 50.0);
+        let found = found?;
         let own = found.fragilities[0].sampling.as_ref();
         // Cornell's closed form.
         let lambda = 1e-4 * exp(2.0 * DISPERSION * DISPERSION);
@@ -182,14 +149,14 @@ fn holds(
             own.map(|own| own.annual_frequency_high),
         ));
     }
-    let fit = fit_sample(&sample, &options).map_err(refused)?;
+    let fit = fit_sample(&sample, &options)?;
     if matches!(measure, Measure::Probability) {
         let point = fit.band.as_ref().and_then(|band| band.points.first());
         let (low, high) =
             (point.and_then(|p| p.low), point.and_then(|p| p.high));
         return Ok(inside(low, truth.cdf(AT), high));
     }
-    let none = || MethodError::Oracle("no bootstrap".into());
+    let none = || anyhow!("no bootstrap");
     let all = fit.bootstrap.ok_or_else(none)?;
     let (own, truth) = match measure {
         Measure::Dispersion => (all.dispersion, DISPERSION),
@@ -200,29 +167,15 @@ fn holds(
     Ok(inside(low, truth, found.map(|e| e.high)))
 }
 
-fn list(text: &str) -> Result<Vec<f64>, MethodError> {
-    let number = |cell: &str| cell.parse::<f64>().map_err(refused);
-    text.split(' ').map(number).collect()
-}
-
 /// Slopes with a random intercept, and what widens an interval of few
 /// earthquakes.
-pub(crate) fn other_packages(
-    context: &Context,
-) -> Result<Answer, MethodError> {
-    let clusters = |text: &'static str| -> Clusters {
-        let labels = text.split(' ');
-        match context.wrong {
-            Some(WrongModel::RecordsAsUnit) => {
-                Clusters::singletons(labels.count())
-            }
-            _ => Clusters::from_labels(labels),
-        }
+pub fn other_packages(context: &Context, answer: &mut Answer) -> Result<()> {
+    let clusters = |text: &'static str| {
+        context.drawn(&Clusters::from_labels(text.split(' ')))
     };
-    let mut answer = Answer::default();
     for row in VALUES.rows("line")? {
-        let (x, y) = (list(row.text(2))?, list(row.text(3))?);
-        let found = mixed(&x, &y, &clusters(row.text(4))).map_err(refused)?;
+        let (x, y) = (row.list(2, ' ')?, row.list(3, ' ')?);
+        let found = mixed(&x, &y, &clusters(row.text(4)))?;
         let quantities = [
             ("intercept", found.intercept),
             ("slope", found.slope),
@@ -232,31 +185,31 @@ pub(crate) fn other_packages(
             ("degrees-of-freedom", found.degrees_of_freedom),
             ("p-value", found.p_value),
         ];
-        row.put(&mut answer, 5, &quantities)?;
+        row.put(answer, 5, &quantities)?;
     }
     for row in VALUES.rows("share")? {
-        let logs = list(row.text(2))?;
+        let logs = row.list(2, ' ')?;
         let clusters = clusters(row.text(3));
         let share = clusters.intraclass(&logs).unwrap_or(0.0);
         let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
-        let sample = CensoredSample::try_new(&values, &[]).map_err(refused)?;
+        let sample = CensoredSample::try_new(&values, &[])?;
         let clusters = Some(clusters);
         let options = FitOptions { clusters, ..FitOptions::default() };
-        let fit = fit_sample(&sample, &options).map_err(refused)?;
-        let none = || MethodError::Oracle("no design effect".into());
+        let fit = fit_sample(&sample, &options)?;
+        let none = || anyhow!("no design effect");
         let needed = fit.needed.ok_or_else(none)?;
         let quantities = [
             ("share", share),
             ("records", needed.for_median),
             ("records", needed.for_dispersion),
         ];
-        row.put(&mut answer, 4, &quantities)?;
+        row.put(answer, 4, &quantities)?;
     }
     for row in VALUES.rows("interval")? {
         let own = clusters(row.text(2));
         let nu = own.degrees_of_freedom();
         let width = own.half_width(0.95);
-        row.put(&mut answer, 3, &[("freedom", nu), ("half-width", width)])?;
+        row.put(answer, 3, &[("freedom", nu), ("half-width", width)])?;
     }
-    Ok(answer)
+    Ok(())
 }

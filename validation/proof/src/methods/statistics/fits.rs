@@ -1,5 +1,6 @@
 //! Fits, quantiles, tests and paired procedures against other packages.
 
+use anyhow::Result;
 use rocking::statistics::lilliefors::Statistic;
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::normality::{
@@ -11,8 +12,8 @@ use rocking::statistics::paired::{
 use rocking::statistics::rivals::{self, Family};
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
 const RIVALS: Csv = csv!("oracles/rivals.csv");
@@ -21,29 +22,28 @@ const PAIRED: Csv = csv!("oracles/paired.csv");
 const QUANTILES: Csv = csv!("oracles/quantiles.csv");
 
 /// A fit with and without a shift: parameters, likelihood and distances.
-pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
+pub fn fits(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// As it stands in the files: a fit of the lognormal, or a rival.
         method: String,
     }
-    let sample = ExtendedSample::try_new(&sample).map_err(refused)?;
+    let sample = ExtendedSample::try_new(&sample)?;
     let number = context.or(WrongModel::OtherQuantileType, 7, 5);
-    let quantile_type = QuantileType::try_new(number).map_err(refused)?;
+    let quantile_type = QuantileType::try_new(number)?;
     let unit = context.or(WrongModel::HalfTheShift, 0.5, 1.0);
-    let mut answer = Answer::default();
     if let Ok(family) = method.parse::<Family>() {
         for row in RIVALS.rows(&method)? {
             let shift = unit * row.number(1)?;
-            let fit = rivals::fit(&sample, shift, family).map_err(refused)?;
+            let fit = rivals::fit(&sample, shift, family)?;
             let quantities = [
                 ("shape", fit.shape),
                 ("scale", fit.scale),
                 ("log-likelihood", fit.log_likelihood),
             ];
-            row.put(&mut answer, 2, &quantities)?;
+            row.put(answer, 2, &quantities)?;
         }
-        return Ok(answer);
+        return Ok(());
     }
     let swapped = match (context.wrong, method.parse()?) {
         (Some(WrongModel::OtherDivisor), FitMethod::MaximumLikelihood) => {
@@ -60,7 +60,7 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
     let swapped = swapped.with_quantile_type(quantile_type);
     for row in LOGNORMAL.rows(&method)? {
         let shift = unit * row.number(1)?;
-        let fit = fit(&sample, shift, swapped).map_err(refused)?;
+        let fit = fit(&sample, shift, swapped)?;
         let own = fit.distribution;
         let area = own.area_distance(&sample).unwrap_or(f64::NAN);
         let likelihood = fit.log_likelihood.unwrap_or(f64::NAN);
@@ -72,13 +72,13 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
             ("kolmogorov", own.kolmogorov_distance(&sample)),
             ("area", area),
         ];
-        row.put(&mut answer, 2, &quantities)?;
+        row.put(answer, 2, &quantities)?;
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Quantiles of one type for several sizes and probabilities.
-pub(crate) fn quantiles(context: &Context) -> Result<Answer, MethodError> {
+pub fn quantiles(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// Types 1 to 9.
@@ -89,43 +89,39 @@ pub(crate) fn quantiles(context: &Context) -> Result<Answer, MethodError> {
         (Some(WrongModel::OtherQuantileType), _) => 7,
         (_, own) => own,
     };
-    let quantile_type = QuantileType::try_new(used).map_err(refused)?;
-    let mut answer = Answer::default();
+    let quantile_type = QuantileType::try_new(used)?;
     for n in ["1", "2", "10", "11"] {
         for row in QUANTILES.rows(n)? {
             if row.text(1) != number.to_string() {
                 continue;
             }
             let size = row.number(0)? as usize;
-            let sample = Sample::try_new(&sample[..size]).map_err(refused)?;
+            let sample = Sample::try_new(&sample[..size])?;
             let own = quantile_type.of(&sample, row.number(2)?);
-            let quantile = [("quantile", own.map_err(refused)?)];
-            row.put(&mut answer, 3, &quantile)?;
+            let quantile = [("quantile", own?)];
+            row.put(answer, 3, &quantile)?;
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Statistics and p-values of four tests of normality of the logarithms.
-pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
+pub fn tests(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// Its letter in the file.
         letter: String,
     }
-    let logs: Vec<f64> = match context.wrong {
-        Some(WrongModel::NoLogarithm) => sample.clone(),
-        _ => sample.iter().map(|x| libm::log(*x)).collect(),
-    };
-    let sample = Sample::try_new(&logs).map_err(refused)?;
+    let logs = sample.iter().map(|x| libm::log(*x)).collect();
+    let logs = context.or(WrongModel::NoLogarithm, sample, logs);
+    let sample = Sample::try_new(&logs)?;
     let rows = NORMALITY.rows(&letter)?;
-    let d = Statistic::try_new(&sample).map_err(refused)?;
+    let d = Statistic::try_new(&sample)?;
     let smaller = d.d_plus.min(d.d_minus);
     let d = context.or(WrongModel::UpperSideOnly, smaller, d.d);
-    let a = anderson_darling(&sample).map_err(refused)?;
-    let w = cramer_von_mises(&sample).map_err(refused)?;
-    let s = shapiro_wilk(&sample).map_err(refused)?;
-    let mut answer = Answer::default();
+    let a = anderson_darling(&sample)?;
+    let w = cramer_von_mises(&sample)?;
+    let s = shapiro_wilk(&sample)?;
     let quantities = [
         ("lilliefors", d),
         ("anderson-darling", a.statistic),
@@ -135,19 +131,19 @@ pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
         ("shapiro-wilk", s.statistic),
         ("shapiro-wilk-p", s.p_value),
     ];
-    rows[0].put(&mut answer, 2, &quantities)?;
-    Ok(answer)
+    rows[0].put(answer, 2, &quantities)?;
+    Ok(())
 }
 
 /// Equivalence by t and sign tests, the sign test, Hodges and Lehmann.
-pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
+pub fn paired(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; ratios: Vec<f64>, letter: String);
     // 1 -+ m instead of 1/(1 + m) to 1 + m.
     let margin = context.or(WrongModel::OtherMargin, 0.06, 0.05);
-    let mean = equivalence(&ratios, margin).map_err(refused)?;
-    let median = sign_equivalence(&ratios, margin).map_err(refused)?;
+    let mean = equivalence(&ratios, margin)?;
+    let median = sign_equivalence(&ratios, margin)?;
     let sign = SignTest::of(&ratios, 1.0);
-    let centre = hodges_lehmann(&ratios).map_err(refused)?;
+    let centre = hodges_lehmann(&ratios)?;
     let own = [
         ("geometric_mean", mean.geometric_mean),
         ("low", mean.low),
@@ -162,11 +158,10 @@ pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
         ("hl_high", centre.high),
     ];
     let rows = PAIRED.rows(&letter)?;
-    let mut answer = Answer::default();
     for (name, own) in own {
         let row = rows.iter().find(|row| row.text(1) == name);
         let row = row.ok_or_else(|| PAIRED.lacks(format!("no `{name}`")))?;
-        row.put(&mut answer, 2, &[(&name.replace('_', "-"), own)])?;
+        row.put(answer, 2, &[(&name.replace('_', "-"), own)])?;
     }
-    Ok(answer)
+    Ok(())
 }

@@ -7,6 +7,7 @@
 //! its own. Each part is correlated by [`BLOCKS_ALIKE`] between two blocks,
 //! and by [`LEVELS_ALIKE`] from level to level of a block.
 
+use anyhow::Result;
 use libm::{exp, log, sqrt};
 use rayon::prelude::*;
 use rocking::statistics::acceptance::{AcceptedShare, distances};
@@ -15,16 +16,16 @@ use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::confidence::Confidence;
 use rocking::statistics::lilliefors::Table;
 use rocking::statistics::resampling::{Ranked, Subsampling};
-use rocking::statistics::{Clusters, ExtendedSample, Proportion, normal};
+use rocking::statistics::step_down::StepDown;
+use rocking::statistics::{
+    Clusters, ExtendedSample, Proportion, Sample, normal,
+};
 use rocking::streams::{Stream, Streams, standard_normal};
+use rocking_common::findings::{ERROR, LEVEL};
 use serde::Deserialize;
 
-use super::cells::refused;
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
-
-/// Level of the intervals of one value, and of one cell among many.
-const LEVEL: f64 = 0.95;
-const OWN: f64 = 0.9;
+use super::truths::{Shape, share};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 /// Replicates of an interval; the study has 2000. With 400 the level of an
 /// interval is uncertain by 0.01, which the bounds leave room for.
@@ -34,7 +35,7 @@ const REPLICATES: usize = 400;
 const SUBSAMPLES: u64 = 100;
 
 /// Share of the variance that the records of an earthquake share.
-const SHARED: f64 = 0.2;
+pub(super) const SHARED: f64 = 0.2;
 
 /// Correlation from level to level, and between blocks.
 const LEVELS_ALIKE: f64 = 0.97;
@@ -46,11 +47,6 @@ const LEVELS: usize = 13;
 
 /// Spread of a paired ratio.
 const SPREAD: f64 = 0.15;
-
-/// Records of each earthquake of a recorded suite.
-const ORDINARY: [usize; 22] =
-    [12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1];
-const PULSE: [usize; 16] = [6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1];
 
 /// Survivors among few records.
 const SURVIVORS: usize = 12;
@@ -70,6 +66,16 @@ enum Measure {
     CellShare,
     /// How often a cell that lies on the end of its region is shown inside.
     CellOnTheEdge,
+    /// How often it is shown outside.
+    CellRefuted,
+    /// How often any of many cells on the end, which share nothing but their
+    /// earthquakes, is shown outside.
+    FamilyRefuted,
+    /// How often a share of cells on its limit of 90 % is shown below it.
+    ShareRefuted,
+    /// Share of the cells whose median is within 5 %, three of four cells of
+    /// few survivors, which do not count.
+    ShareBesideSurvivors,
     /// Median of few survivors, by order statistics.
     FewSurvivors,
     /// Probability of an event that records have or not.
@@ -80,73 +86,41 @@ enum Measure {
     AcceptedShare,
 }
 
-/// Which recorded suite the simulated ones are like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Like {
-    Ordinary,
-    PulseType,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    measure: Measure,
-    like: Like,
-    trials: u64,
-    /// Share of the suites in which the interval is to hold the truth, or a
-    /// cell on the end of its region may be shown inside.
-    nominal: f64,
-}
-
-impl Like {
-    fn clusters(self) -> Clusters {
-        let sizes = match self {
-            Self::Ordinary => &ORDINARY[..],
-            Self::PulseType => &PULSE[..],
-        };
-        let labels = sizes.iter().enumerate().flat_map(|(event, size)| {
-            std::iter::repeat_n(event.to_string(), *size)
-        });
-        Clusters::from_labels(labels)
+/// Share of the simulated suites whose interval holds the truth; of what lies
+/// on a limit, share of those in which it is decided.
+pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
+    input! { context;
+        measure: Measure,
+        /// The recorded suite that the simulated ones are like.
+        like: Shape,
+        trials: u64,
+        /// Share of the suites in which the interval is to hold the truth, or
+        /// what lies on the limit may be decided.
+        nominal: f64,
     }
-}
-
-/// Share of the simulated suites whose interval holds the truth; of a cell on
-/// the edge, share of those in which it is shown inside.
-pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let clusters = input.like.clusters();
-    let drawn = match context.wrong {
-        Some(WrongModel::RecordsAsUnit) => {
-            Clusters::singletons(clusters.records())
-        }
-        _ => clusters.clone(),
-    };
-    let trials = Trials {
+    let clusters = like.clusters();
+    let drawn = context.drawn(&clusters);
+    let suites = Trials {
         streams: Streams::new(&context.case.id, 0),
         clusters,
         drawn,
         wrong: context.wrong,
     };
-    let all = (0..input.trials).into_par_iter();
-    let held: Vec<bool> = match input.measure {
+    let all = (0..trials).into_par_iter();
+    let held: Vec<bool> = match measure {
         Measure::Distance | Measure::AcceptedShare => {
             let found = all
-                .map(|trial| trials.lognormal(trial, input.measure))
+                .map(|trial| suites.lognormal(trial, measure))
                 .collect::<Result<Vec<_>, _>>()?;
             // The truth is the mean over the simulated suites.
             let sum = found.iter().fold(0.0, |sum, (x, _)| sum + x);
             let truth = sum / found.len() as f64;
             found.into_iter().map(|(_, ends)| hold(ends, truth)).collect()
         }
-        measure => all.map(|trial| trials.holds(trial, measure)).collect(),
+        measure => all.map(|trial| suites.holds(trial, measure)).collect(),
     };
-    let count = held.iter().filter(|held| **held).count();
-    let rate = count as f64 / held.len() as f64;
-    let mut answer = Answer::default();
-    answer.put("rate", [rate], [input.nominal]);
-    Ok(answer)
+    answer.put("rate", [share(&held)], [nominal]);
+    Ok(())
 }
 
 fn hold(ends: Option<(f64, f64)>, truth: f64) -> bool {
@@ -187,6 +161,11 @@ struct Trials {
 }
 
 impl Trials {
+    /// `mistaken` where this is the mistake that is made, else `right`.
+    fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
+        if self.wrong == Some(wrong) { mistaken } else { right }
+    }
+
     /// Normal scores by cell, then by record.
     fn scores(&self, trial: u64) -> Vec<Vec<f64>> {
         let mut stream = self.streams.stream(trial);
@@ -231,7 +210,12 @@ impl Trials {
         let every = vec![1; self.clusters.records()];
         let ratio = |shift: f64| move |z: f64| exp(SPREAD * z + shift);
         match measure {
-            Measure::CellShare => self.share(trial, &scores),
+            Measure::CellShare
+            | Measure::ShareRefuted
+            | Measure::ShareBesideSurvivors => {
+                self.share(trial, &scores, measure)
+            }
+            Measure::FamilyRefuted => self.refuted(trial),
             Measure::FewSurvivors => {
                 // Some of each large earthquake.
                 let step = scores[0].len() / SURVIVORS;
@@ -241,10 +225,7 @@ impl Trials {
                 let Ok(sample) = ExtendedSample::try_new(values) else {
                     return false;
                 };
-                let level = match self.wrong {
-                    Some(WrongModel::OtherInterval) => 0.75,
-                    _ => OWN,
-                };
+                let level = self.or(WrongModel::OtherInterval, 0.75, LEVEL);
                 let found = median_interval(&sample, level);
                 hold(found.map(|i| (i.low, i.high)), 0.0)
             }
@@ -256,19 +237,16 @@ impl Trials {
                 let exact = found.and_then(|p| p.interval(LEVEL));
                 let share = count as f64 / n as f64;
                 let error = sqrt(share * (1.0 - share) / n as f64);
-                let ends = match self.wrong {
-                    Some(WrongModel::OtherInterval) => {
-                        Some((share - 1.96 * error, share + 1.96 * error))
-                    }
-                    _ => exact.ok(),
-                };
+                let wide = normal::quantile(1.0 - ERROR) * error;
+                let normal = (share - wide, share + wide);
+                let wrong = WrongModel::OtherInterval;
+                let ends = self.or(wrong, Some(normal), exact.ok());
                 hold(ends, PROBABILITY)
             }
             _ => {
-                let edge = if measure == Measure::CellOnTheEdge {
-                    log(1.05)
-                } else {
-                    0.0
+                let edge = match measure {
+                    Measure::CellOnTheEdge | Measure::CellRefuted => log(1.05),
+                    _ => 0.0,
                 };
                 let values: Vec<f64> =
                     scores[0].iter().copied().map(ratio(edge)).collect();
@@ -284,30 +262,91 @@ impl Trials {
                 };
                 let known =
                     Confidence::new(point, &column(&replicates), &others);
-                let level = match measure {
-                    Measure::CellOnTheEdge => OWN,
-                    _ => LEVEL,
-                };
-                let level = match self.wrong {
-                    // Three times the tail's probability.
-                    Some(WrongModel::OtherInterval) => 3.0 * level - 2.0,
-                    _ => level,
-                };
+                // Three times the tail's probability.
+                let (wrong, more) = (WrongModel::OtherInterval, 3.0 * LEVEL);
+                let level = self.or(wrong, more - 2.0, LEVEL);
                 let Some(known) = known else { return false };
                 let ends = known.interval(self.drawn.half_width(level));
                 match measure {
                     Measure::CellOnTheEdge => {
                         ends.low >= 0.95 && ends.high <= 1.05
                     }
+                    Measure::CellRefuted => ends.low > 1.05,
                     _ => hold(Some((ends.low, ends.high)), 1.0),
                 }
             }
         }
     }
 
-    /// Whether the interval of the share of cells within 5 % holds it.
-    fn share(&self, trial: u64, scores: &[Vec<f64>]) -> bool {
+    /// Whether any of [`BLOCKS`] times [`LEVELS`] cells on the end of their
+    /// region is shown outside.
+    fn refuted(&self, trial: u64) -> bool {
+        let mut stream = self.streams.stream(trial);
+        let n = self.clusters.records();
+        let cell = |stream: &mut Stream| -> Ranked {
+            let mut values = vec![0.0; n];
+            for event in 0..self.clusters.count() {
+                let shared = sqrt(SHARED) * standard_normal(stream);
+                for record in self.clusters.members(event) {
+                    let own = standard_normal(stream);
+                    values[*record] =
+                        SPREAD * f64::mul_add(sqrt(1.0 - SHARED), own, shared);
+                }
+            }
+            Ranked::new(&values)
+        };
+        let cells: Vec<Ranked> =
+            (0..BLOCKS * LEVELS).map(|_| cell(&mut stream)).collect();
+        let every = vec![1; n];
+        let points: Vec<f64> =
+            cells.iter().map(|r| r.median(&every)).collect();
+        let (rows, without) = self.medians(trial, &cells);
+        let column = |rows: &[Vec<f64>], k: usize| -> Vec<f64> {
+            rows.iter().map(|row| row[k]).collect()
+        };
+        if self.wrong == Some(WrongModel::HolmByPercentiles) {
+            let level = 1.0 - 2.0 * ERROR / points.len() as f64;
+            let half_width = self.drawn.half_width(level);
+            return (0..points.len()).any(|k| {
+                let (own, others) = (column(&rows, k), column(&without, k));
+                Confidence::new(points[k], &own, &others)
+                    .is_some_and(|known| known.interval(half_width).low > 0.0)
+            });
+        }
+        let spread = |k: usize| {
+            let own = Sample::try_new(&column(&rows, k));
+            own.map_or(f64::NAN, |own| {
+                sqrt(own.sum_of_squares() / (rows.len() as f64 - 1.0))
+            })
+        };
+        let spreads: Vec<f64> = (0..points.len()).map(spread).collect();
+        let found: Vec<f64> =
+            points.iter().zip(&spreads).map(|(x, s)| x / s).collect();
+        let wider = self.drawn.half_width(1.0 - ERROR)
+            / normal::quantile(1.0 - 0.5 * ERROR);
+        let deviation = |row: usize, k: usize| {
+            wider * (rows[row][k] - points[k]).abs() / spreads[k]
+        };
+        let steps = StepDown::new(&found, rows.len(), deviation, ERROR, 0.0);
+        steps.rejected.contains(&true)
+    }
+
+    /// Whether the interval of the share of cells within 5 % holds it, or
+    /// lies below the limit that the share lies on.
+    fn share(
+        &self,
+        trial: u64,
+        scores: &[Vec<f64>],
+        measure: Measure,
+    ) -> bool {
         let count = scores.len();
+        let few = |k: usize| {
+            measure == Measure::ShareBesideSurvivors && !k.is_multiple_of(4)
+        };
+        let enters = |k: &usize| {
+            self.wrong == Some(WrongModel::SurvivorsEnter) || !few(*k)
+        };
+        let entering: Vec<usize> = (0..count).filter(enters).collect();
         // True medians from a normal law, nine of ten cells within 5 %.
         let truth = |k: usize| {
             // Neighbours are not of one size.
@@ -317,15 +356,21 @@ impl Trials {
         };
         let within = |x: f64| (0.95..=1.05).contains(&x);
         let share = |row: &[f64]| {
-            row.iter().filter(|x| within(**x)).count() as f64 / count as f64
+            let inside = entering.iter().filter(|k| within(row[**k]));
+            inside.count() as f64 / entering.len() as f64
         };
         let truths: Vec<f64> = (0..count).map(truth).collect();
         let cells: Vec<Ranked> = scores
             .iter()
-            .zip(&truths)
-            .map(|(cell, truth)| {
-                let of = |z: &f64| truth * exp(SPREAD * z);
-                Ranked::new(&cell.iter().map(of).collect::<Vec<f64>>())
+            .enumerate()
+            .map(|(k, cell)| {
+                let step = if few(k) { cell.len() / SURVIVORS } else { 1 };
+                let of = |(record, z): (usize, &f64)| match record % step {
+                    0 => truths[k] * exp(SPREAD * z),
+                    _ => f64::NAN,
+                };
+                let values = cell.iter().enumerate().map(of);
+                Ranked::new(&values.collect::<Vec<f64>>())
             })
             .collect();
         let every = vec![1; self.clusters.records()];
@@ -338,12 +383,13 @@ impl Trials {
         let Some(known) = Confidence::new(point, &values, &[]) else {
             return false;
         };
-        let half_width = self.drawn.half_width(LEVEL);
-        let ends = match self.wrong {
-            Some(WrongModel::ShareOfPoints) => known.interval(half_width),
-            _ => known.interval_of_share(point, half_width),
-        };
-        hold(Some((ends.low, ends.high)), share(&truths))
+        let of_points = known.interval(self.drawn.half_width(LEVEL));
+        let own = known.interval_of_share(point, &self.drawn, LEVEL);
+        let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
+        match measure {
+            Measure::ShareRefuted => ends.high < 0.9,
+            _ => hold(Some((ends.low, ends.high)), share(&truths)),
+        }
     }
 
     /// The distance, or accepted share, of capacities that are lognormal
@@ -352,27 +398,27 @@ impl Trials {
         &self,
         trial: u64,
         measure: Measure,
-    ) -> Result<(f64, Option<(f64, f64)>), MethodError> {
+    ) -> Result<(f64, Option<(f64, f64)>)> {
         let table = Table::embedded();
         let logs: Vec<Vec<f64>> = self
             .scores(trial)
             .into_iter()
             .map(|cell| cell.into_iter().map(|z| log(1.0 + exp(z))).collect())
             .collect();
-        let of = |places: &[usize]| -> Result<f64, MethodError> {
+        let of = |places: &[usize]| -> Result<f64> {
             let drawn: Vec<Vec<f64>> = logs
                 .iter()
                 .map(|level| places.iter().map(|r| level[*r]).collect())
                 .collect();
             if measure == Measure::AcceptedShare {
                 let critical = table.critical_value(places.len(), 0.05);
-                let (critical, _) = critical.map_err(refused)?;
+                let (critical, _) = critical?;
                 let found = AcceptedShare::of_values(&drawn, critical);
                 return Ok(found.share().unwrap_or(f64::NAN));
             }
             let d = distances(&drawn);
             let mean = d.iter().fold(0.0, |sum, d| sum + d) / d.len() as f64;
-            Ok(mean - table.mean(places.len()).map_err(refused)?)
+            Ok(mean - table.mean(places.len())?)
         };
         let held = |counts: &[u32]| -> Vec<usize> {
             (0..counts.len()).filter(|r| counts[*r] > 0).collect()

@@ -1,12 +1,12 @@
 //! Inversion of response curves, on examples in exact rationals.
 
+use anyhow::Result;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
-use super::cells::refused;
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 /// Capacities at the levels by every rule, and the number of crossings.
-pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
+pub fn inversion(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// (IM, EDP), the first with EDP 0.
         curve: Vec<(f64, f64)>,
@@ -20,14 +20,12 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
         // pi/2 at alpha = 0.05, interpolated to.
         vertices.push((im, 31.415_926_535_897_93));
     }
-    let curve =
-        ResponseCurve::try_new(&vertices, overturning).map_err(refused)?;
-    let mut answer = Answer::default();
+    let curve = ResponseCurve::try_new(&vertices, overturning)?;
     for level in levels {
         // Strictly above instead of at or above.
         let above = level * (1.0 + f64::EPSILON);
         let level = context.or(WrongModel::OpenCrossings, above, level);
-        let crossings = curve.crossings(level).map_err(refused)?;
+        let crossings = curve.crossings(level)?;
         answer.see("crossings", [crossings.all().len() as f64]);
         for named in InversionRule::ALL {
             let rule = match (context.wrong, named) {
@@ -39,5 +37,5 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
             answer.see(named.name(), [crossings.capacity(rule).im()]);
         }
     }
-    Ok(answer)
+    Ok(())
 }

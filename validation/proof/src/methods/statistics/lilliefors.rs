@@ -1,5 +1,6 @@
 //! Lilliefors' test: null distribution, table, published values, draws.
 
+use anyhow::{Context as _, Result, bail};
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
@@ -7,15 +8,15 @@ use rocking::statistics::lilliefors::{Statistic, Table};
 use rocking::statistics::{Sample, normal};
 use rocking::streams::{Streams, standard_normal};
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
 const MEANS: Csv = csv!("oracles/lilliefors_mean.csv");
 
 /// Simulated critical values against the exact ones, in units of both
 /// errors together; and the range of D.
-pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
+pub fn null(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         n: usize, replicates: u64,
         /// Error of the exact values.
@@ -28,8 +29,8 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
             let mut stream = streams.stream(index);
             let z: Vec<f64> =
                 (0..n).map(|_| standard_normal(&mut stream)).collect();
-            let sample = Sample::try_new(&z).map_err(refused)?;
-            let s = Statistic::try_new(&sample).map_err(refused)?;
+            let sample = Sample::try_new(&z)?;
+            let s = Statistic::try_new(&sample)?;
             Ok(match context.wrong {
                 Some(WrongModel::UpperSideOnly) => s.d_plus,
                 // D of scores that are too long by sqrt(n/(n - 1)).
@@ -37,11 +38,10 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
                 _ => s.d,
             })
         })
-        .collect::<Result<_, MethodError>>()?;
+        .collect::<Result<_>>()?;
     statistics.sort_by(f64::total_cmp);
     let count = statistics.len() as f64;
     let at = |rank: f64| statistics[rank.clamp(1.0, count) as usize - 1];
-    let mut answer = Answer::default();
     for row in EXACT.rows(&n.to_string())? {
         let [level, exact] = row.numbers(1)?;
         let rank = ((1.0 - level) * (count + 1.0)).ceil();
@@ -54,7 +54,7 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
     }
     let largest = at(count) / Statistic::largest(n);
     answer.see("largest-of-all", [largest]);
-    Ok(answer)
+    Ok(())
 }
 
 fn with_divisor_n(sample: &Sample) -> f64 {
@@ -69,9 +69,8 @@ fn with_divisor_n(sample: &Sample) -> f64 {
 }
 
 /// The largest possible D, by its formula and by the sample that attains it.
-pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
+pub fn largest(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; n: Vec<usize>);
-    let mut answer = Answer::default();
     let mut formula = Vec::new();
     for n in n {
         formula.push(Statistic::largest(n));
@@ -81,35 +80,33 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
                 (0..n).map(|i| f64::from(u8::from(i >= k))).collect();
             let s = Sample::try_new(&values).ok();
             let s = s.and_then(|s| Statistic::try_new(&s).ok());
-            let d = s.map_or(f64::NAN, |s| match context.wrong {
-                Some(WrongModel::UpperSideOnly) => s.d_minus.min(s.d_plus),
-                _ => s.d,
-            });
-            best.max(d)
+            let smaller = s.as_ref().map(|s| s.d_minus.min(s.d_plus));
+            let d = s.map(|s| s.d);
+            let d = context.or(WrongModel::UpperSideOnly, smaller, d);
+            best.max(d.unwrap_or(f64::NAN))
         });
         let expected = Statistic::largest(n);
         answer.put("attained", [attained], [expected]);
     }
     answer.see("largest", formula);
-    Ok(answer)
+    Ok(())
 }
 
 /// The mean of D from the table against that of an independent simulation,
 /// in its standard errors and the table's own error.
-pub(crate) fn mean(context: &Context) -> Result<Answer, MethodError> {
+pub fn mean(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         n: Vec<usize>,
         /// Error of the table's mean.
         error: f64,
     }
-    let mut answer = Answer::default();
     for n in n {
         let ours = if context.is(WrongModel::PlainKolmogorov) {
             // The mean of the fully specified distribution, for large n.
             (0.5 * std::f64::consts::PI / n as f64).sqrt()
                 * std::f64::consts::LN_2
         } else {
-            Table::embedded().mean(n).map_err(refused)?
+            Table::embedded().mean(n)?
         };
         for row in MEANS.rows(&n.to_string())? {
             let [known, own] = row.numbers(1)?;
@@ -117,12 +114,12 @@ pub(crate) fn mean(context: &Context) -> Result<Answer, MethodError> {
             answer.put("standardised-gap", [gap], [0.0]);
         }
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// The table against an independent simulation, in combined standard
 /// errors.
-pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
+pub fn table(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         n: Vec<usize>, levels: Vec<f64>,
         /// By size, then by level.
@@ -133,11 +130,9 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
         errors: Vec<Vec<f64>>,
     }
     let table = Table::embedded();
-    let mut answer = Answer::default();
     for ((n, values), errors) in n.iter().zip(&values).zip(&errors) {
         for ((level, value), error) in levels.iter().zip(values).zip(errors) {
-            let (mut ours, own) =
-                table.critical_value(*n, *level).map_err(refused)?;
+            let (mut ours, own) = table.critical_value(*n, *level)?;
             if context.is(WrongModel::PlainKolmogorov) {
                 // Asymptotic points of the fully specified distribution.
                 ours = (-0.5 * libm::log(0.5 * level) / *n as f64).sqrt();
@@ -150,59 +145,54 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     for n in [44, 86] {
-        let (_, own) = table.critical_value(n, 0.05).map_err(refused)?;
+        let (_, own) = table.critical_value(n, 0.05)?;
         answer.see("own-error", [own]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Critical value between the sizes 50 and 100, 100 and 200, .. linear in n.
-fn linear_in_n(n: usize, level: f64) -> Result<f64, MethodError> {
+fn linear_in_n(n: usize, level: f64) -> Result<f64> {
     let sizes = [4, 5, 6, 7, 8, 9, 10, 15, 20, 30, 50, 100, 200, 400, 900];
     let i = sizes.partition_point(|size| *size < n).clamp(1, sizes.len() - 1);
     let (low, high) = (sizes[i - 1], sizes[i]);
-    let at = |n| Table::embedded().critical_value(n, level).map_err(refused);
+    let at = |n| Table::embedded().critical_value(n, level);
     let share = (n as f64 - low as f64) / (high as f64 - low as f64);
     let (a, b) = (at(low)?.0, at(high)?.0);
     Ok(f64::mul_add(share, b - a, a))
 }
 
 /// True level of tests that use others' critical values.
-pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
+pub fn published(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Name of the source, for people.
         sources: Vec<String>,
         n: Vec<usize>, values: Vec<f64>,
     }
     if sources.len() != values.len() {
-        return Err(MethodError::Input("sources and values".into()));
+        bail!("sources and values");
     }
     let mut levels = Vec::new();
     let mut by_interpolation = Vec::new();
     for (n, value) in n.iter().zip(&values) {
-        let p = Table::embedded().p_value(*n, *value).map_err(refused)?;
-        levels.push(match context.wrong {
-            Some(WrongModel::PlainKolmogorov) => {
-                2.0 * libm::exp(-2.0 * *n as f64 * value * value)
-            }
-            _ => p.value,
-        });
+        let p = Table::embedded().p_value(*n, *value)?;
+        let known = 2.0 * libm::exp(-2.0 * *n as f64 * value * value);
+        let p = context.or(WrongModel::PlainKolmogorov, known, p.value);
+        levels.push(p);
     }
     for level in [0.1, 0.05, 0.01, 0.001] {
-        by_interpolation.push(match context.wrong {
-            Some(WrongModel::PlainKolmogorov) => 0.0,
-            _ => linear_in_n(86, level)?,
-        });
+        let own = linear_in_n(86, level)?;
+        let own = context.or(WrongModel::PlainKolmogorov, 0.0, own);
+        by_interpolation.push(own);
     }
-    let mut answer = Answer::default();
     answer.see("true-level", levels);
     answer.see("interpolated-in-n-at-86", by_interpolation);
-    Ok(answer)
+    Ok(())
 }
 
 /// c0 of D = c0/sqrt(n) - c1/n - c2/n^1.5, fitted to the table by weighted
 /// least squares, and the largest residual in standard errors.
-pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
+pub fn asymptotics(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; levels: Vec<f64>, least_n: usize);
     let sizes: Vec<usize> = Table::sizes()
         .into_iter()
@@ -216,8 +206,7 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
         let known: Vec<(f64, f64)> = sizes
             .iter()
             .map(|n| Table::embedded().critical_value(*n, level))
-            .collect::<Result<_, _>>()
-            .map_err(refused)?;
+            .collect::<Result<_, _>>()?;
         let row = |i: usize, k: usize| {
             let root = (sizes[i] as f64).sqrt();
             let term = match k {
@@ -236,20 +225,19 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
         let coefficients = factors
             .r()
             .solve_upper_triangular(&(factors.q().transpose() * &right))
-            .ok_or_else(|| MethodError::Oracle("singular".into()))?;
+            .context("singular")?;
         let misfit = (matrix * &coefficients - right).norm_squared()
             / (sizes.len() - terms) as f64;
         constants.push(coefficients[0]);
         misfits.push(misfit);
     }
-    let mut answer = Answer::default();
     answer.see("c0", constants);
     answer.see("mean-square-misfit", misfits);
-    Ok(answer)
+    Ok(())
 }
 
 /// Our normal variates against `rand_distr`'s on the same stream.
-pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
+pub fn draws(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; draws: usize);
     let streams = Streams::new("two ziggurats", 0);
     let other = u64::from(context.is(WrongModel::NextStream));
@@ -260,7 +248,6 @@ pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
         let b: f64 = StandardNormal.sample(&mut theirs);
         worst = worst.max((a - b).abs());
     }
-    let mut answer = Answer::default();
     answer.put("largest-difference", [worst], [0.0]);
-    Ok(answer)
+    Ok(())
 }

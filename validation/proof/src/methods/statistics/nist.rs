@@ -1,14 +1,15 @@
 //! NIST's univariate data sets.
 
+use anyhow::Result;
 use rocking::statistics::Sample;
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const UNIVARIATE: Csv = csv!("nist/univariate.csv");
 
 /// Mean and standard deviation of a certified data set.
-pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
+pub fn moments(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; set: String);
     let row = &UNIVARIATE.rows(&set)?[0];
     let values = row.text(4).split(' ').map(str::parse);
@@ -16,7 +17,7 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
         values.collect::<Result<_, _>>().map_err(|error| {
             UNIVARIATE.lacks(format!("values of `{set}`: {error}"))
         })?;
-    let sample = Sample::try_new(&values).map_err(refused)?;
+    let sample = Sample::try_new(&values)?;
     let n = values.len() as f64;
     let squares = match context.wrong {
         // One pass, sum x^2 - (sum x)^2/n.
@@ -28,10 +29,9 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
         _ => sample.sum_of_squares(),
     };
     let divisor = context.or(WrongModel::OtherDivisor, n, n - 1.0);
-    let mut answer = Answer::default();
     let deviation = (squares / divisor).sqrt();
     let quantities =
         [("mean", sample.mean()), ("standard-deviation", deviation)];
-    row.put(&mut answer, 1, &quantities)?;
-    Ok(answer)
+    row.put(answer, 1, &quantities)?;
+    Ok(())
 }

@@ -1,9 +1,10 @@
 //! A probability from a count.
 
+use anyhow::Result;
 use rocking::statistics::{Proportion, normal};
 
-use super::cells::{Csv, Row, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, Row, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const PROPORTION: Csv = csv!("oracles/proportion.csv");
 
@@ -19,19 +20,18 @@ fn wilson(share: f64, trials: usize, level: f64) -> (f64, f64) {
 }
 
 /// Exact intervals of probabilities, alone or of many at once.
-pub(crate) fn intervals(context: &Context) -> Result<Answer, MethodError> {
+pub fn intervals(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Successes and trials.
         counts: Vec<(usize, usize)>,
         /// How many such probabilities are held at once.
         together: usize,
     }
-    let mut answer = Answer::default();
     for (successes, trials) in counts {
-        let one = Proportion::try_new(successes, trials).map_err(refused)?;
+        let one = Proportion::try_new(successes, trials)?;
         let count = context.or(WrongModel::PointwiseIntervals, 1, together);
         let all = vec![one; count];
-        let band = Proportion::band(&all, LEVEL).map_err(refused)?;
+        let band = Proportion::band(&all, LEVEL)?;
         let first = band.first().copied();
         let mut ends = first.unwrap_or((f64::NAN, f64::NAN));
         if context.is(WrongModel::WilsonInterval) {
@@ -44,7 +44,7 @@ pub(crate) fn intervals(context: &Context) -> Result<Answer, MethodError> {
         let row = rows.iter().find(is).ok_or_else(|| {
             PROPORTION.lacks(format!("no row `{}`", words.join(",")))
         })?;
-        row.put(&mut answer, 3, &[("low", ends.0), ("high", ends.1)])?;
+        row.put(answer, 3, &[("low", ends.0), ("high", ends.1)])?;
     }
-    Ok(answer)
+    Ok(())
 }

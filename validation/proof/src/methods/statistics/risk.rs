@@ -1,36 +1,33 @@
 //! From a fragility to a decision: annual frequencies, and what few records
 //! leave open of a probability.
 
+use anyhow::{Context as _, Result};
 use libm::{exp, log};
 use rocking::fragility::risk::HazardCurve;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 
-use super::cells::{Csv, csv, refused};
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 const RISK: Csv = csv!("oracles/risk.csv");
 
 /// Annual frequencies under a hazard curve against quadrature over x.
-pub(crate) fn annual_frequency(
-    context: &Context,
-) -> Result<Answer, MethodError> {
+pub fn annual_frequency(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         /// Name of the curve in the file.
         curve: String,
         /// Its points: intensity, annual frequency.
         points: Vec<(f64, f64)>,
     }
-    let hazard = HazardCurve::try_new(&points).map_err(refused)?;
-    let mut answer = Answer::default();
+    let hazard = HazardCurve::try_new(&points)?;
     for row in RISK.rows(&curve)? {
         let [shift, mu, beta, covered, low, high] = row.numbers(1)?;
-        let right = Lognormal::try_new(shift, mu, beta).map_err(refused)?;
+        let right = Lognormal::try_new(shift, mu, beta)?;
         let fragility = match context.wrong {
             Some(WrongModel::WithoutShift) => {
-                Lognormal::try_new(0.0, log(right.median()), beta)
-                    .map_err(refused)?
+                Lognormal::try_new(0.0, log(right.median()), beta)?
             }
             _ => right,
         };
@@ -45,18 +42,17 @@ pub(crate) fn annual_frequency(
         // A difference, of numbers below `high`.
         answer.put("covered", [found.covered / high], [covered / high]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Annual frequencies for a power law and a lognormal, which have Cornell's
 /// closed form H(m) exp(k^2 beta^2/2).
-pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
+pub fn cornell(context: &Context, answer: &mut Answer) -> Result<()> {
     const K0: f64 = 1e-4;
     input! { context;
         /// Exponents of the hazard k0 x^-k, with median and dispersion.
         exponent_median_dispersion: Vec<(f64, f64, f64)>,
     }
-    let mut answer = Answer::default();
     for (k, median, beta) in exponent_median_dispersion {
         let hazard = |x: f64| K0 * exp(-k * log(x));
         let at = |z: f64| median * exp(beta * z);
@@ -64,9 +60,8 @@ pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
         // a point inside breaks the quadrature where nothing changes.
         let points =
             [at(-k * beta - 12.0), median, at(12.0)].map(|x| (x, hazard(x)));
-        let curve = HazardCurve::try_new(&points).map_err(refused)?;
-        let fragility =
-            Lognormal::try_new(0.0, log(median), beta).map_err(refused)?;
+        let curve = HazardCurve::try_new(&points)?;
+        let fragility = Lognormal::try_new(0.0, log(median), beta)?;
         let found = match context.wrong {
             Some(WrongModel::HazardAtTheMedian) => hazard(median),
             _ => curve.annual_frequency(&fragility).truncation_lower,
@@ -74,12 +69,12 @@ pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
         let closed = hazard(median) * exp(0.5 * k * k * beta * beta);
         answer.put("annual-frequency", [found], [closed]);
     }
-    Ok(answer)
+    Ok(())
 }
 
 /// Widths of the interval of a probability in scores: by the delta method,
 /// over those by drawing the records anew.
-pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
+pub fn interval(context: &Context, answer: &mut Answer) -> Result<()> {
     const LEVEL: f64 = 0.95;
     input! { context;
         n: usize, replicates: usize, shift: f64, ln_median: f64,
@@ -87,8 +82,7 @@ pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
         /// Scores of the intensities.
         scores: Vec<f64>,
     }
-    let truth =
-        Lognormal::try_new(shift, ln_median, dispersion).map_err(refused)?;
+    let truth = Lognormal::try_new(shift, ln_median, dispersion)?;
     // Values at the quantiles.
     let place = |k: usize| (k as f64 + 0.5) / n as f64;
     let values: Vec<f64> = (0..n).map(|k| truth.quantile(place(k))).collect();
@@ -97,8 +91,7 @@ pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
         let method = FitMethod::MaximumLikelihood;
         Some(fit(&sample, shift, method).ok()?.distribution)
     };
-    let whole =
-        fitted(&values).ok_or_else(|| MethodError::Oracle("no fit".into()))?;
+    let whole = fitted(&values).context("no fit")?;
     let name = "cases/interval-of-a-probability";
     let draws = Bootstrap::new(name, 0, n, replicates);
     let fits = draws.map(|places| {
@@ -106,15 +99,14 @@ pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
         fitted(&drawn)
     });
     let width = |(low, high)| normal::quantile(high) - normal::quantile(low);
-    let mut answer = Answer::default();
     for score in scores {
         let x = shift + exp(ln_median + dispersion * score);
         let column: Vec<f64> = fits
             .iter()
             .map(|fit| fit.map_or(f64::NAN, |fit| fit.cdf(x)))
             .collect();
-        let drawn = estimate(whole.cdf(x), &column, LEVEL)
-            .ok_or_else(|| MethodError::Oracle("no interval".into()))?;
+        let drawn =
+            estimate(whole.cdf(x), &column, LEVEL).context("no interval")?;
         let found = match context.wrong {
             Some(WrongModel::KnownDispersion) => {
                 let wide = normal::quantile(0.5 * (1.0 + LEVEL));
@@ -124,5 +116,5 @@ pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
         };
         answer.put("width", [found], [width((drawn.low, drawn.high))]);
     }
-    Ok(answer)
+    Ok(())
 }

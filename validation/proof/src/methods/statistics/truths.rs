@@ -1,13 +1,12 @@
 //! Simulated truths.
 
+use anyhow::Result;
 use libm::{exp, log, log1p, tan};
 use rand_distr::{Distribution as _, Exp1, Gamma};
 use rayon::prelude::*;
+use rocking::statistics::Clusters;
 use rocking::streams::{Streams, below, standard_normal};
 use serde::Deserialize;
-
-use super::cells::refused;
-use crate::error::MethodError;
 
 /// The law of the values that are tested or fitted, in logarithms where the
 /// study takes them.
@@ -43,8 +42,8 @@ impl Truth {
         name: &str,
         n: usize,
         trials: u64,
-        f: impl Fn(&[f64]) -> Result<T, MethodError> + Sync,
-    ) -> Result<Vec<T>, MethodError> {
+        f: impl Fn(&[f64]) -> Result<T> + Sync,
+    ) -> Result<Vec<T>> {
         let streams = Streams::new(&format!("case, {name}"), 0);
         (0..trials)
             .into_par_iter()
@@ -57,12 +56,10 @@ impl Truth {
         streams: &Streams,
         index: u64,
         n: usize,
-    ) -> Result<Vec<f64>, MethodError> {
+    ) -> Result<Vec<f64>> {
         let stream = &mut streams.stream(index);
         let gamma = match self {
-            Self::Gamma { shape } => {
-                Some(Gamma::new(shape, 1.0).map_err(refused)?)
-            }
+            Self::Gamma { shape } => Some(Gamma::new(shape, 1.0)?),
             _ => None,
         };
         Ok((0..n)
@@ -95,4 +92,35 @@ impl Truth {
             })
             .collect())
     }
+}
+
+/// Records by earthquake of the recorded suites.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Shape {
+    Ordinary,
+    #[serde(alias = "pulse-type")]
+    Pulse,
+}
+
+impl Shape {
+    pub(super) fn clusters(self) -> Clusters {
+        let sizes: &[usize] = match self {
+            Self::Ordinary => &[
+                12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1,
+                1, 1,
+            ],
+            Self::Pulse => &[6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1],
+        };
+        let labels = sizes
+            .iter()
+            .enumerate()
+            .flat_map(|(g, size)| std::iter::repeat_n(g.to_string(), *size));
+        Clusters::from_labels(labels)
+    }
+}
+
+/// Share of what is true.
+pub(super) fn share(held: &[bool]) -> f64 {
+    held.iter().filter(|held| **held).count() as f64 / held.len() as f64
 }

@@ -1,20 +1,19 @@
 //! Two samples against each other.
 
+use anyhow::Result;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 
-use super::cells::refused;
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 /// Kolmogorov's and Smirnov's distance of every two of the samples, and its
 /// p-value.
-pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
+pub fn two_samples(context: &Context, answer: &mut Answer) -> Result<()> {
     input!(context; samples: Vec<Vec<f64>>);
     let samples = samples
         .iter()
-        .map(|values| ExtendedSample::try_new(values).map_err(refused))
+        .map(|values| ExtendedSample::try_new(values))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut answer = Answer::default();
     for (i, a) in samples.iter().enumerate() {
         for b in &samples[i + 1..] {
             let found = kolmogorov_smirnov(a, b);
@@ -31,5 +30,5 @@ pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
             answer.see("p-value", [p]);
         }
     }
-    Ok(answer)
+    Ok(())
 }

@@ -3,10 +3,10 @@
 use rocking::statistics::Lognormal;
 
 use rocking_common::paper::Intensity;
-use rocking_common::table::{number, point};
+use rocking_common::table::number;
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Ink, Pen};
-use rocking_draw::figures::{Column, Look, Series};
+use rocking_draw::figures::{Column, Look, Of, Series};
 use rocking_draw::markup::plain;
 use rocking_draw::panel::Marker;
 
@@ -15,10 +15,10 @@ use rocking_draw::panel::Marker;
 pub(super) const KEYS: [&str; 6] =
     ["im", "edp", "curve", "ln_median", "dispersion", "shift"];
 pub(super) const NUMBERS: [Column; 4] = [
-    ("intensity", |d| d.x, number),
-    ("probability", |d| d.y, point),
-    ("band_low", |d| d.low, point),
-    ("band_high", |d| d.high, point),
+    ("intensity", Of::X),
+    ("probability", Of::Y),
+    ("band_low", Of::Low),
+    ("band_high", Of::High),
 ];
 
 pub(super) fn exceedance() -> Axis {

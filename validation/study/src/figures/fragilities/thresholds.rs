@@ -149,7 +149,7 @@ pub(in super::super) fn thresholds(
         match pair {
             Pair::Shifted => {
                 "Bands hold 95 % of the fits to resampled suites; brackets \
-                 are 95 % intervals."
+                 are 90 % intervals."
             }
             _ => {
                 "The band is SSFL plus 95 % of the differences of USFL7 to \
@@ -169,13 +169,9 @@ pub(in super::super) fn thresholds(
         Some(arm),
     );
     let columns = THRESHOLDS.len();
-    let layout = Layout {
-        by_row: true,
-        keys: &KEYS,
-        numbers: &NUMBERS,
-        ..Layout::default()
-    };
     let grid = Grid::new(panels.len(), columns);
+    let grid = grid.plot(grid.width, 170.0);
+    let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let chart = Chart { heading, panels, columns };
     let chart = chart.thinned((grid.width, grid.height));
     Ok(chart.laid_out(&layout, words.join(" ")))

@@ -1,0 +1,49 @@
+//! Tells the program the commit of its sources, for `rocking --version` and
+//! for reports that are issued.
+
+use std::process::Command;
+
+/// What the program is built from, beside this package's folder.
+const SOURCES: [&str; 9] = [
+    "../Cargo.lock",
+    "../Cargo.toml",
+    "../exchange",
+    "../fixtures",
+    "../parquet",
+    "../src",
+    "../surrogate",
+    "../synthesis",
+    "../validation",
+];
+
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
+/// The commit, and whether files differ from it; none where the sources are
+/// no repository of their own.
+fn commit() -> Option<String> {
+    if !git(&["-C", "..", "rev-parse", "--show-prefix"])?.is_empty() {
+        return None;
+    }
+    let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let status = [&["status", "--porcelain", "--"][..], &SOURCES].concat();
+    Some(match git(&status)?.is_empty() {
+        true => commit,
+        false => commit + " with changes",
+    })
+}
+
+fn main() {
+    for source in SOURCES {
+        println!("cargo::rerun-if-changed={source}");
+    }
+    // Each commit adds a line to it.
+    if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]) {
+        println!("cargo::rerun-if-changed={log}");
+    }
+    let commit = commit().unwrap_or_else(|| "unknown".into());
+    println!("cargo::rustc-env=ROCKING_COMMIT={commit}");
+}

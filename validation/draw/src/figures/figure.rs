@@ -1,0 +1,89 @@
+//! A figure: its words, and the numbers that it draws.
+
+use super::boxplots::{self, Boxplots};
+use super::chart::{self, Chart, Layout, NUMBERS, Panels};
+use super::heading::Heading;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// A figure: its words, its shapes and its numbers.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Figure {
+    /// The words that go with it.
+    pub heading: Heading,
+    /// The numbers that it draws.
+    drawn: Drawn,
+    /// What one sees, in one sentence made from the numbers.
+    pub reading: String,
+}
+
+/// The numbers of a figure in the form in which they are drawn.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) enum Drawn {
+    Chart(Panels),
+    Boxplots(Boxplots),
+    /// Shapes and CSV of what is neither; such a figure is not kept.
+    #[serde(skip)]
+    Other(Scene, String),
+}
+
+impl Figure {
+    pub(super) fn new(
+        heading: &Heading,
+        drawn: Drawn,
+        reading: String,
+    ) -> Self {
+        Self { heading: heading.clone(), drawn, reading }
+    }
+
+    /// The shapes, before they are written.
+    pub fn scene(&self) -> Scene {
+        match &self.drawn {
+            Drawn::Chart(panels) => chart::scene(&self.heading, panels),
+            Drawn::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
+            Drawn::Other(scene, _) => scene.clone(),
+        }
+    }
+
+    /// The numbers, one header line, long format.
+    pub fn csv(&self) -> String {
+        match &self.drawn {
+            Drawn::Chart(panels) => panels.csv(),
+            Drawn::Boxplots(boxes) => boxes.csv(),
+            Drawn::Other(_, csv) => csv.clone(),
+        }
+    }
+
+    /// The drawing.
+    pub fn svg(&self) -> String {
+        self.scene().svg()
+    }
+}
+
+impl Chart {
+    /// The figure, with a sentence that says what one sees in it.
+    pub fn figure(&self, reading: impl Into<String>) -> Figure {
+        self.laid_out(&Layout::of(&["series"], &NUMBERS), reading)
+    }
+
+    /// The figure in this layout.
+    pub fn laid_out(
+        &self,
+        layout: &Layout,
+        reading: impl Into<String>,
+    ) -> Figure {
+        let drawn = Drawn::Chart(Panels {
+            panels: self.panels.clone(),
+            columns: self.columns,
+            layout: layout.clone(),
+        });
+        Figure::new(&self.heading, drawn, reading.into())
+    }
+}
+
+impl Boxplots {
+    /// The figure, with a sentence that says what one sees in it.
+    pub fn figure(self, heading: &Heading, reading: String) -> Figure {
+        Figure::new(heading, Drawn::Boxplots(self), reading)
+    }
+}

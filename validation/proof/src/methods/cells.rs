@@ -1,0 +1,132 @@
+//! Numbers of a reference's CSV, and refusals.
+
+use std::str::FromStr;
+
+use anyhow::{Context as _, Error, Result, anyhow};
+use rocking::number::double::DoubleDouble;
+
+use super::method::Answer;
+use crate::arithmetic::decimal;
+
+/// A CSV of expected values, embedded.
+pub struct Csv {
+    pub file: &'static str,
+    pub text: &'static str,
+}
+
+/// The CSV of this path in `fixtures`.
+macro_rules! csv {
+    ($path:literal) => {
+        Csv {
+            file: concat!("fixtures/", $path),
+            text: include_str!(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/../../fixtures/",
+                $path
+            )),
+        }
+    };
+}
+pub(super) use csv;
+
+impl Csv {
+    /// Rows by their first field.
+    pub fn rows(&self, first: &str) -> Result<Vec<Row>> {
+        let file = self.file;
+        let cells = |line: &'static str| line.split(',').collect::<Vec<_>>();
+        let lines = self.text.lines().map(cells);
+        let rows: Vec<Row> = lines
+            .filter(|cells| cells.first() == Some(&first))
+            .map(|cells| Row { file, cells })
+            .collect();
+        if rows.is_empty() {
+            return Err(self.lacks(format!("no row `{first}`")));
+        }
+        Ok(rows)
+    }
+
+    /// The row that begins with these fields.
+    pub fn row(&self, first: &[&str]) -> Result<Row> {
+        let mut rows = self.rows(first.first().unwrap_or(&""))?.into_iter();
+        let found = rows.find(|row| row.cells.starts_with(first));
+        found
+            .ok_or_else(|| self.lacks(format!("no row `{}`", first.join(","))))
+    }
+
+    pub fn lacks(&self, what: impl std::fmt::Display) -> Error {
+        anyhow!("{}: {what}", self.file)
+    }
+}
+
+/// A row.
+pub struct Row {
+    file: &'static str,
+    cells: Vec<&'static str>,
+}
+
+impl Row {
+    /// The text in a column, empty where there is none.
+    pub fn text(&self, column: usize) -> &'static str {
+        self.cells.get(column).copied().unwrap_or_default()
+    }
+
+    /// The numbers from a column on, so many.
+    pub fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N]> {
+        let mut numbers = [f64::NAN; N];
+        for (k, number) in numbers.iter_mut().enumerate() {
+            *number = self.number(from + k)?;
+        }
+        Ok(numbers)
+    }
+
+    /// The numbers that stand in a column, parted by a character.
+    pub fn list(&self, column: usize, by: char) -> Result<Vec<f64>> {
+        let cells = self.text(column).split(by);
+        cells.map(|cell| self.parsed(cell)).collect()
+    }
+
+    /// The decimal in a column, to the last bits of a double-double.
+    pub fn decimal(&self, column: usize) -> Result<DoubleDouble> {
+        self.wide(self.text(column))
+    }
+
+    /// The decimals that stand in a column, parted by semicolons.
+    pub fn decimals(&self, column: usize) -> Result<Vec<DoubleDouble>> {
+        let cells = self.text(column).split(';');
+        cells.map(|cell| self.wide(cell)).collect()
+    }
+
+    fn wide(&self, text: &str) -> Result<DoubleDouble> {
+        decimal(text).with_context(|| self.no(text))
+    }
+
+    /// What a text stands for.
+    pub fn parsed<T: FromStr>(&self, text: &str) -> Result<T> {
+        text.trim().parse().ok().with_context(|| self.no(text))
+    }
+
+    fn no(&self, text: &str) -> String {
+        format!("{}: `{text}` is none", self.file)
+    }
+
+    /// The number in a column.
+    pub fn number(&self, column: usize) -> Result<f64> {
+        self.parsed(self.text(column))
+    }
+
+    /// Puts quantities, whose expected values stand from a column on; `NA`
+    /// stands where the reference has none.
+    pub fn put(
+        &self,
+        answer: &mut Answer,
+        from: usize,
+        quantities: &[(&str, f64)],
+    ) -> Result<()> {
+        for (k, (name, own)) in quantities.iter().enumerate() {
+            if self.text(from + k) != "NA" {
+                answer.put(name, [*own], [self.number(from + k)?]);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,210 @@
+//! Answers of every combination of verdicts.
+
+use super::*;
+use crate::recorded::recorded;
+
+/// What may come out about a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    All(Verdict),
+    /// Suites disagree.
+    Split(Verdict, Verdict),
+    /// Numbers without intervals.
+    Bare,
+    NoData,
+}
+
+const STATES: [State; 7] = {
+    use State::{All, Bare, NoData, Split};
+    use Verdict::{Confirmed, Inconclusive, NotConfirmed};
+    [
+        All(Confirmed),
+        All(NotConfirmed),
+        All(Inconclusive),
+        Split(Confirmed, NotConfirmed),
+        Split(Inconclusive, Confirmed),
+        Bare,
+        NoData,
+    ]
+};
+
+/// The claims of a question, each part in its state.
+fn claims(asked: &Asked, states: &[State], all: &[Claim]) -> Vec<Claim> {
+    let mut out = Vec::new();
+    for (part, state) in asked.all().zip(states) {
+        let turned = |v| match v {
+            Verdict::Confirmed if part.against => Verdict::NotConfirmed,
+            Verdict::NotConfirmed if part.against => Verdict::Confirmed,
+            own => own,
+        };
+        for id in &part.claims {
+            let claim = all.iter().find(|c| c.id == *id);
+            let mut claim = claim.expect("a claim").clone();
+            for result in &mut claim.results {
+                result.by_equivalence = match state {
+                    State::All(v) => Some(turned(*v)),
+                    State::Split(a, _) if result.suite == Tested::Ordinary => {
+                        Some(turned(*a))
+                    }
+                    State::Split(_, b) => Some(turned(*b)),
+                    State::Bare | State::NoData => None,
+                };
+            }
+            if *state == State::NoData {
+                claim.results.clear();
+            }
+            out.push(claim);
+        }
+    }
+    out
+}
+
+/// Every combination of `n` states.
+fn combinations(n: usize) -> Vec<Vec<State>> {
+    (0..n).fold(vec![Vec::new()], |all, _| {
+        let longer = all.iter().flat_map(|states| {
+            STATES.map(|state| [states.as_slice(), &[state]].concat())
+        });
+        longer.collect()
+    })
+}
+
+/// The first words by the verdicts, written down apart from the rule.
+fn expected<'a>(asked: &'a Asked, states: &[State]) -> Option<&'a str> {
+    let (mut yes, mut no, mut open) = (false, false, false);
+    for state in &states[..asked.parts.len()] {
+        match state {
+            State::All(Verdict::Confirmed) => yes = true,
+            State::All(Verdict::NotConfirmed) => no = true,
+            State::All(Verdict::Inconclusive) | State::Bare => open = true,
+            State::Split(a, b) => {
+                for v in [a, b] {
+                    yes |= *v == Verdict::Confirmed;
+                    no |= *v == Verdict::NotConfirmed;
+                    open |= *v == Verdict::Inconclusive;
+                }
+            }
+            State::NoData => {}
+        }
+    }
+    Some(
+        &asked.leads[match (yes, no, open) {
+            (true, false, false) => 0,
+            (true, false, true) => 1,
+            (true, true, _) => 2,
+            (false, true, _) => 3,
+            (false, false, true) => 4,
+            (false, false, false) => return None,
+        }],
+    )
+}
+
+/// Words with a letter or a digit.
+fn words(text: &str) -> usize {
+    let word = |w: &&str| w.chars().any(char::is_alphanumeric);
+    text.split_whitespace().filter(word).count()
+}
+
+/// No word of the trade stands on the first screen.
+fn is_plain(text: &str) -> bool {
+    let trade = ["arm", "arms", "cell", "cells", "judged", "worst", "against"];
+    !text.split(|c: char| !c.is_alphanumeric()).any(|w| trade.contains(&w))
+}
+
+#[test]
+fn every_combination_of_verdicts_gives_a_true_and_readable_sentence() {
+    let recorded = recorded().unwrap();
+    let first = first_arm(&recorded);
+    for asked in &asked().unwrap() {
+        let n = asked.all().count();
+        for states in combinations(n) {
+            let own = claims(asked, &states, &recorded.claims);
+            let found = asked.answer(&own, first);
+            let context = format!("{states:?}: {found}");
+            assert!(words(&found) <= 25, "{context}");
+            assert!(is_plain(&found), "{context}");
+            assert!(is_plain(&asked.numbers(&own, first)), "{context}");
+            for broken in ["{", "  ", ": ,", ": ;", ": .", "..", "NaN"] {
+                assert!(!found.contains(broken), "{context}");
+            }
+            assert!(found.ends_with('.'), "{context}");
+            let Some(lead) = expected(asked, &states) else {
+                assert_eq!(found, "There are no data.", "{context}");
+                continue;
+            };
+            let rest = found.strip_prefix(lead);
+            let rest = rest.and_then(|rest| rest.strip_prefix(": "));
+            let rest = rest.unwrap_or_else(|| panic!("{lead}: {context}"));
+            // What fails stands behind "but" where something holds, what is
+            // open is marked where something is decided.
+            let worst = |v: Verdict| {
+                let is = |s: &State| match s {
+                    State::All(own) => *own == v,
+                    State::Split(a, b) => {
+                        (if rank(*a) > rank(*b) { *a } else { *b }) == v
+                    }
+                    State::Bare => v == Verdict::Inconclusive,
+                    State::NoData => false,
+                };
+                states[..asked.parts.len()].iter().any(is)
+            };
+            let (yes, no) =
+                (worst(Verdict::Confirmed), worst(Verdict::NotConfirmed));
+            let open = worst(Verdict::Inconclusive);
+            assert_eq!(rest.contains(", but "), yes && no, "{context}");
+            let marked = rest.contains("; not certain: ");
+            assert_eq!(marked, open && (yes || no), "{context}");
+            let missing = states[..asked.parts.len()].contains(&State::NoData);
+            assert_eq!(rest.contains("no data on"), missing, "{context}");
+            // Each fact is there once, decided or not.
+            for (part, state) in asked.parts.iter().zip(&states) {
+                let end = part.fact.rsplit("{}").next().unwrap();
+                let start = part.fact.split("{}").next().unwrap();
+                if *state != State::NoData {
+                    assert!(rest.contains(start), "{context}");
+                    let end = end.split('{').next().unwrap();
+                    assert!(rest.contains(end), "{context}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fact_has_the_number_of_the_worst_verdict() {
+    let recorded = recorded().unwrap();
+    let first = first_arm(&recorded);
+    let asked = &asked().unwrap()[3];
+    let states = [
+        State::All(Verdict::Confirmed),
+        State::All(Verdict::Confirmed),
+        State::All(Verdict::NotConfirmed),
+    ];
+    let mut own = claims(asked, &states, &recorded.claims);
+    // The one result that fails has the smaller number.
+    let results = own[0].results.iter_mut().filter(|r| r.arm == Some(first));
+    for (result, (value, verdict)) in results
+        .zip([(0.06, Verdict::NotConfirmed), (0.08, Verdict::Inconclusive)])
+    {
+        result.value = value;
+        result.by_equivalence = Some(verdict);
+    }
+    let found = asked.answer(&own, first);
+    assert!(found.contains("PGV off by 0.06 (ordinary)"), "{found}");
+}
+
+#[test]
+fn other_answers_follow_from_the_cases_that_passed() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
+    let proof = Proof::read(data.as_ref()).unwrap();
+    for kept in [true, false] {
+        assert!(signed(None, kept).starts_with("Not yet"));
+        let found = signed(Some(&proof), kept);
+        assert_eq!(found.contains("kept, not run here"), kept, "{found}");
+        for text in [found, sure(None), sure(Some(&proof))] {
+            assert!(words(&text) <= 25 && is_plain(&text), "{text}");
+        }
+    }
+    assert!(sure(None).starts_with("Open"));
+    assert!(sure(Some(&proof)).starts_with("Very: all"));
+}

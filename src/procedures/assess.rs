@@ -16,7 +16,7 @@ use super::{
 use crate::block::{Block, BlockError, Restitution};
 use crate::capacity::CapacityError;
 use crate::fragility::hazard::Hazard;
-use crate::ida::{Batch, IdaError, ResolutionCounts, curves};
+use crate::ida::{Analysis, Batch, IdaError, ResolutionCounts, curves};
 use crate::intensity::{IntensityError, IntensityMeasure};
 use crate::record::Accelerogram;
 use crate::statistics::{Clusters, Lognormal};
@@ -38,6 +38,9 @@ pub struct Object {
     /// Rotation over slenderness that must not be exceeded, in (0, 1); none:
     /// the object must not overturn.
     pub limit_ratio: Option<f64>,
+    /// Overturning fragility in PGA in g that other motions gave, such as a
+    /// fitted surface, to stand beside.
+    pub surface: Option<Lognormal>,
 }
 
 /// How objects are assessed.
@@ -103,6 +106,10 @@ pub struct Assessment {
     pub objects: Vec<Assessed>,
     /// At least one, two, .. objects damaged by the same earthquake.
     pub together: Vec<Together>,
+    /// Correlation of the logarithms of the intensities of damage of two
+    /// objects over the records: the least, the median and the largest of
+    /// all pairs; none where no pair has three records that damage both.
+    pub correlation: Option<Bounds>,
 }
 
 /// One object.
@@ -153,7 +160,7 @@ pub struct Assessed {
     pub first_in_draws: f64,
 }
 
-/// What a fragility says of an object.
+/// What a fragility says of an object; no interval where it was not drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -203,6 +210,11 @@ pub enum Assumption {
     NoShift,
     /// Intervals as if each record were an earthquake of its own.
     RecordsAsUnit,
+    /// Each intensity counted by itself, up to twice that of the first
+    /// overturning: a stronger motion may leave the block standing.
+    Resurrections,
+    /// The fragility of a fitted surface, which makes no analysis.
+    Surface,
 }
 
 impl fmt::Display for Assumption {
@@ -213,6 +225,13 @@ impl fmt::Display for Assumption {
             }
             Self::NoShift => f.write_str("fragility without a shift"),
             Self::RecordsAsUnit => f.write_str("records drawn one by one"),
+            Self::Resurrections => f.write_str(
+                "each intensity counted by itself (a stronger motion may \
+                 leave the object standing)",
+            ),
+            Self::Surface => f.write_str(
+                "fitted surface of overturning fragilities, no analysis",
+            ),
         }
     }
 }
@@ -329,6 +348,7 @@ pub enum AssessError {
 ///     restitution: Restitution::constant(0.92)?,
 ///     friction: None,
 ///     limit_ratio: None,
+///     surface: None,
 /// };
 /// let options = AssessOptions {
 ///     gravity_m_s2: 9.81,
@@ -365,7 +385,10 @@ pub fn assess(
         {
             return Err(AssessError::Limit { id: object.id.clone(), found });
         }
-        analyses.push(ground.analysis(object, object.restitution));
+        analyses.push(Analysis {
+            resurrections: ground.resurrections(object),
+            ..ground.analysis(object, object.restitution)
+        });
         for eta in RESTITUTIONS {
             let other = Restitution::constant(eta)?;
             analyses.push(ground.analysis(object, other));
@@ -386,6 +409,7 @@ pub fn assess(
         records: records.len(),
         drawn: clusters.clone(),
         years: options.years,
+        correlation: ground::correlation(&found),
         objects: Found::sorted(found),
         together,
     })

@@ -1,6 +1,7 @@
 //! The records of an assessment, and what they make of each object.
 
 use rayon::prelude::*;
+use statrs::statistics::Statistics as _;
 
 use super::{Alternative, Answer, Assumption};
 use super::{
@@ -13,20 +14,22 @@ use crate::excitation::NormalisedRecord;
 use crate::fragility::hazard::Hazard;
 use crate::fragility::risk::HazardCurve;
 use crate::ida::{
-    Analysis, IdaCurve, Overturned, REFINEMENT, ResolutionCounts,
+    Analysis, IdaCurve, IdaError, Overturned, REFINEMENT, ResolutionCounts,
+    Resurrections,
 };
-use crate::integrator::{Forces, uplift_threshold};
+use crate::integrator::uplift_threshold;
 use crate::intensity::{IntensityMeasure, Measures, Settings};
 use crate::procedures::counts::Bounds;
 use crate::procedures::fit::Sampled;
+use crate::procedures::pivot::needs_more;
 use crate::procedures::ranking::Candidate;
 use crate::procedures::{
     Exposed, FitOptions, FragilityFit, ProcedureError, Ranking, Shift,
-    StripeResponses, capacities, fit_sample, pivot_forces, rank, risk,
-    stripes,
+    StripeResponses, capacities, fit_sample, rank, risk, stripes,
 };
 use crate::record::Accelerogram;
 use crate::statistics::bootstrap::Estimate;
+use crate::statistics::lognormal::{Stripe, fit_counts_alone};
 use crate::statistics::{CensoredSample, Clusters, Lognormal};
 
 /// Level of the intervals.
@@ -37,6 +40,15 @@ const SMALL: f64 = 0.05;
 
 /// Intensities at which a curve is drawn.
 const POINTS: usize = 40;
+
+/// Probability of damage up to which curves go.
+const LAST: f64 = 0.98;
+
+/// Levels above the first overturning end at so many times it.
+const REACH: f64 = 2.0;
+
+/// Spacing of the levels in g.
+const STEP_G: f64 = 0.01;
 
 /// The records of one assessment, measured.
 pub(super) struct Ground<'a> {
@@ -59,7 +71,7 @@ pub(super) struct Found {
     pub(super) intervals: Vec<(f64, f64)>,
     /// What objects are sorted by.
     pub(super) key: f64,
-    /// The same of each draw.
+    /// What objects are sorted by, of each draw.
     keys: Vec<f64>,
 }
 
@@ -189,40 +201,59 @@ impl<'a> Ground<'a> {
             });
             Ok::<Vec<(f64, f64)>, AssessError>(scaled.collect())
         };
+        let onset = capacities::intervals(
+            &response(&made[0])?,
+            damage.edp(),
+            InversionRule::Median,
+        );
+        let onset = onset.map_err(refused)?;
         let intervals = of(&made[0])?;
         let shift = match self.im {
             IntensityMeasure::Pga => threshold,
             _ => 0.0,
         };
-        let answer = |values: &[(f64, f64)], shift, clusters| {
-            self.answer(values, shift, clusters).map_err(refused)
-        };
-        let (own, keys) = answer(&intervals, shift, self.clusters)?;
+        let (own, keys) =
+            self.drawn(&intervals, shift, self.clusters).map_err(refused)?;
         let key = self.key(&own.fitted);
         let mut alternatives = Vec::new();
+        let mut beside = |assumption, answer| {
+            alternatives.push(Alternative { assumption, answer });
+        };
         for (curves, analysis) in made.iter().zip(analyses).skip(1) {
             let eta = analysis.restitution.velocity_ratio();
-            let assumption = Assumption::Restitution(eta);
-            let answer = answer(&of(curves)?, shift, self.clusters)?.0;
-            alternatives.push(Alternative { assumption, answer });
+            let fitted = Self::fitted(&of(curves)?, shift).map_err(refused)?;
+            beside(Assumption::Restitution(eta), self.point(fitted));
         }
         if shift > 0.0 {
-            let answer = answer(&intervals, 0.0, self.clusters)?.0;
-            let assumption = Assumption::NoShift;
-            alternatives.push(Alternative { assumption, answer });
+            let fitted = Self::fitted(&intervals, 0.0).map_err(refused)?;
+            beside(Assumption::NoShift, self.point(fitted));
         }
         if !self.clusters.is_singletons() {
             let single = Clusters::singletons(self.names.len());
-            let answer = answer(&intervals, shift, &single)?.0;
-            let assumption = Assumption::RecordsAsUnit;
-            alternatives.push(Alternative { assumption, answer });
+            let drawn = self.drawn(&intervals, shift, &single);
+            beside(Assumption::RecordsAsUnit, drawn.map_err(refused)?.0);
+        }
+        if analyses[0].resurrections.is_some() {
+            let last = own.fitted.quantile(LAST);
+            let stripes = resurrected(&made[0], threshold, last);
+            let fitted = fit_counts_alone(&stripes, shift)
+                .map_err(ProcedureError::from)
+                .map_err(refused)?;
+            beside(Assumption::Resurrections, self.point(fitted));
+        }
+        if let Some(surface) = object.surface
+            && self.counts_overturning_in_pga(object)
+        {
+            beside(Assumption::Surface, self.point(surface));
         }
         let fragility = self
-            .fit(&intervals, shift, own.fitted.quantile(0.98))
+            .fit(&intervals, shift, own.fitted.quantile(LAST))
             .map_err(refused)?;
         let slides_first = match object.friction {
             None => None,
-            Some(mu) => Some(self.slides(id, &made[0], &analyses[0], mu)?),
+            Some(mu) => {
+                Some(self.slides(id, &made[0], &analyses[0], mu, &onset)?)
+            }
         };
         let mut resolution = ResolutionCounts::default();
         for curve in &made[0] {
@@ -303,25 +334,58 @@ impl<'a> Ground<'a> {
         fit_sample(&sample, &FitOptions { band, ..options })
     }
 
-    fn answer(
+    fn fitted(
+        values: &[(f64, f64)],
+        shift: f64,
+    ) -> Result<Lognormal, ProcedureError> {
+        let shift = Shift::Given(shift);
+        let options = FitOptions { shift, ..FitOptions::default() };
+        Ok(fit_sample(&Self::sample(values)?, &options)?.fitted)
+    }
+
+    /// What a fragility says, without an interval.
+    fn point(&self, fitted: Lognormal) -> Answer {
+        self.answer(fitted, None)
+    }
+
+    /// What the fit to intensities of damage says, with the intervals of its
+    /// draws; and what objects are sorted by, of each draw.
+    fn drawn(
         &self,
         values: &[(f64, f64)],
         shift: f64,
         clusters: &Clusters,
     ) -> Result<(Answer, Vec<f64>), ProcedureError> {
-        let sample = Self::sample(values)?;
+        let fitted = Self::fitted(values, shift)?;
         let options = self.options(shift, clusters);
-        let once = FitOptions { draws: None, ..options.clone() };
-        let fitted = fit_sample(&sample, &once)?.fitted;
-        let sampled = options.sampled(&sample)?;
-        let of_draws = |of: &dyn Fn(&Lognormal) -> f64| -> Vec<f64> {
-            let drawn = sampled.iter().flat_map(|all: &Sampled| &all.fitted);
-            drawn.map(|law| law.as_ref().map_or(f64::NAN, of)).collect()
+        let sampled = options.sampled(&Self::sample(values)?)?;
+        let small = |law: &Option<Lognormal>| {
+            law.as_ref().map_or(f64::NAN, |law| law.quantile(SMALL))
         };
+        let small =
+            sampled.iter().flat_map(|all| &all.fitted).map(small).collect();
+        let answer = self.answer(fitted, sampled);
+        let risk = answer.risk.as_ref().and_then(|r| r.sampling.as_ref());
+        let keys = match (self.options.hazard, risk) {
+            (None, _) => small,
+            (Some(_), None) => Vec::new(),
+            (Some(_), Some(drawn)) => {
+                drawn.drawn_annual_frequencies.iter().map(|x| -x).collect()
+            }
+        };
+        Ok((answer, keys))
+    }
+
+    fn answer(&self, fitted: Lognormal, sampled: Option<Sampled>) -> Answer {
         let at = |p: f64| {
             let point = fitted.quantile(p);
-            let drawn = of_draws(&|law| law.quantile(p));
-            let found = clusters.estimate(point, &drawn, LEVEL);
+            let found = sampled.as_ref().and_then(|all| {
+                let of = |law: &Option<Lognormal>| {
+                    law.as_ref().map_or(f64::NAN, |law| law.quantile(p))
+                };
+                let drawn: Vec<f64> = all.fitted.iter().map(of).collect();
+                all.clusters.estimate(point, &drawn, LEVEL)
+            });
             let ends = |end: fn(&Estimate) -> f64| found.as_ref().map(end);
             let (low, high) = (ends(|e| e.low), ends(|e| e.high));
             Bounds { point, low, high }
@@ -334,8 +398,7 @@ impl<'a> Ground<'a> {
             found.fragilities.into_iter().next()
         };
         let risk = self.options.hazard.and_then(exposed);
-        let keys = of_draws(&|law| self.key(law));
-        Ok((Answer { fitted, median_im, small_im, risk }, keys))
+        Answer { fitted, median_im, small_im, risk }
     }
 
     /// What objects are sorted by: the annual frequency, falling, or the
@@ -426,24 +489,42 @@ impl<'a> Ground<'a> {
         }))
     }
 
-    /// Share of records that ask for more friction than `friction`.
+    /// Whether overturning is counted, in PGA.
+    fn counts_overturning_in_pga(&self, object: &Object) -> bool {
+        object.limit_ratio.is_none() && self.im == IntensityMeasure::Pga
+    }
+
+    /// How far above the first overturning an object is looked at.
+    pub(super) fn resurrections(
+        &self,
+        object: &Object,
+    ) -> Option<Resurrections> {
+        self.counts_overturning_in_pga(object)
+            .then_some(Resurrections::Multiple(REACH))
+    }
+
+    /// Share of records that ask for more friction than `friction` before
+    /// they damage the object; `onset` are the intensities of damage of the
+    /// curves.
     fn slides(
         &self,
         id: &str,
         curves: &[IdaCurve],
         analysis: &Analysis,
         friction: f64,
+        onset: &[(f64, f64)],
     ) -> Result<f64, AssessError> {
-        let found =
-            pivot_forces(&self.normalised, curves, analysis, &[friction])
-                .map_err(|source| {
-                    let id = id.to_owned();
-                    AssessError::Ida { id, source }
-                })?;
-        let slides = |forces: &&Vec<Forces>| {
-            forces.iter().any(|f| !(f.friction <= friction))
-        };
-        let count = found.curves.iter().filter(slides).count();
+        let each = self.normalised.par_iter().zip(curves).zip(onset);
+        let each = each.map(|((record, curve), (low, high))| {
+            let below = if high.is_finite() { *low } else { f64::INFINITY };
+            needs_more(record, curve, analysis, friction, below)
+        });
+        let found: Result<Vec<bool>, IdaError> = each.panic_fuse().collect();
+        let found = found.map_err(|source| {
+            let id = id.to_owned();
+            AssessError::Ida { id, source }
+        })?;
+        let count = found.iter().filter(|more| **more).count();
         Ok(count as f64 / curves.len() as f64)
     }
 
@@ -476,7 +557,7 @@ impl<'a> Ground<'a> {
                 IntensityMeasure::Pga => uplifts[at_least - 1],
                 _ => 0.0,
             };
-            let answer = self.answer(&values, shift, self.clusters);
+            let answer = self.drawn(&values, shift, self.clusters);
             let answer = answer.map_err(|source| AssessError::Fit {
                 id: format!("{at_least} objects or more"),
                 source,
@@ -489,4 +570,46 @@ impl<'a> Ground<'a> {
 
 fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {
     curves.iter().map(|curve| curve.response(Overturned::Refined)).collect()
+}
+
+/// How many of the records overturn the object at each level of the grid up
+/// to `last` in g: each level by itself, as far as it was looked at.
+fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
+    let level = |im: f64| (im * threshold / STEP_G).round() as usize;
+    let stands = |curve: &IdaCurve, k: usize| {
+        let first = curve.overturning.map(|first| level(first.scanned_im));
+        let above = curve.above.iter().find(|point| level(point.im) == k);
+        match above {
+            Some(point) => !point.outcome.is_overturned(),
+            None => first.is_none_or(|first| k < first),
+        }
+    };
+    let levels = level(1.0) + 1..(last / STEP_G) as usize;
+    let stripe = |k: usize| {
+        let standing = curves.iter().filter(|c| stands(c, k)).count();
+        let exceeded = (curves.len() - standing) as u32;
+        Stripe { im: STEP_G * k as f64, exceeded, n: curves.len() as u32 }
+    };
+    levels.map(stripe).collect()
+}
+
+/// The correlation of the logarithms of the intensities of damage of two
+/// objects: the least, the median and the largest of all pairs.
+pub(super) fn correlation(found: &[Found]) -> Option<Bounds> {
+    let pair = |a: &Found, b: &Found| {
+        let both = a.intervals.iter().zip(&b.intervals);
+        let both = both.filter(|(a, b)| a.1.is_finite() && b.1.is_finite());
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            both.map(|(a, b)| (libm::log(a.0), libm::log(b.0))).unzip();
+        let spread = || (&x).std_dev() * (&y).std_dev();
+        (x.len() > 2).then(|| (&x).covariance(&y) / spread())
+    };
+    let pairs = found.iter().enumerate();
+    let pairs =
+        pairs.flat_map(|(k, a)| found[..k].iter().map(move |b| (a, b)));
+    let mut all: Vec<f64> = pairs.filter_map(|(a, b)| pair(a, b)).collect();
+    all.sort_by(f64::total_cmp);
+    let (low, high) = (all.first().copied(), all.last().copied());
+    let point = *all.get(all.len() / 2)?;
+    Some(Bounds { point, low, high })
 }

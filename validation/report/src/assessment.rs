@@ -344,11 +344,11 @@ fn sketch(objects: &[Assessed]) -> Markup {
                 role="img" aria-label="The objects, to scale"
             {
                 line x1="0" x2=(width) y1=(ground) y2=(ground)
-                    stroke="currentColor" stroke-width="1.5";
+                    stroke="currentColor" stroke-width="1.5" {}
                 @for (left, middle, w, h, one) in &shown {
                     rect x=(left) y=(ground - h) width=(w) height=(h)
                         fill="none" stroke="currentColor"
-                        stroke-width="1.5";
+                        stroke-width="1.5" {}
                     text x=(middle) y=(ground + 17.0) font-size="13"
                         text-anchor="middle" fill="currentColor" { (one.id) }
                     text x=(middle) y=(ground + 34.0) font-size="11"

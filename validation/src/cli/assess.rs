@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::block::Restitution;
 use rocking::fragility::hazard::Hazard;
+use rocking::integrator::{Model, uplift_threshold};
 use rocking::procedures::{AssessOptions, Assessment, Object, assess};
 use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -22,6 +23,10 @@ use rocking_common::files::Folder;
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 use rocking_report::assessment::{self, About};
+use rocking_surrogate::Surrogate;
+
+/// The kind of the suite, where nothing else is said.
+const SUITE: SuiteKind = SuiteKind::Ordinary;
 
 /// Which object overturns first, how often, and how sure that is: from a
 /// table of objects to one page.
@@ -84,7 +89,10 @@ pub struct Args {
 /// # Errors
 /// [`Failure`] for input that is refused, or a folder that is not empty.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let objects = args.objects()?;
+    let mut objects = args.objects()?;
+    if args.suite.is_none() {
+        beside(&mut objects)?;
+    }
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
     let suite = args.threads.run(|| args.suite())??;
@@ -109,6 +117,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let page = args.out.join(assessment::PAGE);
     say(&format!("{}Page: {}\n", assessment::text(&found), page.display()))
+}
+
+/// Sets the fitted surface of the embedded suite beside the objects that it
+/// covers.
+fn beside(objects: &mut [Object]) -> Result<(), Failure> {
+    let surrogate = Surrogate::embedded()?;
+    for object in objects {
+        let same = object.restitution.velocity_ratio() == RESTITUTION;
+        let Ok(found) = surrogate.fragility(&object.block) else { continue };
+        let onset_g = uplift_threshold(&object.block, Model::Nonlinear);
+        let own = found.suites.iter().find(|own| own.suite == SUITE);
+        let scaled = own.map(|own| own.fitted.scaled(onset_g)).transpose();
+        object.surface = scaled.map_err(Failure::input)?.filter(|_| same);
+    }
+    Ok(())
 }
 
 fn named(path: &Path) -> String {
@@ -143,17 +166,17 @@ impl Args {
                 )?,
                 friction: row.friction,
                 limit_ratio: row.limit_ratio,
+                surface: None,
             })
         };
         rows.into_iter().map(object).collect()
     }
 
     fn suite(&self) -> Result<StudySuite, Failure> {
-        let kind = SuiteKind::Ordinary;
         if let Some(path) = &self.suite {
             let processing = self.processing.processing()?;
             let options = self.reading.options(STANDARD_GRAVITY_M_S2);
-            let suite = StudySuite::read(kind, path, options, &processing)?;
+            let suite = StudySuite::read(SUITE, path, options, &processing)?;
             self.reading.judge(&suite.set_aside, &suite.remarks)?;
             return Ok(suite);
         }

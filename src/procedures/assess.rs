@@ -88,13 +88,15 @@ impl Damage {
 /// Objects under a suite, the one that needs attention first before all.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Assessment {
     /// Intensity measure of all intensities here.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub im: IntensityMeasure,
-    /// Its unit.
+    /// Unit of all intensities here: that of the hazard curve.
     pub unit: &'static str,
+    /// Such units in one of the measure itself (g, m/s).
+    pub units_per_im_unit: f64,
+    /// Level of the intervals.
+    pub level: f64,
     /// Number of records.
     pub records: usize,
     /// What the intervals draw.
@@ -115,10 +117,13 @@ pub struct Assessment {
 /// One object.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Assessed {
     /// Its name.
     pub id: String,
+    /// The block that it is taken for.
+    pub block: Block,
+    /// Name of the floor that it stands on; none on the ground.
+    pub floor: Option<String>,
     /// Width in m.
     pub width_m: f64,
     /// Height in m.
@@ -130,7 +135,6 @@ pub struct Assessed {
     /// Coefficient of restitution.
     pub eta: f64,
     /// What counts as damage.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub damage: Damage,
     /// PGA in g at which the object begins to rock.
     pub uplift_pga_g: f64,
@@ -163,7 +167,6 @@ pub struct Assessed {
 /// What a fragility says of an object; no interval where it was not drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Answer {
     /// The fitted distribution.
     pub fitted: Lognormal,
@@ -191,7 +194,6 @@ pub struct Contribution {
 /// What one record does to an object.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RecordCapacity {
     /// The record.
     pub record: String,
@@ -239,10 +241,8 @@ impl fmt::Display for Assumption {
 /// The answer under another assumption.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Alternative {
     /// The assumption.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub assumption: Assumption,
     /// The answer.
     pub answer: Answer,
@@ -251,7 +251,6 @@ pub struct Alternative {
 /// Several objects under the same earthquake.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Together {
     /// So many objects or more are damaged.
     pub at_least: usize,
@@ -405,6 +404,8 @@ pub fn assess(
     let together = ground.together(&found)?;
     Ok(Assessment {
         unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
+        units_per_im_unit: ground.unit,
+        level: ground::LEVEL,
         im: ground.im,
         records: records.len(),
         drawn: clusters.clone(),

@@ -69,6 +69,7 @@ const DRAW: Edges = "
     grid geometry
     legend colour markup panel scene text
     markup
+    page colour figures
     panel axis colour geometry markup scene text
     scene colour geometry svg text
     svg colour geometry markup text

@@ -33,7 +33,7 @@ use crate::statistics::lognormal::{Stripe, fit_counts_alone};
 use crate::statistics::{CensoredSample, Clusters, Lognormal};
 
 /// Level of the intervals.
-const LEVEL: f64 = 0.95;
+pub(super) const LEVEL: f64 = 0.95;
 
 /// The small probability of damage whose intensity is stated.
 const SMALL: f64 = 0.05;
@@ -59,7 +59,7 @@ pub(super) struct Ground<'a> {
     clusters: &'a Clusters,
     pub(super) im: IntensityMeasure,
     /// Units of the hazard curve in one of the measure.
-    unit: f64,
+    pub(super) unit: f64,
     options: AssessOptions<'a>,
 }
 
@@ -263,6 +263,8 @@ impl<'a> Ground<'a> {
         Ok(Found {
             assessed: Assessed {
                 id: id.clone(),
+                block: object.block,
+                floor: None,
                 width_m: size.width_m,
                 height_m: size.height_m,
                 alpha_rad: object.block.slenderness_rad(),

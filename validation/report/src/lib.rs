@@ -1,7 +1,6 @@
 //! The report of a study: its page, and the files beside it.
 
 mod answers;
-pub mod assessment;
 pub mod credibility;
 pub mod diff;
 pub mod evidence;

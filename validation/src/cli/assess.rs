@@ -18,11 +18,12 @@ use super::risk::SiteArgs;
 use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ThreadsArg};
 use crate::failure::Failure;
-use crate::terminal::{note, print, say};
+use crate::input;
+use crate::terminal::{COMMIT, SOFTWARE, note, print, say};
 use rocking_common::files::Folder;
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
-use rocking_report::assessment::{self, About};
+use rocking_assessment::{About, PAGE};
 use rocking_surrogate::Surrogate;
 
 /// The kind of the suite, where nothing else is said.
@@ -99,15 +100,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let folder = Folder::open_new(&args.out)?;
     let found =
         args.threads.run(|| args.found(&objects, &suite, &hazard))??;
-    let about = About {
-        suite: &suite,
-        processing: words(&args.processing.processing()?),
-        hazard: args.hazard.as_deref().map(named),
-    };
-    let files = assessment::files(&found, &about)?;
-    folder.write(&files, assessment::PAGE)?;
+    let about = args.about(&suite)?;
+    let files = rocking_assessment::files(&found, &about)?;
+    folder.write(&files, PAGE)?;
     if args.json {
-        return print(&assessment::json(&found)?);
+        return print(&rocking_assessment::json(&found, &about)?);
     }
     if let Some(words) = suite.remarks.words() {
         note(&format!("remarks on {words}"));
@@ -115,8 +112,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if !suite.set_aside.is_empty() {
         note(&format!("set aside: {}", suite.set_aside));
     }
-    let page = args.out.join(assessment::PAGE);
-    say(&format!("{}Page: {}\n", assessment::text(&found), page.display()))
+    let page = args.out.join(PAGE);
+    let text = rocking_assessment::text(&found);
+    say(&format!("{text}\nPage: {}\n", page.display()))
 }
 
 /// Sets the fitted surface of the embedded suite beside the objects that it
@@ -134,9 +132,11 @@ fn beside(objects: &mut [Object]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn named(path: &Path) -> String {
+/// Name and SHA-256 of a file that was read.
+fn named(path: &Path) -> Result<String, Failure> {
     let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
+    let sha256 = sha256(input::text(path)?.as_bytes());
+    Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
 }
 
 impl Args {
@@ -170,6 +170,42 @@ impl Args {
             })
         };
         rows.into_iter().map(object).collect()
+    }
+
+    fn about(&self, suite: &StudySuite) -> Result<About, Failure> {
+        let ground = match suite.source.is_embedded() {
+            true => "No records are given: the motions are 86 synthetic ones, \
+                     which the program makes by published relations for \
+                     ordinary earthquakes. Records of the site (--suite) \
+                     replace them."
+                .to_owned(),
+            false => format!("The motions are those of {}.", suite.source),
+        };
+        let mut provenance = vec![
+            ("Program", format!("{SOFTWARE}, commit {COMMIT}")),
+            ("Records", format!("{}, {}", suite.source, suite.clusters)),
+            ("SHA-256 of the records", suite.sha256()),
+        ];
+        let mut some = |what, is: Option<String>| {
+            provenance.extend(is.map(|is| (what, is)));
+        };
+        some("Processing", words(&self.processing.processing()?));
+        let aside = &suite.set_aside;
+        some("Set aside", (!aside.is_empty()).then(|| aside.to_string()));
+        some("Remarks", suite.remarks.words());
+        let named = |path: &Option<PathBuf>| {
+            path.as_deref().map(named).transpose()
+        };
+        some("Objects", named(&self.objects)?);
+        some("Hazard curve", named(&self.hazard)?);
+        let draws = self.bootstrap.draws();
+        some("Draws of the intervals", Some(draws.replicates.to_string()));
+        some("Repetition of the draws", Some(draws.seed.to_string()));
+        let certified = if self.certify { "certified" } else { "double" };
+        some("Fates of the analyses", Some(certified.to_owned()));
+        let own = |(what, is): (&str, String)| (what.to_owned(), is);
+        let provenance = provenance.into_iter().map(own).collect();
+        Ok(About { ground, provenance })
     }
 
     fn suite(&self) -> Result<StudySuite, Failure> {

@@ -9,6 +9,7 @@ const CORE: Edges = "
     block
     capacity names statistics
     excitation names number record
+    floor intensity record
     fragility intensity statistics
     ida block capacity excitation integrator names number record
     integrator block excitation names number record stop

@@ -25,6 +25,7 @@ pub mod compare;
 pub mod completions;
 pub mod diff;
 pub mod excitation;
+pub mod floors;
 pub mod fragility;
 pub mod ida;
 pub mod lilliefors;

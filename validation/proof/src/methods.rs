@@ -13,6 +13,7 @@ mod edges;
 mod ends;
 mod estimate;
 mod fates;
+mod floor;
 mod forces;
 mod hard;
 mod intensity;
@@ -118,6 +119,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),
+    ("floor", floor::motion),
     ("intensity", intensity::measures),
     ("velocity-pulse", velocity_pulse::pulses),
 ];

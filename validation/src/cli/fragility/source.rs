@@ -166,7 +166,7 @@ impl SourceArgs {
     pub fn open(&self) -> Result<Source, Failure> {
         let gravity_m_s2 = self.gravity;
         let rows = match (&self.blocks, self.block.given(), &self.id) {
-            (Some(path), ..) => blocks::read(path, gravity_m_s2)?,
+            (Some(path), ..) => blocks::on_ground(path, gravity_m_s2)?,
             (None, None, None) => Vec::new(),
             (None, ..) => {
                 let block = self.block.block(gravity_m_s2)?;

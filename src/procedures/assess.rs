@@ -15,8 +15,9 @@ use super::{
 };
 use crate::block::{Block, BlockError, Restitution};
 use crate::capacity::CapacityError;
+use crate::floor::{Floor, FloorError};
 use crate::fragility::hazard::Hazard;
-use crate::ida::{Analysis, Batch, IdaError, ResolutionCounts, curves};
+use crate::ida::{Analysis, IdaError, ResolutionCounts};
 use crate::intensity::{IntensityError, IntensityMeasure};
 use crate::record::Accelerogram;
 use crate::statistics::{Clusters, Lognormal};
@@ -38,9 +39,20 @@ pub struct Object {
     /// Rotation over slenderness that must not be exceeded, in (0, 1); none:
     /// the object must not overturn.
     pub limit_ratio: Option<f64>,
+    /// The floor of a building on which it stands; none on the ground.
+    pub floor: Option<NamedFloor>,
     /// Overturning fragility in PGA in g that other motions gave, such as a
     /// fitted surface, to stand beside.
     pub surface: Option<Lognormal>,
+}
+
+/// A floor with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFloor {
+    /// The name.
+    pub name: String,
+    /// The floor.
+    pub floor: Floor,
 }
 
 /// How objects are assessed.
@@ -178,6 +190,46 @@ pub struct Answer {
     pub risk: Option<FragilityRisk>,
 }
 
+impl Answer {
+    /// Annual frequency of damage in 1/year, the lower bound of truncation;
+    /// none without a hazard curve.
+    #[must_use]
+    pub fn annual_frequency(&self) -> Option<Bounds> {
+        let risk = self.risk.as_ref()?;
+        let drawn = risk.sampling.as_ref();
+        Some(Bounds {
+            point: risk.annual_frequency_truncation_lower,
+            low: drawn.map(|drawn| drawn.annual_frequency_low),
+            high: drawn.map(|drawn| drawn.annual_frequency_high),
+        })
+    }
+
+    /// Mean return period of damage in years, the reciprocal of the annual
+    /// frequency; none without a hazard curve.
+    #[must_use]
+    pub fn return_period_years(&self) -> Option<Bounds> {
+        let frequency = self.annual_frequency()?;
+        Some(Bounds {
+            point: frequency.point.recip(),
+            low: frequency.high.map(f64::recip),
+            high: frequency.low.map(f64::recip),
+        })
+    }
+
+    /// Probability of damage in the years of the assessment; none without a
+    /// hazard curve.
+    #[must_use]
+    pub fn probability(&self) -> Option<Bounds> {
+        let risk = self.risk.as_ref()?;
+        let drawn = risk.sampling.as_ref();
+        Some(Bounds {
+            point: risk.probability_truncation_lower,
+            low: drawn.map(|drawn| drawn.probability_low),
+            high: drawn.map(|drawn| drawn.probability_high),
+        })
+    }
+}
+
 /// An annual frequency by intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -307,6 +359,16 @@ pub enum AssessError {
         /// Why.
         source: IntensityError,
     },
+    /// A record does not move a floor.
+    #[error("record {record}, floor {floor}: {source}")]
+    Floor {
+        /// The record.
+        record: String,
+        /// The floor.
+        floor: String,
+        /// Why.
+        source: FloorError,
+    },
     /// A curve has no capacities.
     #[error(transparent)]
     Capacity(#[from] CapacityError),
@@ -325,7 +387,9 @@ pub enum AssessError {
 /// up until it overturns ([`curves`], levels 0.01 g apart, the first
 /// overturning bisected). The intensities of damage are fitted by a lognormal
 /// distribution: in PGA above the intensity g tan(alpha) at which the object
-/// begins to rock, in other measures from 0. Intervals are of the bootstrap,
+/// begins to rock, in other measures, and on a floor, from 0. On a
+/// [floor](Floor) the object rocks under the floor's motion; intensities stay
+/// those of the ground. Intervals are of the bootstrap,
 /// which draws earthquakes. The objects damaged together are counted record
 /// by record, since one earthquake moves all.
 ///
@@ -347,6 +411,7 @@ pub enum AssessError {
 ///     restitution: Restitution::constant(0.92)?,
 ///     friction: None,
 ///     limit_ratio: None,
+///     floor: None,
 ///     surface: None,
 /// };
 /// let options = AssessOptions {
@@ -373,10 +438,10 @@ pub fn assess(
     clusters: &Clusters,
     options: &AssessOptions<'_>,
 ) -> Result<Assessment, AssessError> {
-    let ground = Ground::of(records, clusters, options)?;
     if objects.is_empty() {
         return Err(AssessError::Nothing("object"));
     }
+    let ground = Ground::of(objects, records, clusters, options)?;
     let mut analyses = Vec::new();
     for object in objects {
         if let Some(found) = object.limit_ratio
@@ -384,22 +449,20 @@ pub fn assess(
         {
             return Err(AssessError::Limit { id: object.id.clone(), found });
         }
-        analyses.push(Analysis {
+        let mut own = vec![Analysis {
             resurrections: ground.resurrections(object),
             ..ground.analysis(object, object.restitution)
-        });
+        }];
         for eta in RESTITUTIONS {
             let other = Restitution::constant(eta)?;
-            analyses.push(ground.analysis(object, other));
+            own.push(ground.analysis(object, other));
         }
+        analyses.push(own);
     }
-    let made = curves(&ground.normalised, &analyses, &Batch::default())?;
-    let stride = 1 + RESTITUTIONS.len();
-    let each = objects.par_iter().enumerate().panic_fuse().map(|(k, one)| {
-        let from = stride * k;
-        let to = from + stride;
-        ground.object(one, &analyses[from..to], &made[from..to])
-    });
+    let made = ground.curves(objects, &analyses)?;
+    let each = objects.par_iter().zip(&analyses).zip(&made).panic_fuse();
+    let each =
+        each.map(|((one, analyses), made)| ground.object(one, analyses, made));
     let found = each.collect::<Result<Vec<_>, AssessError>>()?;
     let together = ground.together(&found)?;
     Ok(Assessment {

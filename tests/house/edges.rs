@@ -16,7 +16,7 @@ const CORE: Edges = "
     intensity names record stop units
     names
     number
-    procedures block capacity excitation fragility ida integrator intensity \
+    procedures block capacity excitation floor fragility ida integrator intensity \
         record statistics stop
     record stop units
     statistics names number stop streams

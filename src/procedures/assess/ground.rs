@@ -3,19 +3,19 @@
 use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
 
-use super::{Alternative, Answer, Assumption};
 use super::{
-    AssessError, AssessOptions, Assessed, Contribution, Damage, Object,
-    RecordCapacity, Together,
+    Alternative, Answer, AssessError, AssessOptions, Assessed, Assumption,
+    Contribution, Damage, NamedFloor, Object, RecordCapacity, Together,
 };
 use crate::block::Restitution;
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::excitation::NormalisedRecord;
+use crate::floor::Floor;
 use crate::fragility::hazard::Hazard;
 use crate::fragility::risk::HazardCurve;
 use crate::ida::{
-    Analysis, IdaCurve, IdaError, Overturned, REFINEMENT, ResolutionCounts,
-    Resurrections,
+    Analysis, Batch, IdaCurve, IdaError, Overturned, REFINEMENT,
+    ResolutionCounts, Resurrections, curves,
 };
 use crate::integrator::uplift_threshold;
 use crate::intensity::{IntensityMeasure, Measures, Settings};
@@ -50,10 +50,40 @@ const REACH: f64 = 2.0;
 /// Spacing of the levels in g.
 const STEP_G: f64 = 0.01;
 
+/// The motions of the ground, or of one floor, under all records.
+struct Moved {
+    floor: Option<Floor>,
+    normalised: Vec<NormalisedRecord>,
+    pga_g: Vec<f64>,
+}
+
+impl Moved {
+    fn of(
+        records: &[Accelerogram],
+        floor: Option<&NamedFloor>,
+    ) -> Result<Self, AssessError> {
+        let moved = records.par_iter().panic_fuse().map(|record| {
+            let Some(on) = floor else {
+                return Ok((NormalisedRecord::new(record), record.pga_g()));
+            };
+            let refused = |source| AssessError::Floor {
+                record: record.name().to_owned(),
+                floor: on.name.clone(),
+                source,
+            };
+            let motion = on.floor.motion(record).map_err(refused)?;
+            Ok((NormalisedRecord::new(&motion), motion.pga_g()))
+        });
+        let moved = moved.collect::<Result<Vec<_>, AssessError>>()?;
+        let (normalised, pga_g) = moved.into_iter().unzip();
+        Ok(Self { floor: floor.map(|on| on.floor), normalised, pga_g })
+    }
+}
+
 /// The records of one assessment, measured.
 pub(super) struct Ground<'a> {
     names: Vec<&'a str>,
-    pub(super) normalised: Vec<NormalisedRecord>,
+    moved: Vec<Moved>,
     measures: Vec<Measures>,
     settings: Settings,
     clusters: &'a Clusters,
@@ -100,6 +130,7 @@ impl Found {
 
 impl<'a> Ground<'a> {
     pub(super) fn of(
+        objects: &[Object],
         records: &'a [Accelerogram],
         clusters: &'a Clusters,
         options: &AssessOptions<'a>,
@@ -138,9 +169,17 @@ impl<'a> Ground<'a> {
                 AssessError::Record { record: record.name().into(), source }
             })
         });
+        let mut moved: Vec<Moved> = Vec::new();
+        for object in objects {
+            let floor = object.floor.as_ref();
+            let known = floor.map(|on| on.floor);
+            if moved.iter().all(|moved| moved.floor != known) {
+                moved.push(Moved::of(records, floor)?);
+            }
+        }
         Ok(Self {
             names: records.iter().map(Accelerogram::name).collect(),
-            normalised: records.iter().map(NormalisedRecord::new).collect(),
+            moved,
             measures: measures.collect::<Result<_, _>>()?,
             settings,
             clusters,
@@ -162,16 +201,48 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The measure of each record where its PGA is 1 g, in the unit of the
-    /// hazard curve.
-    fn per_pga(&self, im: &IntensityMeasure) -> Vec<f64> {
+    /// The motions of what an object stands on.
+    fn under(&self, object: &Object) -> &Moved {
+        let floor = object.floor.as_ref().map(|on| on.floor);
+        let own = self.moved.iter().find(|moved| moved.floor == floor);
+        own.unwrap_or(&self.moved[0])
+    }
+
+    /// The curves of all analyses, object by object.
+    pub(super) fn curves(
+        &self,
+        objects: &[Object],
+        analyses: &[Vec<Analysis>],
+    ) -> Result<Vec<Vec<Vec<IdaCurve>>>, AssessError> {
+        let mut made = vec![Vec::new(); objects.len()];
+        for moved in &self.moved {
+            let on = |k: &usize| {
+                let floor = objects[*k].floor.as_ref();
+                floor.map(|on| on.floor) == moved.floor
+            };
+            let here: Vec<usize> = (0..objects.len()).filter(on).collect();
+            let all = here.iter().flat_map(|k| analyses[*k].iter().copied());
+            let all: Vec<Analysis> = all.collect();
+            let mut found =
+                curves(&moved.normalised, &all, &Batch::default())?
+                    .into_iter();
+            for k in here {
+                made[k] = found.by_ref().take(analyses[k].len()).collect();
+            }
+        }
+        Ok(made)
+    }
+
+    /// The measure of the ground of each record where the PGA of what the
+    /// object stands on is 1 g.
+    fn per_pga(&self, moved: &Moved, im: &IntensityMeasure) -> Vec<f64> {
         let periods_s = self.settings.periods_s();
-        let of = |measures: &Measures| {
-            let value = measures.pga_g.recip();
+        let of = |(measures, pga_g): (&Measures, &f64)| {
+            let value = pga_g.recip();
             let scale = if im.is_squared() { value * value } else { value };
             im.value(measures, periods_s).map_or(f64::NAN, |v| scale * v)
         };
-        self.measures.iter().map(of).collect()
+        self.measures.iter().zip(&moved.pga_g).map(of).collect()
     }
 
     /// What the records make of one object.
@@ -189,7 +260,8 @@ impl<'a> Ground<'a> {
         let damage =
             object.limit_ratio.map_or(Damage::Overturning, Damage::Rotation);
         let threshold = uplift_threshold(&object.block, analyses[0].model);
-        let per_pga = self.per_pga(&self.im);
+        let moved = self.under(object);
+        let per_pga = self.per_pga(moved, &self.im);
         let of = |curves: &[IdaCurve]| {
             let own = response(curves)?;
             let edp = damage.edp();
@@ -209,7 +281,7 @@ impl<'a> Ground<'a> {
         let onset = onset.map_err(refused)?;
         let intervals = of(&made[0])?;
         let shift = match self.im {
-            IntensityMeasure::Pga => threshold,
+            IntensityMeasure::Pga if object.floor.is_none() => threshold,
             _ => 0.0,
         };
         let (own, keys) =
@@ -251,9 +323,13 @@ impl<'a> Ground<'a> {
             .map_err(refused)?;
         let slides_first = match object.friction {
             None => None,
-            Some(mu) => {
-                Some(self.slides(id, &made[0], &analyses[0], mu, &onset)?)
-            }
+            Some(mu) => Some(self.slides(
+                object,
+                &made[0],
+                &analyses[0],
+                mu,
+                &onset,
+            )?),
         };
         let mut resolution = ResolutionCounts::default();
         for curve in &made[0] {
@@ -264,7 +340,7 @@ impl<'a> Ground<'a> {
             assessed: Assessed {
                 id: id.clone(),
                 block: object.block,
-                floor: None,
+                floor: object.floor.as_ref().map(|on| on.name.clone()),
                 width_m: size.width_m,
                 height_m: size.height_m,
                 alpha_rad: object.block.slenderness_rad(),
@@ -276,7 +352,7 @@ impl<'a> Ground<'a> {
                 ida: self.ida(&made[0], threshold).map_err(refused)?,
                 by_record: self.by_record(&intervals),
                 ranking: self
-                    .ranking(&made[0], damage, threshold)?
+                    .ranking(moved, &made[0], damage, threshold)?
                     .map_err(refused)?,
                 fragility,
                 answer: own,
@@ -467,6 +543,7 @@ impl<'a> Ground<'a> {
 
     fn ranking(
         &self,
+        moved: &Moved,
         curves: &[IdaCurve],
         damage: Damage,
         threshold: f64,
@@ -478,7 +555,7 @@ impl<'a> Ground<'a> {
             let squared = im.is_squared();
             let scale =
                 if squared { threshold * threshold } else { threshold };
-            let per = self.per_pga(im).into_iter();
+            let per = self.per_pga(moved, im).into_iter();
             let at_uplift = per.map(|per| per * scale).collect();
             Candidate { im: im.to_string(), at_uplift, squared }
         };
@@ -491,9 +568,12 @@ impl<'a> Ground<'a> {
         }))
     }
 
-    /// Whether overturning is counted, in PGA.
+    /// Whether overturning is counted, in the PGA of what the object stands
+    /// on.
     fn counts_overturning_in_pga(&self, object: &Object) -> bool {
-        object.limit_ratio.is_none() && self.im == IntensityMeasure::Pga
+        object.limit_ratio.is_none()
+            && object.floor.is_none()
+            && self.im == IntensityMeasure::Pga
     }
 
     /// How far above the first overturning an object is looked at.
@@ -510,20 +590,21 @@ impl<'a> Ground<'a> {
     /// curves.
     fn slides(
         &self,
-        id: &str,
+        object: &Object,
         curves: &[IdaCurve],
         analysis: &Analysis,
         friction: f64,
         onset: &[(f64, f64)],
     ) -> Result<f64, AssessError> {
-        let each = self.normalised.par_iter().zip(curves).zip(onset);
+        let each =
+            self.under(object).normalised.par_iter().zip(curves).zip(onset);
         let each = each.map(|((record, curve), (low, high))| {
             let below = if high.is_finite() { *low } else { f64::INFINITY };
             needs_more(record, curve, analysis, friction, below)
         });
         let found: Result<Vec<bool>, IdaError> = each.panic_fuse().collect();
         let found = found.map_err(|source| {
-            let id = id.to_owned();
+            let id = object.id.clone();
             AssessError::Ida { id, source }
         })?;
         let count = found.iter().filter(|more| **more).count();
@@ -538,6 +619,7 @@ impl<'a> Ground<'a> {
         let own = found.iter().map(|one| one.assessed.uplift_pga_g);
         let mut uplifts: Vec<f64> = own.collect();
         uplifts.sort_by(f64::total_cmp);
+        let on_ground = found.iter().all(|one| one.assessed.floor.is_none());
         let several = (1..=found.len()).filter(|_| found.len() > 1);
         let mut all = Vec::new();
         for at_least in several {
@@ -556,7 +638,7 @@ impl<'a> Ground<'a> {
             let values: Vec<(f64, f64)> =
                 (0..self.names.len()).map(of_record).collect();
             let shift = match self.im {
-                IntensityMeasure::Pga => uplifts[at_least - 1],
+                IntensityMeasure::Pga if on_ground => uplifts[at_least - 1],
                 _ => 0.0,
             };
             let answer = self.drawn(&values, shift, self.clusters);

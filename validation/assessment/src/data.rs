@@ -8,7 +8,7 @@ use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, Format, Id, LimitState};
 use serde::Serialize;
 
-use crate::{About, Damage};
+use crate::About;
 
 /// Version of the layout of `assess.json`.
 const SCHEMA: u32 = 1;
@@ -16,6 +16,7 @@ const SCHEMA: u32 = 1;
 #[derive(Serialize)]
 struct File<'a> {
     schema: u32,
+    version: &'static str,
     im: String,
     unit: &'static str,
     records: usize,
@@ -100,32 +101,10 @@ impl Numbers {
             im_at_5_percent: answer.small_im,
             dispersion: answer.fitted.dispersion(),
             shift: answer.fitted.shift(),
-            annual_frequency: annual_frequency(answer),
-            probability: probability(answer),
+            annual_frequency: answer.annual_frequency(),
+            probability: answer.probability(),
         }
     }
-}
-
-/// The annual frequency of damage, with its interval.
-pub(crate) fn annual_frequency(answer: &Answer) -> Option<Bounds> {
-    let risk = answer.risk.as_ref()?;
-    let drawn = risk.sampling.as_ref();
-    Some(Bounds {
-        point: risk.annual_frequency_truncation_lower,
-        low: drawn.map(|drawn| drawn.annual_frequency_low),
-        high: drawn.map(|drawn| drawn.annual_frequency_high),
-    })
-}
-
-/// The probability of damage in T years, with its interval.
-pub(crate) fn probability(answer: &Answer) -> Option<Bounds> {
-    let risk = answer.risk.as_ref()?;
-    let drawn = risk.sampling.as_ref();
-    Some(Bounds {
-        point: risk.probability_truncation_lower,
-        low: drawn.map(|drawn| drawn.probability_low),
-        high: drawn.map(|drawn| drawn.probability_high),
-    })
 }
 
 /// The measure that leaves the least dispersion, with that dispersion.
@@ -148,6 +127,7 @@ pub fn json(found: &Assessment, about: &About) -> anyhow::Result<String> {
     let provenance = about.provenance.iter();
     let file = File {
         schema: SCHEMA,
+        version: env!("CARGO_PKG_VERSION"),
         im: found.im.to_string(),
         unit: found.unit,
         records: found.records,
@@ -282,13 +262,7 @@ pub(crate) fn exchanged(
                 .map_err(|error| anyhow::anyhow!("{name}: {error}"))
         };
         let own_unit = one.answer.fitted.scaled(1.0 / found.units_per_im_unit);
-        let name = match one.damage {
-            Damage::Overturning => "overturning".to_owned(),
-            Damage::Rotation(ratio) => {
-                format!("rotation_{ratio}").replace('.', "_")
-            }
-        };
-        let state = LimitState { name: id(&name)?, fragility: own_unit? };
+        let state = LimitState { name: id("damage")?, fragility: own_unit? };
         anyhow::Ok(BlockFragility {
             id: id(&one.id)?,
             block: one.block,

@@ -8,16 +8,21 @@ mod words;
 use std::collections::BTreeMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use rocking::procedures::assess::{Alternative, Assessed, Assessment, Damage};
+use rocking::integrator::{Model, uplift_threshold};
+use rocking::procedures::assess::{
+    Alternative, Assessed, Assessment, Damage, Object,
+};
 use rocking_draw::colour;
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{POLICY, STYLE, inline};
 use rocking_exchange::Format;
+use rocking_surrogate::Surrogate;
+use rocking_synthesis::SuiteKind;
 
 pub use data::json;
 pub use words::text;
 
-use words::{answer_cells, bounds, measure, risk_heads, short};
+use words::{answer_cells, measure, risk_heads, short};
 
 /// The page; it is written last, so that all files are there where it is.
 pub const PAGE: &str = "index.html";
@@ -35,6 +40,25 @@ pub struct About {
     pub ground: String,
     /// What a reader needs to make the page again: names and values.
     pub provenance: Vec<(String, String)>,
+}
+
+/// Sets the fitted surface of the embedded ordinary suite beside each object
+/// that it covers.
+///
+/// # Errors
+/// Where the surface cannot be read.
+pub fn set_surfaces(objects: &mut [Object]) -> anyhow::Result<()> {
+    let surrogate = Surrogate::embedded()?;
+    for object in objects {
+        let Ok(found) = surrogate.fragility(&object.block) else { continue };
+        let suites = found.suites.iter();
+        let own = suites.filter(|own| own.suite == SuiteKind::Ordinary);
+        let onset_g = uplift_threshold(&object.block, Model::Nonlinear);
+        let own = own.map(|own| own.fitted.scaled(onset_g)).next();
+        let same = object.restitution.velocity_ratio() == found.eta;
+        object.surface = own.transpose()?.filter(|_| same);
+    }
+    Ok(())
 }
 
 /// The files of an assessment, by their names.
@@ -212,8 +236,9 @@ fn object(found: &Assessment, one: &Assessed, k: usize) -> Markup {
     };
     let own = format!("as above: coefficient of restitution {}", one.eta);
     let mut rows = vec![line(own, &one.answer)];
-    let other =
-        |other: &Alternative| line(other.assumption.to_string(), &other.answer);
+    let other = |other: &Alternative| {
+        line(other.assumption.to_string(), &other.answer)
+    };
     rows.extend(one.alternatives.iter().map(other));
     html! {
         section {

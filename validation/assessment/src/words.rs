@@ -5,8 +5,6 @@ use rocking::procedures::assess::{Answer, Assessed, Assessment, Damage};
 use rocking::procedures::counts::Bounds;
 use rocking_common::words::{percent, rounded};
 
-use crate::data::{annual_frequency, probability};
-
 /// A number in three significant digits.
 pub(crate) fn short(x: f64) -> String {
     rounded(x, 3).to_string()
@@ -33,19 +31,14 @@ pub(crate) fn bounds(value: &Bounds) -> String {
 
 /// Mean return period of damage in years, with its interval.
 pub(crate) fn return_period(answer: &Answer) -> Option<String> {
-    let frequency = annual_frequency(answer)?;
-    let period = Bounds {
-        point: frequency.point.recip(),
-        low: frequency.high.map(f64::recip),
-        high: frequency.low.map(f64::recip),
-    };
+    let period = answer.return_period_years()?;
     Some(interval(&period, |years| rounded(years, 2).to_string()))
 }
 
 /// The probability of damage in T years in percent, with its interval.
 pub(crate) fn in_years(answer: &Answer) -> Option<String> {
     let show = |p: f64| rounded(100.0 * p, 2).to_string();
-    Some(interval(&probability(answer)?, show))
+    Some(interval(&answer.probability()?, show))
 }
 
 /// The intensity measure.
@@ -160,9 +153,10 @@ pub fn text(found: &Assessment) -> String {
     }
     text.push('\n');
     for row in &rows[1..] {
-        let cells = row.iter().zip(&widths).map(|(cell, width)| {
-            format!("{cell:<width$}", width = *width)
-        });
+        let cells = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, width)| format!("{cell:<width$}", width = *width));
         let line: Vec<String> = cells.collect();
         text += line.join("  ").trim_end();
         text.push('\n');

@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::block::Restitution;
+use rocking::floor::Floor;
 use rocking::fragility::hazard::Hazard;
-use rocking::integrator::{Model, uplift_threshold};
+use rocking::procedures::assess::NamedFloor;
 use rocking::procedures::{AssessOptions, Assessment, Object, assess};
 use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 
 use super::blocks::{self, Row};
+use super::floors;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::risk::SiteArgs;
@@ -20,11 +22,10 @@ use super::shared::{BootstrapArgs, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
 use crate::terminal::{COMMIT, SOFTWARE, note, print, say};
+use rocking_assessment::{About, PAGE};
 use rocking_common::files::Folder;
 use rocking_common::paper::{RESTITUTION, SuiteKind};
-use rocking_common::suites::StudySuite;
-use rocking_assessment::{About, PAGE};
-use rocking_surrogate::Surrogate;
+use rocking_common::suites::{StudySuite, inputs::sha256_hex};
 
 /// The kind of the suite, where nothing else is said.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
@@ -47,14 +48,19 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
     rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
 pub struct Args {
     /// Table of objects, CSV: width_m,height_m or alpha,p, and where wanted
-    /// id, eta, friction (of the floor) and limit_ratio (a rotation over
-    /// alpha that must not be exceeded).
+    /// id, eta, friction (of the floor), limit_ratio (a rotation over alpha
+    /// that must not be exceeded) and floor.
     #[arg(
         long,
         value_name = "OBJECTS.csv",
         conflicts_with_all = ["alpha", "p", "width_m", "height_m"]
     )]
     objects: Option<PathBuf>,
+    /// Table of floors, CSV: name, period_s and damping of one mode of the
+    /// building, and height_ratio (participation factor times mode shape at
+    /// the floor); a column floor in the table of objects names one of them.
+    #[arg(long, value_name = "FLOORS.csv", requires = "objects")]
+    floors: Option<PathBuf>,
     #[command(flatten)]
     block: BlockArgs,
     /// Folder of records, index CSV, or zip.
@@ -92,7 +98,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut objects = args.objects()?;
     if args.suite.is_none() {
-        beside(&mut objects)?;
+        rocking_assessment::set_surfaces(&mut objects)?;
     }
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
@@ -117,25 +123,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     say(&format!("{text}\nPage: {}\n", page.display()))
 }
 
-/// Sets the fitted surface of the embedded suite beside the objects that it
-/// covers.
-fn beside(objects: &mut [Object]) -> Result<(), Failure> {
-    let surrogate = Surrogate::embedded()?;
-    for object in objects {
-        let same = object.restitution.velocity_ratio() == RESTITUTION;
-        let Ok(found) = surrogate.fragility(&object.block) else { continue };
-        let onset_g = uplift_threshold(&object.block, Model::Nonlinear);
-        let own = found.suites.iter().find(|own| own.suite == SUITE);
-        let scaled = own.map(|own| own.fitted.scaled(onset_g)).transpose();
-        object.surface = scaled.map_err(Failure::input)?.filter(|_| same);
-    }
-    Ok(())
-}
-
 /// Name and SHA-256 of a file that was read.
 fn named(path: &Path) -> Result<String, Failure> {
     let name = path.file_name().unwrap_or(path.as_os_str());
-    let sha256 = sha256(input::text(path)?.as_bytes());
+    let sha256 = sha256_hex(input::text(path)?.as_bytes());
     Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
 }
 
@@ -146,11 +137,12 @@ impl Args {
             Some(path) => blocks::read(path, gravity_m_s2)?,
             None => {
                 let block = self.block.block(gravity_m_s2)?;
-                let id = Id::of(&block).map_err(Failure::input)?;
+                let id: Id = "object".parse().map_err(Failure::input)?;
                 vec![Row::of(id, block)]
             }
         };
-        let object = |row: Row| {
+        let floors = floors::of_rows(self.floors.as_deref(), &rows)?;
+        let object = |(row, floor): (Row, Option<Floor>)| {
             if !row.samples.is_empty() {
                 return Err(Failure::input(format!(
                     "{}: a column sample: expected none, capacities are \
@@ -166,19 +158,25 @@ impl Args {
                 )?,
                 friction: row.friction,
                 limit_ratio: row.limit_ratio,
+                floor: row.floor.zip(floor).map(|(name, floor)| NamedFloor {
+                    name: name.to_string(),
+                    floor,
+                }),
                 surface: None,
             })
         };
-        rows.into_iter().map(object).collect()
+        rows.into_iter().zip(floors).map(object).collect()
     }
 
     fn about(&self, suite: &StudySuite) -> Result<About, Failure> {
         let ground = match suite.source.is_embedded() {
-            true => "No records are given: the motions are 86 synthetic ones, \
+            true => {
+                "No records are given: the motions are 86 synthetic ones, \
                      which the program makes by published relations for \
                      ordinary earthquakes. Records of the site (--suite) \
                      replace them."
-                .to_owned(),
+                    .to_owned()
+            }
             false => format!("The motions are those of {}.", suite.source),
         };
         let mut provenance = vec![
@@ -193,10 +191,10 @@ impl Args {
         let aside = &suite.set_aside;
         some("Set aside", (!aside.is_empty()).then(|| aside.to_string()));
         some("Remarks", suite.remarks.words());
-        let named = |path: &Option<PathBuf>| {
-            path.as_deref().map(named).transpose()
-        };
+        let named =
+            |path: &Option<PathBuf>| path.as_deref().map(named).transpose();
         some("Objects", named(&self.objects)?);
+        some("Floors", named(&self.floors)?);
         some("Hazard curve", named(&self.hazard)?);
         let draws = self.bootstrap.draws();
         some("Draws of the intervals", Some(draws.replicates.to_string()));

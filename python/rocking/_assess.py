@@ -199,7 +199,7 @@ def assess(
         Draws of the bootstrap, of earthquakes where these are known, and
         their repetition.
 
-    >>> cabinet = Object("cabinet", Block.from_dimensions(0.5, 1.8))
+    >>> cabinet = Object("cabinet", Block.from_dimensions(width_m=0.5, height_m=1.8))
     >>> lobe = [Record([0.0, 0.3, 0.0], 0.2 + 0.1 * k, units="g", name=f"r{k}")
     ...         for k in range(3)]
     >>> found = assess(cabinet, lobe, n_resamples=20)

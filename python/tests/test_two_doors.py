@@ -71,8 +71,8 @@ def objects_on_ground_and_floor(house: House) -> Pair:
     words += ["--suite", house.index, "--hazard", hazard, "--bootstrap", 20]
     words += ["--out", house.folder / "page"]
     roof = rk.Floor("roof", 0.5, 0.05, 1.3)
-    sizes = [rk.Block.from_dimensions(0.5, 2.0)]
-    sizes += [rk.Block.from_dimensions(0.2, 0.7)]
+    sizes = [rk.Block.from_dimensions(width_m=0.5, height_m=2.0)]
+    sizes += [rk.Block.from_dimensions(width_m=0.2, height_m=0.7)]
     stele = rk.Object("stele", sizes[0], friction=0.5)
     vase = rk.Object("vase", sizes[1], 0.9, limit_ratio=0.4, floor=roof)
     found = rk.assess(

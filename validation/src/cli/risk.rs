@@ -7,12 +7,15 @@ use rocking::fragility::hazard::{Hazard, HazardOptions};
 use rocking::procedures::{Exposed, FitOptions, Shift, risk};
 use rocking::statistics::{Lognormal, QuantileType};
 
+use super::fragility::drawn::with_bands;
 use super::fragility::fit::FitArgs;
 use super::fragility::source::SourceArgs;
-use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
 use crate::terminal::note;
+use rocking_common::files::Outputs;
+use rocking_draw::figures::of_suite::{self, Fragility};
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.
@@ -30,6 +33,9 @@ use crate::terminal::note;
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw hazard, fragilities and annual frequency by intensity"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
@@ -62,6 +68,8 @@ pub struct Args {
     source: SourceArgs,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -131,6 +139,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and another file -: expected one of them as a file",
         ));
     }
+    let inputs = args.source.inputs().into_iter();
+    let inputs = inputs.chain([args.hazard.clone()]).collect();
+    let plot = args.plot.open(&mut Outputs::of(inputs))?;
     let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match (args.median, args.dispersion) {
@@ -138,8 +149,33 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         _ => args.threads.run(|| of_source(args, options, &hazard))??,
     };
     let years = args.site.years();
-    let found = args.threads.run(|| risk(&hazard, &fragilities, years))?;
-    args.json.show(&found?)
+    let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
+    if plot.draw(|| svg(&hazard, fragilities))? {
+        return Ok(());
+    }
+    args.json.show(&found)
+}
+
+/// Fragilities that one drawing can hold.
+const MOST_DRAWN: usize = 6;
+
+/// The hazard curve, the fragilities and the risk by intensity.
+fn svg(hazard: &Hazard, all: Vec<Exposed>) -> Result<String, Failure> {
+    if all.len() > MOST_DRAWN {
+        return Err(Failure::input(format!(
+            "--plot: {} fragilities: expected at most {MOST_DRAWN}",
+            all.len()
+        )));
+    }
+    let one = |one: Exposed| {
+        let contributions = hazard.curve.contributions(&one.fitted);
+        let drawn = Fragility::new(one.fragility, one.fitted);
+        (Fragility { contributions, ..drawn }, one.sampled)
+    };
+    let (drawn, sampled): (Vec<_>, Vec<_>) = all.into_iter().map(one).unzip();
+    let at = of_suite::levels_under(hazard);
+    let drawn = with_bands(drawn, &sampled, &at);
+    Ok(of_suite::risk_svg(hazard, &drawn))
 }
 
 /// The fragility of given parameters.

@@ -14,9 +14,12 @@ use rocking::procedures::{
 use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
 
-use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::drawn::with_bands;
+use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{At as _, Failure};
 use crate::input;
+use rocking_common::files::Outputs;
+use rocking_draw::figures::of_suite::{self, Fragility};
 use rocking_exchange::FileError;
 use rocking_exchange::columns::{COUNTS, OUTCOMES};
 use rocking_exchange::read::{Cells, rows};
@@ -30,6 +33,9 @@ use rocking_exchange::read::{Cells, rows};
 /// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
 /// which draws records, or earthquakes where the table says them.
 #[derive(ClapArgs)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the fit with the shares that exceeded; of outcomes with its band"
+)))]
 pub(super) struct Args {
     /// Table of counts, columns intensity,exceeded,n, or of outcomes,
     /// columns intensity,record,event,exceeded; `-` is standard input.
@@ -40,6 +46,8 @@ pub(super) struct Args {
     shift: f64,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -52,10 +60,15 @@ pub(super) struct Args {
 /// [`Failure`] for a table that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = &args.counts;
+    let plot = args.plot.open(&mut Outputs::of(vec![path.clone()]))?;
     let counted = read(path)?;
     let draws = args.bootstrap.draws();
     let found = args.threads.run(|| counted.fit(args.shift, draws))?;
-    args.json.show(&found.at(path.display())?)
+    let found = found.at(path.display())?;
+    if plot.draw(|| args.threads.run(|| counted.svg(&found, draws))?)? {
+        return Ok(());
+    }
+    args.json.show(&found)
 }
 
 /// What a table says of stripes.
@@ -90,6 +103,27 @@ impl Counted {
     ) -> Option<Result<Sampled, ProcedureError>> {
         let Self::Records(outcomes, clusters) = self else { return None };
         Some(sample_outcomes(outcomes, clusters, shift, draws))
+    }
+
+    /// A fit with the shares that it is fitted to.
+    fn svg(
+        &self,
+        found: &CountsFragility,
+        draws: Draws,
+    ) -> Result<String, Failure> {
+        let sampled = self.sampled(found.fitted.shift(), draws).transpose()?;
+        let share = |one: &Stripe| {
+            (one.im, f64::from(one.exceeded) / f64::from(one.n))
+        };
+        let points = self.stripes().iter().map(share).collect();
+        let fit = Fragility { points, ..Fragility::new("fit", found.fitted) };
+        let at = of_suite::levels(std::slice::from_ref(&fit));
+        let fits = with_bands(vec![fit], &[sampled], &at);
+        Ok(of_suite::fragilities_svg(
+            &fits,
+            "intensity",
+            "marks: shares of the records",
+        ))
     }
 
     /// The counts.

@@ -2,7 +2,6 @@
 
 mod choose;
 mod counts;
-pub(super) mod drawn;
 pub(super) mod export;
 pub(super) mod fit;
 pub mod source;

@@ -7,7 +7,6 @@ use rocking::fragility::hazard::{Hazard, HazardOptions};
 use rocking::procedures::{Exposed, FitOptions, Shift, risk};
 use rocking::statistics::{Lognormal, QuantileType};
 
-use super::fragility::drawn::with_bands;
 use super::fragility::fit::FitArgs;
 use super::fragility::source::SourceArgs;
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
@@ -15,7 +14,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::terminal::note;
 use rocking_common::files::Outputs;
-use rocking_draw::figures::of_suite::{self, Fragility};
+use rocking_draw::figures::of_suite::risk_svg;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.
@@ -150,7 +149,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let years = args.site.years();
     let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
-    if plot.draw(|| svg(&hazard, fragilities))? {
+    if plot.draw(|| svg(&hazard, &fragilities))? {
         return Ok(());
     }
     args.json.show(&found)
@@ -160,22 +159,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 const MOST_DRAWN: usize = 6;
 
 /// The hazard curve, the fragilities and the risk by intensity.
-fn svg(hazard: &Hazard, all: Vec<Exposed>) -> Result<String, Failure> {
+fn svg(hazard: &Hazard, all: &[Exposed]) -> Result<String, Failure> {
     if all.len() > MOST_DRAWN {
         return Err(Failure::input(format!(
             "--plot: {} fragilities: expected at most {MOST_DRAWN}",
             all.len()
         )));
     }
-    let one = |one: Exposed| {
-        let contributions = hazard.curve.contributions(&one.fitted);
-        let drawn = Fragility::new(one.fragility, one.fitted);
-        (Fragility { contributions, ..drawn }, one.sampled)
-    };
-    let (drawn, sampled): (Vec<_>, Vec<_>) = all.into_iter().map(one).unzip();
-    let at = of_suite::levels_under(hazard);
-    let drawn = with_bands(drawn, &sampled, &at);
-    Ok(of_suite::risk_svg(hazard, &drawn))
+    Ok(risk_svg(hazard, all))
 }
 
 /// The fragility of given parameters.

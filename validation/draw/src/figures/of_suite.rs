@@ -1,12 +1,10 @@
-//! Charts of what a suite does to a block, each a function of that result.
+//! Charts of what a suite does to a block, each a function of that result,
+//! which is asked for its values at the intensities that are drawn.
 
 use rocking::capacity::ResponseCurve;
 use rocking::fragility::hazard::Hazard;
-use rocking::fragility::risk::Contribution;
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::StripeResponses;
-use rocking::procedures::fit::Band;
-use rocking::statistics::Lognormal;
+use rocking::intensity::IntensityMeasure as M;
+use rocking::procedures::{Exposed, StripeResponses};
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, Look, Mark, Series, common,
@@ -15,60 +13,23 @@ use crate::colour::{Fill, Ink, Pen};
 use crate::markup;
 use crate::panel::Marker;
 
-/// Intensities at which a fragility is drawn.
-const LEVELS: u32 = 150;
+/// Steps of intensity in which a fragility is drawn.
+const STEPS: u32 = 150;
 
 /// The largest rotation over slenderness that is drawn.
 const MOST_EDP: f64 = 1.2;
 
-/// A fragility to draw, its intensities in one unit.
-#[derive(Clone, Debug)]
-pub struct Fragility {
-    /// Its name.
-    pub name: String,
-    /// The fragility.
-    pub fitted: Lognormal,
-    /// Its band at the intensities where it is drawn; none: no band.
-    pub band: Option<Band>,
-    /// Intensities and shares of what it is fitted to.
-    pub points: Vec<(f64, f64)>,
-    /// Annual frequency of damage by intensity.
-    pub contributions: Vec<Contribution>,
+/// A chart as SVG, of panels side by side.
+fn svg(heading: [&str; 3], panels: Vec<ChartPanel>) -> String {
+    let [name, title, description] = heading;
+    let heading = Heading::new(name, title, description);
+    let columns = panels.len();
+    let chart = Chart { heading, panels, columns };
+    chart.thinned((560.0, 320.0)).figure(String::new()).svg()
 }
 
-impl Fragility {
-    /// A fragility without a band.
-    #[must_use]
-    pub fn new(name: impl Into<String>, fitted: Lognormal) -> Self {
-        let (name, band) = (name.into(), None);
-        let (points, contributions) = (Vec::new(), Vec::new());
-        Self { name, fitted, band, points, contributions }
-    }
-}
-
-/// Intensities at which fragilities are drawn: from 0 on.
-#[must_use]
-pub fn levels(all: &[Fragility]) -> Vec<f64> {
-    let ends = all.iter().flat_map(|one| {
-        let points = one.points.iter().map(|(x, _)| *x);
-        points.chain([one.fitted.quantile(0.95)])
-    });
-    let last = ends.filter(|x| x.is_finite()).fold(0.0, f64::max);
-    let step = 1.02 * last / f64::from(LEVELS);
-    (0..=LEVELS).map(|k| step * f64::from(k)).collect()
-}
-
-/// Intensities at which fragilities are drawn under a hazard curve.
-#[must_use]
-pub fn levels_under(hazard: &Hazard) -> Vec<f64> {
-    let points = hazard.curve.points();
-    let (first, last) = (points[0].0, points[points.len() - 1].0);
-    let step = libm::log(last / first) / f64::from(LEVELS);
-    (0..=LEVELS).map(|k| first * libm::exp(step * f64::from(k))).collect()
-}
-
-/// The rotations of all records by intensity, and their quantiles.
-fn responses(stripes: &[StripeResponses], mark: Mark) -> [Series; 3] {
+/// Quantiles of the rotation over slenderness by intensity.
+fn quantiles(stripes: &[StripeResponses], mark: Mark) -> [Series; 3] {
     let quantile = |name: &str, of: fn(&StripeResponses) -> f64| {
         let im = stripes.iter().map(|s| s.intensity).collect();
         Series::new(name, mark, stripes.iter().map(of).collect(), im)
@@ -80,8 +41,8 @@ fn responses(stripes: &[StripeResponses], mark: Mark) -> [Series; 3] {
     ]
 }
 
-/// IDA curves and the quantiles of the rotation by intensity, as SVG; `block`
-/// says of what, in markup.
+/// IDA curves with the quantiles of the rotation by intensity, as SVG;
+/// `block` says of what, in markup.
 #[must_use]
 pub fn ida_svg(
     curves: &[ResponseCurve],
@@ -94,29 +55,18 @@ pub fn ida_svg(
         Series::of(Look::line(Pen::new(Ink::Muted, 0.3)), edp, im)
     };
     let mut series: Vec<Series> = curves.iter().map(one).collect();
-    series.extend(responses(stripes, Mark::Line));
+    series.extend(quantiles(stripes, Mark::Line));
     let ends = stripes.first().zip(stripes.last());
     let ends = ends.map(|(a, b)| (a.intensity, b.intensity));
+    let x = ChartAxis::linear(common::DEMAND, (0.0, MOST_EDP));
+    let y = ChartAxis::linear(intensity, ends);
     let n = curves.len();
-    let chart = Chart {
-        heading: Heading::new(
-            "ida",
-            "IDA curves",
-            format!(
-                "Largest rotation over slenderness against intensity, of {n} \
-                 records, and its 16, 50 and 84 % quantiles; a curve is level \
-                 where the block overturns."
-            ),
-        ),
-        panels: vec![ChartPanel::new(
-            block,
-            ChartAxis::linear(common::DEMAND, (0.0, MOST_EDP)),
-            ChartAxis::linear(intensity, ends),
-            series,
-        )],
-        columns: 1,
-    };
-    chart.thinned((560.0, 320.0)).figure(String::new()).svg()
+    let words = format!(
+        "Largest rotation over slenderness against intensity, of {n} records, \
+         and its quantiles; a curve is level where the block overturns."
+    );
+    let panel = ChartPanel::new(block, x, y, series);
+    svg(["ida", "IDA curves", &words], vec![panel])
 }
 
 /// Rotations at stripes with their quantiles, and the shares of the records
@@ -127,170 +77,135 @@ pub fn stripes_svg(
     stripes: &[StripeResponses],
     intensity: &str,
 ) -> String {
-    let dot = Look::marks(Marker::Dot, 1.5, Ink::Muted);
     let im: Vec<f64> = stripes.iter().map(|s| s.intensity).collect();
-    let (x, y) = im
-        .iter()
-        .flat_map(|im| curves.iter().map(|c| (c.edp_at(*im), *im)))
-        .filter_map(|(edp, im)| Some((edp?, im)))
-        .filter(|(edp, _)| edp.is_finite())
-        .unzip();
+    let each = im.iter().flat_map(|im| curves.iter().map(|c| (c, *im)));
+    let stands = each.filter_map(|(c, im)| Some((c.edp_at(im)?, im)));
+    let (x, y) = stands.filter(|(edp, _)| edp.is_finite()).unzip();
+    let dot = Look::marks(Marker::Dot, 1.5, Ink::Muted);
     let mut series = vec![Series::of(dot, x, y).labelled("a record")];
-    series.extend(responses(stripes, Mark::LineAndPoints));
+    series.extend(quantiles(stripes, Mark::LineAndPoints));
     let share = |s: &StripeResponses| s.overturned as f64 / s.n as f64;
     let shares = stripes.iter().map(share).collect();
-    let overturned =
-        Series::new("overturned", Mark::LineAndPoints, shares, im);
-    let axis = || ChartAxis::linear(intensity, None::<(f64, f64)>);
-    let chart = Chart {
-        heading: Heading::new(
-            "stripes",
-            "Responses at stripes",
-            "Largest rotation over slenderness at each intensity with its 16, \
-             50 and 84 % quantiles, and the share of the records that \
-             overturn the block.",
-        ),
-        panels: vec![
-            ChartPanel::new(
-                "Rotation where the block stands",
-                ChartAxis::linear(common::DEMAND, (0.0, MOST_EDP)),
-                axis(),
-                series,
-            ),
-            ChartPanel::new(
-                "Overturned",
-                ChartAxis::linear("share of the records", (0.0, 1.0)),
-                axis(),
-                vec![overturned],
-            ),
-        ],
-        columns: 2,
+    let shares = Series::new("overturned", Mark::LineAndPoints, shares, im);
+    let panel = |title, label, last, series| {
+        let y = ChartAxis::linear(intensity, None::<(f64, f64)>);
+        ChartPanel::new(
+            title,
+            ChartAxis::linear(label, (0.0, last)),
+            y,
+            series,
+        )
     };
-    chart.figure(String::new()).svg()
+    let rotation = "Rotation where the block stands";
+    let words = "Largest rotation over slenderness at each intensity, its \
+                 quantiles, and the share of the records that overturn.";
+    svg(
+        ["stripes", "Responses at stripes", words],
+        vec![
+            panel(rotation, common::DEMAND, MOST_EDP, series),
+            panel("Overturned", "share of the records", 1.0, vec![shares]),
+        ],
+    )
 }
 
-/// Lines with bands, and the points that they are fitted to.
-fn lines(all: &[Fragility], levels: &[f64]) -> Vec<Series> {
-    let mut series = Vec::new();
-    for (k, one) in all.iter().enumerate() {
-        let mut x = levels.to_vec();
-        let mut y: Vec<f64> = x.iter().map(|x| one.fitted.cdf(*x)).collect();
-        let mut ends = Vec::new();
-        let mut label = markup::escape(&one.name);
-        if let Some(band) = &one.band {
-            x = band.points.iter().map(|p| p.intensity).collect();
-            y = band.points.iter().map(|p| p.probability).collect();
-            let end = |x: Option<f64>| x.unwrap_or(f64::NAN);
-            let points = band.points.iter();
-            ends = points.map(|p| (end(p.low), end(p.high))).collect();
-            label += ", 95 % band";
-        }
-        series.push(Series::new(label, Mark::Line, x, y).with(ends));
-        let dots = Look::marks(Marker::of_series(k), 2.2, Ink::Series(k));
-        let (x, y) = one.points.iter().copied().unzip();
-        series.push(Series::of(dots, x, y));
-    }
-    series
+/// The lines of fragilities at these intensities, with their bands.
+fn lines(all: &[Exposed], levels: &[f64]) -> Vec<Series> {
+    let line = |one: &Exposed| {
+        let label = markup::escape(&one.fragility);
+        let y = levels.iter().map(|im| one.fitted.cdf(*im)).collect();
+        let line = Series::new(&*label, Mark::Line, levels.to_vec(), y);
+        let Some(sampled) = &one.sampled else { return line };
+        let band = sampled.band(&one.fitted, levels);
+        let end = |end: Option<f64>| end.unwrap_or(f64::NAN);
+        let points = band.points.iter();
+        line.with(points.map(|p| (end(p.low), end(p.high))).collect())
+            .labelled(label + ", 95 % band")
+    };
+    all.iter().map(line).collect()
 }
 
-/// Fragilities with what they are fitted to, as SVG; `marks` says what that
-/// is.
+/// Fragilities with what each is fitted to, as SVG: intensities and shares;
+/// `marks` says what that is.
 #[must_use]
 pub fn fragilities_svg(
-    all: &[Fragility],
-    intensity: &str,
-    marks: &str,
+    all: &[Exposed],
+    points: &[Vec<(f64, f64)>],
+    (intensity, marks): (&str, &str),
 ) -> String {
-    let levels = levels(all);
-    let last = levels[levels.len() - 1];
-    let chart = Chart {
-        heading: Heading::new(
-            "fragility",
-            "Fragility",
-            "Probability of damage against intensity: the fitted lognormal \
-             distribution, its 95 % band where draws were asked for, and the \
-             shares of the records.",
-        ),
-        panels: vec![ChartPanel::new(
-            marks,
-            ChartAxis::linear(markup::escape(intensity), (0.0, last)),
-            ChartAxis::linear("probability of damage", (0.0, 1.0)),
-            lines(all, &levels),
-        )],
-        columns: 1,
-    };
-    chart.figure(String::new()).svg()
+    let fitted = all.iter().map(|one| one.fitted.quantile(0.95));
+    let seen = points.iter().flatten().map(|(im, _)| *im);
+    let last = 1.02 * fitted.chain(seen).fold(0.0, f64::max);
+    let step = last / f64::from(STEPS);
+    let levels: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
+    let mut series = lines(all, &levels);
+    for (k, points) in points.iter().enumerate() {
+        let dots = Look::marks(Marker::of_series(k), 2.2, Ink::Series(k));
+        let (x, y) = points.iter().copied().unzip();
+        series.push(Series::of(dots, x, y));
+    }
+    let x = ChartAxis::linear(markup::escape(intensity), (0.0, last));
+    let y = ChartAxis::linear("probability of damage", (0.0, 1.0));
+    let words = "Probability of damage against intensity: the fitted \
+                 distribution, its band where draws were asked for, and what \
+                 it is fitted to.";
+    let panel = ChartPanel::new(marks, x, y, series);
+    svg(["fragility", "Fragility", words], vec![panel])
 }
 
 /// A hazard curve, the fragilities under it, and the annual frequency of
 /// damage by intensity, as SVG.
 #[must_use]
-pub fn risk_svg(hazard: &Hazard, all: &[Fragility]) -> String {
+pub fn risk_svg(hazard: &Hazard, all: &[Exposed]) -> String {
     let points = hazard.curve.points();
+    let (first, last) = (points[0].0, points[points.len() - 1].0);
+    let step = libm::log(last / first) / f64::from(STEPS);
+    let at = |k: u32| first * libm::exp(step * f64::from(k));
+    let levels: Vec<f64> = (0..=STEPS).map(at).collect();
     let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
-    let range = x.first().copied().zip(x.last().copied());
-    let axis = || ChartAxis::logarithmic(intensity(hazard), range);
-    let mut parts = Vec::new();
-    for (k, one) in all.iter().enumerate() {
-        let edges = x.clone();
-        let rates = one.contributions.iter().map(|c| c.annual_frequency);
+    let part = |(k, one): (usize, &Exposed)| {
+        let parts = hazard.curve.contributions(&one.fitted);
         let look = Look {
             bins: Some(Fill::tint(Ink::Series(k), 20)),
-            pen: Some(Pen::of_series(k)),
-            ..Look::default()
+            ..Look::line(Pen::of_series(k))
         };
-        parts.push(Series::of(look, edges, rates.collect()));
-    }
-    let rates = all.iter().flat_map(|one| &one.contributions);
-    let most = rates.map(|c| c.annual_frequency).fold(0.0, f64::max);
-    let chart = Chart {
-        heading: Heading::new(
-            "risk",
-            "Hazard, fragility and risk",
-            "Annual frequency of exceedance of the intensity; probability of \
-             damage; annual frequency of damage by motions between two points \
-             of the hazard curve.",
-        ),
-        panels: vec![
-            ChartPanel::new(
-                "Hazard",
-                axis(),
-                ChartAxis::logarithmic("exceeded, 1/year", None::<(f64, f64)>),
-                vec![Series::of(
-                    Look {
-                        pen: Some(Pen::new(Ink::Text, 1.2)),
-                        marker: Some((Marker::Dot, 2.0, Ink::Text)),
-                        ..Look::default()
-                    },
-                    x,
-                    y,
-                )],
-            ),
-            ChartPanel::new(
-                "Fragility",
-                axis(),
-                ChartAxis::linear("probability of damage", (0.0, 1.0)),
-                lines(all, &levels_under(hazard)),
-            ),
-            ChartPanel::new(
-                "Damage by intensity",
-                axis(),
-                ChartAxis::linear("damage, 1/year", (0.0, 1.05 * most)),
-                parts,
-            ),
-        ],
-        columns: 3,
+        let rates = parts.iter().map(|part| part.annual_frequency);
+        Series::of(look, x.clone(), rates.collect())
     };
-    chart.figure(String::new()).svg()
+    let parts: Vec<Series> = all.iter().enumerate().map(part).collect();
+    let most = parts.iter().flat_map(|s| &s.y).fold(0.0, |a, b| b.max(a));
+    let curve = Look {
+        marker: Some((Marker::Dot, 2.0, Ink::Text)),
+        ..Look::line(Pen::new(Ink::Text, 1.2))
+    };
+    let curve = Series::of(curve, x.clone(), y);
+    let panel = |title, y: ChartAxis, series| {
+        let x = ChartAxis::logarithmic(intensity(hazard), (first, last));
+        ChartPanel::new(title, x, y, series)
+    };
+    let exceeded =
+        ChartAxis::logarithmic("exceeded, 1/year", None::<(f64, f64)>);
+    let probability = ChartAxis::linear("probability of damage", (0.0, 1.0));
+    let damage = ChartAxis::linear("damage, 1/year", (0.0, 1.05 * most));
+    let words = "Annual frequency at which an intensity is exceeded; \
+                 probability of damage; annual frequency of damage between \
+                 two points of the hazard curve.";
+    svg(
+        ["risk", "Hazard, fragility and risk", words],
+        vec![
+            panel("Hazard", exceeded, vec![curve]),
+            panel("Fragility", probability, lines(all, &levels)),
+            panel("Damage by intensity", damage, parts),
+        ],
+    )
 }
 
 /// The intensity of a hazard curve with its unit, as an axis label.
 fn intensity(hazard: &Hazard) -> String {
-    let symbol = match &hazard.im {
-        None => return "intensity, unit of the fragility".to_owned(),
-        Some(IntensityMeasure::Pga) => "PGA",
-        Some(IntensityMeasure::Pgv) => "PGV",
-        Some(other) => return markup::escape(&other.words()),
-    };
-    format!("{symbol} ({})", hazard.unit())
+    match &hazard.im {
+        None => "intensity, unit of the fragility".to_owned(),
+        Some(im @ (M::Pga | M::Pgv)) => {
+            format!("{} ({})", im.to_string().to_uppercase(), hazard.unit())
+        }
+        Some(other) => markup::escape(&other.words()),
+    }
 }

@@ -8,18 +8,17 @@ use clap::Args as ClapArgs;
 use indexmap::IndexMap;
 use rocking::procedures::counts::Outcome;
 use rocking::procedures::{
-    CountsFragility, Draws, ProcedureError, Sampled, fit_outcomes,
+    CountsFragility, Draws, Exposed, ProcedureError, Sampled, fit_outcomes,
     fit_stripes, sample_outcomes,
 };
 use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
 
-use super::drawn::with_bands;
 use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{At as _, Failure};
 use crate::input;
 use rocking_common::files::Outputs;
-use rocking_draw::figures::of_suite::{self, Fragility};
+use rocking_draw::figures::of_suite::fragilities_svg;
 use rocking_exchange::FileError;
 use rocking_exchange::columns::{COUNTS, OUTCOMES};
 use rocking_exchange::read::{Cells, rows};
@@ -111,19 +110,15 @@ impl Counted {
         found: &CountsFragility,
         draws: Draws,
     ) -> Result<String, Failure> {
-        let sampled = self.sampled(found.fitted.shift(), draws).transpose()?;
+        let fitted = found.fitted;
+        let sampled = self.sampled(fitted.shift(), draws).transpose()?;
         let share = |one: &Stripe| {
             (one.im, f64::from(one.exceeded) / f64::from(one.n))
         };
         let points = self.stripes().iter().map(share).collect();
-        let fit = Fragility { points, ..Fragility::new("fit", found.fitted) };
-        let at = of_suite::levels(std::slice::from_ref(&fit));
-        let fits = with_bands(vec![fit], &[sampled], &at);
-        Ok(of_suite::fragilities_svg(
-            &fits,
-            "intensity",
-            "marks: shares of the records",
-        ))
+        let fit = Exposed { fragility: "fit".to_owned(), fitted, sampled };
+        let words = ("intensity", "marks: shares of the records");
+        Ok(fragilities_svg(&[fit], &[points], words))
     }
 
     /// The counts.

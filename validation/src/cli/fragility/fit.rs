@@ -6,14 +6,13 @@ use clap::{ArgGroup, Args as ClapArgs};
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
-    Draws, FitOptions, FragilityFit, LevelFit, Shift, capacities, fit_levels,
-    fit_sample,
+    Draws, Exposed, FitOptions, FragilityFit, LevelFit, Shift, capacities,
+    fit_levels, fit_sample,
 };
 use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
-use super::drawn::with_bands;
 use super::source::{self, IdaArgs};
 use crate::cli::capacities::Levels;
 use crate::cli::names;
@@ -23,7 +22,7 @@ use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
 use rocking_common::table::{Table, number, optional};
-use rocking_draw::figures::of_suite::{self, Fragility};
+use rocking_draw::figures::of_suite::fragilities_svg;
 use rocking_exchange::sample::SampleFile;
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
@@ -232,19 +231,14 @@ fn svg(
     options: &FitOptions,
     unit: &str,
 ) -> Result<String, Failure> {
-    let (mut fits, mut sampled) = (Vec::new(), Vec::new());
-    for (name, sample, fitted) in all {
-        sampled.push(options.sampled(&sample)?);
-        let points = sample.points();
-        fits.push(Fragility { points, ..Fragility::new(name, fitted) });
+    let (mut fits, mut points) = (Vec::new(), Vec::new());
+    for (fragility, sample, fitted) in all {
+        let sampled = options.sampled(&sample)?;
+        fits.push(Exposed { fragility, fitted, sampled });
+        points.push(sample.points());
     }
-    let at = of_suite::levels(&fits);
-    let fits = with_bands(fits, &sampled, &at);
-    Ok(of_suite::fragilities_svg(
-        &fits,
-        unit,
-        "marks: capacities of the records",
-    ))
+    let words = (unit, "marks: capacities of the records");
+    Ok(fragilities_svg(&fits, &points, words))
 }
 
 /// The unit of a sample's values in words.

@@ -181,8 +181,10 @@ impl HazardCurve {
     /// ```
     /// use rocking::fragility::risk::HazardCurve;
     /// use rocking::statistics::Lognormal;
-    /// let hazard = HazardCurve::try_new(&[(0.1, 1e-2), (0.4, 1e-3), (1.0, 1e-4)])?;
-    /// let found = hazard.contributions(&Lognormal::try_new(0.15, -1.0, 0.5)?);
+    /// let points = [(0.1, 1e-2), (0.4, 1e-3), (1.0, 1e-4)];
+    /// let hazard = HazardCurve::try_new(&points)?;
+    /// let fragility = Lognormal::try_new(0.15, -1.0, 0.5)?;
+    /// let found = hazard.contributions(&fragility);
     /// assert_eq!((found[1].from_im, found[1].to_im), (0.4, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -122,8 +122,8 @@ impl Floor {
     /// The samples are exact for a ground that is linear between its samples.
     /// Between its own samples the floor is a straight line, as every
     /// accelerogram is. The line misses the motion by some (pi dt/T)^2/2 of
-    /// the largest acceleration of the floor: 5 % where T is 10 dt, 0.2 % where
-    /// it is 50 dt.
+    /// the largest acceleration of the floor: 5 % where T is 10 dt, 0.2 %
+    /// where it is 50 dt. A ground of a smaller dt gives a better floor.
     ///
     /// The motion goes on after the record of the ground, and ends where the
     /// amplitude of the free motion is 1/1000 of the largest acceleration, so
@@ -131,7 +131,8 @@ impl Floor {
     /// 2 %. A jump of the ground at its end is a ramp of one interval.
     ///
     /// Source: Chopra, Dynamics of Structures, chapter 13, modal response
-    /// history, with one mode; Taghavi and Miranda (2005) for buildings known by few numbers.
+    /// history, with one mode; Taghavi and Miranda (2005) for buildings known
+    /// by few numbers.
     ///
     /// # Errors
     /// [`FloorError`] where the mode takes more than 10 million steps, of T/20

@@ -17,6 +17,8 @@ mod limits;
 mod means;
 #[path = "cli/order.rs"]
 mod order;
+#[path = "cli/plots.rs"]
+mod plots;
 #[path = "cli/sweep.rs"]
 mod sweep;
 #[path = "cli/tables.rs"]

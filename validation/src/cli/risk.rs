@@ -9,10 +9,12 @@ use rocking::statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::SourceArgs;
-use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
 use crate::terminal::note;
+use rocking_common::files::Outputs;
+use rocking_draw::figures::of_suite::risk_svg;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.
@@ -30,6 +32,9 @@ use crate::terminal::note;
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw hazard, fragilities and annual frequency by intensity"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
@@ -62,6 +67,8 @@ pub struct Args {
     source: SourceArgs,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -131,6 +138,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and another file -: expected one of them as a file",
         ));
     }
+    let inputs = args.source.inputs().into_iter();
+    let inputs = inputs.chain([args.hazard.clone()]).collect();
+    let plot = args.plot.open(&mut Outputs::of(inputs))?;
     let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match (args.median, args.dispersion) {
@@ -138,8 +148,25 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         _ => args.threads.run(|| of_source(args, options, &hazard))??,
     };
     let years = args.site.years();
-    let found = args.threads.run(|| risk(&hazard, &fragilities, years))?;
-    args.json.show(&found?)
+    let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
+    if plot.draw(|| svg(&hazard, &fragilities))? {
+        return Ok(());
+    }
+    args.json.show(&found)
+}
+
+/// Fragilities that one drawing can hold.
+const MOST_DRAWN: usize = 6;
+
+/// The hazard curve, the fragilities and the risk by intensity.
+fn svg(hazard: &Hazard, all: &[Exposed]) -> Result<String, Failure> {
+    if all.len() > MOST_DRAWN {
+        return Err(Failure::input(format!(
+            "--plot: {} fragilities: expected at most {MOST_DRAWN}",
+            all.len()
+        )));
+    }
+    Ok(risk_svg(hazard, all))
 }
 
 /// The fragility of given parameters.

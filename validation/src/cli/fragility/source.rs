@@ -58,8 +58,7 @@ pub struct SourceArgs {
     /// Measure of --ida [default: pga], --counts, or a sample without one.
     #[arg(long, value_name = "MEASURE")]
     im: Option<IntensityMeasure>,
-    /// Table of blocks: alpha,p or width_m,height_m, and where wanted
-    /// id, eta, sample.
+    /// Table of blocks: alpha,p or width_m,height_m; also id, eta, sample.
     #[arg(
         long,
         value_name = "BLOCKS.csv",

@@ -7,6 +7,8 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
+#[path = "cli/assess.rs"]
+mod assess;
 #[path = "cli/diff.rs"]
 mod diff;
 #[path = "cli/grazing.rs"]

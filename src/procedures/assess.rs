@@ -1,5 +1,6 @@
 //! From objects and records to which object is damaged first, and how often.
 
+mod answers;
 mod ground;
 
 use std::fmt;
@@ -17,6 +18,7 @@ use crate::block::{Block, BlockError, Restitution};
 use crate::capacity::CapacityError;
 use crate::floor::{Floor, FloorError};
 use crate::fragility::hazard::Hazard;
+use crate::fragility::risk::Contribution;
 use crate::ida::{Analysis, IdaError, ResolutionCounts};
 use crate::intensity::{IntensityError, IntensityMeasure};
 use crate::record::Accelerogram;
@@ -228,19 +230,6 @@ impl Answer {
             high: drawn.map(|drawn| drawn.probability_high),
         })
     }
-}
-
-/// An annual frequency by intensity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Contribution {
-    /// Lower intensity.
-    pub from_im: f64,
-    /// Upper intensity.
-    pub to_im: f64,
-    /// Annual frequency of damage in 1/year.
-    pub annual_frequency: f64,
 }
 
 /// What one record does to an object.

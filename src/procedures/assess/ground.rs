@@ -4,15 +4,14 @@ use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
 
 use super::{
-    Alternative, Answer, AssessError, AssessOptions, Assessed, Assumption,
-    Contribution, Damage, NamedFloor, Object, RecordCapacity, Together,
+    Alternative, AssessError, AssessOptions, Assessed, Assumption, Damage,
+    NamedFloor, Object, RecordCapacity, Together,
 };
 use crate::block::Restitution;
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::excitation::NormalisedRecord;
 use crate::floor::Floor;
 use crate::fragility::hazard::Hazard;
-use crate::fragility::risk::HazardCurve;
 use crate::ida::{
     Analysis, Batch, IdaCurve, IdaError, Overturned, REFINEMENT,
     ResolutionCounts, Resurrections, curves,
@@ -20,23 +19,17 @@ use crate::ida::{
 use crate::integrator::uplift_threshold;
 use crate::intensity::{IntensityMeasure, Measures, Settings};
 use crate::procedures::counts::Bounds;
-use crate::procedures::fit::Sampled;
 use crate::procedures::pivot::needs_more;
 use crate::procedures::ranking::Candidate;
 use crate::procedures::{
-    Exposed, FitOptions, FragilityFit, ProcedureError, Ranking, Shift,
-    StripeResponses, capacities, fit_sample, rank, risk, stripes,
+    ProcedureError, Ranking, StripeResponses, capacities, rank,
 };
 use crate::record::Accelerogram;
-use crate::statistics::bootstrap::Estimate;
+use crate::statistics::Clusters;
 use crate::statistics::lognormal::{Stripe, fit_counts_alone};
-use crate::statistics::{CensoredSample, Clusters, Lognormal};
 
 /// Level of the intervals.
 pub(super) const LEVEL: f64 = 0.95;
-
-/// The small probability of damage whose intensity is stated.
-const SMALL: f64 = 0.05;
 
 /// Intensities at which a curve is drawn.
 const POINTS: usize = 40;
@@ -86,11 +79,11 @@ pub(super) struct Ground<'a> {
     moved: Vec<Moved>,
     measures: Vec<Measures>,
     settings: Settings,
-    clusters: &'a Clusters,
+    pub(super) clusters: &'a Clusters,
     pub(super) im: IntensityMeasure,
     /// Units of the hazard curve in one of the measure.
     pub(super) unit: f64,
-    options: AssessOptions<'a>,
+    pub(super) options: AssessOptions<'a>,
 }
 
 /// One object, and what is needed to set it beside the others.
@@ -348,7 +341,9 @@ impl<'a> Ground<'a> {
                 eta: object.restitution.velocity_ratio(),
                 damage,
                 uplift_pga_g: threshold,
-                contributions: self.contributions(&own.fitted),
+                contributions: self.options.hazard.map_or(Vec::new(), |h| {
+                    h.curve.contributions(&own.fitted)
+                }),
                 ida: self.ida(&made[0], threshold).map_err(refused)?,
                 by_record: self.by_record(&intervals),
                 ranking: self
@@ -373,152 +368,12 @@ impl<'a> Ground<'a> {
         scale * per * self.unit
     }
 
-    fn sample(
-        values: &[(f64, f64)],
-    ) -> Result<CensoredSample, ProcedureError> {
-        let highs: Vec<f64> = values.iter().map(|v| v.1).collect();
-        let limits: Vec<Option<f64>> = values
-            .iter()
-            .map(|(low, high)| high.is_infinite().then_some(*low))
-            .collect();
-        Ok(CensoredSample::try_new(&highs, &limits)?)
-    }
-
-    fn options(&self, shift: f64, clusters: &Clusters) -> FitOptions {
-        FitOptions {
-            shift: Shift::Given(shift),
-            draws: Some(self.options.draws),
-            clusters: Some(clusters.clone()),
-            ..FitOptions::default()
-        }
-    }
-
-    fn fit(
-        &self,
-        values: &[(f64, f64)],
-        shift: f64,
-        last: f64,
-    ) -> Result<FragilityFit, ProcedureError> {
-        let sample = Self::sample(values)?;
-        let step = (last - shift) / POINTS as f64;
-        let grid = (0..=POINTS).map(|k| shift + step * k as f64);
-        let hazard = self.options.hazard.into_iter();
-        let hazard = hazard.flat_map(|h| h.curve.points().iter().map(|p| p.0));
-        let mut band: Vec<f64> =
-            grid.chain(hazard).filter(|x| *x > 0.0).collect();
-        band.sort_by(f64::total_cmp);
-        band.dedup();
-        let options = self.options(shift, self.clusters);
-        fit_sample(&sample, &FitOptions { band, ..options })
-    }
-
-    fn fitted(
-        values: &[(f64, f64)],
-        shift: f64,
-    ) -> Result<Lognormal, ProcedureError> {
-        let shift = Shift::Given(shift);
-        let options = FitOptions { shift, ..FitOptions::default() };
-        Ok(fit_sample(&Self::sample(values)?, &options)?.fitted)
-    }
-
-    /// What a fragility says, without an interval.
-    fn point(&self, fitted: Lognormal) -> Answer {
-        self.answer(fitted, None)
-    }
-
-    /// What the fit to intensities of damage says, with the intervals of its
-    /// draws; and what objects are sorted by, of each draw.
-    fn drawn(
-        &self,
-        values: &[(f64, f64)],
-        shift: f64,
-        clusters: &Clusters,
-    ) -> Result<(Answer, Vec<f64>), ProcedureError> {
-        let fitted = Self::fitted(values, shift)?;
-        let options = self.options(shift, clusters);
-        let sampled = options.sampled(&Self::sample(values)?)?;
-        let small = |law: &Option<Lognormal>| {
-            law.as_ref().map_or(f64::NAN, |law| law.quantile(SMALL))
-        };
-        let small =
-            sampled.iter().flat_map(|all| &all.fitted).map(small).collect();
-        let answer = self.answer(fitted, sampled);
-        let risk = answer.risk.as_ref().and_then(|r| r.sampling.as_ref());
-        let keys = match (self.options.hazard, risk) {
-            (None, _) => small,
-            (Some(_), None) => Vec::new(),
-            (Some(_), Some(drawn)) => {
-                drawn.drawn_annual_frequencies.iter().map(|x| -x).collect()
-            }
-        };
-        Ok((answer, keys))
-    }
-
-    fn answer(&self, fitted: Lognormal, sampled: Option<Sampled>) -> Answer {
-        let at = |p: f64| {
-            let point = fitted.quantile(p);
-            let found = sampled.as_ref().and_then(|all| {
-                let of = |law: &Option<Lognormal>| {
-                    law.as_ref().map_or(f64::NAN, |law| law.quantile(p))
-                };
-                let drawn: Vec<f64> = all.fitted.iter().map(of).collect();
-                all.clusters.estimate(point, &drawn, LEVEL)
-            });
-            let ends = |end: fn(&Estimate) -> f64| found.as_ref().map(end);
-            let (low, high) = (ends(|e| e.low), ends(|e| e.high));
-            Bounds { point, low, high }
-        };
-        let (median_im, small_im) = (at(0.5), at(SMALL));
-        let exposed = |hazard: &Hazard| {
-            let fragility = String::new();
-            let one = Exposed { fragility, fitted, sampled: sampled.clone() };
-            let found = risk(hazard, &[one], self.options.years).ok()?;
-            found.fragilities.into_iter().next()
-        };
-        let risk = self.options.hazard.and_then(exposed);
-        Answer { fitted, median_im, small_im, risk }
-    }
-
-    /// What objects are sorted by: the annual frequency, falling, or the
-    /// intensity of 5 % damage.
-    fn key(&self, law: &Lognormal) -> f64 {
-        match self.options.hazard {
-            Some(h) => -h.curve.annual_frequency(law).truncation_lower,
-            None => law.quantile(SMALL),
-        }
-    }
-
-    fn contributions(&self, fitted: &Lognormal) -> Vec<Contribution> {
-        let Some(hazard) = self.options.hazard else { return Vec::new() };
-        let pairs = hazard.curve.points().windows(2);
-        let one = |pair: &[(f64, f64)]| {
-            let curve = HazardCurve::try_new(pair).ok()?;
-            Some(Contribution {
-                from_im: pair[0].0,
-                to_im: pair[1].0,
-                annual_frequency: curve.annual_frequency(fitted).covered,
-            })
-        };
-        pairs.filter_map(one).collect()
-    }
-
     fn ida(
         &self,
         curves: &[IdaCurve],
         threshold: f64,
     ) -> Result<Vec<StripeResponses>, ProcedureError> {
-        let own = response(curves)?;
-        let half = |curve: &IdaCurve| {
-            let last = curve.points.last().map_or(1.0, |point| point.im);
-            curve.overturning.map_or(last, |first| first.im())
-        };
-        let mut ends: Vec<f64> = curves.iter().map(half).collect();
-        ends.sort_by(f64::total_cmp);
-        let last = ends[ends.len() * 17 / 20];
-        let step = (last - 1.0) / POINTS as f64;
-        let levels: Vec<f64> =
-            (0..=POINTS).map(|k| 1.0 + step * k as f64).collect();
-        let mut found = stripes(&own, &levels, None)?;
+        let mut found = StripeResponses::over(&response(curves)?, POINTS)?;
         for stripe in &mut found {
             stripe.intensity *= threshold;
         }

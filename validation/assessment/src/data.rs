@@ -1,9 +1,11 @@
 //! The numbers of an assessment as files.
 
-use rocking::procedures::assess::{
-    Alternative, Answer, Assessed, Assessment, Contribution,
-};
+use rocking::fragility::risk::Contribution;
+use rocking::procedures::assess::{Alternative, Answer, Assessed, Assessment};
 use rocking::procedures::counts::Bounds;
+use rocking_common::table::columns::{
+    ASSESSED_CAPACITIES, ASSESSED_FRAGILITIES, ASSESSED_RESPONSES,
+};
 use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, Format, Id, LimitState};
 use serde::Serialize;
@@ -192,8 +194,7 @@ fn object(one: &Assessed) -> Object<'_> {
 
 /// The fragility curves with their bands, as CSV.
 pub(crate) fn fragilities(found: &Assessment) -> String {
-    let mut table =
-        Table::new(&["object", "im", "unit", "intensity", "p", "low", "high"]);
+    let mut table = Table::of(&ASSESSED_FRAGILITIES);
     for one in &found.objects {
         let band = one.fragility.band.iter().flat_map(|b| &b.points);
         for point in band {
@@ -213,16 +214,16 @@ pub(crate) fn fragilities(found: &Assessment) -> String {
 
 /// The intensities at which each record damages each object, as CSV.
 pub(crate) fn capacities(found: &Assessment) -> String {
-    let mut table =
-        Table::new(&["object", "record", "intensity", "unit", "damages"]);
+    let mut table = Table::of(&ASSESSED_CAPACITIES);
     for one in &found.objects {
         for row in &one.by_record {
             table.row([
                 one.id.clone(),
                 row.record.clone(),
-                number(row.im),
+                found.im.to_string(),
                 found.unit.to_owned(),
-                u8::from(row.damages).to_string(),
+                number(row.im),
+                row.damages.to_string(),
             ]);
         }
     }
@@ -231,8 +232,7 @@ pub(crate) fn capacities(found: &Assessment) -> String {
 
 /// The response at rising intensity of each object, as CSV.
 pub(crate) fn responses(found: &Assessment) -> String {
-    let mut table =
-        Table::new(&["object", "pga_g", "edp16", "edp50", "edp84"]);
+    let mut table = Table::of(&ASSESSED_RESPONSES);
     for one in &found.objects {
         for row in &one.ida {
             table.row([

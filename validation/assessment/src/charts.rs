@@ -30,7 +30,7 @@ pub(crate) fn sketch(objects: &[Assessed]) -> Markup {
     let (width, height) = (x, TALLEST_PX + 52.0);
     let ground = TALLEST_PX + 10.0;
     html! {
-        div.scroll.drawing role="region" aria-label="The objects to scale"
+        div.scroll.drawing.wide role="region" aria-label="The objects to scale"
             tabindex="0"
         {
             svg xmlns="http://www.w3.org/2000/svg" width=(width)

@@ -50,7 +50,9 @@ class Object:
 
     def _given(self) -> _rocking.GivenObject:
         on = self.floor
-        floor = on and (on.name, on.period_s, on.damping, on.height_ratio)
+        floor = None
+        if on is not None:
+            floor = (on.name, on.period_s, on.damping, on.height_ratio)
         return {
             "id": self.id,
             "block": (self.block.alpha, self.block.p),
@@ -214,7 +216,7 @@ def assess(
         [given(record) for record in records],
         _events(records),
         embedded,
-        hazard and hazard._written,
+        None if hazard is None else hazard._written,
         {
             "years": float(years),
             "certify": certify,

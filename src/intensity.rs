@@ -12,12 +12,13 @@
 mod energy;
 mod fourier;
 mod measure;
-mod oscillator;
+pub(crate) mod oscillator;
 mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
 pub use measure::{AtUplift, Intensity, IntensityMeasure};
+pub(crate) use settings::LEAST_PERIOD_S;
 pub use settings::{DEFAULT_PERIODS_S, Settings};
 
 use thiserror::Error;

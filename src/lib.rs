@@ -34,6 +34,7 @@
 //! | a fragility without a shift | one with it (Eqs. 5 to 7) | [`fragility::transform`] |
 //! | a sample | is it lognormal? | [`lilliefors::Assessment`](statistics::lilliefors::Assessment) |
 //! | a record | its intensity measures | [`intensity`] |
+//! | a record and a mode of a building | the motion of a floor | [`Floor::motion`](floor::Floor::motion) |
 //! | long work | an end to it before it is done | [`stop`] |
 //!
 //! # The chain
@@ -76,6 +77,7 @@
 pub mod block;
 pub mod capacity;
 pub mod excitation;
+pub mod floor;
 pub mod fragility;
 pub mod ida;
 pub mod integrator;

@@ -7,6 +7,7 @@
 //! and is written by `serde` where the feature `serde` is on: a number that
 //! is not finite then becomes `null` in JSON.
 
+pub mod assess;
 pub mod capacities;
 pub mod choice;
 pub mod comparison;
@@ -20,6 +21,7 @@ pub mod risk;
 pub mod stripes;
 pub mod summary;
 
+pub use assess::{AssessOptions, Assessment, Object, assess};
 pub use choice::{Choice, choose};
 pub use comparison::{Comparison, compare};
 pub use counts::{

@@ -7,6 +7,8 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
+#[path = "cli/assess.rs"]
+mod assess;
 #[path = "cli/diff.rs"]
 mod diff;
 #[path = "cli/grazing.rs"]
@@ -17,6 +19,8 @@ mod limits;
 mod means;
 #[path = "cli/order.rs"]
 mod order;
+#[path = "cli/plots.rs"]
+mod plots;
 #[path = "cli/sweep.rs"]
 mod sweep;
 #[path = "cli/tables.rs"]

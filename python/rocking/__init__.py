@@ -28,6 +28,7 @@ a result                  its `to_json`, `to_pandas`, `plot`
 a block, and no analysis  `surface_fragility`
 fragilities of blocks     `export`
 a hazard curve            `read_hazard`, then `risk`
+objects to decide about   `Object`, `Floor`, then `assess`: one page
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -41,6 +42,7 @@ command line `rocking`, for any number of threads.
 """
 
 from ._analyses import Response, peak, respond, spectrum
+from ._assess import AssessedObject, Assessment, Floor, Object, assess
 from ._fragility import (
     BlockFragility,
     Hazard,
@@ -96,12 +98,15 @@ from ._statistics import (
 )
 
 __all__ = [
+    "AssessedObject",
+    "Assessment",
     "Block",
     "BlockFragility",
     "Boxplot",
     "Choice",
     "Comparison",
     "CountsFragility",
+    "Floor",
     "Fragility",
     "FragilityFit",
     "Hazard",
@@ -113,6 +118,7 @@ __all__ = [
     "LevelFit",
     "Measures",
     "Normality",
+    "Object",
     "PivotForces",
     "Pulse",
     "Ranking",
@@ -129,6 +135,7 @@ __all__ = [
     "SurfaceFragility",
     "VelocityPulse",
     "__version__",
+    "assess",
     "choose",
     "compare",
     "embedded_suite",

@@ -50,6 +50,21 @@ class Wanted(TypedDict):
     model: str
     origin: str | None
 
+class GivenObject(TypedDict):
+    id: str
+    block: _Block
+    eta: float
+    friction: float | None
+    limit_ratio: float | None
+    floor: tuple[str, float, float, float] | None
+
+class AssessOptions(TypedDict):
+    years: float
+    certify: bool
+    replicates: int
+    seed: int
+    gravity: float
+
 class IdaTable:
     def csv(self) -> str: ...
     def columns(self) -> dict[str, Any]: ...
@@ -192,6 +207,15 @@ def risk(
     replicates: int,
     seed: int,
 ) -> str: ...
+def assess(
+    objects: Sequence[GivenObject],
+    records: Sequence[Given],
+    events: Sequence[str],
+    embedded: bool,
+    hazard: Written | None,
+    options: AssessOptions,
+    threads: int | None,
+) -> dict[str, str]: ...
 def surface(block: _Block) -> str: ...
 def score(csv: str, place: str) -> str: ...
 def score_scenes() -> str: ...

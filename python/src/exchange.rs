@@ -109,9 +109,9 @@ pub fn exchange(
 
 /// A hazard curve as it is written: the place, its text, the years of its
 /// probabilities, and the longitude and latitude of the site.
-type Written = (String, String, Option<f64>, Option<(f64, f64)>);
+pub type Written = (String, String, Option<f64>, Option<(f64, f64)>);
 
-fn read((place, text, years, site_deg): &Written) -> PyResult<Hazard> {
+pub fn read((place, text, years, site_deg): &Written) -> PyResult<Hazard> {
     let options = HazardOptions { years: *years, site_deg: *site_deg };
     Hazard::parse(place, text, &options).map_err(refuse)
 }

@@ -3,6 +3,7 @@
 //! Functions on numbers and numpy arrays; `python/rocking` makes the objects
 //! that people see of them. Errors carry the core's text.
 
+mod assess;
 mod exchange;
 mod files;
 mod given;
@@ -20,6 +21,8 @@ mod work;
 mod _rocking {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::assess::assess;
     #[pymodule_export]
     use crate::exchange::{exchange, hazard, risk, surface};
     #[pymodule_export]

@@ -58,6 +58,33 @@ def pair(procedure: str) -> Callable[[Prepare], Prepare]:
     return keep
 
 
+@pair("assess")
+def objects_on_ground_and_floor(house: House) -> Pair:
+    lines = ["id,width_m,height_m,eta,friction,limit_ratio,floor"]
+    lines += ["stele,0.5,2.0,,0.5,,", "vase,0.2,0.7,0.9,,0.4,roof"]
+    objects = house.file("objects.csv", lines)
+    lines = ["name,period_s,damping,height_ratio", "roof,0.5,0.05,1.3"]
+    floors = house.file("floors.csv", lines)
+    lines = ["pga_g,annual_frequency", "0.05,0.1", "0.3,0.01", "2,1e-5"]
+    hazard = house.file("site.csv", lines)
+    words: list[object] = ["assess", "--objects", objects, "--floors", floors]
+    words += ["--suite", house.index, "--hazard", hazard, "--bootstrap", 20]
+    words += ["--out", house.folder / "page"]
+    roof = rk.Floor("roof", 0.5, 0.05, 1.3)
+    sizes = [rk.Block.from_dimensions(width_m=0.5, height_m=2.0)]
+    sizes += [rk.Block.from_dimensions(width_m=0.2, height_m=0.7)]
+    stele = rk.Object("stele", sizes[0], friction=0.5)
+    vase = rk.Object("vase", sizes[1], 0.9, limit_ratio=0.4, floor=roof)
+    found = rk.assess(
+        [stele, vase],
+        house.suite,
+        hazard=rk.read_hazard(hazard),
+        n_resamples=20,
+    )
+    assert "Rocking of 2 objects" in found.to_html()
+    return Pair(found, words, extra=("provenance",))
+
+
 @pair("fit_sample")
 def fit_with_intervals(house: House) -> Pair:
     words = ["fragility", "fit", "--sample", house.sample, "--shift", 1]

@@ -71,6 +71,19 @@ pub struct AnnualFrequency {
     pub first_probability: f64,
 }
 
+/// Annual frequency of damage by motions between two intensities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Contribution {
+    /// Lower intensity.
+    pub from_im: f64,
+    /// Upper intensity.
+    pub to_im: f64,
+    /// Annual frequency of damage in 1/year.
+    pub annual_frequency: f64,
+}
+
 impl HazardCurve {
     /// A curve through points (intensity, annual frequency).
     ///
@@ -159,6 +172,34 @@ impl HazardCurve {
             covered: low - fragility.cdf(last.0) * last.1,
             first_probability,
         }
+    }
+
+    /// The annual frequency by intensity (deaggregated): the integral of F(x)
+    /// |dH(x)| from each point of the curve to the next one. Their sum is
+    /// [`AnnualFrequency::covered`].
+    ///
+    /// ```
+    /// use rocking::fragility::risk::HazardCurve;
+    /// use rocking::statistics::Lognormal;
+    /// let points = [(0.1, 1e-2), (0.4, 1e-3), (1.0, 1e-4)];
+    /// let hazard = HazardCurve::try_new(&points)?;
+    /// let fragility = Lognormal::try_new(0.15, -1.0, 0.5)?;
+    /// let found = hazard.contributions(&fragility);
+    /// assert_eq!((found[1].from_im, found[1].to_im), (0.4, 1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn contributions(&self, fragility: &Lognormal) -> Vec<Contribution> {
+        let one = |pair: &[(f64, f64)]| {
+            let within = |(im, frequency)| fragility.cdf(im) * frequency;
+            let ends = within(pair[0]) - within(pair[1]);
+            Contribution {
+                from_im: pair[0].0,
+                to_im: pair[1].0,
+                annual_frequency: ends + Segment::of(pair).integral(fragility),
+            }
+        };
+        self.points.windows(2).map(one).collect()
     }
 }
 

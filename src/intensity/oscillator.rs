@@ -19,10 +19,10 @@ const TERMS: usize = 18;
 const LOOK: usize = 1 << 16;
 
 /// Position and velocity, in g.
-pub(super) type State = [f64; 2];
+pub(crate) type State = [f64; 2];
 
 /// An oscillator and its step.
-pub(super) struct Oscillator {
+pub(crate) struct Oscillator {
     damping: f64,
     /// Steps in one interval of the record.
     steps: usize,
@@ -34,7 +34,7 @@ pub(super) struct Oscillator {
 }
 
 impl Oscillator {
-    pub(super) fn new(period_s: f64, damping: f64, dt_s: f64) -> Self {
+    pub(crate) fn new(period_s: f64, damping: f64, dt_s: f64) -> Self {
         let interval = 2.0 * PI * dt_s / period_s;
         let steps = (10.0 * interval / PI).ceil().max(1.0);
         let step = interval / steps;
@@ -51,11 +51,11 @@ impl Oscillator {
         Self { damping, steps: steps as usize, step, transition }
     }
 
-    /// States at the end of every step, from rest.
-    pub(super) fn states(&self, samples: &[f64]) -> Vec<State> {
+    /// States at the end of every step, from the state at the first sample.
+    pub(super) fn states(&self, from: State, samples: &[f64]) -> Vec<State> {
         let count = self.steps * (samples.len() - 1) + 1;
         let mut states = Vec::with_capacity(count);
-        let mut state = [0.0; 2];
+        let mut state = from;
         states.push(state);
         for i in 1..count {
             if i % LOOK == 0 {
@@ -71,6 +71,33 @@ impl Oscillator {
         states
     }
 
+    /// Absolute acceleration of the mass, -(2 zeta u' + u), at each sample, in
+    /// g, and the last state.
+    pub(crate) fn absolute(
+        &self,
+        from: State,
+        samples: &[f64],
+    ) -> (Vec<f64>, State) {
+        let states = self.states(from, samples);
+        let all = states.iter().step_by(self.steps);
+        let all = all.map(|state| self.felt(*state)).collect();
+        (all, states.last().copied().unwrap_or(from))
+    }
+
+    fn felt(&self, [u, v]: State) -> f64 {
+        -(2.0 * self.damping).mul_add(v, u)
+    }
+
+    /// Amplitude of the absolute acceleration in the free motion from a
+    /// state, which falls by exp(-zeta tau).
+    pub(crate) fn free_amplitude(&self, state: State) -> f64 {
+        let zeta = self.damping;
+        // With s = u'': s' = -(2 zeta s + u').
+        let s = self.felt(state);
+        let w = zeta.mul_add(s, state[1]) / (1.0 - zeta * zeta).sqrt();
+        libm::hypot(s, w)
+    }
+
     /// Acceleration at the start of a step.
     fn at(&self, samples: &[f64], step: usize) -> f64 {
         let (i, part) = (step / self.steps, step % self.steps);
@@ -83,7 +110,7 @@ impl Oscillator {
 
     /// Pseudo-spectral acceleration, in g.
     pub(super) fn peak(&self, samples: &[f64]) -> f64 {
-        self.peak_of(&self.states(samples), samples)
+        self.peak_of(&self.states([0.0; 2], samples), samples)
     }
 
     /// Largest |u| at the ends of steps, at turning points between them, and

@@ -49,7 +49,9 @@ pub(super) fn rotd50(
     });
     let mut spectrum = Vec::new();
     for oscillator in settings.oscillators(dt_s) {
-        let (x, y) = (oscillator.states(&a), oscillator.states(&b));
+        let rest = [0.0; 2];
+        let (x, y) =
+            (oscillator.states(rest, &a), oscillator.states(rest, &b));
         let peaks = turned.iter().map(|(cos, sin)| {
             let states: Vec<State> = x
                 .iter()

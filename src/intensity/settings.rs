@@ -26,7 +26,7 @@ impl Default for Settings {
 }
 
 /// The shortest period of an oscillator, in s.
-const LEAST_PERIOD_S: f64 = 1e-3;
+pub(crate) const LEAST_PERIOD_S: f64 = 1e-3;
 
 impl Settings {
     /// Settings of one's own; there may be no period at all.

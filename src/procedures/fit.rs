@@ -488,8 +488,10 @@ pub fn fit_sample(
     });
     let band = options.draws.filter(|_| !options.band.is_empty());
     let band = band.map(|draws| {
-        let own = (draws, &clusters);
-        Band::of(sample, options, own, &fitted, &replicates)
+        let laws = replicates.iter().map(|(_, fitted)| *fitted).collect();
+        let clusters = clusters.clone();
+        let sampled = Sampled { draws, clusters, fitted: laws };
+        Band::of(sample, options, &fitted, &sampled)
     });
     // The empirical distribution is that of values with one limit.
     let ks_distance =

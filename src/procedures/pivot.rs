@@ -109,6 +109,29 @@ pub fn pivot_forces(
     })
 }
 
+/// Whether a record asks for more friction than `friction` at one of the
+/// levels of its curve below the intensity `below_im`. The strongest motion
+/// is looked at first, and the first that asks for more decides.
+///
+/// # Errors
+/// As [`forces_at`].
+pub(super) fn needs_more(
+    record: &NormalisedRecord,
+    curve: &IdaCurve,
+    analysis: &Analysis,
+    friction: f64,
+    below_im: f64,
+) -> Result<bool, IdaError> {
+    let levels = curve.points.iter().rev().map(|point| point.im);
+    for im in levels.filter(|im| *im < below_im) {
+        let found = forces_at(record, analysis, im)?;
+        if !(found.friction <= friction) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

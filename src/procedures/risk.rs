@@ -89,6 +89,10 @@ pub struct SamplingInterval {
     pub probability_low: f64,
     /// Upper end.
     pub probability_high: f64,
+    /// Annual frequency of each draw in 1/year, of the lower bound of
+    /// truncation; not a number where a draw makes no fit.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub drawn_annual_frequencies: Vec<f64>,
 }
 
 /// Annual frequency and probability of damage of one fragility.
@@ -232,5 +236,6 @@ fn interval(
         annual_frequency_high: high,
         probability_low: within(low),
         probability_high: within(high),
+        drawn_annual_frequencies: lows,
     })
 }

@@ -36,6 +36,43 @@ impl StripeResponses {
         let n = u32::try_from(self.n).ok()?;
         Some(Stripe { im: self.intensity, exceeded, n })
     }
+
+    /// The responses of IDA curves at `steps` + 1 intensities: from the lowest
+    /// onset of rocking to the intensity at which 85 % of the curves have
+    /// overturned or end.
+    ///
+    /// ```
+    /// use rocking::capacity::ResponseCurve;
+    /// use rocking::procedures::StripeResponses;
+    /// let curve = |end| {
+    ///     ResponseCurve::try_new(&[(1.0, 0.0), (2.0, 0.4)], Some(end))
+    /// };
+    /// let curves = [curve(3.0)?, curve(4.0)?, curve(5.0)?];
+    /// let found = StripeResponses::over(&curves, 4)?;
+    /// assert_eq!((found[0].intensity, found[4].intensity), (1.0, 5.0));
+    /// assert_eq!((found[1].edp50, found[3].overturned), (0.4, 2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ProcedureError::Sample`] for no curve.
+    pub fn over(
+        curves: &[ResponseCurve],
+        steps: usize,
+    ) -> Result<Vec<Self>, ProcedureError> {
+        let end = |curve: &ResponseCurve| {
+            curve.overturning_im().unwrap_or(curve.last_im())
+        };
+        let sorted = |of: fn(&ResponseCurve) -> f64| {
+            let all: Vec<f64> = curves.iter().map(of).collect();
+            ExtendedSample::try_new(&all).map(|all| all.sorted().to_vec())
+        };
+        let (onsets, ends) = (sorted(ResponseCurve::onset_im)?, sorted(end)?);
+        let (first, last) = (onsets[0], ends[ends.len() * 17 / 20]);
+        let step = (last - first) / steps as f64;
+        let levels = (0..=steps).map(|k| first + step * k as f64);
+        stripes(curves, &levels.collect::<Vec<_>>(), None)
+    }
 }
 
 /// Reads all curves at given intensities, each linear between its analyses

@@ -102,6 +102,29 @@ impl CensoredSample {
         (!open || value.is_infinite()).then_some(value)
     }
 
+    /// The points of the sample's distribution: the k-th value of n at the
+    /// probability (k - 1/2)/n, as [`QuantileType`] 5 has it. Values that
+    /// censoring leaves open are left out.
+    ///
+    /// ```
+    /// use rocking::statistics::CensoredSample;
+    /// let values = [2.0, 1.0, f64::INFINITY, 1.2];
+    /// let limits = [None, None, Some(1.5), None];
+    /// let sample = CensoredSample::try_new(&values, &limits)?;
+    /// assert_eq!(sample.points(), [(1.0, 0.125), (1.2, 0.375)]);
+    /// # Ok::<(), rocking::statistics::SampleError>(())
+    /// ```
+    #[must_use]
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        let n = self.len();
+        let known = |(k, x): (usize, &f64)| {
+            let open = self.limits.iter().flatten().any(|limit| limit < x);
+            (!open).then(|| (*x, (k as f64 + 0.5) / n as f64))
+        };
+        let all = self.extended();
+        all.finite().iter().enumerate().filter_map(known).collect()
+    }
+
     /// The lognormal fit above the shift: by [`fit_intervals`] where a value
     /// has a limit of its own and the method takes one, otherwise by [`fit`].
     ///

@@ -9,14 +9,15 @@ const CORE: Edges = "
     block
     capacity names statistics
     excitation names number record
+    floor intensity record
     fragility intensity statistics
     ida block capacity excitation integrator names number record
     integrator block excitation names number record stop
     intensity names record stop units
     names
     number
-    procedures block capacity excitation fragility ida integrator intensity \
-        statistics stop
+    procedures block capacity excitation floor fragility ida integrator intensity \
+        record statistics stop
     record stop units
     statistics names number stop streams
     stop
@@ -78,6 +79,7 @@ const DRAW: Edges = "
     grid geometry
     legend colour markup panel scene text
     markup
+    page colour figures
     panel axis colour geometry markup scene text
     scene colour geometry svg text
     svg colour geometry markup text

@@ -1,6 +1,7 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
 mod accept;
+pub mod assess;
 mod validate;
 
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ pub mod compare;
 pub mod completions;
 pub mod diff;
 pub mod excitation;
+pub mod floors;
 pub mod fragility;
 pub mod ida;
 pub mod lilliefors;
@@ -58,6 +60,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Decide",
         &[
+            "assess",
             "stripes",
             "fragility",
             "risk",
@@ -90,6 +93,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Accept(accept::Args),
+    Assess(Box<assess::Args>),
     Respond(Box<respond::Args>),
     Ida(Box<ida::Args>),
     Records(records::Args),
@@ -188,6 +192,7 @@ pub fn run() -> ExitCode {
         Command::Accept(args) => {
             with_threads(None, || accept::run(&args)).flatten()
         }
+        Command::Assess(args) => assess::run(&args),
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),

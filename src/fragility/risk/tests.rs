@@ -43,3 +43,16 @@ fn curves_that_are_none_are_refused_with_the_point() {
         assert!(matches!(error, HazardError::Frequency { number: 2, .. }));
     }
 }
+
+#[test]
+fn contributions_add_up_to_what_the_points_cover() {
+    let points = [(0.05, 0.1), (0.2, 0.01), (0.6, 8e-4), (2.0, 1e-5)];
+    let hazard = HazardCurve::try_new(&points).expect("a curve");
+    let fragility = Lognormal::try_new(0.15, -0.9, 0.7).expect("a law");
+    let found = hazard.contributions(&fragility);
+    assert!(found.iter().all(|part| part.annual_frequency > 0.0));
+    let parts = found.iter().map(|part| part.annual_frequency);
+    let sum = parts.fold(0.0, |sum, part| sum + part);
+    let covered = hazard.annual_frequency(&fragility).covered;
+    assert!((sum / covered - 1.0).abs() < 1e-12, "{sum} {covered}");
+}

@@ -21,6 +21,7 @@ use crate::integrator::dynamics::{Dynamics, Model, uplift_threshold};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
+use crate::number::dispatch::Kernel;
 
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
@@ -70,6 +71,7 @@ impl Forces {
         }
     }
 
+    #[inline(always)]
     fn see(&mut self, (horizontal, normal): (f64, f64), time_s: f64) {
         let friction = ratio(horizontal, normal);
         if friction > self.friction {
@@ -84,11 +86,13 @@ impl Forces {
 }
 
 /// |H|/N; infinite where the ground would have to pull.
+#[inline(always)]
 fn ratio(horizontal: f64, normal: f64) -> f64 {
     if normal > 0.0 { horizontal.abs() / normal } else { f64::INFINITY }
 }
 
 /// s H/(m g) and N/(m g) at rotation u and velocity w under f.
+#[inline(always)]
 fn at_pivot<N: Real>(
     dynamics: &Dynamics<N>,
     (u, w): (f64, f64),
@@ -118,22 +122,52 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         (x, length): (N, N),
         place: Place<N>,
     ) {
-        let Some(mut seen) = self.record.forces else { return };
+        let Some(seen) = self.record.forces else { return };
         let start_s = self.time_s(place).to_f64();
-        let span = (x * length).to_f64();
+        let (isa, dynamics) = (self.isa, &self.dynamics);
+        let step = Watched { dynamics, series, f, x, length, start_s, seen };
+        self.record.forces = Some(isa.run(step));
+    }
+}
+
+/// Forces of a step, compiled for each instruction-set level.
+struct Watched<'d, N, const LEN: usize, const F: usize> {
+    dynamics: &'d Dynamics<N>,
+    series: &'d Series<N, LEN>,
+    f: &'d [N; F],
+    x: N,
+    length: N,
+    start_s: f64,
+    seen: Forces,
+}
+
+impl<N: Real, const LEN: usize, const F: usize> Watched<'_, N, LEN, F> {
+    #[inline(always)]
+    fn at(&self, part: f64) -> (f64, f64) {
+        let x = N::from_f64(part) * self.x;
+        let Series { c, v } = self.series;
+        let (u, w) = (value(c, x), value(v, x));
+        let f = value(self.f, x * self.length).to_f64();
+        at_pivot(self.dynamics, (u.to_f64(), w.to_f64()), f)
+    }
+}
+
+impl<N: Real, const LEN: usize, const F: usize> Kernel
+    for Watched<'_, N, LEN, F>
+{
+    type Output = Forces;
+
+    #[inline(always)]
+    fn run(self) -> Forces {
+        let mut seen = self.seen;
+        let span = (self.x * self.length).to_f64();
         let per_s = self.dynamics.p.to_f64();
-        let time_s = |part: f64| start_s + part * span / per_s;
-        let at = |part: f64| {
-            let x = N::from_f64(part) * x;
-            let (u, w) = (value(&series.c, x), value(&series.v, x));
-            let f = value(f, x * length).to_f64();
-            at_pivot(&self.dynamics, (u.to_f64(), w.to_f64()), f)
-        };
-        let parts: [f64; PARTS + 1] =
-            std::array::from_fn(|k| k as f64 / PARTS as f64);
-        let found = parts.map(at);
-        for (part, forces) in parts.iter().zip(found) {
-            seen.see(forces, time_s(*part));
+        let time_s = |part: f64| self.start_s + part * span / per_s;
+        let mut found = [(0.0, 0.0); PARTS + 1];
+        for (k, forces) in found.iter_mut().enumerate() {
+            let part = k as f64 / PARTS as f64;
+            *forces = self.at(part);
+            seen.see(*forces, time_s(part));
         }
         for friction in [true, false] {
             let of = |forces: (f64, f64)| match friction {
@@ -141,24 +175,26 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 false => -forces.1,
             };
             for k in 1..PARTS {
-                let three = [k - 1, k, k + 1].map(|k| of(found[k]));
                 let best = match friction {
                     true => seen.friction,
                     false => -seen.least_normal_over_weight,
                 };
+                let three = [of(found[k - 1]), of(found[k]), of(found[k + 1])];
                 if crest(three) > best {
-                    let ends = (parts[k - 1], parts[k + 1]);
-                    let top = highest(ends, |part| of(at(part)));
-                    seen.see(at(top), time_s(top));
+                    let end = |k: usize| k as f64 / PARTS as f64;
+                    let ends = (end(k - 1), end(k + 1));
+                    let top = highest(ends, |part| of(self.at(part)));
+                    seen.see(self.at(top), time_s(top));
                 }
             }
         }
-        self.record.forces = Some(seen);
+        seen
     }
 }
 
 /// Height of the parabola through three values, and a little more, where the
 /// middle one is the highest; minus infinity otherwise.
+#[inline(always)]
 fn crest([before, here, after]: [f64; 3]) -> f64 {
     if !(here >= before && here >= after && here.is_finite()) {
         return f64::NEG_INFINITY;
@@ -169,6 +205,7 @@ fn crest([before, here, after]: [f64; 3]) -> f64 {
 }
 
 /// Where a function of one hump is highest between two ends.
+#[inline(always)]
 fn highest((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..NARROWINGS {
         let third = (high - low) / 3.0;

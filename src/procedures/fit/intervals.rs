@@ -1,7 +1,7 @@
 //! What few records leave open: intervals of a fit, and bands over
 //! intensity.
 
-use super::{Draws, FitOptions, Fitted};
+use super::{Draws, FitOptions, Fitted, Sampled};
 use crate::fragility::FragilityError;
 use crate::statistics::bootstrap::{Bootstrap, Estimate};
 use crate::statistics::lognormal::FitMethod;
@@ -176,37 +176,50 @@ impl Band {
     pub(super) fn of(
         sample: &CensoredSample,
         options: &FitOptions,
-        (draws, clusters): (Draws, &Clusters),
         fitted: &Lognormal,
-        replicates: &[Replicate],
+        sampled: &Sampled,
     ) -> Self {
         let complete = sample.censored() == 0;
         let known = matches!(
             options.method,
             FitMethod::MaximumLikelihood | FitMethod::Moment
         );
+        let mut band = sampled.band(fitted, &options.band);
+        if complete && known && sampled.clusters.is_singletons() {
+            for point in &mut band.points {
+                let n = sample.len();
+                let (low, high) =
+                    fitted.interval_of_cdf(n, point.intensity, LEVEL);
+                (point.delta_low, point.delta_high) = (Some(low), Some(high));
+            }
+        }
+        band
+    }
+}
+
+impl Sampled {
+    /// Probabilities of a fit at these intensities, with the 95 % band of
+    /// these draws; the ends by the delta method are none.
+    #[must_use]
+    pub fn band(&self, fitted: &Lognormal, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
-            let at = |(_, fit): &Replicate| {
+            let at = |fit: &Option<Lognormal>| {
                 fit.map_or(f64::NAN, |fit| fit.cdf(intensity))
             };
-            let column: Vec<f64> = replicates.iter().map(at).collect();
+            let column: Vec<f64> = self.fitted.iter().map(at).collect();
             let probability = fitted.cdf(intensity);
-            let found = clusters.estimate(probability, &column, LEVEL);
-            let records = clusters.is_singletons();
-            let delta = (complete && known && records).then(|| {
-                fitted.interval_of_cdf(sample.len(), intensity, LEVEL)
-            });
+            let found = self.clusters.estimate(probability, &column, LEVEL);
             BandPoint {
                 intensity,
                 probability,
                 low: found.as_ref().map(|e| e.low),
                 high: found.as_ref().map(|e| e.high),
-                delta_low: delta.map(|d| d.0),
-                delta_high: delta.map(|d| d.1),
+                delta_low: None,
+                delta_high: None,
             }
         };
-        let points = options.band.iter().map(point).collect();
-        let drawn = clusters.clone();
-        Self { draws, drawn, level: LEVEL, points }
+        let points = intensities.iter().map(point).collect();
+        let drawn = self.clusters.clone();
+        Band { draws: self.draws, drawn, level: LEVEL, points }
     }
 }

@@ -17,6 +17,7 @@ mod figure;
 mod heading;
 mod histories;
 pub mod of_result;
+pub mod of_suite;
 mod series;
 mod sketch;
 

@@ -13,6 +13,7 @@ mod geometry;
 pub mod grid;
 pub mod legend;
 pub mod markup;
+pub mod page;
 pub mod panel;
 mod scene;
 mod svg;

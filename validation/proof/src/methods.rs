@@ -13,6 +13,7 @@ mod edges;
 mod ends;
 mod estimate;
 mod fates;
+mod floor;
 mod forces;
 mod hard;
 mod intensity;
@@ -121,6 +122,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("bias", statistics::bias),
     ("certified-values", scored::certified),
     ("diagnosis", scored::diagnosis),
+    ("floor", floor::motion),
     ("intensity", intensity::measures),
     ("velocity-pulse", velocity_pulse::pulses),
 ];

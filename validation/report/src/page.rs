@@ -4,24 +4,17 @@
 //! [`page`] is a pure function: findings, cases and figures arrive as they
 //! are, the rest as words and numbers already formatted.
 
-mod figures;
 mod input;
 mod sections;
-mod table;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use rocking_draw::colour;
+use rocking_draw::page::{POLICY, STYLE};
 
 use input::Part;
 
 pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
-
-pub(crate) const STYLE: &str = include_str!("page/page.css");
-
-/// Nothing is loaded and nothing runs; styles stand in the page.
-pub(crate) const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
-    base-uri 'none'; form-action 'none'";
 
 /// The page.
 ///

@@ -3,9 +3,9 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking_draw::colour;
 use rocking_draw::figures::of_result::score_svg;
+use rocking_draw::page::{POLICY, STYLE};
 use rocking_score::{Explanation, Score, Value, Verdict, codes, reference};
 
-use crate::page::{POLICY, STYLE};
 
 /// The page of a score: one file, without scripts and network.
 #[must_use]

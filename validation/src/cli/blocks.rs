@@ -12,7 +12,8 @@ use crate::input;
 
 /// The columns that a table of blocks has.
 const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
-                        height_m, and where wanted id, eta and sample";
+                        height_m, and where wanted id, eta, sample, \
+                        friction, limit_ratio and floor";
 
 /// The cells of a row; an empty one is none.
 #[derive(Deserialize)]
@@ -25,6 +26,9 @@ struct Cells {
     height_m: Option<f64>,
     eta: Option<f64>,
     sample: Option<String>,
+    friction: Option<f64>,
+    limit_ratio: Option<f64>,
+    floor: Option<Id>,
 }
 
 /// A row of the table.
@@ -40,11 +44,28 @@ pub struct Row {
     pub eta: Option<f64>,
     /// Its own sample files beside the table, one a limit state.
     pub samples: Vec<PathBuf>,
+    /// Coefficient of friction of the floor.
+    pub friction: Option<f64>,
+    /// Rotation over slenderness that must not be exceeded.
+    pub limit_ratio: Option<f64>,
+    /// The floor of a building on which it stands; none: the ground.
+    pub floor: Option<Id>,
+}
+
+impl Row {
+    /// A block that no table holds.
+    #[must_use]
+    pub fn of(id: Id, block: Block) -> Self {
+        let place = id.to_string();
+        let samples = Vec::new();
+        let (eta, friction, limit_ratio, floor) = (None, None, None, None);
+        Self { place, id, block, eta, samples, friction, limit_ratio, floor }
+    }
 }
 
 /// Reads a table with the columns `alpha,p` (rad, rad/s) or
-/// `width_m,height_m`, and where wanted `id`, `eta`, and `sample` with files
-/// separated by `;`.
+/// `width_m,height_m`, and where wanted `id`, `eta`, `sample` with files
+/// separated by `;`, `friction`, `limit_ratio` and `floor`.
 ///
 /// # Errors
 /// [`Failure`] with the line for another column, a cell of another form, a
@@ -87,10 +108,41 @@ pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
         let samples = cells.sample.map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
         });
-        rows.push(Row { place, id, block, eta: cells.eta, samples });
+        let Cells { eta, friction, limit_ratio, floor, .. } = cells;
+        let mu = friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
+        if let Some(mu) = mu {
+            return Err(at(format!(
+                "friction {mu}: expected a positive number"
+            )));
+        }
+        rows.push(Row {
+            place,
+            id,
+            block,
+            eta,
+            samples,
+            friction,
+            limit_ratio,
+            floor,
+        });
     }
     if rows.is_empty() {
         return Err(Failure::input(format!("{place}: no block")));
+    }
+    Ok(rows)
+}
+
+/// Reads a table of blocks that all stand on the ground.
+///
+/// # Errors
+/// [`Failure`] for a table that [`read`] refuses, and a row with a floor.
+pub fn on_ground(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
+    let rows = read(path, gravity_m_s2)?;
+    if let Some(row) = rows.iter().find(|row| row.floor.is_some()) {
+        return Err(Failure::input(format!(
+            "{}: a floor: expected none, motions here are those of the ground",
+            row.place
+        )));
     }
     Ok(rows)
 }

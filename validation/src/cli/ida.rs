@@ -9,10 +9,14 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, REFINEMENT, Resurrections,
+    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, Overturned, REFINEMENT,
+    Resurrections,
 };
-use rocking::integrator::{Model, Order, WorkLimit};
-use rocking::procedures::{IdaSummary, PivotForces, summarise_ida};
+use rocking::integrator::{Model, Order, WorkLimit, uplift_threshold};
+use rocking::intensity::Intensity;
+use rocking::procedures::{
+    IdaSummary, PivotForces, StripeResponses, summarise_ida,
+};
 use rocking::record::{Remarked, SetAside, Suite, SuiteMember};
 use serde::Serialize;
 
@@ -22,7 +26,7 @@ use super::names;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::scene::{BlockArgs, ModelArgs};
-use super::shared::{JsonArg, ThreadsArg, positive};
+use super::shared::{JsonArg, PlotArg, ThreadsArg, positive};
 use super::show::shown;
 use super::way::WayArgs;
 use crate::failure::Failure;
@@ -31,11 +35,19 @@ use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::suites::{clusters, earthquakes};
-use rocking_common::words::printable;
+use rocking_common::words::{printable, rounded};
+use rocking_draw::figures::common;
+use rocking_draw::figures::of_suite::ida_svg;
 use rocking_exchange::ida::IdaTable;
+
+/// Steps of the quantiles that are drawn.
+const STEPS: usize = 100;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the curves with their 16, 50 and 84 % quantiles"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking ida --alpha 0.1 --p 3 --suite records/ --out ida.csv\n  \
     rocking ida --width-m 0.5 --height-m 1.8 --eta housner \
@@ -94,10 +106,11 @@ pub struct Args {
     way: WayArgs,
     #[command(flatten)]
     limit: LimitArgs,
-    /// Where the table goes; `-` is standard output, and the summary then
-    /// goes to standard error.
+    /// Table; `-` is standard output, with the summary on standard error.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     json: JsonArg,
 }
@@ -129,6 +142,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(files(&args.suite, &suite));
     let out = outputs.open(&args.out)?;
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let chosen = args.chosen(&suite)?;
     let remarked: Vec<Remarked<'_>> =
         chosen.iter().map(|member| Remarked::from(*member)).collect();
@@ -169,6 +183,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let (Some(out), Some(pivot)) = (forces_out, &pivot) {
         out.write(forces::csv(pivot, &table))?;
     }
+    let is_standard = plot.draw(|| svg(&table, &analysis))? || is_standard;
     let as_json = args.json.json && !is_standard;
     let mut summary = summarise_ida(&table, &analysis);
     if !as_json {
@@ -192,6 +207,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     say(&text)
+}
+
+/// The curves with their quantiles.
+fn svg(table: &[IdaCurve], analysis: &Analysis) -> Result<String, Failure> {
+    let curves = table.iter().map(|one| one.response(Overturned::Refined));
+    let curves = curves.collect::<Result<Vec<_>, _>>()?;
+    let stripes = StripeResponses::over(&curves, STEPS)?;
+    let block = format!(
+        "{}, {}, *g* tan *α* = {:.3} *g*",
+        common::slenderness(analysis.block.slenderness_rad()),
+        common::frequency(rounded(analysis.block.frequency_rad_s(), 4)),
+        uplift_threshold(&analysis.block, analysis.model)
+    );
+    let axis = common::intensity(Intensity::Pga);
+    Ok(ida_svg(&curves, &stripes, (axis, &block)))
 }
 
 /// What is shown of a table.

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::measure::{Ground, GroundArgs};
 use super::names;
-use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
 use rocking_common::files::Outputs;
@@ -32,6 +32,9 @@ use rocking_draw::figures::of_result::ranking_svg;
 /// magnitude or distance tells. Intervals are of the bootstrap, which draws
 /// earthquakes where they are known; one draw for all measures.
 #[derive(ClapArgs)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the dispersions with their intervals"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1 --im pga --im sa:1 \
@@ -69,9 +72,8 @@ pub struct Args {
     distance: Option<String>,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
-    /// Draw the dispersions with their intervals.
-    #[arg(long, value_name = "FILE.svg")]
-    plot: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -100,7 +102,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut inputs = args.ground.inputs();
     inputs.push(args.ida.clone());
     let mut outputs = Outputs::of(inputs);
-    let plot = outputs.open_some(args.plot.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let (table, curves) = input::ida(&args.ida, Intensity::Pga)?;
     let clusters = curves.clusters.clone();
     let capacities = intervals(&curves.into_curves(), args.at, args.point)?;
@@ -113,8 +115,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             rank(&capacities, &candidates, &covariates, &clusters, draws)?;
         Ok::<_, Failure>((ranking, ground.into_set_aside()))
     })??;
-    if let Some(out) = plot {
-        out.write(ranking_svg(&ranking, &measures, args.at))?;
+    if plot.draw(|| Ok(ranking_svg(&ranking, &measures, args.at)))? {
+        return Ok(());
     }
     let point = args.point.to_string();
     args.json.show(&Shown { edp: args.at, point, set_aside, ranking })

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::shared::JsonArg;
+use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
 use crate::threads::with_threads;
 use measures::{MeasureArgs, Measured};
@@ -24,6 +24,10 @@ mod measures;
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
 #[derive(clap::Args)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw one record as SVG: acceleration, velocity, displacement and \
+     response spectrum"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking records records/ suite.csv peer.zip\n  \
     rocking records wave.txt --dt 0.01 --units m/s2 --plot wave.svg")]
@@ -41,10 +45,8 @@ pub struct Args {
     processing: ProcessingArgs,
     #[command(flatten)]
     measures: MeasureArgs,
-    /// Draw one record as SVG: acceleration, velocity, displacement and
-    /// response spectrum.
-    #[arg(long, value_name = "FILE.svg")]
-    plot: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     json: JsonArg,
 }
@@ -198,12 +200,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let processing = words(&processing);
     listing.remark();
     let mut outputs = Outputs::of(listing.inputs.clone());
-    let plot = outputs.open_some(args.plot.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let (records, done) = (&listing.records, processing.as_deref());
-    if let Some(out) = plot
-        && listing.refused.is_empty()
+    if listing.refused.is_empty()
+        && plot.draw(|| measures::svg(records, done, args.gravity))?
     {
-        out.write(measures::svg(records, done, args.gravity)?)?;
+        return Ok(());
     }
     let measured =
         with_threads(None, || args.measures.run(records, args.gravity))??;

@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::excitation::ExcitationArgs;
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
-use super::shared::JsonArg;
+use super::shared::{JsonArg, PlotArg};
 use super::show::shown;
 use crate::failure::Failure;
 use crate::terminal::{patiently, print};
@@ -26,6 +26,9 @@ use rocking_draw::figures::of_result::response_svg;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the history theta/alpha as SVG"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking respond --alpha 0.1 --p 3 --pulse one-sine \
     --amplitude-m-s2 1.5 --omega-rad-s 12\n  \
@@ -44,9 +47,8 @@ pub struct Args {
     /// Write the history theta(t) as CSV.
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
-    /// Draw the history theta/alpha as SVG.
-    #[arg(long, value_name = "FILE.svg")]
-    plot: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArg,
     /// Tell outcome and peak in the precision that they need: double-double
     /// where double precision cannot, octuple precision beyond. With `--until`
     /// those of the time observed.
@@ -112,7 +114,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let ground = args.excitation.ground(gravity_m_s2, threshold, p_rad_s)?;
     let mut outputs = Outputs::of(args.excitation.inputs());
     let history = outputs.open_some(args.history.as_ref())?;
-    let plot = outputs.open_some(args.plot.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let scene = Scene {
         model: args.model.model,
         overturning: args.model.overturn,
@@ -124,23 +126,20 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let observe = Observe {
         events: true,
         accuracy: true,
-        history_interval_s: (history.is_some() || plot.is_some())
+        history_interval_s: (history.is_some() || plot.is_asked())
             .then_some(interval_s),
         until_s: args.until,
         forces: args.forces,
         work_limit,
     };
     let mut response = respond(&scene, &observe).map_err(refused)?;
-    let prints =
-        |out: &Option<Output>| out.as_ref().is_some_and(Output::is_standard);
-    let is_printed = prints(&history) || prints(&plot);
+    let is_printed = history.as_ref().is_some_and(Output::is_standard);
     if let Some(out) = history {
         out.write(history_csv(&scene, &response))?;
     }
     let (excitation, pga_g) = (args.excitation.name(), ground.pga_g);
-    if let Some(out) = plot {
-        out.write(response_svg(&scene, &response, &excitation, pga_g))?;
-    }
+    let svg = || Ok(response_svg(&scene, &response, &excitation, pga_g));
+    let is_printed = plot.draw(svg)? || is_printed;
     let certified = args
         .certify
         .then(|| certified(&scene, args.until, work_limit))

@@ -9,10 +9,12 @@ use rocking::statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::SourceArgs;
-use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
 use crate::terminal::note;
+use rocking_common::files::Outputs;
+use rocking_draw::figures::of_suite::risk_svg;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.
@@ -30,6 +32,9 @@ use crate::terminal::note;
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw hazard, fragilities and annual frequency by intensity"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
@@ -39,17 +44,8 @@ pub struct Args {
     /// Hazard curve, CSV; `-` is standard input.
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: PathBuf,
-    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
-    #[arg(
-        long,
-        value_name = "LON,LAT",
-        value_parser = site,
-        allow_hyphen_values = true
-    )]
-    site: Option<(f64, f64)>,
-    /// Years of probabilities, also of a curve's without its own [default: 50].
-    #[arg(long, value_name = "T")]
-    years: Option<f64>,
+    #[command(flatten)]
+    site: SiteArgs,
     /// Median of the fragility, in the unit of the hazard curve.
     #[arg(
         long,
@@ -72,13 +68,55 @@ pub struct Args {
     #[command(flatten)]
     bootstrap: BootstrapArgs,
     #[command(flatten)]
+    plot: PlotArg,
+    #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
     json: JsonArg,
 }
 
+/// Where and for how long a hazard curve holds.
+#[derive(ClapArgs, Clone, Copy, Debug)]
+pub struct SiteArgs {
+    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
+    #[arg(
+        long,
+        value_name = "LON,LAT",
+        value_parser = site,
+        allow_hyphen_values = true
+    )]
+    site: Option<(f64, f64)>,
+    /// Years of probabilities, also of a curve's without its own [default: 50].
+    #[arg(long, value_name = "T")]
+    years: Option<f64>,
+}
+
 /// Years of the probabilities that are printed, where none are given.
 const YEARS: f64 = 50.0;
+
+impl SiteArgs {
+    /// Years of the probabilities that are printed.
+    #[must_use]
+    pub fn years(self) -> f64 {
+        self.years.unwrap_or(YEARS)
+    }
+
+    /// Reads a hazard curve; what is set aside is said on standard error,
+    /// too.
+    ///
+    /// # Errors
+    /// [`Failure`] with file and line.
+    pub fn read(self, path: &Path) -> Result<Hazard, Failure> {
+        let place = path.display().to_string();
+        let text = input::text(path)?;
+        let options = HazardOptions { years: self.years, site_deg: self.site };
+        let hazard = Hazard::parse(&place, &text, &options)?;
+        for remark in &hazard.remarks {
+            note(&format!("{place}: {remark}"));
+        }
+        Ok(hazard)
+    }
+}
 
 fn site(text: &str) -> Result<(f64, f64), String> {
     let degrees = text.split_once(',').and_then(|(lon, lat)| {
@@ -100,27 +138,35 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and another file -: expected one of them as a file",
         ));
     }
-    let hazard = read(args)?;
+    let inputs = args.source.inputs().into_iter();
+    let inputs = inputs.chain([args.hazard.clone()]).collect();
+    let plot = args.plot.open(&mut Outputs::of(inputs))?;
+    let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match (args.median, args.dispersion) {
         (Some(median), Some(beta)) => given(options.shift, median, beta)?,
         _ => args.threads.run(|| of_source(args, options, &hazard))??,
     };
-    let years = args.years.unwrap_or(YEARS);
-    let found = args.threads.run(|| risk(&hazard, &fragilities, years))?;
-    args.json.show(&found?)
+    let years = args.site.years();
+    let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
+    if plot.draw(|| svg(&hazard, &fragilities))? {
+        return Ok(());
+    }
+    args.json.show(&found)
 }
 
-/// Reads the hazard curve; what is set aside is said on standard error, too.
-fn read(args: &Args) -> Result<Hazard, Failure> {
-    let place = args.hazard.display().to_string();
-    let text = input::text(&args.hazard)?;
-    let options = HazardOptions { years: args.years, site_deg: args.site };
-    let hazard = Hazard::parse(&place, &text, &options)?;
-    for remark in &hazard.remarks {
-        note(&format!("{place}: {remark}"));
+/// Fragilities that one drawing can hold.
+const MOST_DRAWN: usize = 6;
+
+/// The hazard curve, the fragilities and the risk by intensity.
+fn svg(hazard: &Hazard, all: &[Exposed]) -> Result<String, Failure> {
+    if all.len() > MOST_DRAWN {
+        return Err(Failure::input(format!(
+            "--plot: {} fragilities: expected at most {MOST_DRAWN}",
+            all.len()
+        )));
     }
-    Ok(hazard)
+    Ok(risk_svg(hazard, all))
 }
 
 /// The fragility of given parameters.

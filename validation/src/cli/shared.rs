@@ -1,6 +1,9 @@
 //! Flags that many commands share: each is declared here, once.
 
+use std::path::PathBuf;
+
 use rocking::procedures::Draws;
+use rocking_common::files::{Output, Outputs};
 use serde::Serialize;
 
 use super::show::show;
@@ -31,6 +34,50 @@ impl JsonArg {
     /// As [`show()`].
     pub fn show<T: Serialize>(self, result: &T) -> Result<(), Failure> {
         show(self.json, result)
+    }
+}
+
+/// A drawing of the result; a command says by `mut_arg` what is drawn.
+#[derive(clap::Args, Clone, Debug)]
+pub struct PlotArg {
+    /// Draw the result.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+impl PlotArg {
+    /// Opens the file, where one is given.
+    ///
+    /// # Errors
+    /// As [`Outputs::open`].
+    pub fn open(&self, outputs: &mut Outputs) -> Result<Plot, Failure> {
+        Ok(Plot(outputs.open_some(self.plot.as_ref())?))
+    }
+}
+
+/// Where a drawing goes.
+pub struct Plot(Option<Output>);
+
+impl Plot {
+    /// Whether a drawing is asked for.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// Writes the drawing that is asked for; whether standard output has it,
+    /// where nothing else is printed then.
+    ///
+    /// # Errors
+    /// [`Failure`] for a drawing that is refused, and of the file.
+    pub fn draw(
+        self,
+        svg: impl FnOnce() -> Result<String, Failure>,
+    ) -> Result<bool, Failure> {
+        let Some(out) = self.0 else { return Ok(false) };
+        let is_standard = out.is_standard();
+        out.write(svg()?)?;
+        Ok(is_standard)
     }
 }
 

@@ -10,12 +10,14 @@ use serde::Serialize;
 
 use super::capacities::Levels;
 use super::names;
-use super::shared::JsonArg;
+use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, columns::OUTCOMES};
+use rocking_draw::figures::common;
+use rocking_draw::figures::of_suite::stripes_svg;
 use rocking_exchange::ida::IdaTable;
 
 /// Responses at given intensities, of all records of an IDA table.
@@ -25,6 +27,10 @@ use rocking_exchange::ida::IdaTable;
 /// record was not run so far, the stripe is open for it: such records are
 /// counted and left out.
 #[derive(ClapArgs)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the responses with their 16, 50 and 84 % quantiles, and the shares \
+     that overturn"
+)))]
 #[command(after_help = "Examples:\n  \
     rocking stripes --ida ida.csv --levels 1.5,2,3\n  \
     rocking stripes --ida ida.csv --levels 1.2:4:0.2 --at 0.5 \
@@ -52,6 +58,8 @@ pub struct Args {
     #[arg(long, value_name = "OUT.csv", requires = "at")]
     counts: Option<PathBuf>,
     #[command(flatten)]
+    plot: PlotArg,
+    #[command(flatten)]
     json: JsonArg,
 }
 
@@ -71,15 +79,21 @@ struct Shown {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![args.ida.clone()]);
     let counts = outputs.open_some(args.counts.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let (table, curves) = input::ida(&args.ida, args.im)?;
     let curves = curves.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
+    let axis = common::intensity(args.im);
+    let printed = plot.draw(|| Ok(stripes_svg(&curves, &stripes, axis)))?;
     if let (Some(out), Some(edp)) = (counts, args.at) {
         let is_standard = out.is_standard();
         out.write(outcomes(&table, &curves, &args.levels.0, edp))?;
         if is_standard {
             return Ok(());
         }
+    }
+    if printed {
+        return Ok(());
     }
     args.json.show(&Shown { n: curves.len(), edp: args.at, stripes })
 }

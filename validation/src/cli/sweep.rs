@@ -224,7 +224,7 @@ fn share(text: &str) -> Result<f64, &'static str> {
 }
 
 fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let rows = blocks::read(&args.blocks, STANDARD_GRAVITY_M_S2)?;
+    let rows = blocks::on_ground(&args.blocks, STANDARD_GRAVITY_M_S2)?;
     let given = |row: blocks::Row| match row.samples.as_slice() {
         [] => Ok(Given {
             id: row.id,

@@ -21,6 +21,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "ends-and-touches",
     "estimators",
     "fates",
+    "floors",
     "fragility-transforms",
     "free-rocking",
     "hard-cases",

@@ -147,8 +147,12 @@ named! {
         TiedReplicates = "tied-replicates",
         /// Oscillators 1 % too slow.
         PeriodOnePercentLong = "period-one-percent-long",
-        /// Oscillators without damping.
+        /// Oscillators without damping, or with the least that is allowed.
         NoDamping = "no-damping",
+        /// Acceleration of a floor over the ground.
+        RelativeForAbsolute = "relative-for-absolute",
+        /// Absolute acceleration of the mode's mass times the height ratio.
+        MassForFloor = "mass-for-floor",
         /// Measures of the velocity.
         VelocityForAcceleration = "velocity-for-acceleration",
         /// The integral of a^2 over g.

@@ -2,15 +2,15 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::figures;
 use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
-use super::table::{self, joined, scrolled};
 use crate::evidence::families::{Family, rejects, source, tolerance, worst};
 use crate::quantity::{remarks, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
 use rocking_common::paper::Verdict;
 use rocking_common::words::capital;
 use rocking_draw::figures::Figure;
+use rocking_draw::page;
+use rocking_draw::page::table::{self, joined, scrolled};
 use rocking_proof::verdict::snapshot::CaseResult;
 
 /// A block, at rest and tilted.
@@ -180,7 +180,7 @@ fn drawings(shown: &[&Figure]) -> Markup {
         @if !shown.is_empty() {
             div.figures {
                 @for same in shown.chunk_by(|a, b| beside(a, b)) {
-                    (figures::figure(same[0], &same[1..]))
+                    (page::figure(same[0], &same[1..]))
                 }
             }
         }

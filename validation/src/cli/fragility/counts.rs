@@ -8,15 +8,17 @@ use clap::Args as ClapArgs;
 use indexmap::IndexMap;
 use rocking::procedures::counts::Outcome;
 use rocking::procedures::{
-    CountsFragility, Draws, ProcedureError, Sampled, fit_outcomes,
+    CountsFragility, Draws, Exposed, ProcedureError, Sampled, fit_outcomes,
     fit_stripes, sample_outcomes,
 };
 use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
 
-use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{At as _, Failure};
 use crate::input;
+use rocking_common::files::Outputs;
+use rocking_draw::figures::of_suite::fragilities_svg;
 use rocking_exchange::FileError;
 use rocking_exchange::columns::{COUNTS, OUTCOMES};
 use rocking_exchange::read::{Cells, rows};
@@ -30,6 +32,9 @@ use rocking_exchange::read::{Cells, rows};
 /// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
 /// which draws records, or earthquakes where the table says them.
 #[derive(ClapArgs)]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the fit with the shares that exceeded; of outcomes with its band"
+)))]
 pub(super) struct Args {
     /// Table of counts, columns intensity,exceeded,n, or of outcomes,
     /// columns intensity,record,event,exceeded; `-` is standard input.
@@ -40,6 +45,8 @@ pub(super) struct Args {
     shift: f64,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -52,10 +59,15 @@ pub(super) struct Args {
 /// [`Failure`] for a table that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = &args.counts;
+    let plot = args.plot.open(&mut Outputs::of(vec![path.clone()]))?;
     let counted = read(path)?;
     let draws = args.bootstrap.draws();
     let found = args.threads.run(|| counted.fit(args.shift, draws))?;
-    args.json.show(&found.at(path.display())?)
+    let found = found.at(path.display())?;
+    if plot.draw(|| args.threads.run(|| counted.svg(&found, draws))?)? {
+        return Ok(());
+    }
+    args.json.show(&found)
 }
 
 /// What a table says of stripes.
@@ -90,6 +102,23 @@ impl Counted {
     ) -> Option<Result<Sampled, ProcedureError>> {
         let Self::Records(outcomes, clusters) = self else { return None };
         Some(sample_outcomes(outcomes, clusters, shift, draws))
+    }
+
+    /// A fit with the shares that it is fitted to.
+    fn svg(
+        &self,
+        found: &CountsFragility,
+        draws: Draws,
+    ) -> Result<String, Failure> {
+        let fitted = found.fitted;
+        let sampled = self.sampled(fitted.shift(), draws).transpose()?;
+        let share = |one: &Stripe| {
+            (one.im, f64::from(one.exceeded) / f64::from(one.n))
+        };
+        let points = self.stripes().iter().map(share).collect();
+        let fit = Exposed { fragility: "fit".to_owned(), fitted, sampled };
+        let words = ("intensity", "marks: shares of the records");
+        Ok(fragilities_svg(&[fit], &[points], words))
     }
 
     /// The counts.

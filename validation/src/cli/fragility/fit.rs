@@ -6,21 +6,23 @@ use clap::{ArgGroup, Args as ClapArgs};
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
-    Draws, FitOptions, FragilityFit, LevelFit, Shift, fit_levels, fit_sample,
+    Draws, Exposed, FitOptions, FragilityFit, LevelFit, Shift, capacities,
+    fit_levels, fit_sample,
 };
-use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
+use rocking::statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
 use super::source::{self, IdaArgs};
 use crate::cli::capacities::Levels;
 use crate::cli::names;
-use crate::cli::shared::{JsonArg, ThreadsArg};
+use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{At as _, Failure};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
 use rocking_common::table::{Table, number, optional};
+use rocking_draw::figures::of_suite::fragilities_svg;
 use rocking_exchange::sample::SampleFile;
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
@@ -31,6 +33,9 @@ use rocking_exchange::sample::SampleFile;
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["sample", "ida"]))]
+#[command(mut_arg("plot", |arg| arg.help(
+    "Draw the fits with the capacities, and with --bootstrap their bands"
+)))]
 pub(super) struct Args {
     /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
     /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE`
@@ -74,6 +79,8 @@ pub(super) struct Args {
     /// The band as a table.
     #[arg(long, value_name = "FILE.csv", requires_all = ["band", "sample"])]
     band_csv: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArg,
     #[command(flatten)]
     threads: ThreadsArg,
     #[command(flatten)]
@@ -156,6 +163,7 @@ fn of_sample(
 ) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![path.to_owned()]);
     let table = outputs.open_some(args.band_csv.as_ref())?;
+    let plot = args.plot.open(&mut outputs)?;
     let file = input::sample(path)?;
     let unit = unit(&file, args.im.as_ref())?;
     let sample = file.censored()?;
@@ -163,12 +171,19 @@ fn of_sample(
     let options = FitOptions { clusters, ..options.clone() };
     let found = args.threads.run(|| fit_sample(&sample, &options))?;
     let fit = found.at(path.display())?;
+    let printed = plot.draw(|| {
+        let drawn = [("fit".to_owned(), sample, fit.fitted)];
+        args.threads.run(|| svg(drawn, &options, &unit))?
+    })?;
     if let (Some(table), Some(band)) = (table, &fit.band) {
         let is_standard = table.is_standard();
         table.write(csv(band))?;
         if is_standard {
             return Ok(());
         }
+    }
+    if printed {
+        return Ok(());
     }
     let sample_of = file.of().map(str::to_owned);
     args.json.show(&OfSample { sample_of, unit, fit })
@@ -179,6 +194,8 @@ fn of_levels(
     path: &Path,
     options: &FitOptions,
 ) -> Result<(), Failure> {
+    let mut outputs = Outputs::of(vec![path.to_owned()]);
+    let plot = args.plot.open(&mut outputs)?;
     let measure = source::in_table(args.im.as_ref())?;
     let curves = input::ida(path, measure)?.1;
     let clusters = Some(curves.clusters.clone());
@@ -189,7 +206,39 @@ fn of_levels(
         args.threads.run(|| fit_levels(&curves, at, rule, &options))?;
     let levels = found.at(path.display())?;
     let unit = measure.words().to_owned();
+    let level = |level: &LevelFit| {
+        let sample = capacities::sample(&curves, level.edp, rule)?;
+        let name = match level.edp.is_finite() {
+            true => format!("EDP {}", level.edp),
+            false => "overturning".to_owned(),
+        };
+        Ok((name, sample, level.fit.fitted))
+    };
+    let printed = plot.draw(|| {
+        let drawn = levels.iter().map(level);
+        let drawn = drawn.collect::<Result<Vec<_>, Failure>>()?;
+        args.threads.run(|| svg(drawn, &options, &unit))?
+    })?;
+    if printed {
+        return Ok(());
+    }
     args.json.show(&OfLevels { unit, point: rule.to_string(), levels })
+}
+
+/// Fits to samples, by their names.
+fn svg(
+    all: impl IntoIterator<Item = (String, CensoredSample, Lognormal)>,
+    options: &FitOptions,
+    unit: &str,
+) -> Result<String, Failure> {
+    let (mut fits, mut points) = (Vec::new(), Vec::new());
+    for (fragility, sample, fitted) in all {
+        let sampled = options.sampled(&sample)?;
+        fits.push(Exposed { fragility, fitted, sampled });
+        points.push(sample.points());
+    }
+    let words = (unit, "marks: capacities of the records");
+    Ok(fragilities_svg(&fits, &points, words))
 }
 
 /// The unit of a sample's values in words.

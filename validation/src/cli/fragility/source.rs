@@ -58,8 +58,7 @@ pub struct SourceArgs {
     /// Measure of --ida [default: pga], --counts, or a sample without one.
     #[arg(long, value_name = "MEASURE")]
     im: Option<IntensityMeasure>,
-    /// Table of blocks: alpha,p or width_m,height_m, and where wanted
-    /// id, eta, sample.
+    /// Table of blocks: alpha,p or width_m,height_m; also id, eta, sample.
     #[arg(
         long,
         value_name = "BLOCKS.csv",
@@ -166,14 +165,13 @@ impl SourceArgs {
     pub fn open(&self) -> Result<Source, Failure> {
         let gravity_m_s2 = self.gravity;
         let rows = match (&self.blocks, self.block.given(), &self.id) {
-            (Some(path), ..) => blocks::read(path, gravity_m_s2)?,
+            (Some(path), ..) => blocks::on_ground(path, gravity_m_s2)?,
             (None, None, None) => Vec::new(),
             (None, ..) => {
                 let block = self.block.block(gravity_m_s2)?;
                 let id = self.id.clone().map_or_else(|| Id::of(&block), Ok);
                 let id = id.map_err(Failure::input)?;
-                let (place, samples) = (id.to_string(), Vec::new());
-                vec![Row { place, id, block, eta: None, samples }]
+                vec![Row::of(id, block)]
             }
         };
         let mut samples = BTreeMap::new();

@@ -1,15 +1,25 @@
-//! Figures on the page, each with its reading and its data.
+//! What pages share: styles, figures with reading and data, and tables.
+
+pub mod table;
 
 use maud::{Markup, PreEscaped, html};
 
-use rocking_draw::colour;
-use rocking_draw::figures::Figure;
+use crate::colour;
+use crate::figures::Figure;
+
+/// The style sheet of a page, beside that of its [drawings](colour::STYLE).
+pub const STYLE: &str = include_str!("page/page.css");
+
+/// Nothing is loaded and nothing runs; styles stand in the page.
+pub const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
+                          base-uri 'none'; form-action 'none'";
 
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
 const WIDE_PX: f64 = 640.0;
 
 /// A figure with title, reading and data; under it, folded, the same figure
 /// of other motions.
+#[must_use]
 pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
     let heading = &shown.heading;
     let (name, title, number) =
@@ -46,7 +56,8 @@ pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
 }
 
 /// The SVG without its own style sheet, which the page has once.
-fn inline(svg: &str) -> String {
+#[must_use]
+pub fn inline(svg: &str) -> String {
     let style = format!("<style>{}</style>\n", colour::STYLE);
     svg.replacen(&style, "", 1)
 }

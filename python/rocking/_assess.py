@@ -1,0 +1,234 @@
+"""From objects and records to which object is damaged first."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from . import _rocking
+from ._fragility import Hazard
+from ._ida import _events
+from ._inputs import STANDARD_GRAVITY, Block, Record, embedded_suite, given
+from ._outputs import replace
+from ._results import Bounds, Result
+from ._statistics import seed
+
+
+@dataclass(frozen=True)
+class Floor:
+    """A floor of a building that moves in one linear mode.
+
+    `height_ratio` is the participation factor of the mode times its shape at
+    the floor: 0 on the ground, some 1.3 to 1.6 at the roof.
+    """
+
+    name: str
+    period_s: float
+    damping: float
+    height_ratio: float
+
+
+@dataclass(frozen=True)
+class Object:
+    """A free-standing object.
+
+    `friction` is the coefficient of friction of what it stands on, where it
+    is known; `limit_ratio` a rotation over alpha that must not be exceeded;
+    no `floor` is the ground.
+    """
+
+    id: str
+    block: Block
+    eta: float = 0.92
+    friction: float | None = None
+    limit_ratio: float | None = None
+    floor: Floor | None = None
+
+    def _given(self) -> _rocking.GivenObject:
+        on = self.floor
+        floor = None
+        if on is not None:
+            floor = (on.name, on.period_s, on.damping, on.height_ratio)
+        return {
+            "id": self.id,
+            "block": (self.block.alpha, self.block.p),
+            "eta": self.eta,
+            "friction": self.friction,
+            "limit_ratio": self.limit_ratio,
+            "floor": floor,
+        }
+
+
+@dataclass(frozen=True)
+class DamageProbability(Result):
+    """Probability of damage at an intensity, with its interval."""
+
+    im: float
+    p: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class Contribution(Result):
+    """Annual frequency of damage by motions between two intensities."""
+
+    from_im: float
+    to_im: float
+    annual_frequency: float
+
+
+@dataclass(frozen=True)
+class Alternative(Result):
+    """The answer under another assumption."""
+
+    assumption: str
+    median_im: Bounds
+    im_at_5_percent: Bounds
+    dispersion: float
+    shift: float
+    annual_frequency: Bounds | None
+    probability: Bounds | None
+
+
+@dataclass(frozen=True)
+class DamagedTogether(Result):
+    """So many objects or more damaged by the same earthquake."""
+
+    at_least: int
+    median_im: Bounds
+    im_at_5_percent: Bounds
+    dispersion: float
+    shift: float
+    annual_frequency: Bounds | None
+    probability: Bounds | None
+
+
+@dataclass(frozen=True)
+class AssessedObject(Result):
+    """One object; intensities are in the unit of the assessment."""
+
+    id: str
+    width_m: float
+    height_m: float
+    alpha_rad: float
+    p_rad_s: float
+    eta: float
+    floor: str | None
+    damage: str
+    onset_pga_g: float
+    median_im: Bounds
+    im_at_5_percent: Bounds
+    dispersion: float
+    shift: float
+    annual_frequency: Bounds | None
+    probability: Bounds | None
+    p_damage: tuple[DamageProbability, ...]
+    contributions: tuple[Contribution, ...]
+    first_in_draws: float
+    friction_share: float | None
+    unresolved: int
+    analyses: int
+    records_without_damage: int
+    best_im: str | None
+    best_im_dispersion: float | None
+    records_needed: float | None
+    alternatives: tuple[Alternative, ...]
+
+
+@dataclass(frozen=True)
+class Assessment(Result):
+    """Objects under a suite, the one that needs attention first before all."""
+
+    im: str
+    unit: str
+    records: int
+    drawn: str
+    level: float
+    years: float
+    correlation: Bounds | None
+    objects: tuple[AssessedObject, ...]
+    together: tuple[DamagedTogether, ...]
+    _files: dict[str, str] = field(default_factory=dict, repr=False)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The numbers of `assess.json`."""
+        return {k: v for k, v in super().to_dict().items() if k != "_files"}
+
+    def to_html(self) -> str:
+        """The page, in one file that needs no script and no network."""
+        return self._files["index.html"]
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the page and its files into a folder, which is made."""
+        place = Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        # The page comes last: where it is, all files are.
+        for name in sorted(self._files, key=lambda name: name == "index.html"):
+            replace(place / name, self._files[name])
+
+
+def assess(
+    objects: Object | Sequence[Object],
+    suite: Sequence[Record] | None = None,
+    *,
+    hazard: Hazard | None = None,
+    years: float = 50.0,
+    certify: bool = False,
+    n_resamples: int = 1000,
+    rng: int = 0,
+    gravity: float = STANDARD_GRAVITY,
+    threads: int | None = None,
+) -> Assessment:
+    """Which object is damaged first, how often, and how sure that is.
+
+    Parameters
+    ----------
+    suite : sequence of Record, optional
+        Records of the site; without them the 86 synthetic motions of
+        `embedded_suite("ordinary")`.
+    hazard : Hazard, optional
+        Hazard curve of the site. With it objects come by falling annual
+        frequency of damage, without it by the rising PGA that damages them
+        with a probability of 5 %.
+    certify : bool
+        Decide each fate in the arithmetic that it needs.
+    n_resamples, rng : int
+        Draws of the bootstrap, of earthquakes where these are known, and
+        their repetition.
+
+    >>> cabinet = Object("cabinet", Block.from_dimensions(width_m=0.5, height_m=1.8))
+    >>> lobe = [Record([0.0, 0.3, 0.0], 0.2 + 0.1 * k, units="g", name=f"r{k}")
+    ...         for k in range(3)]
+    >>> found = assess(cabinet, lobe, n_resamples=20)
+    >>> found.objects[0].median_im.point > 0.5 / 1.8
+    True
+    """
+    embedded = suite is None
+    records = list(embedded_suite("ordinary") if suite is None else suite)
+    all_objects = [objects] if isinstance(objects, Object) else list(objects)
+    files = _rocking.assess(
+        [one._given() for one in all_objects],
+        [given(record) for record in records],
+        _events(records),
+        embedded,
+        None if hazard is None else hazard._written,
+        {
+            "years": float(years),
+            "certify": certify,
+            "replicates": n_resamples,
+            "seed": seed(rng),
+            "gravity": float(gravity),
+        },
+        threads,
+    )
+    numbers = json.loads(files["assess.json"])
+    for key in ("schema", "version", "provenance"):
+        del numbers[key]
+    found = Assessment._of(json.dumps(numbers))
+    object.__setattr__(found, "_files", files)
+    return found

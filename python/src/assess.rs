@@ -1,0 +1,118 @@
+//! Objects, records and a hazard curve to one page.
+
+use std::collections::BTreeMap;
+
+use pyo3::prelude::*;
+use rocking::block::Restitution;
+use rocking::floor::Floor;
+use rocking::procedures::assess::NamedFloor;
+use rocking::procedures::{AssessOptions, Draws, Object, assess as procedure};
+use rocking::record::Accelerogram;
+use rocking::statistics::Clusters;
+use rocking_assessment::{About, files, set_surfaces};
+
+use crate::exchange::{Written, read};
+use crate::given::{Given, block_of, positive_gravity, records_of, refuse};
+use crate::work;
+
+/// An object.
+#[derive(FromPyObject)]
+pub struct GivenObject {
+    #[pyo3(item)]
+    id: String,
+    #[pyo3(item)]
+    block: (f64, f64),
+    #[pyo3(item)]
+    eta: f64,
+    #[pyo3(item)]
+    friction: Option<f64>,
+    #[pyo3(item)]
+    limit_ratio: Option<f64>,
+    #[pyo3(item)]
+    floor: Option<(String, f64, f64, f64)>,
+}
+
+impl GivenObject {
+    fn object(self) -> PyResult<Object> {
+        let floor = self.floor.map(|(name, period_s, damping, height)| {
+            let floor = Floor::try_new(period_s, damping, height);
+            let floor = floor.map_err(|e| refuse(format!("{name}: {e}")))?;
+            Ok::<_, PyErr>(NamedFloor { name, floor })
+        });
+        Ok(Object {
+            id: self.id,
+            block: block_of(self.block)?,
+            restitution: Restitution::constant(self.eta).map_err(refuse)?,
+            friction: self.friction,
+            limit_ratio: self.limit_ratio,
+            floor: floor.transpose()?,
+            surface: None,
+        })
+    }
+}
+
+/// How objects are assessed.
+#[derive(FromPyObject)]
+pub struct Options {
+    #[pyo3(item)]
+    years: f64,
+    #[pyo3(item)]
+    certify: bool,
+    #[pyo3(item)]
+    replicates: usize,
+    #[pyo3(item)]
+    seed: u64,
+    #[pyo3(item)]
+    gravity: f64,
+}
+
+/// The files of an assessment by their names; records are `embedded`, or have
+/// these earthquakes.
+#[pyfunction]
+pub fn assess(
+    py: Python<'_>,
+    objects: Vec<GivenObject>,
+    records: Vec<Given<'_>>,
+    events: Vec<String>,
+    embedded: bool,
+    hazard: Option<Written>,
+    options: Options,
+    threads: Option<usize>,
+) -> PyResult<BTreeMap<String, String>> {
+    let objects = objects.into_iter().map(GivenObject::object);
+    let mut objects = objects.collect::<PyResult<Vec<Object>>>()?;
+    if embedded {
+        set_surfaces(&mut objects).map_err(refuse)?;
+    }
+    let records: Vec<Accelerogram> = records_of(records)?;
+    let clusters = match events.as_slice() {
+        [] => Clusters::singletons(records.len()),
+        known => Clusters::from_labels(known),
+    };
+    let hazard = hazard.as_ref().map(read).transpose()?;
+    let Options { replicates, seed, .. } = options;
+    let own = AssessOptions {
+        gravity_m_s2: positive_gravity(options.gravity)?,
+        hazard: hazard.as_ref(),
+        years: options.years,
+        draws: Draws { replicates, seed },
+        certify: options.certify,
+    };
+    let ground = match embedded {
+        true => "No records are given: the motions are synthetic, made by \
+                 published relations for ordinary earthquakes."
+            .to_owned(),
+        false => format!("The motions are {} records.", records.len()),
+    };
+    let program = concat!("rocking ", env!("CARGO_PKG_VERSION")).to_owned();
+    let about =
+        About { ground, provenance: vec![("Program".to_owned(), program)] };
+    let found = work::run(py, threads, None, 0, |_| {
+        procedure(&objects, &records, &clusters, &own)
+    })?;
+    let files = files(&found.map_err(refuse)?, &about).map_err(refuse)?;
+    let text = |(name, bytes): (String, Vec<u8>)| {
+        Ok((name, String::from_utf8(bytes).map_err(refuse)?))
+    };
+    files.into_iter().map(text).collect()
+}

@@ -1,0 +1,414 @@
+//! The page of an assessment: which object is damaged first, how often, and
+//! how sure that is.
+
+mod charts;
+mod data;
+mod words;
+
+use std::collections::BTreeMap;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use rocking::integrator::{Model, uplift_threshold};
+use rocking::procedures::assess::{
+    Alternative, Assessed, Assessment, Damage, Object,
+};
+use rocking_draw::colour;
+use rocking_draw::page::table::scrolled;
+use rocking_draw::page::{POLICY, STYLE, inline};
+use rocking_exchange::Format;
+use rocking_surrogate::Surrogate;
+use rocking_synthesis::SuiteKind;
+
+pub use data::json;
+pub use words::text;
+
+use words::{answer_cells, measure, risk_heads, short};
+
+/// The page; it is written last, so that all files are there where it is.
+pub const PAGE: &str = "index.html";
+
+/// How many records are named that damage an object first.
+const NAMED: usize = 5;
+
+/// Share of the records from which on an object slides first.
+const SLIDES: f64 = 0.05;
+
+/// What an assessment was made of.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// Where the records come from, in a sentence.
+    pub ground: String,
+    /// What a reader needs to make the page again: names and values.
+    pub provenance: Vec<(String, String)>,
+}
+
+/// Sets the fitted surface of the embedded ordinary suite beside each object
+/// that it covers.
+///
+/// # Errors
+/// Where the surface cannot be read.
+pub fn set_surfaces(objects: &mut [Object]) -> anyhow::Result<()> {
+    let surrogate = Surrogate::embedded()?;
+    for object in objects {
+        let Ok(found) = surrogate.fragility(&object.block) else { continue };
+        let suites = found.suites.iter();
+        let own = suites.filter(|own| own.suite == SuiteKind::Ordinary);
+        let onset_g = uplift_threshold(&object.block, Model::Nonlinear);
+        let own = own.map(|own| own.fitted.scaled(onset_g)).next();
+        let same = object.restitution.velocity_ratio() == found.eta;
+        object.surface = own.transpose()?.filter(|_| same);
+    }
+    Ok(())
+}
+
+/// The files of an assessment, by their names.
+///
+/// # Errors
+/// An object whose name other programs do not take.
+pub fn files(
+    found: &Assessment,
+    about: &About,
+) -> anyhow::Result<BTreeMap<String, Vec<u8>>> {
+    let mut files = vec![
+        ("assess.json", json(found, about)?),
+        ("capacities.csv", data::capacities(found)),
+        ("fragilities.csv", data::fragilities(found)),
+        ("responses.csv", data::responses(found)),
+    ];
+    files.extend(data::exchanged(found, Format::Nrml)?);
+    files.extend(data::exchanged(found, Format::Pelicun)?);
+    let names: Vec<&str> = files.iter().map(|file| file.0).collect();
+    files.push((PAGE, page(found, about, &names)));
+    let named = files.into_iter();
+    Ok(named.map(|(name, text)| (name.into(), text.into_bytes())).collect())
+}
+
+/// The page, beside which `files` lie.
+#[must_use]
+pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
+    let title = match found.objects.as_slice() {
+        [one] => format!("Rocking of {}", one.id),
+        all => format!("Rocking of {} objects", all.len()),
+    };
+    let ranked = found.objects.iter().map(|one| words::ranked(found, one));
+    let ranked: Vec<Vec<String>> = ranked.collect();
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport"
+                    content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (title) }
+                    p { strong { (words::first(found)) } }
+                    p {
+                        "Each object is taken for a rigid block that stands \
+                         free. It begins to rock where the ground \
+                         accelerates by g tan(alpha) or more, alpha being \
+                         the angle whose tangent is width over height. It \
+                         overturns where it rocks too far. " (about.ground)
+                    }
+                }
+                main id="main" {
+                    section {
+                        h2 { "Which object first" }
+                        (charts::sketch(&found.objects))
+                        (table("All objects", &words::heads(found), &ranked))
+                        (sliding(found))
+                    }
+                    @if !found.together.is_empty() { (together(found)) }
+                    @for (k, one) in found.objects.iter().enumerate() {
+                        (object(found, one, k))
+                    }
+                    (limits(found))
+                    (provenance(about, files))
+                }
+            }
+        }
+    }
+    .into_string()
+        + "\n"
+}
+
+fn table(label: &str, heads: &[String], rows: &[Vec<String>]) -> Markup {
+    let body = html! {
+        table.cards {
+            thead { tr { @for head in heads { th scope="col" { (head) } } } }
+            tbody {
+                @for row in rows {
+                    tr {
+                        @for (k, cell) in row.iter().enumerate() {
+                            @if k == 0 {
+                                th scope="row" { (cell) }
+                            } @else {
+                                td data-label=(heads[k]) { (cell) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    };
+    scrolled(label, body)
+}
+
+/// What friction makes of the answers.
+fn sliding(found: &Assessment) -> Markup {
+    let ids = |of: &dyn Fn(&Assessed) -> bool| {
+        let all = found.objects.iter().filter(|one| of(one));
+        let all: Vec<&str> = all.map(|one| one.id.as_str()).collect();
+        all.join(", ")
+    };
+    let slide = ids(&|one| one.slides_first.is_some_and(|s| s > SLIDES));
+    let unknown = ids(&|one| one.slides_first.is_none());
+    html! {
+        @if !slide.is_empty() {
+            p {
+                strong { "Sliding. " }
+                "Under more than 5 % of the records these objects need more \
+                 friction than their floor gives, before damage: " (slide)
+                ". They slide first. Their fragility does not apply."
+            }
+        }
+        @if !unknown.is_empty() {
+            p {
+                "No coefficient of friction is given for " (unknown)
+                ". Whether these objects slide before they rock was not \
+                 checked."
+            }
+        }
+    }
+}
+
+fn together(found: &Assessment) -> Markup {
+    let (im, unit) = (measure(found), found.unit);
+    let mut heads = vec!["Objects damaged by one earthquake".to_owned()];
+    heads.extend(risk_heads(found));
+    heads.push(format!("{im} of 5 %, {unit}"));
+    heads.push(format!("{im} of 50 %, {unit}"));
+    let row = |row: &rocking::procedures::assess::Together| {
+        let first = format!("{} or more", row.at_least);
+        let mut cells = vec![first];
+        cells.extend(answer_cells(&row.answer));
+        cells
+    };
+    let rows: Vec<Vec<String>> = found.together.iter().map(row).collect();
+    html! {
+        section {
+            h2 { "Together" }
+            p {
+                "One earthquake moves all objects. The objects that each \
+                 record damages are counted. They are not taken as \
+                 independent."
+                @if let Some(r) = &found.correlation {
+                    " Over the records, the logarithms of the intensities \
+                     that damage two objects have a correlation of "
+                    (short(r.point)) " in the median of all pairs"
+                    @if let (Some(low), Some(high)) = (r.low, r.high) {
+                        ", from " (short(low)) " to " (short(high))
+                    }
+                    "."
+                }
+            }
+            (table("Objects damaged together", &heads, &rows))
+        }
+    }
+}
+
+fn object(found: &Assessment, one: &Assessed, k: usize) -> Markup {
+    let chart = charts::curves(found, one, k).figure(String::new());
+    let (im, unit) = (measure(found), found.unit);
+    let mut heads = vec!["Assumption".to_owned()];
+    heads.extend(risk_heads(found));
+    heads.push(format!("{im} of 5 % damage, {unit}"));
+    heads.push(format!("{im} of 50 % damage, {unit}"));
+    let line = |words: String, answer: &_| {
+        let mut cells = vec![words];
+        cells.extend(answer_cells(answer));
+        cells
+    };
+    let own = format!("as above: coefficient of restitution {}", one.eta);
+    let mut rows = vec![line(own, &one.answer)];
+    let other = |other: &Alternative| {
+        line(other.assumption.to_string(), &other.answer)
+    };
+    rows.extend(one.alternatives.iter().map(other));
+    html! {
+        section {
+            h2 { (one.id) }
+            p {
+                (short(one.width_m)) " m wide, " (short(one.height_m))
+                " m high: alpha " (short(one.alpha_rad)) " rad, p "
+                (short(one.p_rad_s)) " rad/s. "
+                @if let Some(floor) = &one.floor {
+                    "It stands on the floor " (floor) ", one linear mode of \
+                     the building. There it begins to rock where the floor \
+                     accelerates by " (short(one.uplift_pga_g)) " g. "
+                } @else {
+                    "It begins to rock at a PGA of "
+                    (short(one.uplift_pga_g)) " g. "
+                }
+                "Damage is " (words::damage(one)) "."
+            }
+            figure.figure {
+                div class="scroll drawing wide" role="region"
+                    aria-label={ "Curves of " (one.id) } tabindex="0"
+                {
+                    (PreEscaped(inline(&chart.svg())))
+                }
+                figcaption {
+                    "(a) Probability of damage: the records (points), the \
+                     lognormal fit, and its 95 % band. (b) Rotation over \
+                     alpha of 16, 50 and 84 % of the records at rising \
+                     intensity. At 1 the object is at the angle from which \
+                     it does not come back on flat, quiet ground."
+                    @if !one.contributions.is_empty() {
+                        " (c) The part of the annual frequency of damage \
+                         that comes from motions of each intensity."
+                    }
+                }
+            }
+            h3 { "What moves the answer" }
+            (table("Answers under other assumptions", &heads, &rows))
+            (remarks(found, one))
+        }
+    }
+}
+
+/// What else an engineer wants to know of an object.
+fn remarks(found: &Assessment, one: &Assessed) -> Markup {
+    let (im, unit) = (measure(found), found.unit);
+    let damaging = one.by_record.iter().filter(|r| r.damages).take(NAMED);
+    let damaging: Vec<String> =
+        damaging.map(|r| format!("{} ({})", r.record, short(r.im))).collect();
+    let stand = one.by_record.iter().filter(|r| !r.damages).count();
+    html! {
+        ul {
+            @if let Some((best, beta)) = data::best(one) {
+                li {
+                    "Intensity measure: of " (one.ranking.measures.len())
+                    " measures, " (best)
+                    " predicts the damage best. It leaves a dispersion of "
+                    (short(beta)) "."
+                    @for pga in one.ranking.measures.iter().take(1) {
+                        @if let Some(own) = &pga.dispersion
+                            && pga.im != best
+                        {
+                            " PGA leaves " (short(own.point)) "."
+                        }
+                    }
+                }
+            }
+            @if !damaging.is_empty() {
+                li {
+                    "Records that damage it first, with their " (im) " in "
+                    (unit) ": " (damaging.join(", ")) "."
+                }
+            }
+            @if stand > 0 {
+                li {
+                    (stand) " of the " (found.records)
+                    " records do not damage it at any intensity that was \
+                     run. They enter the fit as lower bounds."
+                }
+            }
+            @if let Some(needed) = &one.fragility.needed {
+                li {
+                    "For a 90 % interval of ±10 % about the median, "
+                    (short(needed.for_median))
+                    " records like these are needed. There are "
+                    (found.records) "."
+                }
+            }
+            @if one.resolution.unresolved > 0 {
+                li {
+                    "In " (one.resolution.unresolved) " of "
+                    (one.resolution.analyses) " analyses double precision \
+                     may not decide whether the object overturns. With \
+                     --certify these are run again in the arithmetic that \
+                     decides."
+                }
+            }
+        }
+    }
+}
+
+fn limits(found: &Assessment) -> Markup {
+    let objects = &found.objects;
+    html! {
+        section {
+            h2 { "What is not in these numbers" }
+            ul {
+                li {
+                    "Sliding, jumping, twisting, soft or uneven ground, \
+                     neighbours and walls. The model is one rigid block in \
+                     a plane (Eq. 1 of Lachanas, Vamvatsikos and \
+                     Dimitrakopoulos)."
+                }
+                li {
+                    "The other horizontal and the vertical component of \
+                     each record."
+                }
+                @if objects.iter().any(|one| one.floor.is_some()) {
+                    li {
+                        "The building but for one linear mode: its other \
+                         modes, its damage, and the weight of the object."
+                    }
+                }
+                li {
+                    "The uncertainty of the hazard curve. The intervals \
+                     hold what the choice of the records leaves ("
+                    (found.drawn.to_string()) ")."
+                }
+                li {
+                    "A coefficient of restitution that was measured on the \
+                     object. The tables show what 0.85 and 0.97 make of the \
+                     answer."
+                }
+                @if objects.iter().any(|one| one.answer.risk.is_some()) {
+                    li {
+                        "Motions beyond the last point of the hazard curve: \
+                         they count with the probability of damage that \
+                         this last point has."
+                    }
+                }
+                @if objects.iter().any(|o| o.damage != Damage::Overturning) {
+                    li {
+                        "Where a rotation is the limit: what the object \
+                         suffers from impacts below it."
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn provenance(about: &About, files: &[&str]) -> Markup {
+    html! {
+        section {
+            h2 { "Provenance" }
+            dl {
+                @for (what, is) in &about.provenance {
+                    dt { (what) } dd { (is) }
+                }
+            }
+            @if !files.is_empty() {
+                p {
+                    "All numbers: "
+                    @for (k, file) in files.iter().enumerate() {
+                        @if k > 0 { ", " }
+                        a href=(file) { (file) }
+                    }
+                    "."
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The numbers of an assessment in words.
+
+use rocking::intensity::IntensityMeasure;
+use rocking::procedures::assess::{Answer, Assessed, Assessment, Damage};
+use rocking::procedures::counts::Bounds;
+use rocking_common::words::{percent, rounded};
+
+/// A number in three significant digits.
+pub(crate) fn short(x: f64) -> String {
+    rounded(x, 3).to_string()
+}
+
+/// A value with its interval, where it has one, both as `show` writes them.
+fn interval(value: &Bounds, show: impl Fn(f64) -> String) -> String {
+    let point = show(value.point);
+    match (value.low, value.high) {
+        (None, None) => point,
+        (low, high) => {
+            let open = || "open".to_owned();
+            let low = low.map_or_else(open, &show);
+            let high = high.map_or_else(open, &show);
+            format!("{point} ({low} to {high})")
+        }
+    }
+}
+
+/// A value with its interval in three significant digits.
+pub(crate) fn bounds(value: &Bounds) -> String {
+    interval(value, short)
+}
+
+/// Mean return period of damage in years, with its interval.
+pub(crate) fn return_period(answer: &Answer) -> Option<String> {
+    let period = answer.return_period_years()?;
+    Some(interval(&period, |years| rounded(years, 2).to_string()))
+}
+
+/// The probability of damage in T years in percent, with its interval.
+pub(crate) fn in_years(answer: &Answer) -> Option<String> {
+    let show = |p: f64| rounded(100.0 * p, 2).to_string();
+    Some(interval(&answer.probability()?, show))
+}
+
+/// The intensity measure.
+pub(crate) fn measure(found: &Assessment) -> String {
+    match &found.im {
+        IntensityMeasure::Pga => "PGA".to_owned(),
+        IntensityMeasure::Pgv => "PGV".to_owned(),
+        other => {
+            let words = other.words();
+            words.split(" (").next().unwrap_or_default().to_owned()
+        }
+    }
+}
+
+/// What counts as damage, as a noun.
+pub(crate) fn damage(one: &Assessed) -> String {
+    match one.damage {
+        Damage::Overturning => "overturning".to_owned(),
+        Damage::Rotation(ratio) => {
+            format!("a rotation above {ratio} alpha")
+        }
+    }
+}
+
+/// The sentence that comes first.
+pub(crate) fn first(found: &Assessment) -> String {
+    let Some(one) = found.objects.first() else { return String::new() };
+    let (id, what) = (&one.id, damage(one));
+    let often = match return_period(&one.answer) {
+        Some(years) => {
+            format!("{what} is to be expected once in {years} years")
+        }
+        None => format!(
+            "a {} of {} {} causes {what} with a probability of 5 %",
+            measure(found),
+            bounds(&one.answer.small_im),
+            found.unit
+        ),
+    };
+    let interval = "The brackets hold the 95 % interval.";
+    if found.objects.len() == 1 {
+        return format!("{id}: {often}. {interval}");
+    }
+    format!(
+        "{id} needs attention first: {often}. {interval} {id} comes first in \
+         {} of the resampled sets of records.",
+        percent(one.first_in_draws, 0)
+    )
+}
+
+/// The heads of the table of all objects.
+pub(crate) fn heads(found: &Assessment) -> Vec<String> {
+    let (im, unit) = (measure(found), found.unit);
+    let mut heads = vec!["Object".to_owned(), "Damage".to_owned()];
+    heads.extend(risk_heads(found));
+    heads.push(format!("{im} of 5 % damage, {unit}"));
+    heads.push(format!("{im} of 50 % damage, {unit}"));
+    if found.objects.len() > 1 {
+        heads.push("Comes first in resampled records".to_owned());
+    }
+    heads.push("Records under which it slides first".to_owned());
+    heads
+}
+
+/// The heads of what a hazard curve gives; none without one.
+pub(crate) fn risk_heads(found: &Assessment) -> Vec<String> {
+    let known = found.objects.iter().any(|one| one.answer.risk.is_some());
+    if !known {
+        return Vec::new();
+    }
+    vec![
+        "Mean return period of damage, years".to_owned(),
+        format!("Probability of damage in {} years, %", found.years),
+    ]
+}
+
+/// What a fragility says, cell by cell.
+pub(crate) fn answer_cells(answer: &Answer) -> Vec<String> {
+    let risk = return_period(answer).into_iter().chain(in_years(answer));
+    let ims = [bounds(&answer.small_im), bounds(&answer.median_im)];
+    risk.chain(ims).collect()
+}
+
+/// The row of an object, cell by cell.
+pub(crate) fn ranked(found: &Assessment, one: &Assessed) -> Vec<String> {
+    let mut cells = vec![one.id.clone(), one.damage.to_string()];
+    cells.extend(answer_cells(&one.answer));
+    if found.objects.len() > 1 {
+        cells.push(percent(one.first_in_draws, 0));
+    }
+    cells.push(match one.slides_first {
+        None => "friction not given".to_owned(),
+        Some(share) => percent(share, 0),
+    });
+    cells
+}
+
+/// What the terminal shows: the first sentence, and the table.
+#[must_use]
+pub fn text(found: &Assessment) -> String {
+    let mut rows = vec![heads(found)];
+    rows.extend(found.objects.iter().map(|one| ranked(found, one)));
+    let columns = rows[0].len();
+    let wide = |k: usize| {
+        let cells = rows.iter().skip(1).map(|row| row[k].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(wide).collect();
+    let mut text = first(found) + "\n\n";
+    for (k, head) in rows[0].iter().enumerate() {
+        text += &format!("[{}] {head}\n", k + 1);
+    }
+    text.push('\n');
+    for row in &rows[1..] {
+        let cells = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, width)| format!("{cell:<width$}", width = *width));
+        let line: Vec<String> = cells.collect();
+        text += line.join("  ").trim_end();
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,246 @@
+//! `rocking assess`: objects, records and a hazard curve to one page.
+
+use std::path::{Path, PathBuf};
+
+use clap::{ArgGroup, Args as ClapArgs};
+use rocking::block::Restitution;
+use rocking::floor::Floor;
+use rocking::fragility::hazard::Hazard;
+use rocking::procedures::assess::NamedFloor;
+use rocking::procedures::{AssessOptions, Assessment, Object, assess};
+use rocking::record::Accelerogram;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::Id;
+
+use super::blocks::{self, Row};
+use super::floors;
+use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
+use super::risk::SiteArgs;
+use super::scene::BlockArgs;
+use super::shared::{BootstrapArgs, ThreadsArg};
+use crate::failure::Failure;
+use crate::input;
+use crate::terminal::{COMMIT, SOFTWARE, note, print, say};
+use rocking_assessment::{About, PAGE};
+use rocking_common::files::Folder;
+use rocking_common::paper::{RESTITUTION, SuiteKind};
+use rocking_common::suites::{StudySuite, inputs::sha256_hex};
+
+/// The kind of the suite, where nothing else is said.
+const SUITE: SuiteKind = SuiteKind::Ordinary;
+
+/// Which object overturns first, how often, and how sure that is: from a
+/// table of objects to one page.
+///
+/// Each object is a rigid block that stands free and rocks on flat ground;
+/// it slides, jumps and twists not. Records are scaled until they overturn
+/// it. Without --suite the records are the 86 synthetic motions of ordinary
+/// earthquakes that the program makes itself. Without --hazard objects are
+/// ranked by the PGA that overturns them with a probability of 5 %, not by
+/// how often a year. DIR gets the page index.html, assess.json with every
+/// number of it, and CSV files of the curves.
+#[derive(ClapArgs)]
+#[command(group = ArgGroup::new("object").required(true).multiple(true)
+    .args(["objects", "width_m", "alpha"]))]
+#[command(after_help = "Examples:\n  \
+    rocking assess --objects objects.csv --hazard hazard.csv\n  \
+    rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
+pub struct Args {
+    /// Table of objects, CSV: width_m,height_m or alpha,p, and where wanted
+    /// id, eta, friction (of the floor), limit_ratio (a rotation over alpha
+    /// that must not be exceeded) and floor.
+    #[arg(
+        long,
+        value_name = "OBJECTS.csv",
+        conflicts_with_all = ["alpha", "p", "width_m", "height_m"]
+    )]
+    objects: Option<PathBuf>,
+    /// Table of floors, CSV: name, period_s and damping of one mode of the
+    /// building, and height_ratio (participation factor times mode shape at
+    /// the floor); a column floor in the table of objects names one of them.
+    #[arg(long, value_name = "FLOORS.csv", requires = "objects")]
+    floors: Option<PathBuf>,
+    #[command(flatten)]
+    block: BlockArgs,
+    /// Folder of records, index CSV, or zip.
+    #[arg(long, value_name = "PATH")]
+    suite: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadArgs,
+    #[command(flatten)]
+    processing: ProcessingArgs,
+    /// Hazard curve of the site, CSV; `rocking risk --help` says its columns.
+    #[arg(long, value_name = "HAZARD.csv")]
+    hazard: Option<PathBuf>,
+    #[command(flatten)]
+    site: SiteArgs,
+    /// Resolve each fate in the arithmetic that it needs; without it such
+    /// analyses are counted. It takes some thirty times as long.
+    #[arg(long)]
+    certify: bool,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    /// Folder of the page: a new or an empty one.
+    #[arg(long, value_name = "DIR", default_value = "rocking-assessment")]
+    out: PathBuf,
+    /// Print assess.json.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for input that is refused, or a folder that is not empty.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let mut objects = args.objects()?;
+    if args.suite.is_none() {
+        rocking_assessment::set_surfaces(&mut objects)?;
+    }
+    let hazard = args.hazard.as_deref();
+    let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
+    let suite = args.threads.run(|| args.suite())??;
+    let folder = Folder::open_new(&args.out)?;
+    let found =
+        args.threads.run(|| args.found(&objects, &suite, &hazard))??;
+    let about = args.about(&suite)?;
+    let files = rocking_assessment::files(&found, &about)?;
+    folder.write(&files, PAGE)?;
+    if args.json {
+        return print(&rocking_assessment::json(&found, &about)?);
+    }
+    if let Some(words) = suite.remarks.words() {
+        note(&format!("remarks on {words}"));
+    }
+    if !suite.set_aside.is_empty() {
+        note(&format!("set aside: {}", suite.set_aside));
+    }
+    let page = args.out.join(PAGE);
+    let text = rocking_assessment::text(&found);
+    say(&format!("{text}\nPage: {}\n", page.display()))
+}
+
+/// Name and SHA-256 of a file that was read.
+fn named(path: &Path) -> Result<String, Failure> {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    let sha256 = sha256_hex(input::text(path)?.as_bytes());
+    Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
+}
+
+impl Args {
+    fn objects(&self) -> Result<Vec<Object>, Failure> {
+        let gravity_m_s2 = STANDARD_GRAVITY_M_S2;
+        let rows = match &self.objects {
+            Some(path) => blocks::read(path, gravity_m_s2)?,
+            None => {
+                let block = self.block.block(gravity_m_s2)?;
+                let id: Id = "object".parse().map_err(Failure::input)?;
+                vec![Row::of(id, block)]
+            }
+        };
+        let floors = floors::of_rows(self.floors.as_deref(), &rows)?;
+        let object = |(row, floor): (Row, Option<Floor>)| {
+            if !row.samples.is_empty() {
+                return Err(Failure::input(format!(
+                    "{}: a column sample: expected none, capacities are \
+                     computed here",
+                    row.place
+                )));
+            }
+            Ok(Object {
+                id: row.id.to_string(),
+                block: row.block,
+                restitution: Restitution::constant(
+                    row.eta.unwrap_or(RESTITUTION),
+                )?,
+                friction: row.friction,
+                limit_ratio: row.limit_ratio,
+                floor: row.floor.zip(floor).map(|(name, floor)| NamedFloor {
+                    name: name.to_string(),
+                    floor,
+                }),
+                surface: None,
+            })
+        };
+        rows.into_iter().zip(floors).map(object).collect()
+    }
+
+    fn about(&self, suite: &StudySuite) -> Result<About, Failure> {
+        let ground = match suite.source.is_embedded() {
+            true => {
+                "No records are given: the motions are 86 synthetic ones, \
+                     which the program makes by published relations for \
+                     ordinary earthquakes. Records of the site (--suite) \
+                     replace them."
+                    .to_owned()
+            }
+            false => format!("The motions are those of {}.", suite.source),
+        };
+        let mut provenance = vec![
+            ("Program", format!("{SOFTWARE}, commit {COMMIT}")),
+            ("Records", format!("{}, {}", suite.source, suite.clusters)),
+            ("SHA-256 of the records", suite.sha256()),
+        ];
+        let mut some = |what, is: Option<String>| {
+            provenance.extend(is.map(|is| (what, is)));
+        };
+        some("Processing", words(&self.processing.processing()?));
+        let aside = &suite.set_aside;
+        some("Set aside", (!aside.is_empty()).then(|| aside.to_string()));
+        some("Remarks", suite.remarks.words());
+        let named =
+            |path: &Option<PathBuf>| path.as_deref().map(named).transpose();
+        some("Objects", named(&self.objects)?);
+        some("Floors", named(&self.floors)?);
+        some("Hazard curve", named(&self.hazard)?);
+        let draws = self.bootstrap.draws();
+        some("Draws of the intervals", Some(draws.replicates.to_string()));
+        some("Repetition of the draws", Some(draws.seed.to_string()));
+        let certified = if self.certify { "certified" } else { "double" };
+        some("Fates of the analyses", Some(certified.to_owned()));
+        let own = |(what, is): (&str, String)| (what.to_owned(), is);
+        let provenance = provenance.into_iter().map(own).collect();
+        Ok(About { ground, provenance })
+    }
+
+    fn suite(&self) -> Result<StudySuite, Failure> {
+        if let Some(path) = &self.suite {
+            let processing = self.processing.processing()?;
+            let options = self.reading.options(STANDARD_GRAVITY_M_S2);
+            let suite = StudySuite::read(SUITE, path, options, &processing)?;
+            self.reading.judge(&suite.set_aside, &suite.remarks)?;
+            return Ok(suite);
+        }
+        match self.reading.given().or(self.processing.given()) {
+            None => {
+                let [ordinary, _] = StudySuite::embedded()?;
+                Ok(ordinary)
+            }
+            Some(flag) => Err(Failure::input(format!(
+                "{flag} is not used without --suite"
+            ))),
+        }
+    }
+
+    fn found(
+        &self,
+        objects: &[Object],
+        suite: &StudySuite,
+        hazard: &Option<Hazard>,
+    ) -> Result<Assessment, Failure> {
+        let motions = suite.motions.iter();
+        let records: Vec<Accelerogram> =
+            motions.map(|motion| motion.study.clone()).collect();
+        let options = AssessOptions {
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            hazard: hazard.as_ref(),
+            years: self.site.years(),
+            draws: self.bootstrap.draws(),
+            certify: self.certify,
+        };
+        Ok(assess(objects, &records, &suite.clusters, &options)?)
+    }
+}

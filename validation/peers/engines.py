@@ -187,7 +187,7 @@ class Box2D:
         self.block.angularVelocity *= factor
 
 
-def solve(engine, scene, careful):
+def play(engine, scene, careful):
     if scene.linear:
         return "the linearized equation; an engine has the exact one"
     dt, dead = engine.best if careful else engine.default
@@ -216,4 +216,4 @@ if __name__ == "__main__":
         if engine.__name__.lower() in sys.argv[1:]:
             for setting in ("default", "best"):
                 answer(f"{engine.__name__.lower()}-{setting}",
-                       lambda scene: solve(engine, scene, setting == "best"))
+                       lambda scene: play(engine, scene, setting == "best"))

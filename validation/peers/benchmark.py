@@ -170,16 +170,16 @@ class Motion:
                 yield f"{scene.name},{quantity},{text}"
 
 
-def run(scene, flight, careful=True):
-    """Answers by an ODE solver. `flight(scene, piece, t, side, u, w, stop)`
-    integrates to an impact, to overturning or to `stop`, and gives a
-    `scene.Landing`. `careful`: stop at each kink of the acceleration, which
-    is `piece` then and not None, and follow the hops down to a speed of
-    1e-6 p alpha, not 1e-3, before the block counts as at rest."""
+def motion(scene, kinks, least):
+    """Yields what is to be integrated: (piece, t, side, u, w, stop), to an
+    impact, to overturning or to `stop`; is sent the `scene.Landing`; returns
+    the `Motion`. With `kinks` it stops at each kink of the acceleration, and
+    `piece` is the smooth stretch, else None. A block whose speed is below
+    `least` p alpha after an impact comes to rest."""
     seen = Motion()
-    small = (1e-6 if careful else 1e-3) * scene.p * scene.alpha
+    small = least * scene.p * scene.alpha
     stops = set(scene.times) | {scene.last} | {scene.end}
-    if careful:
+    if kinks:
         stops |= set(scene.begins)
     stops = sorted(stops)
     t, u, w, side = 0.0, abs(scene.start), 0.0, math.copysign(1.0, scene.start)
@@ -200,8 +200,7 @@ def run(scene, flight, careful=True):
         stop = next((x for x in stops if x > t), None)
         if stop is None:
             break
-        piece = scene.piece(t) if careful else None
-        got = flight(scene, piece, t, side, u, w, stop)
+        got = yield scene.piece(t) if kinks else None, t, side, u, w, stop
         if got.top > seen.peak:
             seen.peak, seen.peak_time = got.top, got.top_t
         t, u, w = got.t, got.u, got.w
@@ -221,9 +220,21 @@ def run(scene, flight, careful=True):
             seen.speed = -w
         side, u, w = -side, 0.0, -scene.eta * w
         if w < small and (left := scene.hops(t, side, max(w, 0.0))) < 1.0:
-            t += left if careful else 0.0
+            t += left if kinks else 0.0
             seen.rest, moving = t, False
     return seen
+
+
+def run(scene, flight, careful):
+    """Answers by an ODE solver's `flight(scene, piece, t, side, u, w, stop)`:
+    careful, or as one does without thought."""
+    steps = motion(scene, careful, 1e-6 if careful else 1e-3)
+    try:
+        asked = next(steps)
+        while True:
+            asked = steps.send(flight(scene, *asked))
+    except StopIteration as end:
+        return end.value
 
 
 def served(command):
@@ -285,7 +296,7 @@ def from_path(scene, t, theta, dead):
     return seen
 
 
-def answer(name, solve, only=None):
+def answer(name, solve):
     """Writes answers/NAME.csv. `solve(scene)` gives a `Motion`, or a text:
     why this tool does not do this scene."""
     rows, left_out = ["scene,quantity,value"], {}

@@ -18,29 +18,26 @@ from engines import Body, play
 
 
 class OpenSees:
-    """default: Newmark's average acceleration, the example's strain 5e-6
-    under own weight and 5 % of damping, 1 ms. best: strain, damping and step
-    as found best."""
+    """Newmark's average acceleration, steps of 1 ms, halved where Newton's
+    method fails; a strain of 5e-6 under own weight. default: 5 % of damping in
+    the first mode, as in the example; at this step the block then loses too
+    little. best: 50 %, with which an impact takes Housner's share."""
 
-    default, best = (1e-3, 1e-3), (1e-4, 1e-4)
-    strain, zeta, method, step_least = 1e-7, 0.05, ("Newmark", 0.5, 0.25), 1e-7
+    default, best, strain, shortest = (1e-3, 1e-3), (1e-3, 1e-3), 5e-6, 1e-6
 
     def __init__(self, scene, dt, careful):
-        body, self.dt, self.careful = Body(scene), dt, careful
+        body, self.dt, zeta = Body(scene), dt, 0.5 if careful else 0.05
         width, height = 2 * body.b, 2 * body.h
-        modulus = scene.g * height / (self.strain if careful else 5e-6)
+        modulus = scene.g * height / self.strain
         self.mass = mass = width * height
-        method = self.method if careful else ("Newmark", 0.5, 0.25)
-        least = self.step_least
         ops.wipe()
         ops.model("basic", "-ndm", 2, "-ndf", 3)
         ops.node(1, 0.0, 0.0)
         ops.node(2, 0.0, body.h)
         ops.fix(1, 1, 1, 1)
         ops.mass(2, mass, mass, mass * body.inertia)
-        options = ["-NlimN", 0.1, "-NlimT", 10.0, "-Dtlim", least, "-errorifNexceeds", 1] if careful else []
         ops.element("RockingBC", 1, 2, 1, 15, modulus, 0.0, -1e3 * modulus,
-                    width, 1.0, 0.0, "-convlim", 1e-15, *options)
+                    width, 1.0, 0.0, "-convlim", 1e-15)
         ops.timeSeries("Linear", 1)
         ops.pattern("Plain", 1, 1)
         ops.load(2, 0.0, -mass * scene.g, 0.0)
@@ -51,7 +48,7 @@ class OpenSees:
         ops.algorithm("Newton")
         self.static(("LoadControl", 0.1), 10)
         ops.loadConst("-time", 0.0)
-        beta = 2 * self.zeta / math.sqrt(ops.eigen("-fullGenLapack", 1)[0])
+        beta = 2 * zeta / math.sqrt(ops.eigen("-fullGenLapack", 1)[0])
         if scene.start:
             ops.pattern("Plain", 2, 1)
             ops.load(2, 1.0, 0.0, 0.0)
@@ -59,16 +56,21 @@ class OpenSees:
             ops.remove("loadPattern", 2)
             ops.setTime(0.0)
         ops.rayleigh(0.0, beta, 0.0, 0.0)
+        self.begin()
+        ops.timeSeries("Constant", 2)
+        self.now = dt
+
+    def begin(self):
+        """Anew after each change of velocities, else the integrator keeps its
+        own."""
         ops.wipeAnalysis()
         ops.constraints("Plain")
         ops.numberer("RCM")
         ops.system("UmfPack")
-        ops.test("NormDispIncr", 1e-12 * width, 100) if careful else ops.test("EnergyIncr", 1e-10, 100)
+        ops.test("EnergyIncr", 1e-10, 100)
         ops.algorithm("Newton")
-        ops.integrator(*method)
+        ops.integrator("Newmark", 0.5, 0.25)
         ops.analysis("Transient")
-        ops.timeSeries("Constant", 2)
-        self.now = dt
 
     def static(self, integrator, steps):
         ops.integrator(*integrator)
@@ -84,9 +86,8 @@ class OpenSees:
         while left > 1e-9 * self.dt:
             now = min(self.now, left)
             if ops.analyze(1, now) == 0:
-                left -= now
-                self.now = min(1.5 * now, self.dt) if left > 0 else min(self.now*1.5,self.dt)
-            elif now > self.step_least:
+                left, self.now = left - now, min(1.5 * now, self.dt)
+            elif now > self.shortest:
                 self.now = now / 2
             else:
                 raise RuntimeError("Newton's method does not converge")
@@ -95,6 +96,7 @@ class OpenSees:
     def slow(self, factor):
         for dof in (1, 2, 3):
             ops.setNodeVel(2, dof, factor * ops.nodeVel(2, dof), "-commit")
+        self.begin()
 
 
 if __name__ == "__main__":

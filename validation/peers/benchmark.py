@@ -75,7 +75,8 @@ class Scene:
 
     def __init__(self, scene):
         self.name, self.asked = scene["name"], scene["quantities"]
-        self.alpha, self.p, self.eta = scene["alpha_rad"], scene["p_rad_s"], scene["eta"]
+        self.alpha, self.p = scene["alpha_rad"], scene["p_rad_s"]
+        self.eta = scene["eta"]
         self.g, self.start = scene["g_m_s2"], scene["initial_theta_rad"]
         self.linear = scene["equation"] == "linearized"
         self.limit = self.alpha if scene["overturning"] == "alpha" else math.pi / 2
@@ -150,8 +151,9 @@ class Motion:
     """What happened in a scene."""
 
     def __init__(self):
-        self.fate, self.uplift, self.rest, self.overturning = "no-uplift", None, None, None
-        self.peak, self.peak_time, self.impacts, self.speed, self.theta = 0.0, None, [], None, {}
+        self.fate, self.impacts, self.theta = "no-uplift", [], {}
+        self.uplift = self.speed = self.rest = self.overturning = None
+        self.peak, self.peak_time = 0.0, None
 
     def rows(self, scene):
         value = {"fate": self.fate, "uplift_time_s": self.uplift,
@@ -159,15 +161,17 @@ class Motion:
                  "impact_1_speed_rad_s": self.speed,
                  "rest_time_s": self.rest, "overturning_time_s": self.overturning}
         if self.fate != "overturned":
-            value |= {"peak_ratio": self.peak / scene.alpha, "peak_time_s": self.peak_time}
+            value |= {"peak_ratio": self.peak / scene.alpha,
+                      "peak_time_s": self.peak_time}
         value |= {f"impact_{k}_time_s": self.impacts[k - 1]
                   for k in IMPACTS if k <= len(self.impacts)}
-        value |= {f"theta_{k + 1}_rad": self.theta.get(t) for k, t in enumerate(scene.times)}
+        value |= {f"theta_{k + 1}_rad": self.theta.get(t)
+                  for k, t in enumerate(scene.times)}
         for quantity in scene.asked:
             got = value.get(quantity)
             if got is not None:
-                text = got if isinstance(got, str) else repr(got if isinstance(got, int) else float(got))
-                yield f"{scene.name},{quantity},{text}"
+                got = got if isinstance(got, (str, int)) else float(got)
+                yield f"{scene.name},{quantity},{got}"
 
 
 def motion(scene, kinks, least):
@@ -262,7 +266,11 @@ def from_path(scene, t, theta, dead):
     most `dead` count as standing: there a soft contact only settles."""
     seen = Motion()
     n, side, last = len(t), 0.0, 0
-    at = lambda i, value: t[i - 1] + (t[i] - t[i - 1]) * (value - theta[i - 1]) / (theta[i] - theta[i - 1])
+
+    def at(i, value):
+        part = (value - theta[i - 1]) / (theta[i] - theta[i - 1])
+        return t[i - 1] + (t[i] - t[i - 1]) * part
+
     for i in range(n):
         size = abs(theta[i])
         if not size > dead:

@@ -89,7 +89,9 @@ class PyBullet:
     def __init__(self, scene, dt, careful):
         import pybullet as bullet
         body, self.bullet, self.g = Body(scene), bullet, scene.g
-        bullet.resetSimulation() if bullet.isConnected() else bullet.connect(bullet.DIRECT)
+        if not bullet.isConnected():
+            bullet.connect(bullet.DIRECT)
+        bullet.resetSimulation()
         bullet.setTimeStep(dt)
         if careful:
             bullet.setPhysicsEngineParameter(
@@ -97,7 +99,8 @@ class PyBullet:
                 contactSlop=0, erp=0.1, contactERP=0.1, frictionERP=0.1,
                 restitutionVelocityThreshold=0, solverResidualThreshold=0)
         half = (body.high - body.low) / 2
-        ground = bullet.createMultiBody(0, bullet.createCollisionShape(bullet.GEOM_PLANE))
+        ground = bullet.createMultiBody(
+            0, bullet.createCollisionShape(bullet.GEOM_PLANE))
         shape = bullet.createCollisionShape(
             bullet.GEOM_BOX, halfExtents=[body.b, body.h, half],
             collisionFramePosition=[0, 0, body.low + half])

@@ -129,7 +129,8 @@ def answers(todo, linear, careful):
                     ta.pars[:, i], ta.state[:, i], stops[i] = 0.0, (1.0, 0.0), times[i]
                     return
                 scene = todo.pop()
-                lanes[i] = scene, benchmark.motion(scene, True, 1e-6 if careful else 1e-3)
+                least = 1e-6 if careful else 1e-3
+                lanes[i] = scene, benchmark.motion(scene, True, least)
                 landing = None
             scene, steps = lanes[i]
             try:

@@ -207,8 +207,8 @@ function d = served_rhs(t, x, s)
   end
 end
 
-% From the last step before `guess` on to where component k of x has the value `level`, by Newton's
-% method: Octave's own event is a linear interpolation.
+% From the last step before `guess` on to where component k of x has the
+% value `level`, by Newton's method: Octave's own event is a linear interpolation.
 function [t, x] = polished(rhs, options, ts, xs, guess, x, k, level)
   from = find(ts < guess, 1, "last");
   t = guess;

@@ -299,7 +299,7 @@ if (strcmp(folder, "serve"))
       answer(request(input("", "s")), strcmp(argv(){2}, "best"));
     end
   catch problem
-    if (isempty(strfind(problem.message, "end-of-file")))
+    if (isempty(strfind(problem.message, "user-input failed")))
       fprintf(stderr, "%s\n", problem.message);
     end
   end

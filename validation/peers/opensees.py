@@ -20,8 +20,10 @@ from engines import Body, play
 class OpenSees:
     """Newmark's average acceleration, steps of 1 ms, halved where Newton's
     method fails; a strain of 5e-6 under own weight. default: 5 % of damping in
-    the first mode, as in the example; at this step the block then loses too
-    little. best: 50 %, with which an impact takes Housner's share."""
+    the first mode, as in the example; at this step a block released from half
+    of alpha gains at impacts. best: 50 %, with which that block's impacts take
+    Housner's share; over all scenes it is no better. Steps of 0.1 ms with 5 %
+    do the same for that block, but take ten times as long."""
 
     default, best, strain, shortest = (1e-3, 1e-3), (1e-3, 1e-3), 5e-6, 1e-6
 

@@ -1,13 +1,19 @@
 """heyoka: Taylor integrator compiled just in time, one propagation a sample
 (the forcing is a polynomial there), events found on its own polynomial: the
-base and the tip end a flight, turning points give the peak."""
+base and the tip end a flight, turning points give the peak.
+
+    heyoka_taylor.py FOLDER     speed on the cases of `rocking speed --export`
+    heyoka_taylor.py answers    answers to fixtures/benchmark/scenes.json, four
+                                scenes at once by the batch integrator
+"""
 
 import sys
 
 import heyoka as hy
 import numpy as np
 
-from scene import HEADER, measure
+import benchmark
+from scene import HEADER, Landing, measure
 
 TURNS = []
 
@@ -74,7 +80,97 @@ def flights(ta):
     return of
 
 
-if __name__ == "__main__":
+LANES = 4
+
+
+def batch(linear, careful):
+    """Any piece of acceleration by its parameters, a scene a lane."""
+    u, w = hy.make_vars("u", "w")
+    pp, alpha, limit, side, t0, a, b, sine, rate, phase, ricker, k, c = (
+        hy.par[i] for i in range(13))
+    square = (k * (hy.time - c)) ** 2
+    force = side * (a + b * (hy.time - t0) + sine * hy.sin(rate * hy.time + phase)
+                    + ricker * (1 - square) * hy.exp(-square / 2))
+    y = alpha - u
+    pull = y + force if linear else hy.sin(y) + force * hy.cos(y)
+    down, up = hy.event_direction.negative, hy.event_direction.positive
+
+    def turned(ta, time, _, lane):
+        ta.update_d_output([time] * LANES)
+        TURNS.append((lane, ta.d_output[0, lane], time))
+
+    return hy.taylor_adaptive_batch(
+        [(u, w), (w, -pp * pull)], np.zeros((2, LANES)), pars=np.zeros((13, LANES)),
+        t_events=[hy.t_event_batch(u, direction=down),
+                  hy.t_event_batch(u - limit, direction=up)],
+        nt_events=[hy.nt_event_batch(w, callback=turned, direction=down)],
+        high_accuracy=careful)
+
+
+def parameters(scene, piece, side):
+    kind, a, b, c = piece.kind, piece.a, piece.b, piece.c
+    line = (piece.t0, a, b) if kind == "line" else (0.0, 0.0, 0.0)
+    wave = (a, b, np.pi / 2 if kind == "cosine" else 0.0)
+    wave = wave if kind in ("sine", "cosine") else (0.0, 0.0, 0.0)
+    ricker = (a, b, c) if kind == "ricker" else (0.0, 0.0, 0.0)
+    return (scene.p ** 2, scene.alpha, scene.limit, side, *line, *wave, *ricker)
+
+
+def answers(todo, linear, careful):
+    """The motions of scenes of one equation, `LANES` of them at a time."""
+    ta, done, lanes = batch(linear, careful), {}, [None] * LANES
+    stops, times, tops = np.zeros(LANES), np.zeros(LANES), [(0.0, 0.0)] * LANES
+
+    def ask(i, landing):
+        """The next flight of a lane, or of its next scene."""
+        while True:
+            if lanes[i] is None:
+                if not todo:
+                    ta.pars[:, i], ta.state[:, i], stops[i] = 0.0, (1.0, 0.0), times[i]
+                    return
+                scene = todo.pop()
+                least = 1e-6 if careful else 1e-3
+                lanes[i] = scene, benchmark.motion(scene, True, least)
+                landing = None
+            scene, steps = lanes[i]
+            try:
+                piece, times[i], side, u, w, stops[i] = steps.send(landing)
+            except StopIteration as end:
+                done[scene.name], lanes[i] = end.value, None
+                continue
+            # At u = 0 exactly heyoka loses the next event.
+            ta.state[:, i] = max(u, 1e-16 * scene.alpha), w
+            ta.pars[:, i] = parameters(scene, piece, side)
+            ta.reset_cooldowns(i)
+            tops[i] = (0.0, times[i])
+            return
+
+    for i in range(LANES):
+        ask(i, None)
+    while any(lanes):
+        ta.set_time(times)
+        TURNS.clear()
+        ta.propagate_until(stops)
+        times[:] = ta.time
+        for i, top, at in TURNS:
+            tops[i] = max(tops[i], (top, at))
+        for i in range(LANES):
+            outcome = int(ta.propagate_res[i][0])
+            kind = {-1: "impact", -2: "overturned"}.get(outcome)
+            if lanes[i] and (kind or times[i] == stops[i]):
+                u, w = ta.state[:, i]
+                ask(i, Landing(kind or "stop", times[i], w, tops[i][0], u, tops[i][1]))
+    return done
+
+
+if __name__ == "__main__" and sys.argv[1] == "answers":
+    for setting in ("default", "best"):
+        done = {}
+        for linear in (False, True):
+            todo = [x for x in benchmark.scenes() if x.linear == linear]
+            done |= answers(todo, linear, setting == "best")
+        benchmark.answer(f"heyoka-{setting}", lambda scene: done[scene.name])
+elif __name__ == "__main__":
     print(HEADER)
     for tolerance in (1e-9, None):
         ta = integrator(tolerance)

@@ -1,6 +1,7 @@
 % GNU Octave: ode45 with events, one call a flight. Octave finds events by
 % linear interpolation, so impact times stay wrong at any tolerance.
 %   octave-cli ode45_cases.m FOLDER
+%   octave-cli ode45_cases.m serve default|best    flights for benchmark.py
 1;
 
 function s = read_scene(path)
@@ -177,9 +178,133 @@ function [peak, impacts] = run(s, rtol)
   peak /= s.alpha;
 end
 
+function f = shaking(pieces, t)
+  k = find(t < pieces.t1, 1);
+  if (isempty(k))
+    k = numel(pieces.t1);
+  end
+  [a, b, c] = deal(pieces.a(k), pieces.b(k), pieces.c(k));
+  switch pieces.kind{k}
+    case "line"
+      f = a + b * (t - pieces.t0(k));
+    case "sine"
+      f = a * sin(b * t);
+    case "cosine"
+      f = a * cos(b * t);
+    otherwise
+      square = (b * (t - c)) ^ 2;
+      f = a * (1 - square) * exp(-square / 2);
+  end
+end
+
+function d = served_rhs(t, x, s)
+  f = s.side * shaking(s.pieces, t);
+  y = s.alpha - x(1);
+  if (s.linear)
+    d = [x(2); -s.p ^ 2 * (y + f)];
+  else
+    d = [x(2); -s.p ^ 2 * (sin(y) + f * cos(y))];
+  end
+end
+
+% From the last step before `guess` on to where component k of x has the
+% value `level`, by Newton's method: Octave's own event is a linear interpolation.
+function [t, x] = polished(rhs, options, ts, xs, guess, x, k, level)
+  from = find(ts < guess, 1, "last");
+  t = guess;
+  if (isempty(from))
+    return
+  end
+  t = ts(from);
+  x = xs(from, :)';
+  for turn = 1:8
+    step = guess - t;
+    if (step == 0)
+      return
+    end
+    options = odeset(options, "InitialStep", abs(step));
+    [~, xs] = ode45(rhs, [t, guess], x, options);
+    t = guess;
+    x = xs(end, :)';
+    slope = rhs(t, x)(k);
+    guess = t + (level - x(k)) / slope;
+    if (abs(guess - t) < 2 * eps(t))
+      return
+    end
+  end
+end
+
+function s = request(line)
+  word = strsplit(line, " ");
+  x = num2cell(str2double(word(1:10)));
+  [s.alpha, s.p, s.linear, s.limit, s.side, s.t, s.u, s.w, s.stop, n] = x{:};
+  rows = reshape(word(11:end), 6, n);
+  number = @(k) str2double(rows(k, :));
+  s.pieces = struct("t0", number(1), "t1", number(2), "a", number(4), ...
+    "b", number(5), "c", number(6));
+  s.pieces.kind = rows(3, :);
+end
+
+function answer(s, best)
+  rhs = @(t, x) served_rhs(t, x, s);
+  crossed = @(t, x) deal([x(1); x(1) - s.limit; x(2)], [1; 1; 0], [-1; 1; -1]);
+  options = odeset();
+  if (best)
+    step = 1e-3;
+    if (s.w != 0)
+      step = min(0.2 * abs(s.w) / (s.p ^ 2 * s.alpha), 1e-2);
+    end
+    options = odeset("RelTol", 1e-10, "AbsTol", 1e-15, "MaxStep", 2e-2, ...
+      "InitialStep", min(step, s.stop - s.t), "Refine", 1);
+  end
+  [ts, xs, te, xe, ie] = ode45(rhs, [s.t, s.stop], [s.u; s.w], ...
+    odeset(options, "Events", crossed));
+  names = {"impact", "overturned", "stop"};
+  kind = 3;
+  t = ts(end);
+  x = xs(end, :)';
+  if (!isempty(ie) && ie(end) < 3)
+    kind = ie(end);
+    t = te(end);
+    x = xe(end, :)';
+    if (best)
+      [t, x] = polished(rhs, options, ts, xs, t, x, 1, ...
+        (kind == 2) * s.limit);
+    end
+  end
+  [top, k] = max(xs(:, 1));
+  top_t = ts(k);
+  for turn = find(ie(:)' == 3)
+    at = te(turn);
+    high = xe(turn, :)';
+    if (best)
+      [at, high] = polished(rhs, options, ts, xs, at, high, 2, 0);
+    end
+    if (high(1) > top || best)
+      top = high(1);
+      top_t = at;
+    end
+  end
+  printf("%s %.17g %.17g %.17g %.17g %.17g\n", names{kind}, t, x, top, top_t);
+  fflush(stdout);
+end
+
 global count
 warning("off", "all");
 folder = argv(){1};
+if (strcmp(folder, "serve"))
+  % `fgetl` waits for the line after; `input` fails at the end.
+  try
+    while (true)
+      answer(request(input("", "s")), strcmp(argv(){2}, "best"));
+    end
+  catch problem
+    if (isempty(strfind(problem.message, "user-input failed")))
+      fprintf(stderr, "%s\n", problem.message);
+    end
+  end
+  exit
+end
 printf("tool,version,method,setting,case,cpu_s,work,peak_ratio,impacts,first_impacts_s\n");
 paths = sort(glob(fullfile(folder, "*.txt")));
 % Every third case; at 1e-9 an analysis takes most of a minute.

@@ -31,25 +31,28 @@ double root(F value, double a, double b) {
     return b;
 }
 
-Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
-    return [&scene, &work, rtol, stops](double t, double side, double w) {
-        const double alpha = scene.alpha, pp = scene.p * scene.p;
+// `plain`: as the documentation's examples do, without a step chosen.
+Flight flights(const Scene& scene, long& work, double rtol, bool stops,
+               bool plain = false) {
+    return [&scene, &work, rtol, stops, plain](double t, double side,
+                                               double w) {
+        const double last = scene.end + scene.beyond;
         double f0 = 0, slope = 0, origin = 0;
         auto fixed = [&](const State& x, State& d, double time) {
             work++;
-            double y = alpha - x[0], f = f0 + slope * (time - origin);
-            d = {x[1], -pp * (std::sin(y) + side * f * std::cos(y))};
+            double f = f0 + slope * (time - origin);
+            d = {x[1], scene.acceleration(x[0], side, f)};
         };
         auto whole = [&](const State& x, State& d, double time) {
             work++;
-            double y = alpha - x[0], f = scene.force(time);
-            d = {x[1], -pp * (std::sin(y) + side * f * std::cos(y))};
+            d = {x[1], scene.acceleration(x[0], side, scene.force(time))};
         };
-        State x{0, w};
-        double peak = 0, step = scene.first_step(w);
-        while (t < scene.end + 60) {
+        State x{scene.u, w};
+        double peak = 0, peak_t = t;
+        double step = plain ? 0.01 : scene.first_step(w);
+        while (t < last) {
             // The next instant to stop at.
-            double stop = scene.end + 60;
+            double stop = last;
             if (t < scene.end) stop = scene.end;
             if (stops) {
                 // The quotient may come out just below a whole number.
@@ -65,7 +68,8 @@ Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
                 }
             }
             auto stepper = odeint::make_dense_output(
-                rtol * alpha, rtol, stop <= scene.end ? scene.dt : 1e9, Dopri5());
+                plain ? rtol : rtol * scene.alpha, rtol,
+                !plain && stop <= scene.end ? scene.dt : 1e9, Dopri5());
             stepper.initialize(x, t, std::min(step, stop - t));
             bool beyond = false;
             while (!beyond) {
@@ -94,21 +98,38 @@ Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
                         if (i == 0 && begin[0] == 0) from += 1e-3 * (cuts[1] - a);
                         double hit = root([&](double z) { return at(z)[0]; },
                                           from, cuts[i + 1]);
-                        return Landing{Kind::Impact, hit, at(hit)[1], peak};
+                        return Landing{Kind::Impact, hit, at(hit)[1],
+                                       peak, 0, peak_t};
                     }
-                    if (s[0] >= alpha)
-                        return Landing{Kind::Overturned, cuts[i + 1], s[1], peak};
-                    peak = std::max(peak, s[0]);
+                    if (s[0] >= scene.limit) {
+                        double hit = root(
+                            [&](double z) { return at(z)[0] - scene.limit; },
+                            cuts[i], cuts[i + 1]);
+                        return Landing{Kind::Overturned, hit, at(hit)[1],
+                                       peak, scene.limit, peak_t};
+                    }
+                    if (s[0] > peak) peak = s[0], peak_t = cuts[i + 1];
                 }
                 x = end, t = b;
             }
         }
-        return Landing{Kind::Failed, t, 0, peak};
+        Kind kind = scene.beyond > 0 ? Kind::Failed : Kind::Stop;
+        return Landing{kind, t, x[1], peak, x[0], peak_t};
     };
 }
 
-// `odeint singles FOLDER`, or `odeint chains FOLDER WORK RTOL...`.
+// `odeint singles FOLDER`, `odeint chains FOLDER WORK RTOL...`, or
+// `odeint serve default|best`.
 int main(int argc, char** argv) {
+    if (std::string(argv[1]) == "serve") {
+        const bool plain = std::string(argv[2]) == "default";
+        serve([&](const Scene& scene, double t, double side, double w) {
+            long work = 0;
+            double rtol = plain ? 1e-6 : 1e-13;
+            return flights(scene, work, rtol, false, plain)(t, side, w);
+        });
+        return 0;
+    }
     const bool singles = std::string(argv[1]) == "singles";
     const std::string version = std::to_string(BOOST_VERSION / 100000) + "." +
                                 std::to_string(BOOST_VERSION / 100 % 1000);

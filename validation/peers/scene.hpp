@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -16,12 +17,35 @@
 #include <utility>
 #include <vector>
 
+// A stretch of the acceleration over g, as `Piece` of benchmark.py has it.
+struct Piece {
+    double t0, t1;
+    std::string kind;
+    double a, b, c;
+
+    double force(double t) const {
+        if (kind == "line") return a + b * (t - t0);
+        if (kind == "sine") return a * std::sin(b * t);
+        if (kind == "cosine") return a * std::cos(b * t);
+        double square = b * (t - c) * b * (t - c);
+        return a * (1 - square) * std::exp(-square / 2);
+    }
+};
+
 struct Scene {
     std::string name;
     double alpha, p, eta, dt, end, threshold, cosine;
     std::vector<double> f, slope;
 
     std::vector<double> levels, samples;
+
+    // What only `serve` sets: the rotation at the start and at overturning,
+    // how long a flight may go on after `end`, pieces instead of samples.
+    double u = 0, limit, beyond = 60;
+    bool linear = false;
+    std::vector<Piece> pieces;
+
+    Scene() = default;
 
     explicit Scene(const std::string& path) {
         std::ifstream in(path);
@@ -36,6 +60,7 @@ struct Scene {
         while (std::getline(text, list, ','))
             levels.push_back(std::stod(list));
         end = double(n - 1) * dt;
+        limit = alpha;
         threshold = std::tan(alpha);
         cosine = std::cos(alpha);
         scale(levels.front());
@@ -49,8 +74,20 @@ struct Scene {
     }
 
     double force(double t) const {
+        if (!pieces.empty()) {
+            size_t i = 0;
+            while (i + 1 < pieces.size() && t >= pieces[i].t1) i++;
+            return pieces[i].force(t);
+        }
         size_t k = size_t(t / dt);
         return k < slope.size() ? f[k] + slope[k] * (t - double(k) * dt) : 0.0;
+    }
+
+    // Of u = |theta| on that side.
+    double acceleration(double u, double side, double f) const {
+        double y = alpha - u;
+        if (linear) return -p * p * (y + side * f);
+        return -p * p * (std::sin(y) + side * f * std::cos(y));
     }
 
     // First instant from t on with |f| above the threshold, and sgn f.
@@ -107,11 +144,11 @@ struct Scene {
     }
 };
 
-enum class Kind { Impact, Overturned, Failed };
+enum class Kind { Impact, Overturned, Stop, Failed };
 
 struct Landing {
     Kind kind;
-    double t, w, peak;
+    double t, w, peak, u = 0, peak_t = 0;
 };
 
 struct Result {
@@ -151,6 +188,28 @@ inline Result run(const Scene& scene, const Flight& flight) {
         }
     }
     return {peak / scene.alpha, impacts};
+}
+
+// Flies on request, for benchmark.py: `alpha p linear limit side t u w stop n`
+// and n pieces a line; answers `kind t u w peak peak_t`.
+template <class Fly>
+void serve(Fly fly) {
+    const char* names[] = {"impact", "overturned", "stop", "failed"};
+    Scene scene;
+    double side, t, w;
+    size_t n;
+    while (std::cin >> scene.alpha >> scene.p >> scene.linear >> scene.limit >>
+           side >> t >> scene.u >> w >> scene.end >> n) {
+        scene.beyond = 0, scene.dt = 0.01;
+        scene.pieces.resize(n);
+        for (Piece& x : scene.pieces)
+            std::cin >> x.t0 >> x.t1 >> x.kind >> x.a >> x.b >> x.c;
+        Landing end = fly(scene, t, side, w);
+        std::printf("%s %.17g %.17g %.17g %.17g %.17g\n",
+                    names[int(end.kind)], end.t, end.u, end.w, end.peak,
+                    end.peak_t);
+        std::fflush(stdout);
+    }
 }
 
 inline double cpu_s() {

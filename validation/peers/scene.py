@@ -15,6 +15,19 @@ import math
 import os
 import sys
 import time
+from typing import NamedTuple
+
+
+class Landing(NamedTuple):
+    """How a flight ended: kind is impact, overturned or stop; else it failed.
+    `top` is the largest u on the way, at `top_t`."""
+
+    kind: str
+    t: float
+    w: float
+    top: float
+    u: float = 0.0
+    top_t: float = 0.0
 
 
 class Scene:
@@ -31,6 +44,7 @@ class Scene:
         self.f = [float(x) * level for x in lines[7:7 + n]]
         self.slope = [(b - a) / self.dt for a, b in zip(self.f, self.f[1:])]
         self.end = (n - 1) * self.dt
+        self.limit = self.alpha
         self.threshold = math.tan(self.alpha)
         self.cosine = math.cos(self.alpha)
 
@@ -51,6 +65,19 @@ class Scene:
                 level = sign * self.threshold
                 return start + (level - now) / self.slope[k], sign
         return None
+
+    def rhs(self, side, _piece):
+        """Of u and its rate."""
+        f, slope, dt, last = self.f, self.slope, self.dt, len(self.slope)
+        pp, alpha, sin, cos = self.p ** 2, self.alpha, math.sin, math.cos
+
+        def rhs(t, x):
+            k = int(t / dt)
+            force = f[k] + slope[k] * (t - k * dt) if k < last else 0.0
+            y = alpha - x[0]
+            return (x[1], -pp * (sin(y) + side * force * cos(y)))
+
+        return rhs
 
     def restoring(self, f):
         return (self.threshold + f) * self.cosine
@@ -96,8 +123,8 @@ class Scene:
 
 def run(scene, flight):
     """Peak u/alpha (inf: overturned) and times of the impacts. `flight(t,
-    side, w)` gives (kind, t, w, peak u), kind being impact, overturned or
-    still; after the record it goes on to the first impact."""
+    side, w)` gives a `Landing`; after the record it goes on to the first
+    impact."""
     peak, impacts, t = 0.0, [], 0.0
     while True:
         lifted = scene.exceedance(t)
@@ -106,7 +133,7 @@ def run(scene, flight):
         t, sign = lifted
         side, w = -sign, 0.0
         while True:
-            kind, t, w, top = flight(t, side, w)
+            kind, t, w, top, *_ = flight(t, side, w)
             peak = max(peak, top)
             if kind == "overturned":
                 return math.inf, impacts

@@ -1,4 +1,7 @@
-"""SciPy: solve_ivp with events, one call a flight."""
+"""SciPy: solve_ivp with events, one call a flight.
+    scipy_solve_ivp.py FOLDER     speed on the cases of `rocking speed --export`
+    scipy_solve_ivp.py answers    answers to fixtures/benchmark/scenes.json
+"""
 
 import math
 import sys
@@ -6,63 +9,86 @@ import sys
 import scipy
 from scipy.integrate import solve_ivp
 
-from scene import HEADER, measure
+import benchmark
+from scene import HEADER, Landing, measure
+
+
+def fly(scene, side, piece, t, u, w, stops, method, options):
+    """From (t, u, w) to an impact, to overturning or to the last stop;
+    `options` are those of solve_ivp up to each stop."""
+
+    def base(_, x):
+        return x[0]
+
+    def tip(_, x):
+        return x[0] - scene.limit
+
+    def turn(_, x):
+        return x[1]
+
+    base.terminal, base.direction = True, -1
+    tip.terminal, tip.direction = True, 1
+    turn.direction = -1
+    rhs, x, top, work = scene.rhs(side, piece), (u, w), (0.0, t), 0
+    for stop in stops:
+        if not t < stop:
+            continue
+        got = solve_ivp(rhs, (t, stop), x, method, events=(base, tip, turn),
+                        **options(t, stop))
+        work += got.nfev
+        top = max([top, *((y[0], at) for at, y in
+                          zip(got.t_events[2], got.y_events[2]))])
+        for kind, at, y in zip(("impact", "overturned"), got.t_events,
+                               got.y_events):
+            if len(at):
+                return Landing(kind, at[0], y[0][1], top[0], y[0][0], top[1]), work
+        if got.status != 0:
+            return Landing(got.message, got.t[-1], 0.0, *top), work
+        t, x = stop, got.y[:, -1]
+    return Landing("stop", t, x[1], top[0], x[0], top[1]), work
 
 
 def flights(method, rtol):
     def of(scene):
-        alpha, pp, dt = scene.alpha, scene.p ** 2, scene.dt
-        f, slope, last = scene.f, scene.slope, len(scene.slope)
         count = [0]
-        sin, cos = math.sin, math.cos
 
         def flight(t0, side, w):
-            def rhs(t, x):
-                k = int(t / dt)
-                force = f[k] + slope[k] * (t - k * dt) if k < last else 0.0
-                y = alpha - x[0]
-                return (x[1], -pp * (sin(y) + side * force * cos(y)))
+            first = [scene.first_step(w)]
 
-            def base(t, x):
-                return x[0]
+            def options(t, stop):
+                step = min(first.pop() if first else scene.dt, stop - t)
+                return {"rtol": rtol, "atol": rtol * scene.alpha,
+                        "first_step": step,
+                        "max_step": scene.dt if stop == scene.end else math.inf}
 
-            def tip(t, x):
-                return x[0] - alpha
-
-            def turn(t, x):
-                return x[1]
-
-            base.terminal, base.direction = True, -1
-            tip.terminal, tip.direction = True, 1
-            turn.direction = -1
-            top, x = 0.0, (0.0, w)
-            step = scene.first_step(w)
             # The forcing jumps at the record's end: stop there.
-            for end in (scene.end, scene.end + 60.0):
-                if not t0 < end:
-                    continue
-                got = solve_ivp(rhs, (t0, end), x, method, rtol=rtol,
-                                atol=rtol * alpha, first_step=min(step, end - t0),
-                                max_step=dt if end == scene.end else math.inf,
-                                events=(base, tip, turn))
-                count[0] += got.nfev
-                if len(got.y_events[2]):
-                    top = max(top, max(y[0] for y in got.y_events[2]))
-                if len(got.t_events[1]):
-                    return "overturned", got.t_events[1][0], 0.0, top
-                if len(got.t_events[0]):
-                    return "impact", got.t_events[0][0], got.y_events[0][0][1], top
-                if got.status != 0:
-                    return got.message, got.t[-1], 0.0, top
-                t0, x, step = end, got.y[:, -1], dt
-            return "still", t0, 0.0, top
+            stops = (scene.end, scene.end + 60.0)
+            got, work = fly(scene, side, None, t0, 0.0, w, stops, method, options)
+            count[0] += work
+            return got
 
         return flight, lambda: count[0]
 
     return of
 
 
-if __name__ == "__main__":
+def default(scene, piece, t, side, u, w, stop):
+    return fly(scene, side, piece, t, u, w, [stop], "RK45", lambda *_: {})[0]
+
+
+def best(scene, piece, t, side, u, w, stop):
+    def options(t, stop):
+        return {"rtol": 3e-14, "atol": 1e-16 * scene.alpha,
+                "first_step": min(scene.first_step(w), stop - t)}
+
+    return fly(scene, side, piece, t, u, w, [stop], "DOP853", options)[0]
+
+
+if __name__ == "__main__" and sys.argv[1] == "answers":
+    for flight in (default, best):
+        benchmark.answer(f"scipy-{flight.__name__}", lambda scene: benchmark.run(
+            scene, flight, careful=flight is best))
+elif __name__ == "__main__":
     print(HEADER)
     for method in ("RK45", "DOP853"):
         for rtol in (1e-6, 1e-9, 1e-12):

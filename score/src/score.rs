@@ -115,7 +115,7 @@ fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
         certified: &item.value,
         digits: found
             .zip(cap)
-            .map(|(digits, cap)| digits.clamp(0.0, cap.max(0.0))),
+            .map(|(digits, cap)| digits.clamp(0.0, cap) + 0.0),
         attainable_digits: cap,
         attained,
     }

@@ -212,7 +212,7 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
     });
     let (x, y) = own.unzip();
     series.insert(0, Series::new("these answers", Mark::LineAndPoints, x, y));
-    let levels = score.levels.iter().map(|level| level.kind.clone());
+    let levels = score.levels.iter().map(|l| format!("level {}", l.level));
     let right = ChartPanel::new(
         "Median of each level",
         ChartAxis::named(levels.collect()),

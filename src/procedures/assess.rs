@@ -373,7 +373,7 @@ pub enum AssessError {
 /// `clusters`.
 ///
 /// Each object is a rigid block that rocks (Eq. 1) under each record, scaled
-/// up until it overturns ([`curves`], levels 0.01 g apart, the first
+/// up until it overturns ([`curves`](crate::ida::curves), levels 0.01 g apart, the first
 /// overturning bisected). The intensities of damage are fitted by a lognormal
 /// distribution: in PGA above the intensity g tan(alpha) at which the object
 /// begins to rock, in other measures, and on a floor, from 0. On a

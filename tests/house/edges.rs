@@ -119,7 +119,7 @@ const REPORT: Edges = "
     quantity
     readme answers evidence page recorded timings
     recorded
-    scored page
+    scored
     speed
     stale diff output
     tests answers credibility evidence findings head input ledger output \

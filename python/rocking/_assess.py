@@ -83,34 +83,34 @@ class Contribution(Result):
 
 
 @dataclass(frozen=True)
-class Alternative(Result):
+class Answer(Result):
+    """What a fragility says; intensities are in the unit of the assessment."""
+
+    median_im: Bounds
+    im_at_5_percent: Bounds
+    dispersion: float
+    shift: float
+    annual_frequency: Bounds | None
+    probability: Bounds | None
+
+
+@dataclass(frozen=True)
+class Alternative(Answer):
     """The answer under another assumption."""
 
     assumption: str
-    median_im: Bounds
-    im_at_5_percent: Bounds
-    dispersion: float
-    shift: float
-    annual_frequency: Bounds | None
-    probability: Bounds | None
 
 
 @dataclass(frozen=True)
-class DamagedTogether(Result):
+class DamagedTogether(Answer):
     """So many objects or more damaged by the same earthquake."""
 
     at_least: int
-    median_im: Bounds
-    im_at_5_percent: Bounds
-    dispersion: float
-    shift: float
-    annual_frequency: Bounds | None
-    probability: Bounds | None
 
 
 @dataclass(frozen=True)
-class AssessedObject(Result):
-    """One object; intensities are in the unit of the assessment."""
+class AssessedObject(Answer):
+    """One object."""
 
     id: str
     width_m: float
@@ -121,12 +121,6 @@ class AssessedObject(Result):
     floor: str | None
     damage: str
     onset_pga_g: float
-    median_im: Bounds
-    im_at_5_percent: Bounds
-    dispersion: float
-    shift: float
-    annual_frequency: Bounds | None
-    probability: Bounds | None
     p_damage: tuple[DamageProbability, ...]
     contributions: tuple[Contribution, ...]
     first_in_draws: float

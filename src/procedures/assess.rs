@@ -150,7 +150,8 @@ pub struct Assessed {
     pub eta: f64,
     /// What counts as damage.
     pub damage: Damage,
-    /// PGA in g at which the object begins to rock.
+    /// Peak acceleration in g, of the ground or of its floor, at which the
+    /// object begins to rock.
     pub uplift_pga_g: f64,
     /// The intensities at which the records damage it, and their lognormal
     /// fit with its band.

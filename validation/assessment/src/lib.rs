@@ -12,9 +12,8 @@ use rocking::integrator::{Model, uplift_threshold};
 use rocking::procedures::assess::{
     Alternative, Assessed, Assessment, Damage, Object,
 };
-use rocking_draw::colour;
 use rocking_draw::page::table::scrolled;
-use rocking_draw::page::{POLICY, STYLE, inline};
+use rocking_draw::page::{head, inline};
 use rocking_exchange::Format;
 use rocking_surrogate::Surrogate;
 use rocking_synthesis::SuiteKind;
@@ -95,15 +94,7 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport"
-                    content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
-            }
+            (head(&title))
             body {
                 header {
                     h1 { (title) }
@@ -321,7 +312,11 @@ fn remarks(found: &Assessment, one: &Assessed) -> Markup {
             }
             @if let Some(needed) = &one.fragility.needed {
                 li {
-                    "For a 90 % interval of ±10 % about the median, "
+                    "For a 90 % interval of ±10 % about the median"
+                    @if one.answer.fitted.shift() > 0.0 {
+                        " intensity above the onset of rocking"
+                    }
+                    ", "
                     (short(needed.for_median))
                     " records like these are needed. There are "
                     (found.records) "."
@@ -374,9 +369,10 @@ fn limits(found: &Assessment) -> Markup {
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {
-                        "Motions beyond the last point of the hazard curve: \
-                         they count with the probability of damage that \
-                         this last point has."
+                        "Motions beyond the last point of the hazard curve. \
+                         They count with the probability of damage that \
+                         this last point has; the upper end of a frequency \
+                         counts each of them as damage."
                     }
                 }
                 @if objects.iter().any(|o| o.damage != Damage::Overturning) {

@@ -11,11 +11,27 @@ use crate::figures::Figure;
 pub const STYLE: &str = include_str!("page/page.css");
 
 /// Nothing is loaded and nothing runs; styles stand in the page.
-pub const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
                           base-uri 'none'; form-action 'none'";
 
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
 const WIDE_PX: f64 = 640.0;
+
+/// The head of a page, with all styles.
+#[must_use]
+pub fn head(title: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta http-equiv="Content-Security-Policy" content=(POLICY);
+            meta name="viewport"
+                content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            title { (title) }
+            style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
+        }
+    }
+}
 
 /// A figure with title, reading and data; under it, folded, the same figure
 /// of other motions.

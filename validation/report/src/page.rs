@@ -7,10 +7,9 @@
 mod input;
 mod sections;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, html};
 
-use rocking_draw::colour;
-use rocking_draw::page::{POLICY, STYLE};
+use rocking_draw::page::head;
 
 use input::Part;
 
@@ -32,15 +31,7 @@ pub fn page(input: &ReportInput<'_>) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport"
-                    content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (input.title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
-            }
+            (head(&input.title))
             body {
                 a.skip href="#main" { "Skip to the content" }
                 header {

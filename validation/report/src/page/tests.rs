@@ -7,6 +7,7 @@ use rocking_common::paper::{Arm, Verdict};
 use rocking_common::table::PlainTable;
 use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Figure, Heading};
+use rocking_draw::page::STYLE;
 
 fn sketches() -> [Figure; 3] {
     [1, 6, 8].map(|number| {

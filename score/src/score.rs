@@ -76,14 +76,22 @@ pub struct QuantityScore {
 /// The score of a known code on a level, as the data set has it.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 pub struct Code {
-    /// Name of the code, and its setting.
+    /// Name of the code.
     pub code: String,
+    /// `default`, as it is shipped, or `best`, the best setting found.
+    pub setting: String,
+    /// Version of the code, where it has one.
+    pub version: String,
     /// 1 to 5.
     pub level: u8,
     /// Median of its digits.
-    pub median_digits: Option<f64>,
+    pub median_digits: f64,
     /// Its fewest digits.
-    pub worst_digits: Option<f64>,
+    pub worst_digits: f64,
+    /// Fates that are wrong.
+    pub fates_wrong: usize,
+    /// Fates that were answered.
+    pub fates_answered: usize,
 }
 
 const CODES: &str = include_str!("../../fixtures/benchmark/codes.csv");

@@ -111,13 +111,13 @@ const REPORT: Edges = "
     evidence
     findings page quantity verdicts
     head
-    input answers credibility evidence findings head ledger page recorded timings \
-        verdicts words
+    input answers credibility evidence findings head ledger page recorded scored \
+        timings verdicts words
     ledger evidence recorded
-    output answers evidence head input page quantity recorded timings
+    output answers evidence head input page quantity recorded scored timings
     page evidence quantity recorded
     quantity
-    readme answers evidence page recorded timings
+    readme answers evidence page recorded scored timings
     recorded
     scored
     speed

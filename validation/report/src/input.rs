@@ -12,6 +12,7 @@ use crate::head::Signatures;
 use crate::ledger;
 use crate::page::{Chapter, ReportInput};
 use crate::recorded;
+use crate::scored;
 use crate::timings::Timings;
 use crate::verdicts;
 use crate::words::words;
@@ -217,6 +218,11 @@ pub fn input<'a>(
                 "Speed: other tools, and settings tried",
                 timings.tables(),
             ),
+            Chapter {
+                tables: vec![scored::codes_table(&scored::SETTINGS)],
+                figures: placed(&charts, Place::Others),
+                ..Chapter::titled("others", "How do others do?")
+            },
             only("requirements", "Requirements", vec![ledger]),
         ]
         .into_iter()

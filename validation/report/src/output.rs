@@ -13,6 +13,7 @@ use crate::page;
 use crate::page::AnswerRow;
 use crate::quantity::{rule_text, value_text};
 use crate::recorded;
+use crate::scored;
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
@@ -100,7 +101,7 @@ pub fn files(
     signatures: &Signatures,
 ) -> anyhow::Result<Files> {
     let mut files = Files::new();
-    let mut charts = vec![Timings::kept()?.figure()];
+    let mut charts = vec![Timings::kept()?.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
     let figures = recorded::figures(study)?;
     for figure in figures.iter().chain(&charts) {
@@ -139,8 +140,8 @@ pub fn files(
 }
 
 /// Annexes whose tables no other file has.
-const FILED: [&str; 4] =
-    ["blocks", "comparison", "speed-tried", "requirements"];
+const FILED: [&str; 5] =
+    ["blocks", "comparison", "speed-tried", "others", "requirements"];
 
 /// A table of the page as CSV.
 fn csv(printed: &PlainTable) -> Vec<u8> {

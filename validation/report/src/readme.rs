@@ -6,8 +6,10 @@ use crate::answers;
 use crate::evidence::Proof;
 use crate::page::AnswerRow;
 use crate::recorded::recorded;
+use crate::scored::codes_table;
 use crate::timings::Timings;
 use rocking_common::findings::Findings;
+use rocking_common::table::PlainTable;
 
 /// Marks around the table.
 const MARKS: [&str; 2] = ["<!-- results -->\n", "<!-- end of results -->"];
@@ -55,9 +57,21 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
     let other = answers::otherwise(findings, Some(&recorded))?;
+    let codes = codes_table(&["best"]);
     Ok(format!(
-        "| question | answer | numbers (90 % interval) |\n|---|---|---|\n{}\n{}\n",
+        "| question | answer | numbers (90 % interval) |\n|---|---|---|\n{}\n{}\n\n\
+         **{}** {}\n\n{}",
         lines.concat(),
-        other.unwrap_or_default()
+        other.unwrap_or_default(),
+        codes.title,
+        codes.reading,
+        markdown(&codes)
     ))
+}
+
+fn markdown(table: &PlainTable) -> String {
+    let line = |cells: &Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let rule = vec!["---".into(); table.header.len()];
+    let lines = [&table.header, &rule].into_iter().chain(&table.rows);
+    lines.map(line).collect()
 }

@@ -1,47 +1,44 @@
-//! The page of a score: answers of a code beside certified ones.
+//! The page of a score, answers of a code beside certified ones, and the
+//! scores of known codes.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use rocking_draw::colour;
-use rocking_draw::figures::of_result::score_svg;
-use rocking_draw::page::{POLICY, STYLE};
-use rocking_score::{Explanation, Score, Value, Verdict, codes, reference};
-
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::of_result::{codes_chart, score_svg};
+use rocking_draw::figures::{Chart, Figure, Heading, Place};
+use rocking_draw::page::head;
+use rocking_score::{
+    Code, Explanation, Score, Value, Verdict, codes, own_answers, reference,
+    score,
+};
 
 /// The page of a score: one file, without scripts and network.
 #[must_use]
-pub fn page(score: &Score) -> String {
+pub fn page(scored: &Score) -> String {
     let set = reference();
-    let conditions: Vec<f64> = score
+    let conditions: Vec<f64> = scored
         .quantities
         .iter()
         .filter_map(|q| set.place(q.scene, q.quantity))
         .map(|place| set.items[place].condition)
         .collect();
-    let svg = score_svg(score, &conditions, &codes());
+    let svg = score_svg(scored, &conditions, &codes());
     let title = "Score of a rocking code";
     html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport"
-                    content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
-            }
+            (head(title))
             body {
                 main {
                     h1 { (title) }
                     p {
-                        "Answers to " (score.answered) " of " (score.asked)
+                        "Answers to " (scored.answered) " of " (scored.asked)
                         " quantities of the reference data set, version "
-                        (score.data_set) "."
+                        (scored.data_set) "."
                     }
                     h2 { "What is wrong with the code" }
-                    (diagnosis(score))
+                    (diagnosis(scored))
                     h2 { "Digits" }
-                    (levels(score))
+                    (levels(scored))
                     figure {
                         (PreEscaped(svg))
                         figcaption {
@@ -51,7 +48,7 @@ pub fn page(score: &Score) -> String {
                         }
                     }
                     h2 { "Answers that lack digits" }
-                    (lacking(score))
+                    (lacking(scored))
                 }
             }
         }
@@ -59,6 +56,78 @@ pub fn page(score: &Score) -> String {
     .into_string()
         + "\n"
 }
+
+/// Settings of the known codes.
+pub const SETTINGS: [&str; 2] = ["default", "best"];
+
+/// Medians of each level of known codes in these settings.
+#[must_use]
+pub fn codes_table(settings: &[&str]) -> PlainTable {
+    let mut codes = codes();
+    codes.retain(|code| settings.contains(&code.setting.as_str()));
+    let same =
+        |a: &Code, b: &Code| (&a.code, &a.setting) == (&b.code, &b.setting);
+    let row = |levels: &[Code]| {
+        let Code { code, setting, version, .. } = &levels[0];
+        let median = |level| levels.iter().find(|c| c.level == level);
+        let sum = |f: fn(&Code) -> usize| levels.iter().map(f).sum::<usize>();
+        let (wrong, of) = (sum(|c| c.fates_wrong), sum(|c| c.fates_answered));
+        let mut cells = vec![format!("{code} {version}"), setting.clone()];
+        cells.extend((1..=5).map(|level| {
+            median(level)
+                .map_or("–".into(), |c| format!("{:.1}", c.median_digits))
+        }));
+        cells.push(format!("{wrong} of {of}"));
+        cells
+    };
+    PlainTable::new(
+        "codes",
+        "How do others do?",
+        "Median digits of the answers of other codes to the reference data \
+         set (fixtures/benchmark), level by level; `default` is a code as \
+         it is shipped, `best` the best settings found. Double precision gives 14 to 15 digits where a \
+         scene is well conditioned. What could not be made to rock, and why, \
+         stands in validation/peers.",
+        &[
+            "code",
+            "setting",
+            "free rocking",
+            "pulse without impact",
+            "pulse with impacts",
+            "record",
+            "hard",
+            "wrong fates",
+        ],
+        codes.chunk_by(same).map(row).collect(),
+    )
+}
+
+/// The figure of that table.
+///
+/// # Errors
+/// Where our own answers are refused.
+pub fn codes_figure() -> anyhow::Result<Figure> {
+    let own = score(&own_answers().map_err(anyhow::Error::msg)?);
+    let codes = codes();
+    let chart = codes_chart(&own, &codes);
+    let heading = Heading { place: Place::Others, ..chart.heading };
+    let best: Vec<&Code> =
+        codes.iter().filter(|code| code.setting == SETTINGS[1]).collect();
+    let by_code = best.chunk_by(|a, b| a.code == b.code);
+    let right = |code: &&[&Code]| code.iter().all(|c| c.median_digits >= MANY);
+    let (many, few): (Vec<_>, Vec<_>) = by_code.partition(right);
+    let few = few.into_iter().flatten().map(|code| code.median_digits);
+    let most = few.fold(0.0, f64::max);
+    Ok(Chart { heading, ..chart }.figure(format!(
+        "With the best settings, {} of {} codes have a median of {MANY} digits \
+         or more on every level; the others have at most {most:.1} on any.",
+        many.len(),
+        best.chunk_by(|a, b| a.code == b.code).count()
+    )))
+}
+
+/// Digits that only a code without a model error has.
+const MANY: f64 = 10.0;
 
 fn diagnosis(score: &Score) -> Markup {
     let found = &score.diagnosis;

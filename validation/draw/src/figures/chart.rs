@@ -21,6 +21,9 @@ const TOLERANCE_PX: f64 = 0.1;
 /// Smallest distance between words at the right-hand edge, in px.
 const APART_PX: f64 = 11.5;
 
+/// Room for words at the right-hand edge, in px.
+const EDGE_PX: f64 = 56.0;
+
 /// A figure of one or more panels with a shared legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
@@ -310,6 +313,10 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Scene {
         .layout
         .grid
         .unwrap_or_else(|| grid(figure.panels.len(), figure.columns));
+    let mut all = figure.panels.iter().flat_map(|p| &p.series);
+    if figure.layout.grid.is_none() && all.any(|s| s.mark == Mark::Edge) {
+        grid.right = EDGE_PX;
+    }
     if figure.panels.iter().any(|p| p.x.second.is_some()) {
         grid = grid.with_second_axis();
     }

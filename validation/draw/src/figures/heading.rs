@@ -52,6 +52,8 @@ pub enum Place {
     Checks,
     /// To the speed of the program.
     Speed,
+    /// To the scores of other codes.
+    Others,
     /// To the comparison of suites.
     Suites,
     /// To that comparison block by block.
@@ -161,6 +163,7 @@ impl Heading {
         let Some(number) = self.number else {
             return match self.place {
                 Place::Speed => "Speed".into(),
+                Place::Others => "Other codes".into(),
                 _ => "Beyond the paper".into(),
             };
         };

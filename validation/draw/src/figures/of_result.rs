@@ -7,9 +7,10 @@ use rocking::record::Accelerogram;
 use rocking_score::{Code, Score};
 
 use super::{
-    Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Mark,
+    Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Look, Mark,
     Series, histories,
 };
+use crate::colour::{Ink, Pen};
 use crate::markup;
 
 /// Rotation over slenderness against time, of a response with its history,
@@ -179,11 +180,10 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
     let most = x.iter().fold(1e3, |most: f64, x| most.max(*x));
     let line = [1.0, 1e12].map(|k: f64| (k, 15.0 - libm::log10(k)));
     let (line_x, line_y) = line.into_iter().unzip();
-    let digits = || ChartAxis::linear("digits", (0.0, 15.5));
     let left = ChartPanel::new(
         "Every number",
         ChartAxis::logarithmic("condition number", (1.0, 2.0 * most)),
-        digits(),
+        digits_axis(),
         vec![
             Series::new("these answers", Mark::Points, x, y),
             Series::new(
@@ -194,31 +194,8 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
             ),
         ],
     );
-    let mut series = Vec::new();
-    let names = codes.iter().map(|code| code.code.as_str());
-    let mut names: Vec<&str> = names.collect();
-    names.dedup();
-    for name in names {
-        let own = codes.iter().filter(|code| code.code == name);
-        let own = own.filter_map(|code| {
-            Some((f64::from(code.level), code.median_digits?))
-        });
-        let (x, y) = own.unzip();
-        let name = markup::escape(name);
-        series.push(Series::new(name, Mark::LineAndPoints, x, y));
-    }
-    let own = score.levels.iter().filter_map(|level| {
-        Some((f64::from(level.level), level.median_digits?))
-    });
-    let (x, y) = own.unzip();
-    series.insert(0, Series::new("these answers", Mark::LineAndPoints, x, y));
-    let levels = score.levels.iter().map(|l| format!("level {}", l.level));
-    let right = ChartPanel::new(
-        "Median of each level",
-        ChartAxis::named(levels.collect()),
-        digits(),
-        series,
-    );
+    let own = Some(("these answers", score));
+    let right = by_level("Median of each level", codes, own, "best");
     let chart = Chart {
         heading: Heading::new(
             "score",
@@ -230,6 +207,67 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
         columns: 2,
     };
     chart.figure(String::new()).svg()
+}
+
+fn digits_axis() -> ChartAxis {
+    ChartAxis::linear("digits", (0.0, 15.5))
+}
+
+/// Medians of each level, of answers and of known codes in a setting.
+fn by_level(
+    title: &str,
+    codes: &[Code],
+    own: Option<(&str, &Score)>,
+    setting: &str,
+) -> ChartPanel {
+    let of = |code: &[&Code]| {
+        code.iter().map(|c| (f64::from(c.level), c.median_digits)).unzip()
+    };
+    let codes: Vec<&Code> =
+        codes.iter().filter(|code| code.setting == setting).collect();
+    let mut notes = Vec::new();
+    let mut series: Vec<Series> = Vec::new();
+    for code in codes.chunk_by(|a, b| a.code == b.code) {
+        let look = Look::line(Pen::new(Ink::Muted, 0.9));
+        let (x, y): (Vec<f64>, Vec<f64>) = of(code);
+        let end = x.last().copied().zip(y.last().copied());
+        let name = markup::escape(&code[0].code);
+        series.push(Series::of(look, x, y).keyed([code[0].code.clone()]));
+        notes.extend(end.map(|at| Series::note(Mark::Edge, name, at)));
+    }
+    notes.sort_by(|a, b| a.y[0].total_cmp(&b.y[0]));
+    series.extend(notes);
+    if let Some((name, score)) = own {
+        let levels = score.levels.iter();
+        let own = levels.filter_map(|level| {
+            Some((f64::from(level.level), level.median_digits?))
+        });
+        let (x, y) = own.unzip();
+        series.push(Series::new(name, Mark::LineAndPoints, x, y));
+    }
+    let levels = [1, 2, 3, 4, 5].map(|level| format!("level {level}"));
+    let x = ChartAxis::named(levels.into());
+    ChartPanel::new(title, x, digits_axis(), series)
+}
+
+/// Medians of each level of known codes, in both settings, beside those of
+/// this program.
+pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
+    let own = Some(("this program", own));
+    Chart {
+        heading: Heading::new(
+            "codes",
+            "Digits against difficulty, this project and other codes",
+            "Median digits of the answers of each code, level by level: free \
+             rocking, pulses without and with impacts, records, hard cases; \
+             as shipped and with the best settings found.",
+        ),
+        panels: vec![
+            by_level("as shipped", codes, own, "default"),
+            by_level("best settings found", codes, own, "best"),
+        ],
+        columns: 2,
+    }
 }
 
 /// A few letters, for the tick of an axis; Arias intensity by its root.

@@ -138,19 +138,25 @@ struct Scatter(f64, f64);
 
 impl Hypothesis {
     fn new(given: &[Given], left: Vec<f64>, moved: Vec<f64>) -> Self {
-        let fit = |scatter: Scatter| {
-            let terms = given.iter().zip(&left).map(|(given, left)| {
-                let allowed = given.allowed(scatter);
-                let x = left / allowed;
-                let own =
-                    given.value.number().map_or(0.0, |_| libm::log(allowed));
-                -own - libm::log1p(x * x)
-            });
-            (scatter, terms.sum::<f64>())
-        };
-        let fits = SCATTERS.flat_map(|k| {
-            let scatter = libm::exp10(0.25 * f64::from(k));
-            POWERS.map(|power| fit(Scatter(scatter, power)))
+        let numbers = given.iter().filter(|g| g.value.number().is_some());
+        let ln_conditions = numbers.clone().map(|g| libm::log(g.condition));
+        let (count, sum) =
+            (numbers.count() as f64, ln_conditions.sum::<f64>());
+        let fits = POWERS.into_iter().flat_map(|power| {
+            let own = |(g, left): (&Given, &f64)| {
+                left / g.allowed(Scatter(1.0, power))
+            };
+            let own: Vec<f64> = given.iter().zip(&left).map(own).collect();
+            SCATTERS.map(move |k| {
+                let scatter = libm::exp10(0.25 * f64::from(k));
+                // The sum of logarithms as the logarithm of products.
+                let tails = own.chunks(8).map(|some| {
+                    let square = |x: &f64| (x / scatter) * (x / scatter);
+                    libm::log(some.iter().map(|x| 1.0 + square(x)).product())
+                });
+                let sizes = count * libm::log(scatter) + power * sum;
+                (Scatter(scatter, power), -sizes - tails.sum::<f64>())
+            })
         });
         let best = fits.max_by(|a, b| a.1.total_cmp(&b.1));
         let worst = (Scatter(1.0, 0.0), f64::NEG_INFINITY);

@@ -96,6 +96,10 @@ pub use excitation::Excitation;
 pub use integrator::{Observe, Response, Scene, respond};
 
 #[doc = include_str!("certainty.md")]
+///
+/// In the code: [`Certificate`](crate::integrator::Certificate),
+/// [`CLEARANCE`](crate::integrator::CLEARANCE),
+/// [`certify`](crate::integrator::certify).
 pub mod certainty {}
 
 /// The README's example compiles and runs.

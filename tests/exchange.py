@@ -5,7 +5,7 @@
 writes the fragility of a block as NRML and as a pelicun library, shifted and
 unshifted, in PGA and in PGV; the same of every origin (samples of two limit
 states, an IDA, counts, the fitted surface, a sweep) and in SA; runs the
-README's tour from records to decisions; reads all these files with
+tour of docs/tour.md from records to decisions; reads all these files with
 openquake.engine 3.26 and pelicun 3.10; and compares their probabilities with
 the lognormal's own at forty intensities. OpenQuake then calculates
 scenario_damage and classical_damage with an exported model. Both programs
@@ -159,21 +159,21 @@ def single(folder):
     return worst
 
 
-def of_readme(mark):
-    """The fenced block after a mark in the README."""
-    after = (ROOT / "README.md").read_text().split(mark)[1]
+def of_tour(mark):
+    """The fenced block after a mark in the tour."""
+    after = (ROOT / "docs/tour.md").read_text().split(mark)[1]
     return after.split("```")[1].partition("\n")[2]
 
 
 def tour(folder):
-    """The README's tour, on the three recorded pairs that are shipped."""
+    """The tour of the docs, on the three recorded pairs that are shipped."""
     shutil.copy(ROOT / "fixtures/records/ridgecrest.zip",
                 folder / "records.zip")
     for name in ["objects.csv", "hazard.csv"]:
-        (folder / name).write_text(of_readme(f"<!-- tour: {name} -->"))
+        (folder / name).write_text(of_tour(f"<!-- tour: {name} -->"))
     path = os.pathsep.join([str(BINARY.parent), os.environ["PATH"]])
     subprocess.run(
-        ["bash", "-e", "-c", of_readme("<!-- tour -->")], cwd=folder,
+        ["bash", "-e", "-c", of_tour("<!-- tour -->")], cwd=folder,
         check=True, capture_output=True, env={**os.environ, "PATH": path})
     worst = 0.0
     with (folder / "objects.csv").open() as file:

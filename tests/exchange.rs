@@ -274,19 +274,19 @@ fn shells_and_manual_pages_know_every_command() {
     refused(&place, "man nothing", "nothing");
 }
 
-/// The fenced block after a mark in the README.
-fn of_readme(mark: &str) -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
-    let readme = fs::read_to_string(path).unwrap();
-    let after = readme.split(mark).nth(1).expect(mark);
+/// The fenced block after a mark in the tour.
+fn of_tour(mark: &str) -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tour.md");
+    let page = fs::read_to_string(path).unwrap();
+    let after = page.split(mark).nth(1).expect(mark);
     let block = after.split("```").nth(1).expect("a fenced block");
     block.split_once('\n').unwrap().1.to_owned()
 }
 
-/// The README's tour, as it stands there, on the three recorded pairs that
+/// The tour of the docs, as it stands there, on the three recorded pairs that
 /// are shipped.
 #[test]
-fn the_tour_of_the_readme_runs() {
+fn the_tour_runs() {
     let place = folder("tour");
     let shipped = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -294,10 +294,10 @@ fn the_tour_of_the_readme_runs() {
     );
     fs::copy(shipped, place.join("records.zip")).unwrap();
     for name in ["objects.csv", "hazard.csv"] {
-        let text = of_readme(&format!("<!-- tour: {name} -->"));
+        let text = of_tour(&format!("<!-- tour: {name} -->"));
         fs::write(place.join(name), text).unwrap();
     }
-    let tour = of_readme("<!-- tour -->");
+    let tour = of_tour("<!-- tour -->");
     let commands = tour.matches("rocking ").count();
     assert!((6..=8).contains(&commands), "{commands} commands");
     let program = PathBuf::from(env!("CARGO_BIN_EXE_rocking"));

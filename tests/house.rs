@@ -18,6 +18,8 @@ mod edges;
 mod fixtures;
 #[path = "house/layers.rs"]
 mod layers;
+#[path = "house/links.rs"]
+mod links;
 #[path = "house/results.rs"]
 mod results;
 #[path = "house/source.rs"]
@@ -68,8 +70,12 @@ const UNSAFE: &str = "src/number/dispatch";
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &str = "src exchange parquet score surrogate synthesis validation tests benches examples fixtures reports .ci python/src \
-     python/rocking python/tests python/notebooks";
+const FOLDERS: &str = "src exchange parquet score surrogate synthesis \
+    validation tests benches examples fixtures reports .ci docs python/src \
+    python/rocking python/tests python/notebooks";
+
+/// The page that explains every dependency.
+const DEPENDENCIES: &str = "docs/repository.md";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -290,8 +296,8 @@ fn the_core_s_names_are_spelled_once() {
 }
 
 #[test]
-fn every_dependency_is_used_and_in_the_readme() {
-    let readme = read("README.md");
+fn every_dependency_is_used_and_explained() {
+    let page = read(DEPENDENCIES);
     let (core, harness) =
         (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
     let mut problems = Vec::new();
@@ -326,8 +332,7 @@ fn every_dependency_is_used_and_in_the_readme() {
         }
     }
     let row = |name: &str| {
-        readme
-            .lines()
+        page.lines()
             .find(|line| line.starts_with(&format!("| `{name}` |")))
             .map(|line| line.split('|').collect::<Vec<_>>())
     };
@@ -336,15 +341,16 @@ fn every_dependency_is_used_and_in_the_readme() {
             Some([_, _, licence, reason, _])
                 if !licence.trim().is_empty() && !reason.trim().is_empty() => {
             }
-            _ => problems.push(format!("README: no licence, reason: {name}")),
+            _ => problems
+                .push(format!("{DEPENDENCIES}: no licence, reason: {name}")),
         }
     }
-    let table = readme.split("### Dependencies").nth(1).unwrap_or_default();
+    let table = page.split("## Dependencies").nth(1).unwrap_or_default();
     let table = table.split("\n## ").next().unwrap_or_default();
     for line in table.lines().filter(|line| line.starts_with("| `")) {
         let name = line.split('`').nth(1).unwrap_or_default();
         if !direct.contains(name) {
-            problems.push(format!("README: {name} is no dependency"));
+            problems.push(format!("{DEPENDENCIES}: {name} is no dependency"));
         }
     }
     pass(&problems);

@@ -4,12 +4,13 @@
 use std::process::Command;
 
 /// What the program is built from, beside this package's folder.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "../Cargo.lock",
     "../Cargo.toml",
     "../exchange",
     "../fixtures",
     "../parquet",
+    "../score",
     "../src",
     "../surrogate",
     "../synthesis",

@@ -1,6 +1,8 @@
 //! Texts that people read, as committed snapshots: a changed word is seen in
 //! the change, and renewed by `rocking accept`.
 
+use std::path::Path;
+
 use insta::{Settings, assert_snapshot};
 
 use super::diff::sides;
@@ -38,6 +40,23 @@ fn help_of_every_command() {
         settings().bind(|| assert_snapshot!(name, text));
         let inner = subcommands(&text).into_iter();
         commands.extend(inner.map(|inner| format!("{command} {inner}")));
+    }
+}
+
+#[test]
+fn the_version_names_the_commit() {
+    let place = folder("texts-version", &[]);
+    let (status, text, _) = run(&place, "--version");
+    let head = concat!("rocking ", env!("CARGO_PKG_VERSION"), " (commit ");
+    let named = text.strip_prefix(head).and_then(|t| t.strip_suffix(")\n"));
+    let commit = named.expect(&text).replace(" with changes", "");
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let hash = |text: &str| {
+        text.len() == 12 && text.chars().all(|c| c.is_ascii_hexdigit())
+    };
+    match Path::new(root).join(".git").exists() {
+        true => assert!(status == 0 && hash(&commit), "{text}"),
+        false => assert_eq!((status, commit.as_str()), (0, "unknown")),
     }
 }
 

@@ -55,6 +55,7 @@ fn remarks_travel_to_every_result() {
     let json = json(&folder, &format!("{ida} --json"));
     assert_eq!(json["remarks"]["codes"][0]["code"], "offset");
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
+    assert!(json["commit"].as_str().is_some_and(|c| !c.is_empty()));
     let respond = "respond --alpha 0.1 --p 3 --record b_E.csv";
     let (status, out, _) = rocking(&folder, respond, "");
     assert!(status == 0 && out.contains(words), "{out}");

@@ -5,7 +5,7 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::terminal::print;
+use crate::terminal::{COMMIT, print};
 use rocking_common::table::columns::SCHEMA;
 
 /// What every JSON of a command carries.
@@ -13,6 +13,7 @@ use rocking_common::table::columns::SCHEMA;
 struct Envelope<'a, T> {
     schema: u32,
     version: &'static str,
+    commit: &'static str,
     #[serde(flatten)]
     result: &'a T,
 }
@@ -34,7 +35,7 @@ pub fn shown<T: Serialize>(json: bool, result: &T) -> Result<String, Failure> {
         return text(result);
     }
     let version = env!("CARGO_PKG_VERSION");
-    let all = Envelope { schema: SCHEMA, version, result };
+    let all = Envelope { schema: SCHEMA, version, commit: COMMIT, result };
     Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 

@@ -154,19 +154,12 @@ impl Solver {
         scene: &Scene<'_>,
         observe: &Observe,
     ) -> Result<Response, SceneError> {
-        let response = self.respond_once(scene, observe)?;
         // A fixed order's own result was asked for; a run that is asked for
         // its peak alone has its estimate read by the caller.
-        if observe.accuracy || self.order.is_some() || self.peak_only {
-            return Ok(response);
-        }
-        // Not a number is doubtful.
-        if response.doubt.is_some_and(|doubt| doubt < DOUBTFUL) {
-            return Ok(response);
-        }
-        let assessed = Observe { accuracy: true, ..*observe };
-        let careful = self.respond_once(scene, &assessed)?;
-        Ok(Response { doubt: response.doubt, ..careful })
+        let looks_again =
+            !(observe.accuracy || self.order.is_some() || self.peak_only);
+        check(scene, observe)?;
+        run(scene, observe, *self, looks_again)
     }
 
     /// The run without a second look.
@@ -176,6 +169,6 @@ impl Solver {
         observe: &Observe,
     ) -> Result<Response, SceneError> {
         check(scene, observe)?;
-        run(scene, observe, *self)
+        run(scene, observe, *self, false)
     }
 }

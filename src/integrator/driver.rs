@@ -104,6 +104,8 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     tolerance: N,
     /// Rough certificate, where nothing but outcome and peak is asked for.
     screen: Option<Screen<N>>,
+    /// A run that is doubtful begins anew, with its decisions assessed.
+    looks_again: bool,
     /// Where it is asked whether what is left can change outcome or peak.
     barrier: Option<Barrier<N>>,
     /// Nothing but outcome and peak is asked for.
@@ -164,10 +166,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             screen: None,
+            looks_again: false,
             barrier: None,
             ends_early: false,
             exit_from: 0,
         }
+    }
+
+    /// Begins anew, with its decisions assessed, where it is doubtful.
+    pub fn looking_again_if(mut self, asked: bool) -> Self {
+        self.looks_again = asked;
+        self
     }
 
     /// Ends as soon as outcome and peak are known, which nothing but them may
@@ -211,19 +220,46 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         observe: &Observe,
         see: impl Fn(&Self, &Step<N>),
     ) -> Result<Response<N>, SceneError> {
-        let mut stage = self.begin(scene, observe);
+        let mut observe = *observe;
         loop {
-            if let Some(error) = self.refusal(&stage) {
-                return Err(error);
-            }
-            match stage {
-                Stage::Flying(step) => {
-                    see(&self, &step);
-                    stage = self.proceed::<SIZE>(step);
+            let mut stage = self.begin(scene, &observe);
+            let flight = loop {
+                if let Some(error) = self.refusal(&stage) {
+                    return Err(error);
                 }
-                Stage::Landed(flight) => return self.within_limit(&flight),
+                match stage {
+                    Stage::Flying(_) if self.is_to_be_assessed() => {
+                        break None;
+                    }
+                    Stage::Flying(step) => {
+                        see(&self, &step);
+                        stage = self.proceed::<SIZE>(step);
+                    }
+                    Stage::Landed(flight) => break Some(flight),
+                }
+            };
+            if let Some(flight) = flight {
+                let response = self.within_limit(&flight)?;
+                if !self.looks_again
+                    || observe.accuracy
+                    || !response.is_doubtful()
+                {
+                    return Ok(response);
+                }
             }
+            observe.accuracy = true;
+            self.record = Tracked::empty();
+            self.screen = None;
+            self.exit_from = 0;
         }
+    }
+
+    /// True where a run is surely doubtful that is to be assessed then.
+    #[inline(always)]
+    fn is_to_be_assessed(&self) -> bool {
+        self.looks_again
+            && self.record.accuracy.is_none()
+            && self.screen.is_some_and(|screen| screen.is_surely_doubtful())
     }
 
     /// Goes to the first step in flight.
@@ -303,7 +339,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.record.accuracy = Some(own);
             self.record.inputs = wide.then(|| Accuracy::of_inputs(alpha));
             self.barrier.get_or_insert_with(Barrier::none);
-        } else if N::ROUNDOFF >= f64::ROUNDOFF {
+        }
+        let is_screened = self.looks_again || !observe.accuracy;
+        if is_screened && N::ROUNDOFF >= f64::ROUNDOFF {
             self.screen.get_or_insert_with(Screen::at_rest);
         }
     }

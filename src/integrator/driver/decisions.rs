@@ -58,8 +58,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let mut worst = 0.0_f64;
         for tracker in self.record.trackers() {
             tracker.step(&flown);
-            tracker.fly(time_s);
-            worst = worst.max(CLEARANCE * tracker.error());
+            worst = worst.max(CLEARANCE * tracker.fly(time_s));
         }
         if self.may_turn_near(series, x.to_f64(), worst) {
             self.assess_turnings(series, x, time_s);

@@ -92,7 +92,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let drive = self.dynamics.drive(oriented);
-        let series: Series<N, LEN> = self.expand((u, w), length, &drive);
+        let (series, left): (Series<N, LEN>, N) =
+            if self.record.accuracy.is_some() {
+                self.expand_and_assess((u, w), length, &drive)
+            } else {
+                (self.expand((u, w), length, &drive), N::zero())
+            };
         let Series { c, v } = &series;
         self.record.work.steps += 1;
         if !(left_by(v, length) <= self.allowed(w, length)) {
@@ -106,8 +111,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             }
         };
         if self.record.accuracy.is_some() {
-            let left = self.left((u, w), length, &drive, &series);
-            let left = left * power(x, LEN - 1);
+            let left = match event {
+                Event::None => left,
+                _ => left * power(x, LEN - 1),
+            };
             let ends = [(u, w), (end_u, end_w)];
             let stepped = Stepped { ends, tau, left };
             self.assess(&series, x, &stepped, &drive, step.place);
@@ -160,25 +167,21 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Flight::Overturned { time_s, side: motion.side, margin }
     }
 
-    /// What a step's series leaves of the velocity: what the longest one
-    /// makes of it, and what that leaves.
+    /// Taylor polynomial of the motion, and what it leaves of the velocity.
     #[inline(never)]
-    fn left<const LEN: usize>(
+    fn expand_and_assess<const LEN: usize>(
         &self,
         motion: (N, N),
         length: N,
         drive: &Drive<N, F>,
-        series: &Series<N, LEN>,
-    ) -> N {
-        if LEN == HARD {
-            return surely_left_by(&series.v, length);
-        }
-        let long: Series<N, HARD> = self.expand(motion, length, drive);
-        let (end, longer) = (series.end(), long.end());
-        let by_w = (longer.1 - end.1).abs();
-        let by_u = (longer.0 - end.0).abs() / length;
-        let most = if by_u > by_w { by_u } else { by_w };
-        most + surely_left_by(&long.v, length)
+    ) -> (Series<N, LEN>, N) {
+        let driver = self;
+        self.isa.run(Longest::<_, _, LEN, _, _> {
+            driver,
+            motion,
+            length,
+            drive,
+        })
     }
 
     /// Taylor polynomial of the motion.
@@ -250,6 +253,41 @@ where
     #[inline(always)]
     fn run(self) -> Advance<N> {
         self.driver.lengthened(self.step, self.length)
+    }
+}
+
+/// A step by the longest series, of which a shorter one is the beginning: that
+/// one, and what it leaves of the velocity. It is compiled for each
+/// instruction-set level.
+struct Longest<'d, N, G, const LEN: usize, const F: usize, const HARD: usize> {
+    driver: &'d Driver<N, G, F, HARD>,
+    motion: (N, N),
+    length: N,
+    drive: &'d Drive<N, F>,
+}
+
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
+    for Longest<'_, N, G, LEN, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = (Series<N, LEN>, N);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { driver, motion, length, drive } = self;
+        let long: Series<N, HARD> = driver.expand(motion, length, drive);
+        let short = long.beginning();
+        let left = surely_left_by(&long.v, length);
+        if LEN == HARD {
+            return (short, left);
+        }
+        let (end, longer) = (short.end(), long.end());
+        let by_w = (longer.1 - end.1).abs();
+        let by_u = (longer.0 - end.0).abs() / length;
+        let most = if by_u > by_w { by_u } else { by_w };
+        (short, most + left)
     }
 }
 

@@ -42,6 +42,7 @@ pub use scene::{
 
 use crate::names::named;
 use crate::number::dispatch::Isa;
+use driver::Again;
 use run::run;
 pub(crate) use screen::DOUBTFUL;
 
@@ -156,10 +157,16 @@ impl Solver {
     ) -> Result<Response, SceneError> {
         // A fixed order's own result was asked for; a run that is asked for
         // its peak alone has its estimate read by the caller.
-        let looks_again =
-            !(observe.accuracy || self.order.is_some() || self.peak_only);
+        if observe.accuracy || self.order.is_some() || self.peak_only {
+            return self.respond_once(scene, observe);
+        }
         check(scene, observe)?;
-        run(scene, observe, *self, looks_again)
+        let response = run(scene, observe, *self, Again::IfDoubtful)?;
+        if !response.is_doubtful() {
+            return Ok(response);
+        }
+        let assessed = Observe { accuracy: true, ..*observe };
+        run(scene, &assessed, *self, Again::Now)
     }
 
     /// The run without a second look.
@@ -169,6 +176,6 @@ impl Solver {
         observe: &Observe,
     ) -> Result<Response, SceneError> {
         check(scene, observe)?;
-        run(scene, observe, *self, false)
+        run(scene, observe, *self, Again::No)
     }
 }

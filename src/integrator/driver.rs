@@ -104,14 +104,24 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     tolerance: N,
     /// Rough certificate, where nothing but outcome and peak is asked for.
     screen: Option<Screen<N>>,
-    /// A run that is doubtful begins anew, with its decisions assessed.
-    looks_again: bool,
+    /// Whether a run that is doubtful is made again.
+    again: Again,
     /// Where it is asked whether what is left can change outcome or peak.
     barrier: Option<Barrier<N>>,
     /// Nothing but outcome and peak is asked for.
     ends_early: bool,
     /// First piece in which it is asked whether that matters.
     exit_from: usize,
+}
+
+/// Whether a run that is doubtful is made again, its decisions assessed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Again {
+    No,
+    /// It ends where it is surely doubtful.
+    IfDoubtful,
+    /// It is the one made again.
+    Now,
 }
 
 /// How a flight through the excitation ended.
@@ -128,6 +138,8 @@ pub(crate) enum Flight<N> {
     End(Motion<N>),
     /// The observation ended in flight.
     Stopped,
+    /// The run is doubtful, and is made again.
+    Doubtful,
 }
 
 /// Motion about to enter a step.
@@ -166,16 +178,16 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             screen: None,
-            looks_again: false,
+            again: Again::No,
             barrier: None,
             ends_early: false,
             exit_from: 0,
         }
     }
 
-    /// Begins anew, with its decisions assessed, where it is doubtful.
-    pub fn looking_again_if(mut self, asked: bool) -> Self {
-        self.looks_again = asked;
+    /// One that may be made again.
+    pub fn again(mut self, again: Again) -> Self {
+        self.again = again;
         self
     }
 
@@ -220,46 +232,19 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         observe: &Observe,
         see: impl Fn(&Self, &Step<N>),
     ) -> Result<Response<N>, SceneError> {
-        let mut observe = *observe;
+        let mut stage = self.begin(scene, observe);
         loop {
-            let mut stage = self.begin(scene, &observe);
-            let flight = loop {
-                if let Some(error) = self.refusal(&stage) {
-                    return Err(error);
-                }
-                match stage {
-                    Stage::Flying(_) if self.is_to_be_assessed() => {
-                        break None;
-                    }
-                    Stage::Flying(step) => {
-                        see(&self, &step);
-                        stage = self.proceed::<SIZE>(step);
-                    }
-                    Stage::Landed(flight) => break Some(flight),
-                }
-            };
-            if let Some(flight) = flight {
-                let response = self.within_limit(&flight)?;
-                if !self.looks_again
-                    || observe.accuracy
-                    || !response.is_doubtful()
-                {
-                    return Ok(response);
-                }
+            if let Some(error) = self.refusal(&stage) {
+                return Err(error);
             }
-            observe.accuracy = true;
-            self.record = Tracked::empty();
-            self.screen = None;
-            self.exit_from = 0;
+            match stage {
+                Stage::Flying(step) => {
+                    see(&self, &step);
+                    stage = self.proceed::<SIZE>(step);
+                }
+                Stage::Landed(flight) => return self.within_limit(&flight),
+            }
         }
-    }
-
-    /// True where a run is surely doubtful that is to be assessed then.
-    #[inline(always)]
-    fn is_to_be_assessed(&self) -> bool {
-        self.looks_again
-            && self.record.accuracy.is_none()
-            && self.screen.is_some_and(|screen| screen.is_surely_doubtful())
     }
 
     /// Goes to the first step in flight.
@@ -340,7 +325,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.record.inputs = wide.then(|| Accuracy::of_inputs(alpha));
             self.barrier.get_or_insert_with(Barrier::none);
         }
-        let is_screened = self.looks_again || !observe.accuracy;
+        let is_screened = self.again == Again::Now || !observe.accuracy;
         if is_screened && N::ROUNDOFF >= f64::ROUNDOFF {
             self.screen.get_or_insert_with(Screen::at_rest);
         }

@@ -2,7 +2,7 @@
 
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
-use crate::integrator::driver::Driver;
+use crate::integrator::driver::{Again, Driver};
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{Ground, RecordForcing};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
@@ -12,11 +12,11 @@ pub(super) fn run(
     scene: &Scene<'_>,
     observe: &Observe,
     solver: Solver,
-    looks_again: bool,
+    again: Again,
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    solver.isa.run(Run { scene, observe, index, solver, looks_again })
+    solver.isa.run(Run { scene, observe, index, solver, again })
 }
 
 /// Index of a record that brings none.
@@ -48,7 +48,7 @@ struct Run<'a> {
     observe: &'a Observe,
     index: Option<&'a RecordIndex>,
     solver: Solver,
-    looks_again: bool,
+    again: Again,
 }
 
 impl Kernel for Run<'_> {
@@ -84,7 +84,7 @@ impl Kernel for Run<'_> {
                     self.solver.isa,
                 )
                 .for_peak_if(self.solver.peak_only)
-                .looking_again_if(self.looks_again)
+                .again(self.again)
                 .run::<LONGEST>(self.scene, self.observe)
             }
         }
@@ -137,6 +137,6 @@ impl Run<'_> {
     ) -> Driver<f64, RecordForcing<'r, f64>, 2, LONGEST> {
         Driver::new(dynamics, forcing, self.solver.isa)
             .for_peak_if(self.solver.peak_only)
-            .looking_again_if(self.looks_again)
+            .again(self.again)
     }
 }

@@ -1,4 +1,4 @@
-//! Fates that double precision misses, doubtful runs, and where a curve begins.
+//! Fates that double precision misses, doubtful runs, where a curve begins.
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{

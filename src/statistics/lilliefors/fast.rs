@@ -107,8 +107,8 @@ impl Kernel for Moments<'_> {
         let count = self.0.len() as f64;
         let (mut means, mut squares) = ([0.0; LANES], [0.0; LANES]);
         for row in self.0 {
-            for lane in 0..LANES {
-                means[lane] += row.0[lane];
+            for (mean, value) in means.iter_mut().zip(&row.0) {
+                *mean += value;
             }
         }
         for mean in &mut means {

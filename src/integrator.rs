@@ -42,6 +42,7 @@ pub use scene::{
 
 use crate::names::named;
 use crate::number::dispatch::Isa;
+use driver::Again;
 use run::run;
 pub(crate) use screen::DOUBTFUL;
 
@@ -154,19 +155,18 @@ impl Solver {
         scene: &Scene<'_>,
         observe: &Observe,
     ) -> Result<Response, SceneError> {
-        let response = self.respond_once(scene, observe)?;
         // A fixed order's own result was asked for; a run that is asked for
         // its peak alone has its estimate read by the caller.
         if observe.accuracy || self.order.is_some() || self.peak_only {
-            return Ok(response);
+            return self.respond_once(scene, observe);
         }
-        // Not a number is doubtful.
-        if response.doubt.is_some_and(|doubt| doubt < DOUBTFUL) {
+        check(scene, observe)?;
+        let response = run(scene, observe, *self, Again::IfDoubtful)?;
+        if !response.is_doubtful() {
             return Ok(response);
         }
         let assessed = Observe { accuracy: true, ..*observe };
-        let careful = self.respond_once(scene, &assessed)?;
-        Ok(Response { doubt: response.doubt, ..careful })
+        run(scene, &assessed, *self, Again::Now)
     }
 
     /// The run without a second look.
@@ -176,6 +176,6 @@ impl Solver {
         observe: &Observe,
     ) -> Result<Response, SceneError> {
         check(scene, observe)?;
-        run(scene, observe, *self)
+        run(scene, observe, *self, Again::No)
     }
 }

@@ -218,12 +218,15 @@ impl Accuracy {
     }
 
     /// Takes in that the block is in flight: what the error must stay below.
-    pub fn fly(&mut self, time_s: f64) {
+    /// Returns the bound of the error of u.
+    pub fn fly(&mut self, time_s: f64) -> f64 {
         // Clear up to the largest error itself.
         let most = CLEARANCE * LARGEST_ERROR * self.alpha;
-        self.decide(Decision::Propagation, most, self.error(), time_s);
-        let error = self.bound([0.0, 1.0]);
-        self.decide(Decision::Propagation, most, error, time_s);
+        let [by_u, by_w] = [self.error(), self.bound([0.0, 1.0])];
+        for error in [by_u, by_w] {
+            self.decide(Decision::Propagation, most, error, time_s);
+        }
+        by_u
     }
 
     /// Notes a decision of a margin with some error.

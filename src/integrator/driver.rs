@@ -104,12 +104,24 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     tolerance: N,
     /// Rough certificate, where nothing but outcome and peak is asked for.
     screen: Option<Screen<N>>,
+    /// Whether a run that is doubtful is made again.
+    again: Again,
     /// Where it is asked whether what is left can change outcome or peak.
     barrier: Option<Barrier<N>>,
     /// Nothing but outcome and peak is asked for.
     ends_early: bool,
     /// First piece in which it is asked whether that matters.
     exit_from: usize,
+}
+
+/// Whether a run that is doubtful is made again, its decisions assessed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Again {
+    No,
+    /// It ends where it is surely doubtful.
+    IfDoubtful,
+    /// It is the one made again.
+    Now,
 }
 
 /// How a flight through the excitation ended.
@@ -126,6 +138,8 @@ pub(crate) enum Flight<N> {
     End(Motion<N>),
     /// The observation ended in flight.
     Stopped,
+    /// The run is doubtful, and is made again.
+    Doubtful,
 }
 
 /// Motion about to enter a step.
@@ -164,10 +178,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             screen: None,
+            again: Again::No,
             barrier: None,
             ends_early: false,
             exit_from: 0,
         }
+    }
+
+    /// One that may be made again.
+    pub fn again(mut self, again: Again) -> Self {
+        self.again = again;
+        self
     }
 
     /// Ends as soon as outcome and peak are known, which nothing but them may
@@ -303,7 +324,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.record.accuracy = Some(own);
             self.record.inputs = wide.then(|| Accuracy::of_inputs(alpha));
             self.barrier.get_or_insert_with(Barrier::none);
-        } else if N::ROUNDOFF >= f64::ROUNDOFF {
+        }
+        let is_screened = self.again == Again::Now || !observe.accuracy;
+        if is_screened && N::ROUNDOFF >= f64::ROUNDOFF {
             self.screen.get_or_insert_with(Screen::at_rest);
         }
     }

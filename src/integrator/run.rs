@@ -2,7 +2,7 @@
 
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
-use crate::integrator::driver::Driver;
+use crate::integrator::driver::{Again, Driver};
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{Ground, RecordForcing};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
@@ -12,10 +12,11 @@ pub(super) fn run(
     scene: &Scene<'_>,
     observe: &Observe,
     solver: Solver,
+    again: Again,
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    solver.isa.run(Run { scene, observe, index, solver })
+    solver.isa.run(Run { scene, observe, index, solver, again })
 }
 
 /// Index of a record that brings none.
@@ -47,6 +48,7 @@ struct Run<'a> {
     observe: &'a Observe,
     index: Option<&'a RecordIndex>,
     solver: Solver,
+    again: Again,
 }
 
 impl Kernel for Run<'_> {
@@ -82,6 +84,7 @@ impl Kernel for Run<'_> {
                     self.solver.isa,
                 )
                 .for_peak_if(self.solver.peak_only)
+                .again(self.again)
                 .run::<LONGEST>(self.scene, self.observe)
             }
         }
@@ -132,7 +135,8 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'r, f64>,
     ) -> Driver<f64, RecordForcing<'r, f64>, 2, LONGEST> {
-        let driver = Driver::new(dynamics, forcing, self.solver.isa);
-        if self.solver.peak_only { driver.for_peak() } else { driver }
+        Driver::new(dynamics, forcing, self.solver.isa)
+            .for_peak_if(self.solver.peak_only)
+            .again(self.again)
     }
 }

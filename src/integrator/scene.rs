@@ -2,6 +2,7 @@
 
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;
+use crate::integrator::screen::DOUBTFUL;
 use crate::integrator::{Certificate, Forces, Model, Overturning, WorkLimit};
 use crate::names::named;
 
@@ -307,6 +308,12 @@ impl<N> Response<N> {
             Assessment::Clear => self.outcome.name(),
             Assessment::Unresolved | Assessment::NotAssessed => "unresolved",
         }
+    }
+
+    /// Whether the rough estimate is not small, or not known.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        // Not a number is doubtful.
+        !self.doubt.is_some_and(|doubt| doubt < DOUBTFUL)
     }
 
     /// Whether outcome and peak are resolved in this precision.

@@ -168,6 +168,13 @@ impl<N: Number> Screen<N> {
 }
 
 impl<N: Real> Screen<N> {
+    /// True where the estimate of a run will not be below [`DOUBTFUL`],
+    /// whatever follows. Not a number is doubtful.
+    #[inline(always)]
+    pub fn is_surely_doubtful(&self) -> bool {
+        !(self.doubt < N::from_f64(2.0 * DOUBTFUL * DOUBTFUL))
+    }
+
     /// Takes in the velocity at the end of a step.
     #[inline(always)]
     pub fn pass(&mut self, w: N) {

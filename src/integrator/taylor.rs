@@ -189,6 +189,13 @@ impl<N: Number, const LEN: usize> Series<N, LEN> {
         self.c[k + 1] = self.v[k] * step;
     }
 
+    /// The series of the first coefficients, to a shorter length.
+    #[inline(always)]
+    pub fn beginning<const SHORT: usize>(&self) -> Series<N, SHORT> {
+        let of = |all: &[N; LEN]| std::array::from_fn(|k| all[k]);
+        Series { c: of(&self.c), v: of(&self.v) }
+    }
+
     /// Motion at the end of the step.
     #[inline(always)]
     pub fn end(&self) -> (N, N) {

@@ -67,8 +67,8 @@ pub fn standard_normal(stream: &mut Stream) -> f64 {
     loop {
         let bits = stream.next_u64();
         let layer = bits as usize % LAYERS;
-        // In [-1, 1), from the bits that don't choose the layer.
-        let u = f64::mul_add((bits >> 12) as f64, 2.0 * f64::EPSILON, -1.0);
+        // In [-1, 1), from the bits that don't choose the layer, exactly.
+        let u = (bits >> 12) as f64 * (2.0 * f64::EPSILON) - 1.0;
         let x = u * edges[layer];
         if x.abs() < edges[layer + 1] {
             return x;

@@ -1,10 +1,13 @@
-//! Fates that double precision misses, and where a curve begins.
+//! Fates that double precision misses, doubtful runs, where a curve begins.
 
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Excitation, NormalisedRecord, Pulse, PulseKind};
+use rocking::excitation::{
+    Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
+};
 use rocking::ida::{Adjust, Analysis, curve};
 use rocking::integrator::{
-    Arithmetic, Certify, Model, Observe, Overturning, Scene, certify, respond,
+    Arithmetic, Certify, Model, Observe, Overturning, Response, Scene,
+    certify, respond,
 };
 use rocking::record::Accelerogram;
 
@@ -69,4 +72,39 @@ fn the_onset_of_a_curve_follows_the_rule_of_its_equation() {
         assert_eq!(onset.slenderness_rad, slenderness_rad, "{model:?}");
         assert_eq!(onset.pga_g, own);
     }
+}
+
+/// A run that nobody asked to be assessed ends at the impact that makes it
+/// doubtful, and gives what an assessed run gives.
+#[test]
+fn a_doubtful_run_is_the_assessed_one() {
+    let wave = |rate: f64, k: u32| libm::sin(rate * f64::from(k));
+    let samples = (0..6000).map(|k| {
+        wave(0.021, k) + wave(0.047, k) + wave(0.11, k) + wave(0.173, k)
+    });
+    let record = Accelerogram::try_new("waves", 0.01, samples.collect());
+    let record = NormalisedRecord::new(&record.unwrap());
+    let block = Block::try_new(0.15, 4.0).unwrap();
+    let eta = Restitution::constant(0.92).unwrap();
+    let mut doubtful = 0;
+    for level in 16..56 {
+        let pga_g = 0.01 * f64::from(level);
+        let ground = ScaledRecord::to_pga(&record, pga_g);
+        let scene = Scene::new(block, eta, Excitation::Record(ground));
+        let events = Observe { events: true, ..Observe::default() };
+        let found = respond(&scene, &events).unwrap();
+        let assessed = Observe { accuracy: true, ..events };
+        let assessed = respond(&scene, &assessed).unwrap();
+        if found.certificate.is_some() {
+            doubtful += 1;
+            assert!(found.doubt.is_some_and(|doubt| !(doubt < 1e-4)));
+            let same = Response { doubt: found.doubt, ..assessed };
+            assert_eq!(found, same, "{pga_g}");
+        } else {
+            assert!(found.doubt.is_some_and(|doubt| doubt < 1e-4));
+            assert_eq!(found.outcome, assessed.outcome);
+            assert_eq!(found.work, assessed.work);
+        }
+    }
+    assert!((1..40).contains(&doubtful), "{doubtful}");
 }

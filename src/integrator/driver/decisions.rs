@@ -43,7 +43,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Carries the errors over the part (0, `x`) of a step from a place, and
     /// notes what is decided in flight: that the block does not touch its
     /// base, and does not reach overturning.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn assess<const LEN: usize>(
         &mut self,
         series: &Series<N, LEN>,
@@ -58,8 +58,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let mut worst = 0.0_f64;
         for tracker in self.record.trackers() {
             tracker.step(&flown);
-            tracker.fly(time_s);
-            worst = worst.max(CLEARANCE * tracker.error());
+            worst = worst.max(CLEARANCE * tracker.fly(time_s));
         }
         if self.may_turn_near(series, x.to_f64(), worst) {
             self.assess_turnings(series, x, time_s);
@@ -95,6 +94,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         !(low > slack && high + slack < peak && high + slack < limit)
     }
 
+    #[inline(always)]
     fn assess_turnings<const LEN: usize>(
         &mut self,
         series: &Series<N, LEN>,

@@ -71,7 +71,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 let end = self.until_s.unwrap_or(self.end_s());
                 self.sample_rest(end);
             }
-            Flight::Settled | Flight::Stopped => {}
+            Flight::Settled | Flight::Stopped | Flight::Doubtful => {}
             Flight::Overturned { time_s, side, margin: beyond } => {
                 margin = Some(beyond);
                 overturned = Some((time_s, side));

@@ -1,7 +1,7 @@
 //! The impact, and the proof that a chatter ends.
 
 use crate::integrator::Impact;
-use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::driver::{Again, Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
 use crate::integrator::screen::Landing;
@@ -82,7 +82,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 eta: self.dynamics.eta,
                 alpha: self.dynamics.alpha,
             };
-            self.screen = Some(screen.land(&landing));
+            let screen = screen.land(&landing);
+            self.screen = Some(screen);
+            let ends = self.again == Again::IfDoubtful;
+            if ends && screen.is_surely_doubtful() {
+                return Some(Flight::Doubtful);
+            }
         }
         step.motion = Motion { side, u: N::zero(), w };
         if self.is_settled(step.place.piece, w) {

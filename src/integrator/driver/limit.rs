@@ -61,7 +61,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             Flight::Rest(_, time_s) | Flight::Overturned { time_s, .. } => {
                 *time_s
             }
-            Flight::Settled | Flight::End(_) => self.end_s(),
+            Flight::Settled | Flight::End(_) | Flight::Doubtful => {
+                self.end_s()
+            }
             Flight::Stopped => self.until_s.unwrap_or(self.end_s()),
         };
         let response = self.conclude(flight);

@@ -89,11 +89,39 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         step: &mut Step<N>,
         length: N,
     ) -> Option<Advance<N>> {
+        if self.record.accuracy.is_some() {
+            return self.attempt_assessed::<LEN>(step, length);
+        }
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let drive = self.dynamics.drive(oriented);
         let series: Series<N, LEN> = self.expand((u, w), length, &drive);
-        let Series { c, v } = &series;
+        self.take(step, length, &series, None)
+    }
+
+    /// [`Self::attempt`] with its decisions assessed.
+    #[inline(never)]
+    fn attempt_assessed<const LEN: usize>(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Option<Advance<N>> {
+        let isa = self.isa;
+        isa.run(Assessed::<_, _, LEN, _, _> { driver: self, step, length })
+    }
+
+    /// A step by its series, unless that leaves too much; with what it leaves
+    /// of the velocity where it is assessed.
+    #[inline(always)]
+    fn take<const LEN: usize>(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+        series: &Series<N, LEN>,
+        assessed: Option<(N, &Drive<N, F>)>,
+    ) -> Option<Advance<N>> {
+        let Motion { side, u, w } = step.motion;
+        let Series { c, v } = series;
         self.record.work.steps += 1;
         if !(left_by(v, length) <= self.allowed(w, length)) {
             return None;
@@ -105,27 +133,30 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 (x, x * length, (value(c, x), value(v, x)))
             }
         };
-        if self.record.accuracy.is_some() {
-            let left = self.left((u, w), length, &drive, &series);
-            let left = left * power(x, LEN - 1);
+        if let Some((left, drive)) = assessed {
+            let left = match event {
+                Event::None => left,
+                _ => left * power(x, LEN - 1),
+            };
             let ends = [(u, w), (end_u, end_w)];
             let stepped = Stepped { ends, tau, left };
-            self.assess(&series, x, &stepped, &drive, step.place);
+            self.assess(series, x, &stepped, drive, step.place);
         }
-        self.turning_points(&series, x, (step.place, length));
+        self.turning_points(series, x, (step.place, length));
         if let Some(screen) = &mut self.screen {
             screen.pass(end_w);
         }
         if self.watched {
-            self.sample_step(&series, (tau, length), step.place, side);
-            self.see_forces(&series, &oriented, (x, length), step.place);
+            self.sample_step(series, (tau, length), step.place, side);
+            let oriented = self.oriented(step.place, side, step.at_threshold);
+            self.see_forces(series, &oriented, (x, length), step.place);
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
         match event {
             Event::None => {
-                if self.screen.is_some() && self.may_miss(&series) {
-                    self.screen_turning(&series, step.place);
+                if self.screen.is_some() && self.may_miss(series) {
+                    self.screen_turning(series, step.place);
                 }
                 step.motion = Motion { side, u: end_u, w: end_w };
                 Some(Advance::Reached)
@@ -158,27 +189,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         let time_s = self.time_s(place);
         Flight::Overturned { time_s, side: motion.side, margin }
-    }
-
-    /// What a step's series leaves of the velocity: what the longest one
-    /// makes of it, and what that leaves.
-    #[inline(never)]
-    fn left<const LEN: usize>(
-        &self,
-        motion: (N, N),
-        length: N,
-        drive: &Drive<N, F>,
-        series: &Series<N, LEN>,
-    ) -> N {
-        if LEN == HARD {
-            return surely_left_by(&series.v, length);
-        }
-        let long: Series<N, HARD> = self.expand(motion, length, drive);
-        let (end, longer) = (series.end(), long.end());
-        let by_w = (longer.1 - end.1).abs();
-        let by_u = (longer.0 - end.0).abs() / length;
-        let most = if by_u > by_w { by_u } else { by_w };
-        most + surely_left_by(&long.v, length)
     }
 
     /// Taylor polynomial of the motion.
@@ -250,6 +260,43 @@ where
     #[inline(always)]
     fn run(self) -> Advance<N> {
         self.driver.lengthened(self.step, self.length)
+    }
+}
+
+/// An assessed step, compiled for each instruction-set level. It expands the
+/// longest series, of which its own is the beginning.
+struct Assessed<'d, N, G, const LEN: usize, const F: usize, const HARD: usize>
+{
+    driver: &'d mut Driver<N, G, F, HARD>,
+    step: &'d mut Step<N>,
+    length: N,
+}
+
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
+    for Assessed<'_, N, G, LEN, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = Option<Advance<N>>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { driver, step, length } = self;
+        let Motion { side, u, w } = step.motion;
+        let oriented = driver.oriented(step.place, side, step.at_threshold);
+        let drive = driver.dynamics.drive(oriented);
+        let long: Series<N, HARD> = driver.expand((u, w), length, &drive);
+        let series: Series<N, LEN> = long.beginning();
+        let mut left = surely_left_by(&long.v, length);
+        if LEN < HARD {
+            let (end, longer) = (series.end(), long.end());
+            let by_w = (longer.1 - end.1).abs();
+            let by_u = (longer.0 - end.0).abs() / length;
+            let most = if by_u > by_w { by_u } else { by_w };
+            left = most + left;
+        }
+        driver.take(step, length, &series, Some((left, &drive)))
     }
 }
 

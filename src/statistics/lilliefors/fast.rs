@@ -8,13 +8,15 @@
 
 use std::sync::LazyLock;
 
-use crate::number::dispatch::{Isa, Kernel};
+use crate::number::dispatch::{Isa, Kernel, WithSimd};
+use crate::number::lanes::{Lanes, Simd, WIDTH};
 use crate::statistics::normal;
 
 /// Samples at once.
-pub(crate) const LANES: usize = 8;
+pub(crate) const LANES: usize = WIDTH;
 
-type Lanes = [f64; LANES];
+/// A number of each sample.
+type Each = [f64; LANES];
 
 /// Values of a sample, at most, that a network sorts: a longer sample has
 /// more comparisons in it than a sort of its own.
@@ -35,31 +37,39 @@ impl Scratch {
     pub fn new(n: usize) -> Self {
         let network =
             if n <= LARGEST_NETWORK { network(n) } else { Vec::new() };
-        Self { values: vec![0.0; n], rows: vec![[0.0; LANES]; n], network }
+        Self {
+            values: vec![0.0; n],
+            rows: vec![Lanes::splat(0.0); n],
+            network,
+        }
     }
 
     /// Puts the values into a lane.
     pub fn put(&mut self, lane: usize) {
         for (row, value) in self.rows.iter_mut().zip(&self.values) {
-            row[lane] = *value;
+            row.0[lane] = *value;
         }
     }
 
     /// D of the samples in all lanes, whose values may be in any order. What
     /// was put is lost.
-    pub fn statistics(&mut self) -> Lanes {
-        let [means, scales] = Isa::best().run(Moments(&self.rows));
+    pub fn statistics(&mut self) -> Each {
+        let isa = Isa::best();
+        let [means, scales] = isa.run(Moments(&self.rows));
         if self.network.is_empty() {
             for lane in 0..LANES {
                 for (value, row) in self.values.iter_mut().zip(&self.rows) {
-                    *value = row[lane];
+                    *value = row.0[lane];
                 }
                 self.values.sort_unstable_by(f64::total_cmp);
                 self.put(lane);
             }
         }
         let Self { rows, network, .. } = self;
-        Isa::best().run(Distances { rows, network, means, scales })
+        if isa.run_wide(Sort { rows, network }).is_none() {
+            Sort { rows, network }.run::<Lanes>();
+        }
+        isa.run(Distances { rows, means, scales })
     }
 }
 
@@ -90,15 +100,15 @@ fn network(n: usize) -> Vec<(u32, u32)> {
 struct Moments<'a>(&'a [Lanes]);
 
 impl Kernel for Moments<'_> {
-    type Output = [Lanes; 2];
+    type Output = [Each; 2];
 
     #[inline(always)]
-    fn run(self) -> [Lanes; 2] {
+    fn run(self) -> [Each; 2] {
         let count = self.0.len() as f64;
         let (mut means, mut squares) = ([0.0; LANES], [0.0; LANES]);
         for row in self.0 {
-            for lane in 0..LANES {
-                means[lane] += row[lane];
+            for (mean, value) in means.iter_mut().zip(&row.0) {
+                *mean += value;
             }
         }
         for mean in &mut means {
@@ -106,7 +116,7 @@ impl Kernel for Moments<'_> {
         }
         for row in self.0 {
             for lane in 0..LANES {
-                let off = row[lane] - means[lane];
+                let off = row.0[lane] - means[lane];
                 squares[lane] += off * off;
             }
         }
@@ -115,28 +125,40 @@ impl Kernel for Moments<'_> {
     }
 }
 
-/// D of samples with these moments.
-struct Distances<'a> {
+/// The comparisons of a network.
+struct Sort<'a> {
     rows: &'a mut [Lanes],
     network: &'a [(u32, u32)],
-    means: Lanes,
-    scales: Lanes,
+}
+
+impl WithSimd for Sort<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd>(self) {
+        for &(low, high) in self.network {
+            let (low, high) = (low as usize, high as usize);
+            let a = V::load(&self.rows[low]);
+            let b = V::load(&self.rows[high]);
+            a.min(b).store(&mut self.rows[low]);
+            b.max(a).store(&mut self.rows[high]);
+        }
+    }
+}
+
+/// D of sorted samples with these moments.
+struct Distances<'a> {
+    rows: &'a [Lanes],
+    means: Each,
+    scales: Each,
 }
 
 impl Kernel for Distances<'_> {
-    type Output = Lanes;
+    type Output = Each;
 
     #[inline(always)]
-    fn run(self) -> Lanes {
-        let Self { rows, network, means, scales } = self;
-        for &(low, high) in network {
-            let (a, b) = (rows[low as usize], rows[high as usize]);
-            for lane in 0..LANES {
-                let (a, b) = (a[lane], b[lane]);
-                rows[low as usize][lane] = if a < b { a } else { b };
-                rows[high as usize][lane] = if a < b { b } else { a };
-            }
-        }
+    fn run(self) -> Each {
+        let Self { rows, means, scales } = self;
         let table = &*PHI;
         let step = 1.0 / rows.len() as f64;
         let mut distances = [0.0; LANES];
@@ -144,7 +166,7 @@ impl Kernel for Distances<'_> {
         for row in rows.iter() {
             let mut z = [0.0; LANES];
             for lane in 0..LANES {
-                z[lane] = (row[lane] - means[lane]) * scales[lane];
+                z[lane] = (row.0[lane] - means[lane]) * scales[lane];
             }
             let f = table.at(z);
             let (before, after) = (below * step, (below + 1.0) * step);
@@ -189,7 +211,7 @@ static PHI: LazyLock<PhiTable> = LazyLock::new(|| {
 
 impl PhiTable {
     #[inline(always)]
-    fn at(&self, z: Lanes) -> Lanes {
+    fn at(&self, z: Each) -> Each {
         let (mut t, mut cells) = ([0.0; LANES], [0; LANES]);
         for lane in 0..LANES {
             let position = (z[lane].clamp(-END, END) + END) * STEPS_PER_UNIT;

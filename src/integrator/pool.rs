@@ -6,6 +6,7 @@
 //! are then solved together. What is rare is left to the scalar driver.
 //! Operations and their order are the same either way, and so are the bits.
 
+pub(crate) mod bare;
 mod batch;
 mod chatter;
 mod group;
@@ -410,8 +411,7 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
     fn run<V: Simd>(self) {
         let Self { kind, tolerance, batch, solved, .. } = self;
         // Shorter series are for Eq. 1 alone.
-        let model =
-            if LEN == LONGEST { self.model } else { Model::Nonlinear };
+        let model = if LEN == LONGEST { self.model } else { Model::Nonlinear };
         match kind {
             Kind::LongSeries => {
                 batch.solve::<V, LEN, HARD, HARD, true>(

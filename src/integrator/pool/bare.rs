@@ -1,6 +1,7 @@
 //! Steps with nothing around them: what the lanes cannot go below.
 
 use crate::block::Block;
+use crate::integrator::taylor::total;
 use crate::number::dispatch::{Isa, WithSimd};
 use crate::number::lanes::{Lanes, Simd, WIDTH};
 
@@ -147,12 +148,8 @@ impl Group {
             v[k + 1] = odd[0].mul_add(s[k], force) * part;
             c[k + 1] = v[k] * part;
         });
-        let end = |c: &[V; 9]| {
-            let small = c[3..].iter().fold(c[2], |sum, x| sum + *x);
-            c[0] + (c[1] + small)
-        };
-        end(&c).store(&mut self.u);
-        end(&v).store(&mut self.w);
+        total(&c).store(&mut self.u);
+        total(&v).store(&mut self.w);
         ahead.store(&mut self.here);
         for next in &mut self.next {
             *next += 1;

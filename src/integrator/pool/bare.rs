@@ -8,9 +8,9 @@ use crate::number::lanes::{Lanes, Simd, WIDTH};
 /// Lanes of eight that are stepped in turn.
 const GROUPS: usize = 16;
 
-/// Free flights by Eq. 1 in lanes, in steps of order 8 written by hand: no
-/// event is looked for, and no truncation. Against its time a benchmark holds
-/// that of the lanes that [`curves`](crate::ida::curves) steps.
+/// Free flights by Eq. 1 in lanes, in steps of order 8 written by hand: it
+/// looks for no event and tests no truncation error. A benchmark holds the
+/// time of [`curves`](crate::ida::curves) against its time.
 ///
 /// ```
 /// use rocking::Block;

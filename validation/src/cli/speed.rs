@@ -22,7 +22,7 @@ use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
 use rocking_report::speed::throughput::{
-    self, Floor, Job, Throughput, analyses, on_threads,
+    self, AgainstLoop, Job, Throughput, analyses, on_threads,
 };
 use rocking_report::speed::{export, many};
 
@@ -102,13 +102,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let singles = totals(&rows, BASE);
     let mut set_aside = SetAside::default();
-    let mut floors = Vec::new();
+    let mut kernel_and_loop = Vec::new();
     let many = if args.singles {
         Vec::new()
     } else {
         let (records, aside) = records(args)?;
         set_aside = aside;
-        floors = throughput::floors()?;
+        kernel_and_loop = throughput::against_loop()?;
         let bar = progress(many::STEPS);
         let all = many::measure(&records, &|| bar.inc(1))?;
         bar.finish_and_clear();
@@ -123,7 +123,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         set_aside,
         singles: &singles,
         throughput: many.iter().map(Rate::from).collect(),
-        floors,
+        kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
     })
 }
@@ -168,7 +168,7 @@ struct Shown<'a> {
     singles: &'a [Total],
     throughput: Vec<Rate<'a>>,
     /// Kernel in lanes beside a loop written by hand.
-    floors: Vec<Floor>,
+    kernel_and_loop: Vec<AgainstLoop>,
     peak_memory_mib: Option<f64>,
 }
 

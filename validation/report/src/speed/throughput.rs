@@ -286,7 +286,7 @@ pub fn kernel(
 /// A sample in the kernel of the lanes beside one in a loop written by hand
 /// that looks for no event, in turn: medians of seven.
 #[derive(Clone, Debug, Serialize)]
-pub struct Floor {
+pub struct AgainstLoop {
     /// Instruction-set level.
     pub isa: &'static str,
     /// Processor time of a sample, in ns.
@@ -300,7 +300,7 @@ pub struct Floor {
 ///
 /// # Errors
 /// As [`Kernel::new`].
-pub fn floors() -> anyhow::Result<Vec<Floor>> {
+pub fn against_loop() -> anyhow::Result<Vec<AgainstLoop>> {
     const TURNS: usize = 7;
     const FLIGHTS: u32 = 100;
     let step = 1e-3;
@@ -314,7 +314,7 @@ pub fn floors() -> anyhow::Result<Vec<Floor>> {
         all[TURNS / 2]
     };
     let levels = Isa::available().into_iter().filter(|isa| isa.is_wide());
-    let floor = |isa: Isa| {
+    let turns = |isa: Isa| {
         let (mut kernels, mut loops) = (Vec::new(), Vec::new());
         for _ in 0..TURNS {
             let kernel = kernel.measure("", isa)?.sample_ns();
@@ -324,14 +324,14 @@ pub fn floors() -> anyhow::Result<Vec<Floor>> {
             loops.push(1e9 * (thread_s() - begin) / steps);
         }
         let ratios = kernels.iter().zip(&loops).map(|(k, l)| k / l);
-        Ok(Floor {
+        Ok(AgainstLoop {
             isa: isa.name(),
             ratio: median(ratios.collect()),
             kernel_ns: median(kernels),
             loop_ns: median(loops),
         })
     };
-    levels.map(floor).collect()
+    levels.map(turns).collect()
 }
 
 /// Replicates of the Lilliefors statistic of 86 values.

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use rocking::block::{Block, Restitution};
+use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};

@@ -8,10 +8,11 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use rocking::block::{Block, Restitution};
+use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};
+use rocking::number::dispatch::Isa;
 use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
@@ -19,7 +20,7 @@ use rocking_common::curves::Execution;
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 use rocking_report::speed::cases::{self, Case};
-use rocking_report::speed::throughput::{analyses, samples_of};
+use rocking_report::speed::throughput::{Kernel, analyses};
 
 static RECORDS: LazyLock<Vec<NormalisedRecord>> = LazyLock::new(|| {
     let suites = StudySuite::embedded().expect("suites");
@@ -104,34 +105,15 @@ mod analysis {
 /// Free rocking in lanes, hardly an impact: items are samples.
 #[divan::bench(args = ["Eq. 1", "Eq. 2"], sample_count = 10)]
 fn kernel(bencher: Bencher, equation: &str) {
-    let step = 1e-3;
-    let lobe = |i: i32| libm::sin(std::f64::consts::PI * 1e-3 * f64::from(i));
-    let samples =
-        (0..100_000).map(|i| if i < 1000 { lobe(i) } else { 0.0 }).collect();
-    let push = Accelerogram::try_new("push", step, samples).expect("record");
-    let records = vec![NormalisedRecord::new(&push); 64];
-    let analysis = Analysis {
-        model: if equation == "Eq. 1" {
-            Model::Nonlinear
-        } else {
-            Model::Linearized
-        },
-        grid: Grid::Im { step: 1.0 },
-        highest_im: 2.5,
-        ..Analysis::paper(
-            Block::try_new(0.2, 1.0).expect("block"),
-            Restitution::constant(0.9995).expect("restitution"),
-        )
+    let (model, order) = match equation {
+        "Eq. 1" => (Model::Nonlinear, Some(Order::Eight)),
+        _ => (Model::Linearized, None),
     };
-    let one = [analysis];
-    let lanes = Execution::default();
-    let once = lanes.curves(&records, &one, &|| ()).expect("curves");
-    let steps = samples_of(&records, &one, &once).expect("steps");
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let pool = pool.expect("threads");
-    bencher.counter(ItemsCount::new(steps)).bench_local(|| {
-        pool.install(|| black_box(lanes.curves(&records, &one, &|| ())))
-    });
+    let kernel = Kernel::new(model, order, 1e-3).expect("kernel");
+    let fly = || kernel.measure("", Isa::best()).expect("curves");
+    bencher
+        .counter(ItemsCount::new(fly().samples.expect("samples")))
+        .bench_local(|| black_box(fly()));
 }
 
 /// The curves of one block under all embedded records; items are analyses.

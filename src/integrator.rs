@@ -34,6 +34,7 @@ pub use driver::Forces;
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;
 pub use limits::{SceneError, WorkLimit};
+pub use pool::bare::BareSteps;
 pub use precise::respond_precise;
 pub use scene::{
     Assessment, HistoryPoint, Impact, ImpactError, Observe, Outcome, Response,

@@ -6,6 +6,7 @@
 //! are then solved together. What is rare is left to the scalar driver.
 //! Operations and their order are the same either way, and so are the bits.
 
+pub(crate) mod bare;
 mod batch;
 mod chatter;
 mod group;
@@ -350,15 +351,17 @@ impl<const LEN: usize> WithSimd for Sweep<'_, '_, LEN> {
 
     #[inline(always)]
     fn run<V: Simd>(self) -> bool {
+        // The model, a constant here, is not asked for in the loop.
         match self.model {
-            Model::Nonlinear => self.step::<V>(Model::Nonlinear),
-            Model::Linearized => self.step::<V>(Model::Linearized),
+            Model::Linearized if LEN == LONGEST => {
+                self.step::<V>(Model::Linearized)
+            }
+            _ => self.step::<V>(Model::Nonlinear),
         }
     }
 }
 
 impl<const LEN: usize> Sweep<'_, '_, LEN> {
-    /// The model, a constant here, is not asked for in the loop.
     #[inline(always)]
     fn step<V: Simd>(self, model: Model) -> bool {
         let mut moved = false;
@@ -406,7 +409,9 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
 
     #[inline(always)]
     fn run<V: Simd>(self) {
-        let Self { model, kind, tolerance, batch, solved } = self;
+        let Self { kind, tolerance, batch, solved, .. } = self;
+        // Shorter series are for Eq. 1 alone.
+        let model = if LEN == LONGEST { self.model } else { Model::Nonlinear };
         match kind {
             Kind::LongSeries => {
                 batch.solve::<V, LEN, HARD, HARD, true>(

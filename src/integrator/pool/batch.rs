@@ -114,15 +114,14 @@ impl Solved {
     }
 }
 
-/// A turning point of a step.
+/// A turning point of a step, after the part `x`.
 struct Turning<V: Simd> {
-    /// There surely is one, after the part `x`.
-    found: V::Mask,
+    /// There surely is a highest rotation, or a lowest.
+    top: V::Mask,
+    low: V::Mask,
     x: V,
     /// It takes more to tell.
     unsure: V::Mask,
-    /// The velocity surely keeps its sign.
-    goes_on: V::Mask,
 }
 
 /// The first impact of a step.
@@ -296,15 +295,15 @@ impl Batch {
         left = left.or(first.unsure);
         let impact = first.found;
         let x = impact.select(first.x, V::one());
-        let turning = self.turning(&c, &v, x);
+        let low = V::from_f64(PROPAGATION * SAFETY) * alpha;
+        let near = first.lowest.lt(low).but_not(impact);
+        let turning = self.turning(&c, &v, x, near);
         left = left.or(turning.unsure);
         let end_w = impact.select(value(&v, x), total(&v));
         top_speed.max(end_w.abs()).store(&mut out.top_speed);
-        // One that sinks and may turn is looked at where that may be near the
-        // base.
-        let low = V::from_f64(PROPAGATION * SAFETY) * alpha;
-        let dips = w.lt(zero).but_not(impact).but_not(turning.goes_on);
-        left = left.or(dips.and(first.lowest.lt(low)));
+        let turn = value(&c, turning.x);
+        // Near the base a lowest rotation decides something.
+        left = left.or(turning.low.but_not(low.lt(turn)));
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.lt(-end_w);
@@ -315,10 +314,9 @@ impl Batch {
         // Neither a step of no length nor an impact of no speed is one here.
         let plain = there.lt(whole).and(zero.lt(w));
         left = left.or(impact.but_not(plain));
-        let top = value(&c, turning.x);
         let peak = V::load(&self.peak);
-        let raised = turning.found.and(peak.lt(top));
-        let peak = raised.select(top, peak);
+        let raised = turning.top.and(peak.lt(turn));
+        let peak = raised.select(turn, peak);
         let settled = w.lt(V::load(&self.fastest)).but_not(raised);
         out.settled = impact.and(settled).bits();
         let f = rate.mul_add(there, here);
@@ -341,9 +339,9 @@ impl Batch {
 
         out.left = left.but_not(hard).bits();
         out.impact = impact.bits();
-        out.turned = turning.found.bits();
+        out.turned = turning.top.bits();
         (turning.x * h).store(&mut out.turn);
-        top.store(&mut out.top);
+        turn.store(&mut out.top);
         impact.select(zero, total(&c)).store(&mut out.u);
         impact.select(w, end_w).store(&mut out.w);
         impact.select(-here, ahead).store(&mut out.here);
@@ -420,13 +418,15 @@ impl Batch {
         FirstImpact { found, x, unsure: sure.not(), lowest }
     }
 
-    /// A turning point in the part (0, `x`) that may be above the peak.
+    /// A turning point in the part (0, `x`) that may be above the peak, or,
+    /// in lanes that are `near` the base, a lowest rotation.
     #[inline(always)]
     fn turning<V: Simd, const SIZE: usize>(
         &self,
         c: &[V; SIZE],
         v: &[V; SIZE],
         x: V,
+        near: V::Mask,
     ) -> Turning<V> {
         let zero = V::zero();
         let (mut rest, mut variation) = (zero, zero);
@@ -440,21 +440,26 @@ impl Batch {
         let high = c[0] + rise + rest * x * x;
         let goes_on = (variation * x).lt(v[0].abs());
         let may = V::load(&self.peak).lt(high).but_not(goes_on);
-        if !may.any() {
-            return Turning { found: may, x: zero, unsure: may, goes_on };
-        }
-        // Only a velocity that falls all the way turns just once.
         let sinking = v[0].lt(zero);
+        let dips = near.and(sinking).but_not(goes_on);
+        let asked = may.or(dips);
+        if !asked.any() {
+            return Turning { top: may, low: may, x: zero, unsure: may };
+        }
+        // Only a velocity that falls all the way, or rises, turns just once.
         let mut q = *v;
         for k in 0..SIZE {
             q[k] = sinking.select(-v[k], v[k]);
         }
         let descent = descent(&q, x);
-        let found = may.and(descent.one).but_not(sinking);
-        let turn = refine(v, x, found);
+        let found = asked.and(descent.one).and(dips.or(sinking.not()));
+        let turn = refine(&q, x, found);
         let found = found.and(turn.lt(x));
+        let (top, low) = (found.but_not(sinking), found.and(sinking));
         // One that sinks may turn upwards, and if so does not turn back.
-        let none = descent.none.or(found).or(sinking.and(descent.falls));
-        Turning { found, x: turn, unsure: may.but_not(none), goes_on }
+        let none = descent.none.or(top).or(sinking.and(descent.falls));
+        let unsure = may.but_not(none);
+        let unsure = unsure.or(dips.but_not(descent.none.or(low)));
+        Turning { top, low, x: turn, unsure }
     }
 }

@@ -22,7 +22,7 @@ use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
 use rocking_report::speed::throughput::{
-    self, Job, Throughput, analyses, on_threads,
+    self, AgainstLoop, Job, Throughput, analyses, on_threads,
 };
 use rocking_report::speed::{export, many};
 
@@ -102,11 +102,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let singles = totals(&rows, BASE);
     let mut set_aside = SetAside::default();
+    let mut kernel_and_loop = Vec::new();
     let many = if args.singles {
         Vec::new()
     } else {
         let (records, aside) = records(args)?;
         set_aside = aside;
+        kernel_and_loop = throughput::against_loop()?;
         let bar = progress(many::STEPS);
         let all = many::measure(&records, &|| bar.inc(1))?;
         bar.finish_and_clear();
@@ -121,6 +123,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         set_aside,
         singles: &singles,
         throughput: many.iter().map(Rate::from).collect(),
+        kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
     })
 }
@@ -164,6 +167,8 @@ struct Shown<'a> {
     /// Medians over the cases.
     singles: &'a [Total],
     throughput: Vec<Rate<'a>>,
+    /// Kernel in lanes beside a loop written by hand.
+    kernel_and_loop: Vec<AgainstLoop>,
     peak_memory_mib: Option<f64>,
 }
 

@@ -6,14 +6,15 @@ use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
 use rocking::integrator::{
-    Model, Observe, Order, Overturning, Scene, Solver, WorkLimit,
+    BareSteps, Model, Observe, Order, Overturning, Scene, Solver, WorkLimit,
 };
+use rocking::number::dispatch::Isa;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
 
 use super::cases::ETA;
-use super::clock::process_s;
+use super::clock::{process_s, thread_s};
 use super::csv;
 use rocking_common::curves::Execution;
 use rocking_common::words::rounded;
@@ -200,55 +201,137 @@ pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// The kernel of the lanes with hardly anything else: blocks rock freely
-/// after a push, in long flights with many samples of `step` in 1/p.
+/// after a push, in long flights with many samples.
+pub struct Kernel {
+    record: [NormalisedRecord; 1],
+    chains: Vec<Analysis>,
+    samples: u64,
+}
+
+impl Kernel {
+    /// Of samples of `step` in 1/p, at an order if one is given.
+    ///
+    /// # Errors
+    /// None in practice: block and record are in range.
+    pub fn new(
+        model: Model,
+        order: Option<Order>,
+        step: f64,
+    ) -> anyhow::Result<Self> {
+        const CHAINS: usize = 64;
+        let block = Block::try_new(0.2, 1.0)?;
+        let push = (1.0 / step) as usize;
+        let samples = (0..200 * push).map(|i| {
+            let turn = std::f64::consts::PI * step * i as f64;
+            if i < push { libm::sin(turn) } else { 0.0 }
+        });
+        let push = Accelerogram::try_new("push", step, samples.collect())?;
+        let record = [NormalisedRecord::new(&push)];
+        let restitution = Restitution::constant(0.9995)?;
+        // By the other criterion a run goes on when its peak is known.
+        let overturning = Overturning::HalfPi;
+        let paper = Analysis {
+            model,
+            order,
+            overturning,
+            ..Analysis::paper(block, restitution)
+        };
+        // The one level a little below overturning.
+        let grid = Grid::Im { step: 0.01 };
+        let tried = curve(&record[0], &Analysis { grid, ..paper })?;
+        let first = tried.overturning.map_or(2.0, |first| first.scanned_im);
+        let level = 0.98 * (first - 1.0);
+        let grid = Grid::Im { step: level };
+        let highest_im = 1.0 + 1.5 * level;
+        let one = Analysis { grid, highest_im, ..paper };
+        let found = [vec![curve(&record[0], &one)?]];
+        let chains = vec![one; CHAINS];
+        let each = samples_of(&record, &chains[..1], &found)?;
+        let samples = each * CHAINS as u64;
+        Ok(Self { record, chains, samples })
+    }
+
+    /// Flies once, by instructions of a level.
+    ///
+    /// # Errors
+    /// As [`Job::measure`].
+    pub fn measure(&self, work: &str, isa: Isa) -> anyhow::Result<Throughput> {
+        let Self { record, chains, samples } = self;
+        let way = Execution::Lanes(isa);
+        let job = Job { analyses: chains, records: record, way, threads: 1 };
+        let samples = Some(*samples);
+        Ok(Throughput { samples, ..job.measure(work)?.0 })
+    }
+}
+
+/// A kernel's least time of three.
 ///
 /// # Errors
-/// None in practice: block and record are in range.
+/// As [`Kernel::new`].
 pub fn kernel(
     work: &str,
     model: Model,
     order: Option<Order>,
     step: f64,
 ) -> anyhow::Result<Throughput> {
-    const CHAINS: usize = 64;
-    let block = Block::try_new(0.2, 1.0)?;
-    let push = (1.0 / step) as usize;
-    let samples = (0..200 * push).map(|i| {
-        let turn = std::f64::consts::PI * step * i as f64;
-        if i < push { libm::sin(turn) } else { 0.0 }
-    });
-    let record = Accelerogram::try_new("push", step, samples.collect())?;
-    let records = vec![NormalisedRecord::new(&record); CHAINS];
-    let restitution = Restitution::constant(0.9995)?;
-    // By the other criterion a run goes on when its peak is known.
-    let overturning = Overturning::HalfPi;
-    let paper = Analysis {
-        model,
-        order,
-        overturning,
-        ..Analysis::paper(block, restitution)
-    };
-    // The one level a little below overturning.
-    let grid = Grid::Im { step: 0.01 };
-    let tried = curve(&records[0], &Analysis { grid, ..paper })?;
-    let first = tried.overturning.map_or(2.0, |first| first.scanned_im);
-    let level = 0.98 * (first - 1.0);
-    let grid = Grid::Im { step: level };
-    let highest_im = 1.0 + 1.5 * level;
-    let one = [Analysis { grid, highest_im, ..paper }];
-    let job = Job {
-        analyses: &one,
-        records: &records,
-        way: Execution::default(),
-        threads: 1,
-    };
-    let (mut least, found) = job.measure(work)?;
-    for _ in 0..2 {
-        let (again, _) = job.measure(work)?;
+    let kernel = Kernel::new(model, order, step)?;
+    let fly = || kernel.measure(work, Isa::best());
+    let (mut least, others) = (fly()?, [fly()?, fly()?]);
+    for again in others {
         least.cpu_s = least.cpu_s.min(again.cpu_s);
     }
-    let samples = Some(samples_of(&records, &one, &found)?);
-    Ok(Throughput { samples, ..least })
+    Ok(least)
+}
+
+/// A sample in the kernel of the lanes beside one in a loop written by hand
+/// that looks for no event, in turn: medians of seven.
+#[derive(Clone, Debug, Serialize)]
+pub struct AgainstLoop {
+    /// Instruction-set level.
+    pub isa: &'static str,
+    /// Processor time of a sample, in ns.
+    pub kernel_ns: f64,
+    pub loop_ns: f64,
+    /// Median of the ratios kernel : loop.
+    pub ratio: f64,
+}
+
+/// Kernel and loop of Eq. 1 at order 8, at each level with lanes.
+///
+/// # Errors
+/// As [`Kernel::new`].
+pub fn against_loop() -> anyhow::Result<Vec<AgainstLoop>> {
+    const TURNS: usize = 7;
+    const FLIGHTS: u32 = 100;
+    let step = 1e-3;
+    let kernel = Kernel::new(Model::Nonlinear, Some(Order::Eight), step)?;
+    let samples = [0.0; 1001];
+    let block = Block::try_new(0.2, 1.0)?;
+    let bare = BareSteps { block, samples: &samples, step, ratio: 0.5 };
+    let steps = 1e3 * f64::from(FLIGHTS) * BareSteps::LANES as f64;
+    let median = |mut all: Vec<f64>| {
+        all.sort_by(f64::total_cmp);
+        all[TURNS / 2]
+    };
+    let levels = Isa::available().into_iter().filter(|isa| isa.is_wide());
+    let turns = |isa: Isa| {
+        let (mut kernels, mut loops) = (Vec::new(), Vec::new());
+        for _ in 0..TURNS {
+            let kernel = kernel.measure("", isa)?.sample_ns();
+            kernels.push(kernel.unwrap_or(f64::NAN));
+            let begin = thread_s();
+            std::hint::black_box(bare.fly(isa, FLIGHTS));
+            loops.push(1e9 * (thread_s() - begin) / steps);
+        }
+        let ratios = kernels.iter().zip(&loops).map(|(k, l)| k / l);
+        Ok(AgainstLoop {
+            isa: isa.name(),
+            ratio: median(ratios.collect()),
+            kernel_ns: median(kernels),
+            loop_ns: median(loops),
+        })
+    };
+    levels.map(turns).collect()
 }
 
 /// Replicates of the Lilliefors statistic of 86 values.

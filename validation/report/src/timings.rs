@@ -48,7 +48,12 @@ const LINES: [(&str, &str, &str, &[&str]); 7] = [
         "Taylor",
         &["order 10"],
     ),
-    ("heyoka, compiled", "heyoka", "Taylor sample by sample", &[]),
+    (
+        "heyoka, called from Python once a sample",
+        "heyoka",
+        "Taylor sample by sample",
+        &[],
+    ),
     (
         "Boost.odeint, compiled, stopped at samples",
         "Boost.odeint",

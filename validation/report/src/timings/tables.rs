@@ -49,11 +49,17 @@ impl Timings {
     }
 
     fn tools(&self) -> PlainTable {
+        let own = self.own();
+        let sums = |t: &Total| {
+            let own = own.filter(|own| own.cases == t.cases);
+            own.map_or(f64::NAN, |own| t.mean_cpu_s / own.mean_cpu_s)
+        };
         let row = |t: &Total| {
             let [tool, version, method, setting] = &t.label;
             vec![
                 format!("{tool} {version}, {method}, {setting}"),
                 digits(t.ratio),
+                digits(sums(t)),
                 digits(1e3 * t.cpu_s),
                 digits(t.peak_error),
                 digits(t.peak_error_90),
@@ -69,13 +75,16 @@ impl Timings {
             "Speed and error of single analyses",
             format!(
                 "Medians over the cases; times are processor time, the ratio \
-                 is taken case by case. Near overturning the dynamics \
+                 is taken case by case, and that of the sums stands beside \
+                 it. heyoka was called from Python, once a sample: its time \
+                 is mostly that of the calls. Near overturning the dynamics \
                  amplify any error. {}",
                 self.measured_on()
             ),
             &[
                 "tool and setting",
                 "time / ours as shipped",
+                "sum of times / ours",
                 "time (ms)",
                 "peak error",
                 "90 % below",

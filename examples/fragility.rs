@@ -4,7 +4,7 @@
 use rocking::capacity::{CapacityError, InversionRule};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Overturned, REFINEMENT, curves};
-use rocking::record::{Suite, SuiteOptions};
+use rocking::record::{ReadOptions, Suite};
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::statistics::lognormal::{FitMethod, fit};
@@ -12,7 +12,7 @@ use rocking::{Block, Restitution};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).ok_or("expected a folder")?;
-    let suite = Suite::read(folder.as_ref(), &SuiteOptions::default())?;
+    let suite = Suite::read(folder.as_ref(), &ReadOptions::default())?;
     let records: Vec<_> = suite
         .study_components()
         .map(|member| NormalisedRecord::new(&member.accelerogram))

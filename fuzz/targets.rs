@@ -6,7 +6,6 @@ use std::io::Cursor;
 
 use rocking::record::{
     self, Format, ReadOptions, Record, RecordError, Suite, SuiteMember,
-    SuiteOptions,
 };
 use rocking::units::AccelerationUnit;
 use rocking_common::suites::inputs;
@@ -85,16 +84,9 @@ fn hold(
     Ok(())
 }
 
-fn suite_options() -> SuiteOptions {
-    inputs::suite_options(ReadOptions::default())
-}
-
 fn index(bytes: &[u8]) -> Result<(), String> {
     let motion = b"0\n0.2\n-0.1\n";
-    let options = SuiteOptions {
-        read: options(Some(Format::Column)),
-        ..suite_options()
-    };
+    let options = options(Some(Format::Column));
     let _ = record::is_index(bytes);
     let suite =
         Suite::from_index("x.csv", bytes, &options, |_| Ok(motion.to_vec()));
@@ -103,7 +95,7 @@ fn index(bytes: &[u8]) -> Result<(), String> {
 
 fn zip(bytes: &[u8]) -> Result<(), String> {
     let archive = Cursor::new(bytes);
-    let survey = inputs::survey_zip("x.zip", archive, &suite_options());
+    let survey = inputs::survey_zip("x.zip", archive, &ReadOptions::default());
     let survey = survey.map_err(|error| error.to_string())?;
     let suite = survey.into_suite().map_err(|error| error.to_string())?;
     hold_suite(suite)

@@ -40,8 +40,10 @@ pub use processing::{Processing, ProcessingError};
 pub use quality::{Remark, Remarked, duplicates, remarks, remarks_together};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
-    Suite, SuiteError, SuiteMember, SuiteOptions, Survey, is_index,
+    Suite, SuiteError, SuiteMember, Survey, is_index,
 };
+
+use sha2::{Digest as _, Sha256};
 
 use crate::units::{self, AccelerationUnit};
 use text::{Text, excerpt};
@@ -94,6 +96,19 @@ impl fmt::Display for Format {
             Self::Smc => "smc",
         })
     }
+}
+
+/// SHA-256 of `bytes` in hexadecimal (FIPS 180-4), as an index states it of
+/// each file.
+///
+/// ```
+/// let sum = rocking::record::sha256_hex(b"abc");
+/// assert!(sum.starts_with("ba7816bf8f01cfea414140de5dae2223"));
+/// ```
+#[must_use]
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    let sum = Sha256::digest(bytes);
+    sum.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// What the caller knows about a file.

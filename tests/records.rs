@@ -4,7 +4,7 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
+use rocking::record::{self, ReadOptions, Suite};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_common::suites::inputs;
 
@@ -33,8 +33,8 @@ fn real(index: &str) -> Option<PathBuf> {
     None
 }
 
-fn options() -> SuiteOptions {
-    SuiteOptions { read: ReadOptions::default(), sha256_hex: None }
+fn options() -> ReadOptions {
+    ReadOptions::default()
 }
 
 #[test]

@@ -8,10 +8,8 @@ use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::record::{
     self, Accelerogram, AccelerogramError, ReadOptions, Remark, Suite,
-    SuiteOptions,
 };
 use rocking_synthesis::{Pair, ordinary, pulse};
-use sha2::{Digest, Sha256};
 
 use crate::given::{choose, refuse, unit};
 use crate::work;
@@ -87,10 +85,7 @@ pub fn read_suite<'py>(
     gravity: f64,
     both: bool,
 ) -> PyResult<(String, String, Vec<Read<'py>>)> {
-    let options = SuiteOptions {
-        read: options(dt, units, gravity)?,
-        sha256_hex: Some(sha256_hex),
-    };
+    let options = options(dt, units, gravity)?;
     let suite = work::alone(py, || Suite::read(&path, &options))?
         .map_err(|e| refuse_at(&path, e))?;
     let members = suite.members().iter();
@@ -140,9 +135,4 @@ pub fn embedded_suite<'py>(
         }
     }
     Ok(records)
-}
-
-fn sha256_hex(bytes: &[u8]) -> String {
-    let sum = Sha256::digest(bytes);
-    sum.iter().map(|byte| format!("{byte:02x}")).collect()
 }

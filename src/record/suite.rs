@@ -81,17 +81,6 @@ pub struct Suite {
     set_aside: SetAside,
 }
 
-/// How a suite is read.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SuiteOptions {
-    /// What the caller knows about the records; an index's `dt_s` and
-    /// `units` come before it.
-    pub read: ReadOptions,
-    /// SHA-256 in hexadecimal of a file's bytes, for an index that states
-    /// sums.
-    pub sha256_hex: Option<fn(&[u8]) -> String>,
-}
-
 impl Suite {
     /// Reads the suite at `path`: a folder of self-describing files, or an
     /// index.
@@ -119,7 +108,7 @@ impl Suite {
     /// [`SuiteError`] naming the folder, index or record, and the line.
     pub fn read(
         path: &Path,
-        options: &SuiteOptions,
+        options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
         Survey::read(path, options)?.into_suite()
     }
@@ -131,12 +120,11 @@ impl Suite {
     /// As [`Suite::read`].
     ///
     /// ```
-    /// use rocking::record::{ReadOptions, Suite, SuiteOptions};
+    /// use rocking::record::{ReadOptions, Suite};
     /// let index = b"file,units,dt_s,pair,event\n\
     ///     a-000.txt,g,0.01,a,\"Nowhere, 1900\"\n\
     ///     a-090.txt,g,0.01,a,\"Nowhere, 1900\"\n";
-    /// let options =
-    ///     SuiteOptions { read: ReadOptions::default(), sha256_hex: None };
+    /// let options = ReadOptions::default();
     /// let suite = Suite::from_index("index.csv", index, &options, |_| {
     ///     Ok(b"0\n0.2\n-0.1\n".to_vec())
     /// })?;
@@ -149,7 +137,7 @@ impl Suite {
     pub fn from_index(
         path: &str,
         bytes: &[u8],
-        options: &SuiteOptions,
+        options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         Survey::of_index(path, bytes, options, file_bytes)?.into_suite()

@@ -128,7 +128,7 @@ fn code<S: serde::Serializer>(
 /// each reason with the first file.
 ///
 /// ```
-/// use rocking::record::{Suite, SuiteOptions};
+/// use rocking::record::{Suite, ReadOptions};
 /// let folder = std::env::temp_dir().join("rocking-doc-set-aside");
 /// std::fs::create_dir_all(folder.join("more"))?;
 /// let motion = "ACCELERATION TIME SERIES IN UNITS OF G\n\
@@ -137,7 +137,7 @@ fn code<S: serde::Serializer>(
 /// let head = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere\n";
 /// std::fs::write(folder.join("a.AT2"), format!("{head}{motion}"))?;
 /// std::fs::write(folder.join("notes.txt"), "read me\n")?;
-/// let suite = Suite::read(&folder, &SuiteOptions::default())?;
+/// let suite = Suite::read(&folder, &ReadOptions::default())?;
 /// # std::fs::remove_dir_all(&folder)?;
 /// assert_eq!(
 ///     suite.set_aside().to_string(),

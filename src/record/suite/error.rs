@@ -61,14 +61,6 @@ pub enum SuiteError {
         /// Value of the index.
         expected: String,
     },
-    /// An index with checksums, and nothing to compute them with.
-    #[error(
-        "{path}: the index has sha256 sums: expected a function that computes them"
-    )]
-    Unverifiable {
-        /// The index.
-        path: String,
-    },
     /// Two records that results could not distinguish.
     #[error(
         "{path}: two records are named {name:?}: expected different names"
@@ -113,7 +105,6 @@ impl SuiteError {
             Self::Unreadable { path, .. }
             | Self::Empty { path, .. }
             | Self::Index { path, .. }
-            | Self::Unverifiable { path }
             | Self::SameName { path, .. }
             | Self::Pair { path, .. } => path,
         }
@@ -128,7 +119,6 @@ impl SuiteError {
             Self::Empty { .. } => "empty",
             Self::Index { .. } => "index",
             Self::Mismatch { .. } => "mismatch",
-            Self::Unverifiable { .. } => "unverifiable",
             Self::SameName { .. } => "same-name",
             Self::Pair { .. } => "pair",
         }

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::cells::split;
-use super::{PEAK_TOLERANCE, SuiteError, SuiteMember, SuiteOptions};
+use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
 use crate::record::name::EXPECTED;
 use crate::record::text::{self, excerpt};
-use crate::record::{ReadOptions, Record, read, result_name};
+use crate::record::{ReadOptions, Record, read, result_name, sha256_hex};
 use crate::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
@@ -328,20 +328,20 @@ impl Row {
     pub(super) fn member(
         &self,
         content: &[u8],
-        options: &SuiteOptions,
+        options: &ReadOptions,
     ) -> Result<SuiteMember, SuiteError> {
-        self.check_sum(content, options)?;
+        self.check_sum(content)?;
         let unit = match self.cell("units") {
-            None => options.read.unit,
+            None => options.unit,
             Some(cell) => Some(
                 AccelerationUnit::parse(cell)
                     .ok_or_else(|| self.refuse(cell, "g, m/s2 or cm/s2"))?,
             ),
         };
-        let dt_s = self.positive("dt_s")?.or(options.read.dt_s);
-        let read_options = ReadOptions { dt_s, unit, ..options.read };
+        let dt_s = self.positive("dt_s")?.or(options.dt_s);
+        let read_options = ReadOptions { dt_s, unit, ..*options };
         let record = read(&self.file, content, &read_options)?;
-        self.check(&record, options.read.gravity_m_s2)?;
+        self.check(&record, options.gravity_m_s2)?;
         let study_component = match self.cell("study_component") {
             None | Some("0" | "false") => false,
             Some("1" | "true") => true,
@@ -375,17 +375,8 @@ impl Row {
         })
     }
 
-    fn check_sum(
-        &self,
-        content: &[u8],
-        options: &SuiteOptions,
-    ) -> Result<(), SuiteError> {
+    fn check_sum(&self, content: &[u8]) -> Result<(), SuiteError> {
         let Some(expected) = self.cell("sha256") else { return Ok(()) };
-        let Some(sha256_hex) = options.sha256_hex else {
-            return Err(SuiteError::Unverifiable {
-                path: self.path.to_string(),
-            });
-        };
         let found = sha256_hex(content);
         if found.eq_ignore_ascii_case(expected) {
             return Ok(());

@@ -3,13 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::{
-    Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
-};
+use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::record::{
-    Direction, Fault, Record, RecordError, Remark, file_bytes, is_record,
-    name_of, read_all, result_name, stem,
+    Direction, Fault, ReadOptions, Record, RecordError, Remark, file_bytes,
+    is_record, name_of, read_all, result_name, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -36,7 +34,7 @@ impl Survey {
     /// [`SuiteError`] where the folder or index itself cannot be read.
     pub fn read(
         path: &Path,
-        options: &SuiteOptions,
+        options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
         let shown = path.display().to_string();
         if path.is_dir() {
@@ -75,7 +73,7 @@ impl Survey {
     pub fn of_files(
         path: &str,
         names: &[String],
-        options: &SuiteOptions,
+        options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         let mut known = BTreeSet::new();
@@ -93,7 +91,7 @@ impl Survey {
     fn of_each(
         path: &str,
         names: &[&String],
-        options: &SuiteOptions,
+        options: &ReadOptions,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         if let Some(results) = names.iter().find(|n| **n == PEER_RESULTS) {
@@ -123,7 +121,7 @@ impl Survey {
         for name in names {
             let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
-                .and_then(|bytes| read_all(&shown, &bytes, &options.read));
+                .and_then(|bytes| read_all(&shown, &bytes, options));
             let found = records.unwrap_or_else(|error| {
                 survey.refuse(name, error);
                 Vec::new()
@@ -149,7 +147,7 @@ impl Survey {
     pub(super) fn of_index(
         path: &str,
         bytes: &[u8],
-        options: &SuiteOptions,
+        options: &ReadOptions,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         let index = index::Index::parse(path, bytes)?;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::*;
-use crate::record::{Suite, SuiteError, SuiteOptions, Survey};
+use crate::record::{ReadOptions, Suite, SuiteError, Survey};
 
 /// An AT2 file of this component.
 fn at2(component: &str) -> String {
@@ -33,7 +33,7 @@ impl Folder {
     }
 
     fn suite(&self) -> Result<Suite, SuiteError> {
-        Suite::read(&self.0, &SuiteOptions::default())
+        Suite::read(&self.0, &ReadOptions::default())
     }
 }
 
@@ -84,7 +84,7 @@ fn a_folder_says_what_is_no_record_in_it() {
 #[test]
 fn of_a_doubled_name_one_file_is_read_and_the_other_reported() {
     let names = ["a.AT2", "b.AT2", "b.AT2"].map(str::to_owned);
-    let options = SuiteOptions::default();
+    let options = ReadOptions::default();
     let survey =
         Survey::of_files(
             "z",
@@ -139,7 +139,7 @@ fn names_that_break_a_line_or_compute_are_refused() {
         ("file,dt_s,event", "a,0.01,x\u{9b}31m"),
     ] {
         let index = format!("{head}\n{row}\n");
-        let options = SuiteOptions::default();
+        let options = ReadOptions::default();
         let read = Suite::from_index("i", index.as_bytes(), &options, |_| {
             Ok(b"0\n0.2\n".to_vec())
         });

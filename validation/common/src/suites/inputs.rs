@@ -5,10 +5,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use rocking::record::{
-    ReadOptions, RecordError, Suite, SuiteError, SuiteOptions, Survey,
-};
-use sha2::{Digest, Sha256};
+pub use rocking::record::sha256_hex;
+use rocking::record::{ReadOptions, RecordError, Suite, SuiteError, Survey};
 use zip::ZipArchive;
 
 /// The index in an archive as PEER's site delivers it.
@@ -25,26 +23,9 @@ const SMALLEST_LIMIT: u64 = 1 << 20;
 /// than samples.
 const INDEX_PART: u64 = 12;
 
-/// SHA-256 of `bytes` in hexadecimal.
-///
-/// ```
-/// let sum = rocking_common::suites::inputs::sha256_hex(b"abc");
-/// assert!(sum.starts_with("ba7816bf8f01cfea414140de5dae2223"));
-/// ```
-#[must_use]
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    hex(&Sha256::digest(bytes))
-}
-
 /// Bytes as hexadecimal digits.
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Options by which an index's checksums are checked.
-#[must_use]
-pub fn suite_options(read: ReadOptions) -> SuiteOptions {
-    SuiteOptions { read, sha256_hex: Some(sha256_hex) }
 }
 
 /// Reads the suite at `path`: a folder, an index, or a zip of either.
@@ -75,16 +56,15 @@ pub fn files(path: &Path, suite: &Suite) -> Vec<PathBuf> {
 /// # Errors
 /// As [`Survey::read`]; [`SuiteError::Unreadable`] for a damaged zip.
 pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
-    let options = suite_options(read);
     if path.is_dir() || !is_zip(path) {
-        return Survey::read(path, &options);
+        return Survey::read(path, &read);
     }
     let shown = path.display().to_string();
     let file = File::open(path).map_err(|e| SuiteError::Unreadable {
         path: shown.clone(),
         reason: e.to_string(),
     })?;
-    survey_zip(&shown, file, &options)
+    survey_zip(&shown, file, &read)
 }
 
 /// Reads every record of the zip `archive`, which `shown` names in messages.
@@ -98,7 +78,7 @@ pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
 pub fn survey_zip(
     shown: &str,
     mut archive: impl Read + Seek,
-    options: &SuiteOptions,
+    options: &ReadOptions,
 ) -> Result<Survey, SuiteError> {
     let unreadable = |reason: String| SuiteError::Unreadable {
         path: shown.to_owned(),

@@ -31,7 +31,7 @@ const QUESTION: &str = "What do recorded motions that may be shipped give?";
 /// # Errors
 /// None in practice: the files are fixed.
 pub fn ridgecrest() -> anyhow::Result<Suite> {
-    let options = inputs::suite_options(ReadOptions::default());
+    let options = ReadOptions::default();
     let archive = Cursor::new(RIDGECREST);
     let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
     Ok(survey.into_suite()?)

@@ -110,30 +110,6 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         });
         unknown.map(|stem| format!("cases/{stem} is no family")).collect()
     });
-    add("every-fixture-is-used", {
-        let mut texts: Vec<String> = Vec::new();
-        for folder in ["src", "surrogate", "synthesis", "validation", "tests"]
-        {
-            gather(&root.join(folder), &mut |path| {
-                if path.extension().is_some_and(|e| e == "rs") {
-                    texts.extend(std::fs::read_to_string(path).ok());
-                }
-            });
-        }
-        texts.extend(cases.iter().map(|case| case.expect.origin.clone()));
-        let mut idle = Vec::new();
-        gather(&root.join("fixtures"), &mut |path| {
-            let data = path.extension().is_some_and(|e| {
-                ["json", "csv", "AT2"].iter().any(|x| e == *x)
-            });
-            let name = path.file_name().unwrap_or_default();
-            let name = name.to_string_lossy();
-            if data && !texts.iter().any(|text| text.contains(&*name)) {
-                idle.push(format!("nothing uses {}", path.display()));
-            }
-        });
-        idle
-    });
     trials
 }
 
@@ -171,21 +147,6 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         Trial::test("snapshot/validation-json", validation),
         Trial::test("snapshot/precision-csv", precision),
     ]
-}
-
-/// Shows every file below a folder.
-fn gather(folder: &Path, show: &mut dyn FnMut(&Path)) {
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let mut paths: Vec<_> =
-        entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.sort();
-    for path in paths {
-        if path.is_dir() {
-            gather(&path, show);
-        } else {
-            show(&path);
-        }
-    }
 }
 
 /// Names in a folder that end so; none where the folder is missing.

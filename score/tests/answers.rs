@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rocking_score::{Answers, Verdict, own_answers, reference, score};
+use rocking_score::{Answers, Verdict, codes, own_answers, reference, score};
 
 #[test]
 fn answers_that_are_refused() {
@@ -89,4 +89,26 @@ fn our_own_answers_have_every_digit_that_double_precision_can_get() {
     assert_eq!(found.answered, reference().items.len());
     assert!(lacking.is_empty(), "{}: {lacking:#?}", lacking.len());
     assert_eq!(found.diagnosis.verdict, Verdict::None);
+}
+
+#[test]
+fn scores_of_known_codes_are_those_of_their_answers() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../fixtures/benchmark/answers");
+    let codes = codes();
+    for one in
+        codes.chunk_by(|a, b| (&a.code, &a.setting) == (&b.code, &b.setting))
+    {
+        let path = format!("{}-{}.csv", one[0].code, one[0].setting);
+        let path = folder.join(path);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let found = score(&Answers::parse(&text, &path).unwrap());
+        for code in one {
+            let level = &found.levels[usize::from(code.level) - 1];
+            let median = level.median_digits.unwrap();
+            assert!((median - code.median_digits).abs() < 0.006, "{path:?}");
+            assert_eq!(level.fates_wrong, code.fates_wrong, "{path:?}");
+        }
+    }
+    assert_eq!(codes.iter().filter(|code| code.level == 1).count(), 22);
 }

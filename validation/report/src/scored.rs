@@ -81,7 +81,7 @@ pub fn codes_table(settings: &[&str]) -> PlainTable {
         cells
     };
     PlainTable::new(
-        "codes",
+        "other-codes",
         "How do others do?",
         "Median digits of the answers of other codes to the reference data \
          set (fixtures/benchmark), level by level; `default` is a code as \

@@ -40,7 +40,10 @@ pub fn page(scored: &Score) -> String {
                     h2 { "Digits" }
                     (levels(scored))
                     figure {
-                        (PreEscaped(svg))
+                        div.scroll.drawing.wide role="region"
+                            aria-label="Digits against difficulty" tabindex="0" {
+                            (PreEscaped(svg))
+                        }
                         figcaption {
                             "Digits are −log10 of the relative error, from 0 \
                              to what double precision can get: 15 less log10 \
@@ -72,7 +75,8 @@ pub fn codes_table(settings: &[&str]) -> PlainTable {
         let median = |level| levels.iter().find(|c| c.level == level);
         let sum = |f: fn(&Code) -> usize| levels.iter().map(f).sum::<usize>();
         let (wrong, of) = (sum(|c| c.fates_wrong), sum(|c| c.fates_answered));
-        let mut cells = vec![format!("{code} {version}"), setting.clone()];
+        let name = format!("{code} {version}").trim_end().to_owned();
+        let mut cells = vec![name, setting.clone()];
         cells.extend((1..=5).map(|level| {
             median(level)
                 .map_or("–".into(), |c| format!("{:.1}", c.median_digits))

@@ -42,19 +42,33 @@
 //! Data flow one way, one module a step:
 //!
 //! ```text
-//! record -> excitation -> (block, integrator) -> ida
+//! record -> accelerogram -> excitation -> (block, integrator) -> ida
 //!        -> capacity -> statistics, fragility
 //! ```
 //!
-//! [`record`] reads files; [`excitation`] scales them and has analytic
-//! pulses; [`block`] has geometry and restitution; [`integrator`] answers a
-//! scene; [`ida`] raises the intensity until the block overturns;
-//! [`capacity`] inverts that; [`statistics`] and [`fragility`] do the rest.
+//! [`record`] reads files; an [`accelerogram`] has checked samples;
+//! [`excitation`] scales it and has analytic pulses; [`block`] has geometry
+//! and restitution; [`integrator`] answers a scene; [`ida`] raises the
+//! intensity until the block overturns; [`capacity`] inverts that;
+//! [`statistics`] and [`fragility`] do the rest.
 //! `examples/fragility.rs` goes from a folder of records to a fragility in 25
 //! lines.
 //!
-//! The feature `serde`, off by default, serialises choices such as
-//! [`Model`](integrator::Model) as their [`names`].
+//! # Features
+//!
+//! Without features a block responds to pulses and to samples, in every
+//! arithmetic, one IDA curve at a time ([`ida::curve`]); `libm` and
+//! `thiserror` are the only dependencies.
+//!
+//! | feature | default | adds | dependencies |
+//! |---|---|---|---|
+//! | `records` | yes | [`record`]: files and suites | `sha2` |
+//! | `lanes` | yes | [`ida::curves`]: SIMD, all cores | `rayon` |
+//! | `statistics` | yes | [`statistics`], [`fragility`], [`streams`] | `nalgebra`, `rand`, `rayon`, `statrs` |
+//! | all of these | yes | [`procedures`] | |
+//! | `serde` | no | results as `Serialize`, choices by their [`names`] | `serde` |
+//!
+//! `serde` is off because no computation needs it.
 //!
 //! # What is modelled
 //!
@@ -73,21 +87,32 @@
 //! pulse, impact law or record format goes.
 
 #![deny(missing_docs)]
+// Parts of the kernel serve one feature alone.
+#![cfg_attr(
+    not(all(feature = "lanes", feature = "records", feature = "statistics")),
+    allow(dead_code, unused_imports)
+)]
 
+pub mod accelerogram;
 pub mod block;
 pub mod capacity;
 pub mod excitation;
 pub mod floor;
+#[cfg(feature = "statistics")]
 pub mod fragility;
 pub mod ida;
 pub mod integrator;
 pub mod intensity;
 pub mod names;
 pub mod number;
+#[cfg(all(feature = "lanes", feature = "records", feature = "statistics"))]
 pub mod procedures;
+#[cfg(feature = "records")]
 pub mod record;
+#[cfg(feature = "statistics")]
 pub mod statistics;
 pub mod stop;
+#[cfg(feature = "statistics")]
 pub mod streams;
 pub mod units;
 

@@ -13,9 +13,16 @@ pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Arithmetic of the step kernels: no comparison, no branch.
+/// What no other crate may implement: methods may be added.
+#[doc(hidden)]
+pub mod sealed {
+    pub trait Sealed {}
+}
+
+/// Arithmetic of the step kernels: no comparison, no branch. It is sealed.
 pub trait Number:
-    Copy
+    sealed::Sealed
+    + Copy
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -50,8 +57,8 @@ pub trait Number:
     }
 }
 
-/// Something to be done with Taylor series of some lengths.
-pub trait SeriesWork {
+/// Something to be done with Taylor series of some lengths. It is sealed.
+pub trait SeriesWork: sealed::Sealed {
     /// What the work gives.
     type Output;
 
@@ -105,6 +112,8 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
         work.run::<20, 28>()
     }
 }
+
+impl crate::number::sealed::Sealed for f64 {}
 
 impl Number for f64 {
     #[inline(always)]

@@ -1,23 +1,6 @@
-//! How free-standing rigid blocks (columns, statues, cabinets) rock and
-//! overturn under earthquakes, and the statistics of it.
+#![doc = include_str!("README.md")]
 //!
-//! ```
-//! use rocking::excitation::{Pulse, PulseKind};
-//! use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
-//!
-//! // Slenderness angle 0.1 rad, frequency parameter 3 rad/s, under one sine of
-//! // 1.5 m/s2 at 12 rad/s.
-//! let block = Block::try_new(0.1, 3.0)?;
-//! let restitution = Restitution::constant(0.92)?;
-//! let amplitude = 1.5 / 9.81;
-//! let sine = PulseKind::OneSine { amplitude, omega_rad_s: 12.0 };
-//! let pulse = Pulse::try_new(sine)?;
-//! let scene = Scene::new(block, restitution, Excitation::Pulse(&pulse));
-//! let response = respond(&scene, &Observe::default())?;
-//! // |theta| reaches 0.49 alpha; a 36-digit reference: 0.493881599743772889...
-//! assert!((response.peak_ratio - 0.493_881_599_743_773).abs() < 1e-13);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! # What to call
 //!
 //! | you have | you want | call |
 //! |---|---|---|
@@ -54,29 +37,7 @@
 //! `examples/fragility.rs` goes from a folder of records to a fragility in 25
 //! lines.
 //!
-//! # Features
-//!
-//! Without features a block responds to pulses and to samples, in every
-//! arithmetic, one IDA curve at a time ([`ida::curve`]); `libm` and
-//! `thiserror` are the only dependencies.
-//!
-//! | feature | default | adds | dependencies |
-//! |---|---|---|---|
-//! | `records` | yes | [`record`]: files and suites | `sha2` |
-//! | `lanes` | yes | [`ida::curves`]: SIMD, all cores | `rayon` |
-//! | `statistics` | yes | [`statistics`], [`fragility`], [`streams`] | `nalgebra`, `rand`, `rayon`, `statrs` |
-//! | all of these | yes | [`procedures`] | |
-//! | `serde` | no | results as `Serialize`, choices by their [`names`] | `serde` |
-//!
-//! `serde` is off because no computation needs it.
-//!
-//! # What is modelled
-//!
-//! A planar, rigid, symmetric block on a rigid base under horizontal ground
-//! acceleration: uplift, rocking about either corner, impact with a
-//! coefficient of restitution, rest, overturning; Eq. 1 (nonlinear) and
-//! Eq. 2 (linearized). *Not* modelled: sliding, bouncing, vertical
-//! acceleration, motion out of the plane, flexible blocks or bases.
+//! # Certainty
 //!
 //! Rocking under a long record is chaotic. [`certainty`] says what rounding
 //! does to it, and what the words `clear` and `unresolved` promise.
@@ -126,6 +87,12 @@ pub use integrator::{Observe, Response, Scene, respond};
 /// [`CLEARANCE`](crate::integrator::CLEARANCE),
 /// [`certify`](crate::integrator::certify).
 pub mod certainty {}
+
+#[doc = include_str!("../CHANGELOG.md")]
+pub mod changelog {
+    /// The text of this page.
+    pub const TEXT: &str = include_str!("../CHANGELOG.md");
+}
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

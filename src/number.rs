@@ -13,9 +13,10 @@ pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What no other crate may implement: methods may be added.
-#[doc(hidden)]
+/// Seals the traits of numbers, to which any release may add methods.
 pub mod sealed {
+    /// Whoever implements this for a number of their own accepts that it may
+    /// not compile with the next release.
     pub trait Sealed {}
 }
 

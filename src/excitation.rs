@@ -8,8 +8,8 @@ pub(crate) use pulse::Shape;
 pub use pulse::{Pulse, PulseError, PulseKind, PulseName, PulseParameter};
 pub(crate) use record_index::{RUN, RecordIndex, Remaining, Window};
 
+use crate::accelerogram::{Accelerogram, AccelerogramError};
 use crate::number::Number;
-use crate::record::{Accelerogram, AccelerogramError};
 
 /// Ground acceleration as the block feels it.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
+use crate::accelerogram::{Accelerogram, AccelerogramError};
 use crate::intensity::LEAST_PERIOD_S;
 use crate::intensity::oscillator::Oscillator;
-use crate::record::{Accelerogram, AccelerogramError};
 
 /// The longest period of a mode, in s.
 const MOST_PERIOD_S: f64 = 20.0;

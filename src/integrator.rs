@@ -18,6 +18,7 @@ mod driver;
 mod dynamics;
 mod forcing;
 mod limits;
+#[cfg(feature = "lanes")]
 pub(crate) mod pool;
 mod precise;
 mod roots;
@@ -34,6 +35,7 @@ pub use driver::Forces;
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;
 pub use limits::{SceneError, WorkLimit};
+#[cfg(feature = "lanes")]
 pub use pool::bare::BareSteps;
 pub use precise::respond_precise;
 pub use scene::{

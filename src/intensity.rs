@@ -23,7 +23,7 @@ pub use settings::{DEFAULT_PERIODS_S, Settings};
 
 use thiserror::Error;
 
-use crate::record::Accelerogram;
+use crate::accelerogram::Accelerogram;
 use crate::stop;
 use energy::Husid;
 use fourier::Spectrum;

@@ -1,23 +1,6 @@
-//! How free-standing rigid blocks (columns, statues, cabinets) rock and
-//! overturn under earthquakes, and the statistics of it.
+#![doc = include_str!("README.md")]
 //!
-//! ```
-//! use rocking::excitation::{Pulse, PulseKind};
-//! use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
-//!
-//! // Slenderness angle 0.1 rad, frequency parameter 3 rad/s, under one sine of
-//! // 1.5 m/s2 at 12 rad/s.
-//! let block = Block::try_new(0.1, 3.0)?;
-//! let restitution = Restitution::constant(0.92)?;
-//! let amplitude = 1.5 / 9.81;
-//! let sine = PulseKind::OneSine { amplitude, omega_rad_s: 12.0 };
-//! let pulse = Pulse::try_new(sine)?;
-//! let scene = Scene::new(block, restitution, Excitation::Pulse(&pulse));
-//! let response = respond(&scene, &Observe::default())?;
-//! // |theta| reaches 0.49 alpha; a 36-digit reference: 0.493881599743772889...
-//! assert!((response.peak_ratio - 0.493_881_599_743_773).abs() < 1e-13);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! # What to call
 //!
 //! | you have | you want | call |
 //! |---|---|---|
@@ -42,27 +25,19 @@
 //! Data flow one way, one module a step:
 //!
 //! ```text
-//! record -> excitation -> (block, integrator) -> ida
+//! record -> accelerogram -> excitation -> (block, integrator) -> ida
 //!        -> capacity -> statistics, fragility
 //! ```
 //!
-//! [`record`] reads files; [`excitation`] scales them and has analytic
-//! pulses; [`block`] has geometry and restitution; [`integrator`] answers a
-//! scene; [`ida`] raises the intensity until the block overturns;
-//! [`capacity`] inverts that; [`statistics`] and [`fragility`] do the rest.
+//! [`record`] reads files; an [`accelerogram`] has checked samples;
+//! [`excitation`] scales it and has analytic pulses; [`block`] has geometry
+//! and restitution; [`integrator`] answers a scene; [`ida`] raises the
+//! intensity until the block overturns; [`capacity`] inverts that;
+//! [`statistics`] and [`fragility`] do the rest.
 //! `examples/fragility.rs` goes from a folder of records to a fragility in 25
 //! lines.
 //!
-//! The feature `serde`, off by default, serialises choices such as
-//! [`Model`](integrator::Model) as their [`names`].
-//!
-//! # What is modelled
-//!
-//! A planar, rigid, symmetric block on a rigid base under horizontal ground
-//! acceleration: uplift, rocking about either corner, impact with a
-//! coefficient of restitution, rest, overturning; Eq. 1 (nonlinear) and
-//! Eq. 2 (linearized). *Not* modelled: sliding, bouncing, vertical
-//! acceleration, motion out of the plane, flexible blocks or bases.
+//! # Certainty
 //!
 //! Rocking under a long record is chaotic. [`certainty`] says what rounding
 //! does to it, and what the words `clear` and `unresolved` promise.
@@ -73,21 +48,32 @@
 //! pulse, impact law or record format goes.
 
 #![deny(missing_docs)]
+// Parts of the kernel serve one feature alone.
+#![cfg_attr(
+    not(all(feature = "lanes", feature = "records", feature = "statistics")),
+    allow(dead_code, unused_imports)
+)]
 
+pub mod accelerogram;
 pub mod block;
 pub mod capacity;
 pub mod excitation;
 pub mod floor;
+#[cfg(feature = "statistics")]
 pub mod fragility;
 pub mod ida;
 pub mod integrator;
 pub mod intensity;
 pub mod names;
 pub mod number;
+#[cfg(all(feature = "lanes", feature = "records", feature = "statistics"))]
 pub mod procedures;
+#[cfg(feature = "records")]
 pub mod record;
+#[cfg(feature = "statistics")]
 pub mod statistics;
 pub mod stop;
+#[cfg(feature = "statistics")]
 pub mod streams;
 pub mod units;
 
@@ -101,6 +87,12 @@ pub use integrator::{Observe, Response, Scene, respond};
 /// [`CLEARANCE`](crate::integrator::CLEARANCE),
 /// [`certify`](crate::integrator::certify).
 pub mod certainty {}
+
+#[doc = include_str!("../CHANGELOG.md")]
+pub mod changelog {
+    /// The text of this page.
+    pub const TEXT: &str = include_str!("../CHANGELOG.md");
+}
 
 /// The README's example compiles and runs.
 #[cfg(doctest)]

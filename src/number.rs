@@ -13,9 +13,17 @@ pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Arithmetic of the step kernels: no comparison, no branch.
+/// Seals the traits of numbers, to which any release may add methods.
+pub mod sealed {
+    /// Whoever implements this for a number of their own accepts that it may
+    /// not compile with the next release.
+    pub trait Sealed {}
+}
+
+/// Arithmetic of the step kernels: no comparison, no branch. It is sealed.
 pub trait Number:
-    Copy
+    sealed::Sealed
+    + Copy
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -50,8 +58,8 @@ pub trait Number:
     }
 }
 
-/// Something to be done with Taylor series of some lengths.
-pub trait SeriesWork {
+/// Something to be done with Taylor series of some lengths. It is sealed.
+pub trait SeriesWork: sealed::Sealed {
     /// What the work gives.
     type Output;
 
@@ -105,6 +113,8 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
         work.run::<20, 28>()
     }
 }
+
+impl crate::number::sealed::Sealed for f64 {}
 
 impl Number for f64 {
     #[inline(always)]

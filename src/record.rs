@@ -9,7 +9,6 @@ use std::fmt;
 use std::io::Read as _;
 use std::path::Path;
 
-mod accelerogram;
 mod afad;
 mod at2;
 mod codes;
@@ -23,7 +22,6 @@ mod fields;
 mod geonet;
 mod keys;
 mod knet;
-mod name;
 mod number;
 mod processing;
 mod quality;
@@ -32,10 +30,8 @@ mod smc;
 mod suite;
 mod text;
 
-pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use direction::Direction;
 pub use error::{Fault, RecordError};
-pub use name::{NameError, result_name};
 pub use processing::{Processing, ProcessingError};
 pub use quality::{Remark, Remarked, duplicates, remarks, remarks_together};
 pub use suite::{
@@ -45,6 +41,9 @@ pub use suite::{
 
 use sha2::{Digest as _, Sha256};
 
+pub use crate::accelerogram::{
+    Accelerogram, AccelerogramError, NameError, result_name,
+};
 use crate::units::{self, AccelerationUnit};
 use text::{Text, excerpt};
 

@@ -8,11 +8,10 @@
 //! panic can stop no work.
 
 use std::cell::OnceCell;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
 
 /// A stop that may be requested, from any thread and once for all.
@@ -39,7 +38,7 @@ pub enum StopError {
     Stopped,
     /// The threads could not be started.
     #[error("threads cannot be started: {0}")]
-    Threads(#[from] ThreadPoolBuildError),
+    Threads(String),
 }
 
 /// What a stack is unwound with.
@@ -62,8 +61,7 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Does `work` on `threads` threads of its own (0: as many as rayon
-    /// takes), which heed this stop.
+    /// Does `work` on `threads` threads of its own (0: one a processor), which heed this stop.
     ///
     /// Results have the same bits for any number of threads, and whether or
     /// not there is a stop to heed.
@@ -71,20 +69,24 @@ impl Stop {
     /// # Errors
     /// [`StopError`] where the work was stopped, or the threads could not be
     /// started.
+    #[cfg(feature = "threads")]
     pub fn run<T: Send>(
         &self,
         threads: usize,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, StopError> {
+        use std::panic::{AssertUnwindSafe, catch_unwind};
+
         let own = self.clone();
         let heed = move |_| {
             // A new thread heeds nothing yet.
             let _ = HEEDED.with(|heeded| heeded.set(own.clone()));
         };
-        let pool = ThreadPoolBuilder::new()
+        let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .start_handler(heed)
-            .build()?;
+            .build()
+            .map_err(|error| StopError::Threads(error.to_string()))?;
         // What was under way is dropped with the stack.
         let done = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
         done.map_err(|cause| match cause.is::<Stopped>() {

@@ -13,7 +13,22 @@ use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
 
 /// The generator of one stream: `ChaCha` with 8 rounds.
-pub type Stream = ChaCha8Rng;
+#[derive(Debug)]
+pub struct Stream(ChaCha8Rng);
+
+impl Stream {
+    /// The next word.
+    #[inline]
+    pub fn next_u64(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
+    /// A number in [0, 1): a multiple of 2^-53, from one word.
+    #[inline]
+    pub fn uniform(&mut self) -> f64 {
+        (self.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+    }
+}
 
 /// A family of 2^64 independent random streams.
 ///
@@ -24,7 +39,6 @@ pub type Stream = ChaCha8Rng;
 /// index.
 ///
 /// ```
-/// use rand::Rng as _;
 /// use rocking::streams::Streams;
 /// let streams = Streams::new("example", 0);
 /// let (mut a, mut b) = (streams.stream(7), streams.stream(7));
@@ -46,9 +60,9 @@ impl Streams {
     /// The stream of this index, at its beginning.
     #[must_use]
     pub fn stream(&self, index: u64) -> Stream {
-        let mut stream = Stream::from_seed(self.key);
+        let mut stream = ChaCha8Rng::from_seed(self.key);
         stream.set_stream(index);
-        stream
+        Stream(stream)
     }
 }
 

@@ -102,7 +102,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
     });
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     add("every-case-file-is-a-family", {
-        let stems = names(&root.join("validation/cases"), ".toml");
+        let stems = names(&root.join("validation/proof/cases"), ".toml");
         let unknown = stems.iter().filter(|stem| {
             FAMILIES
                 .iter()

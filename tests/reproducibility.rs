@@ -2,7 +2,6 @@
 //! level, on one thread and two, one at a time and in lanes, in dev and in
 //! release builds (`cargo test --release --test gate bits`).
 
-use rand::RngExt as _;
 use rayon::prelude::*;
 
 use rocking::block::{Block, Restitution};
@@ -28,7 +27,7 @@ fn record(index: u64, dt_s: f64) -> NormalisedRecord {
     let (mut fast, mut slow) = (0.0, 0.0);
     let samples = (0..count)
         .map(|k| {
-            let white = stream.random::<f64>() - 0.5;
+            let white = stream.uniform() - 0.5;
             fast += 0.3 * (white - 0.5 * fast);
             slow += 0.2 * (fast - slow);
             let share = k as f64 / count as f64;

@@ -1,6 +1,7 @@
 //! Tells the program the commit of its sources, for `rocking --version` and
 //! for reports that are issued.
 
+use std::fs;
 use std::process::Command;
 
 /// What the program is built from, beside this package's folder.
@@ -37,6 +38,14 @@ fn commit() -> Option<String> {
     })
 }
 
+/// The commit that a package of a registry was made from.
+fn packaged() -> Option<String> {
+    let text = fs::read_to_string(".cargo_vcs_info.json").ok()?;
+    let commit = text.split("\"sha1\": \"").nth(1)?.get(..12)?;
+    let changed = text.contains("\"dirty\": true");
+    Some(commit.to_owned() + if changed { " with changes" } else { "" })
+}
+
 fn main() {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
@@ -45,6 +54,7 @@ fn main() {
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]) {
         println!("cargo::rerun-if-changed={log}");
     }
-    let commit = commit().unwrap_or_else(|| "unknown".into());
+    let commit =
+        packaged().or_else(commit).unwrap_or_else(|| "unknown".into());
     println!("cargo::rustc-env=ROCKING_COMMIT={commit}");
 }

@@ -11,10 +11,10 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// The scenes and what is asked of each, as JSON.
-pub const SCENES: &str = include_str!("../../fixtures/benchmark/scenes.json");
-const CERTIFIED: &str = include_str!("../../fixtures/benchmark/certified.csv");
-const WRONG: &str = include_str!("../../fixtures/benchmark/wrong-models.csv");
-const MISTAKES: &str = include_str!("../../fixtures/benchmark/mistakes.csv");
+pub const SCENES: &str = rocking_fixtures::text("benchmark/scenes.json");
+const CERTIFIED: &str = rocking_fixtures::text("benchmark/certified.csv");
+const WRONG: &str = rocking_fixtures::text("benchmark/wrong-models.csv");
+const MISTAKES: &str = rocking_fixtures::text("benchmark/mistakes.csv");
 
 /// Inputs whose relative derivatives are known, as the columns name them.
 pub const INPUTS: [&str; 5] = ["alpha", "p", "eta", "size", "clock"];

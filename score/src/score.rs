@@ -94,7 +94,7 @@ pub struct Code {
     pub fates_answered: usize,
 }
 
-const CODES: &str = include_str!("../../fixtures/benchmark/codes.csv");
+const CODES: &str = rocking_fixtures::text("benchmark/codes.csv");
 
 /// The known codes that were scored, a line for each level.
 ///

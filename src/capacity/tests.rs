@@ -1,6 +1,6 @@
 use super::*;
 
-/// The curves of `validation/cases/inversion.toml`.
+/// The curves of `validation/proof/cases/inversion.toml`.
 fn curve(vertices: &[(f64, f64)], overturning: Option<f64>) -> ResponseCurve {
     ResponseCurve::try_new(vertices, overturning).unwrap()
 }

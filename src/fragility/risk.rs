@@ -56,6 +56,7 @@ pub struct HazardCurve {
 /// confidence interval: neither the records nor the hazard are uncertain in
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AnnualFrequency {
     /// Lower bound of truncation in 1/year: beyond x_n damage has the
     /// probability F(x_n) or more.

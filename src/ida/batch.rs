@@ -2,18 +2,139 @@
 //! threads.
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::fmt;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
 use crate::ida::levels::Level;
-use crate::ida::{
-    Analysis, Batch, Grid, IdaCurve, IdaError, IdaPoint, curve_at,
-};
+use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_at};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
 use crate::integrator::{Response, Scene, WorkLimit, uplift_threshold};
 use crate::number::dispatch::Isa;
+
+/// How many curves are made. The default uses the machine's best
+/// instruction-set level and reports nothing.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// Instruction-set level. It changes the speed alone.
+    pub isa: Isa,
+    /// Called after each curve, from any thread.
+    pub progress: &'a (dyn Fn() + Sync),
+}
+
+impl Default for Batch<'_> {
+    fn default() -> Self {
+        Self { isa: Isa::best(), progress: &|| () }
+    }
+}
+
+impl fmt::Debug for Batch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Batch").field("isa", &self.isa).finish()
+    }
+}
+
+/// IDA of every record under every analysis: `result[a][r]`, in parallel
+/// over curves, the same for any number of threads. A
+/// [`Stop`](crate::stop::Stop) ends it before.
+///
+/// # Errors
+/// The first error in the order of analyses and records.
+///
+/// ```
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, curves};
+/// use rocking::record::Accelerogram;
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let records = [NormalisedRecord::new(&record)];
+/// let restitution = Restitution::constant(0.92)?;
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analyses = [Analysis::paper(block, restitution)];
+/// let all = curves(&records, &analyses, &Batch::default())?;
+/// assert!(all[0][0].overturning.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn curves(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    batch: &Batch<'_>,
+) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    let cells = || (0..records.len()).map(|_| OnceLock::new()).collect();
+    let all: Vec<Vec<OnceLock<IdaCurve>>> =
+        analyses.iter().map(|_| cells()).collect();
+    for_each_curve(records, analyses, batch, &|a, r, curve| {
+        // Each cell is filled once.
+        let _ = all[a][r].set(curve);
+    })?;
+    let row = |cells: Vec<OnceLock<IdaCurve>>| {
+        cells.into_iter().filter_map(OnceLock::into_inner).collect()
+    };
+    Ok(all.into_iter().map(row).collect())
+}
+
+/// [`curves`], each handed to `sink(a, r, curve)` as soon as it is finished:
+/// memory does not grow with finished curves.
+///
+/// `sink` is called once for each analysis `a` and record `r`, from any
+/// thread and in any order; the curves are the same for any number of
+/// threads.
+///
+/// # Errors
+/// As [`curves`]. `sink` has then had some of the curves.
+///
+/// ```
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, for_each_curve};
+/// use rocking::record::Accelerogram;
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let restitution = Restitution::constant(0.92)?;
+/// let analyses = [0.1, 0.12].map(|alpha| {
+///     Analysis::paper(Block::try_new(alpha, 3.0).unwrap(), restitution)
+/// });
+/// let overturned = AtomicUsize::new(0);
+/// for_each_curve(
+///     &[NormalisedRecord::new(&record)],
+///     &analyses,
+///     &Batch::default(),
+///     &|_, _, curve| {
+///         let one = usize::from(curve.overturning.is_some());
+///         overturned.fetch_add(one, Ordering::Relaxed);
+///     },
+/// )?;
+/// assert_eq!(overturned.into_inner(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn for_each_curve(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    batch: &Batch<'_>,
+    sink: &(dyn Fn(usize, usize, IdaCurve) + Sync),
+) -> Result<(), IdaError> {
+    let isa = batch.isa;
+    let watch =
+        Watch { batch, records: records.len(), sink, error: Mutex::new(None) };
+    let queues = queues(records, analyses, isa);
+    rayon::scope(|scope| {
+        for _ in 0..rayon::current_num_threads() {
+            scope.spawn(|_| {
+                for queue in &queues {
+                    queue.work(isa, &watch);
+                }
+            });
+        }
+    });
+    match watch.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
+    }
+}
 
 /// One curve to be made.
 #[derive(Clone, Copy)]
@@ -82,32 +203,6 @@ impl Watch<'_> {
             }
         }
         (self.batch.progress)();
-    }
-}
-
-/// See [`crate::ida::for_each_curve`]. The lanes are compiled here, once.
-pub(super) fn for_each_curve(
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-    batch: &Batch<'_>,
-    sink: Sink<'_>,
-) -> Result<(), IdaError> {
-    let isa = batch.isa;
-    let watch =
-        Watch { batch, records: records.len(), sink, error: Mutex::new(None) };
-    let queues = queues(records, analyses, isa);
-    rayon::scope(|scope| {
-        for _ in 0..rayon::current_num_threads() {
-            scope.spawn(|_| {
-                for queue in &queues {
-                    queue.work(isa, &watch);
-                }
-            });
-        }
-    });
-    match watch.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some((_, error)) => Err(error),
-        None => Ok(()),
     }
 }
 

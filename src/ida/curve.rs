@@ -6,6 +6,7 @@ use crate::integrator::Outcome;
 
 /// One analysis of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct IdaPoint {
     /// Dimensionless intensity PGA/(g tan alpha).
     pub im: f64,
@@ -31,6 +32,7 @@ impl IdaPoint {
 
 /// The first overturning of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FirstOverturning {
     /// Level of the grid that overturned first, IM.
     pub scanned_im: f64,
@@ -50,6 +52,7 @@ impl FirstOverturning {
 
 /// IDA curve of one record.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct IdaCurve {
     /// The record's name.
     pub record: String,

@@ -11,6 +11,7 @@ pub(crate) const WORTH_ASSESSING: f64 = 3e-5;
 /// Whether outcome and peak of an analysis are resolved, and by which
 /// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Resolution {
     /// Which arithmetic assessed every decision, the widest if several did;
     /// none where the rough estimate of the run was enough.
@@ -40,6 +41,7 @@ impl Resolution {
 /// How many analyses of a curve each arithmetic resolved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct ResolutionCounts {
     /// Analyses counted: levels, the refined end, and levels above.
     pub analyses: u64,

@@ -54,6 +54,7 @@ named!(Decision, "decision", {
 /// The least clear decision of a kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Clearance {
     /// Kind of the decision.
     pub decision: Decision,

@@ -80,6 +80,7 @@ impl fmt::Debug for Certify<'_> {
 /// A fate and the evidence for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Certified {
     /// What became of the block, in the arithmetic `by`.
     #[cfg_attr(feature = "serde", serde(flatten))]
@@ -200,7 +201,7 @@ mod tests {
     use super::{Arithmetic, Certify, certify};
     use crate::block::{Block, Restitution};
     use crate::excitation::{Excitation, Pulse, PulseKind};
-    use crate::integrator::{Overturning, Scene};
+    use crate::integrator::{Outcome, Overturning, Scene, Side};
 
     /// Fate of the reference `hs-near-ulp-above` at another amplitude.
     fn fate(amplitude_m_s2: f64) -> super::Certified {
@@ -249,6 +250,22 @@ mod tests {
                     && fate.by == Arithmetic::Double
                     && !fate.wrong_in_double()
             );
+        }
+    }
+
+    #[test]
+    fn engines_disagree_about_a_fate_or_they_do_not() {
+        let over = Outcome::Overturned { time_s: 1.0, side: Side::Negative };
+        let stands = Outcome::Rocked { peak_ratio: 0.99 };
+        for (outcome, double, wrong) in [
+            (over, stands, true),
+            (stands, over, true),
+            (over, over, false),
+            (stands, stands, false),
+            (stands, Outcome::NoUplift, false),
+        ] {
+            let fate = super::Certified { outcome, double, ..fate(3.0) };
+            assert_eq!(fate.wrong_in_double(), wrong);
         }
     }
 }

@@ -97,6 +97,8 @@ struct Run<'a, N> {
     number: PhantomData<N>,
 }
 
+impl<N: Real> crate::number::sealed::Sealed for Run<'_, N> {}
+
 impl<N: Real> SeriesWork for Run<'_, N> {
     type Output = Result<Response<N>, SceneError>;
 

@@ -203,6 +203,7 @@ pub struct Impact<N = f64> {
 /// Bounds on the errors of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct ImpactError {
     /// Of its time, s.
     pub time_s: f64,
@@ -225,6 +226,7 @@ pub struct HistoryPoint<N = f64> {
 /// How much was computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Work {
     /// Taylor polynomials expanded.
     pub steps: u64,
@@ -241,6 +243,7 @@ pub struct Work {
 /// The answer to a scene, in the numbers of the run.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Response<N = f64> {
     /// What became of the block, by this run.
     #[cfg_attr(feature = "serde", serde(flatten))]

@@ -1,6 +1,6 @@
 //! Intensity measures by name, their units, and their values for a record.
 
-use crate::record::result_name;
+use crate::accelerogram::result_name;
 use std::fmt;
 use std::str::FromStr;
 

@@ -2,7 +2,7 @@
 
 use super::oscillator::State;
 use super::{Direct, IntensityError, Measures, Settings, Spectrum};
-use crate::record::Accelerogram;
+use crate::accelerogram::Accelerogram;
 
 /// Directions from 0 degrees by 1 degree: the other half turn repeats them.
 const DIRECTIONS: u32 = 180;

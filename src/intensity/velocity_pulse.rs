@@ -27,7 +27,7 @@ mod wavelet;
 
 use super::IntensityError;
 use super::fourier::Transform;
-use crate::record::Accelerogram;
+use crate::accelerogram::Accelerogram;
 use wavelet::Wavelet;
 
 /// Periods that are searched, in s.

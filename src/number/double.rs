@@ -194,6 +194,8 @@ impl Div for DoubleDouble {
     }
 }
 
+impl crate::number::sealed::Sealed for DoubleDouble {}
+
 impl Number for DoubleDouble {
     #[inline]
     fn from_f64(x: f64) -> Self {

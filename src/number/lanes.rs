@@ -336,6 +336,8 @@ impl Neg for Lanes {
     }
 }
 
+impl crate::number::sealed::Sealed for Lanes {}
+
 impl Number for Lanes {
     const LANES: bool = true;
 

@@ -309,6 +309,8 @@ impl Div for Octuple {
     }
 }
 
+impl crate::number::sealed::Sealed for Octuple {}
+
 impl Number for Octuple {
     fn from_f64(x: f64) -> Self {
         let negative = x.is_sign_negative();

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::AccelerogramError;
 use super::codes::coded;
-use super::name::{Escaped, NameError};
+use crate::accelerogram::name::{Escaped, NameError};
 use crate::units::AccelerationUnit;
 
 /// A record that was refused.

@@ -5,10 +5,10 @@
 //! in the quality control. The header's maximum is that of the record
 //! without its mean, and is checked.
 
-use super::accelerogram::mean;
 use super::number::{self, Reading};
 use super::text::Text;
 use super::{Channel, Direction, Fault, RecordError, fields, keys};
+use crate::accelerogram::mean;
 use crate::units::AccelerationUnit;
 
 /// The key of the maximum, in two spellings.

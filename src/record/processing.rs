@@ -14,8 +14,8 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::accelerogram::mean;
 use super::{Accelerogram, AccelerogramError};
+use crate::accelerogram::mean;
 
 /// Order of the filter, in each direction.
 const ORDER: f64 = 4.0;

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-use super::accelerogram::mean;
 use super::codes::coded;
 use super::{Accelerogram, SuiteMember};
+use crate::accelerogram::mean;
 
 /// Range of PGA in g; outside it the unit is suspected.
 const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);

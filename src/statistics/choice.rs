@@ -2,7 +2,6 @@
 //! goodness of fit of several families, side by side.
 
 use libm::{exp, log, pow};
-use rand::Rng as _;
 use rayon::prelude::*;
 
 use super::lognormal::{self, FitError, FitMethod, profile_shift};

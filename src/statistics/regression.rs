@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::statistics::Clusters;
 
-    const ORACLE: &str = include_str!("../../fixtures/oracles/regression.csv");
+    const ORACLE: &str = rocking_fixtures::text("oracles/regression.csv");
 
     #[test]
     fn lines_agree_with_scipy_and_mpmath() {

@@ -7,7 +7,6 @@
 use std::sync::LazyLock;
 
 use libm::{erfc, exp, log};
-use rand::Rng as _;
 
 use super::Stream;
 
@@ -43,11 +42,6 @@ fn density(x: f64) -> f64 {
     exp(-0.5 * x * x)
 }
 
-/// A number in [0, 1) with 53 bits.
-fn uniform(stream: &mut Stream) -> f64 {
-    (stream.next_u64() >> 11) as f64 * (f64::EPSILON / 2.0)
-}
-
 /// A number in (0, 1) with 52 bits.
 fn open(stream: &mut Stream) -> f64 {
     ((stream.next_u64() >> 12) as f64 + 0.5) * f64::EPSILON
@@ -77,7 +71,7 @@ pub fn standard_normal(stream: &mut Stream) -> f64 {
             return tail(stream, u < 0.0);
         }
         let rise = heights[layer + 1] - heights[layer];
-        let height = heights[layer + 1] - rise * uniform(stream);
+        let height = heights[layer + 1] - rise * stream.uniform();
         if height < density(x) {
             return x;
         }

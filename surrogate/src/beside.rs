@@ -10,7 +10,7 @@ use super::{Fitted, Model, SHIFT, Size, Surrogate, SurrogateError};
 use rocking_synthesis::SuiteKind;
 
 /// The study's blocks under embedded and recorded motions.
-const COMPARED: &str = include_str!("../../fixtures/comparison/suites.csv");
+const COMPARED: &str = rocking_fixtures::text("comparison/suites.csv");
 
 /// Probabilities at which recorded intensities are known.
 const PROBABILITIES: [f64; 3] = [0.16, 0.50, 0.84];

@@ -14,8 +14,8 @@ use rocking_synthesis::SuiteKind;
 
 /// The coefficients, and the blocks that none of them was fitted to.
 const COEFFICIENTS: &str =
-    include_str!("../../fixtures/surrogate/coefficients.csv");
-const UNSEEN: &str = include_str!("../../fixtures/surrogate/unseen.csv");
+    rocking_fixtures::text("surrogate/coefficients.csv");
+const UNSEEN: &str = rocking_fixtures::text("surrogate/unseen.csv");
 
 /// Highest degrees of a surface in u (of p) and in v (of alpha); terms of a
 /// total degree above that in u are left out.

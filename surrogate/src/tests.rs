@@ -1,9 +1,9 @@
 use super::*;
 use rocking_synthesis::SuiteKind;
 
-const DESIGN: &str = include_str!("../../fixtures/surrogate/design.csv");
+const DESIGN: &str = rocking_fixtures::text("surrogate/design.csv");
 const COEFFICIENTS: &str =
-    include_str!("../../fixtures/surrogate/coefficients.csv");
+    rocking_fixtures::text("surrogate/coefficients.csv");
 
 #[test]
 fn a_surface_of_its_own_form_is_found_again() {
@@ -111,7 +111,7 @@ fn it_answers_in_its_range_alone() {
 /// numpy's least squares and SciPy's normal distribution.
 #[test]
 fn coefficients_and_errors_are_those_of_another_program() {
-    let expected = include_str!("../../fixtures/oracles/surrogate.csv");
+    let expected = rocking_fixtures::text("oracles/surrogate.csv");
     let surrogate = Surrogate::embedded().unwrap();
     let kept = Recorded::kept().unwrap();
     let mut compared = 0;

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use rand::RngExt as _;
 use rocking::streams::{self, Streams};
 
 /// A stream of random numbers, found by name and index alone.
@@ -16,7 +15,7 @@ impl Stream {
 
     /// Uniform on [low, high).
     pub(super) fn uniform(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.0.random::<f64>()
+        low + (high - low) * self.0.uniform()
     }
 
     /// Log-uniform on [low, high).
@@ -31,9 +30,9 @@ impl Stream {
         let mut out = Vec::with_capacity(count + 1);
         while out.len() < count {
             // 1 - u is in (0, 1]: the logarithm is finite.
-            let u = 1.0 - self.0.random::<f64>();
+            let u = 1.0 - self.0.uniform();
             let radius = (-2.0 * libm::log(u)).sqrt();
-            let (sin, cos) = libm::sincos(2.0 * PI * self.0.random::<f64>());
+            let (sin, cos) = libm::sincos(2.0 * PI * self.0.uniform());
             out.push(radius * cos);
             out.push(radius * sin);
         }

@@ -6,19 +6,20 @@ pub type Edges = &'static str;
 
 /// The modules of the core.
 const CORE: Edges = "
+    accelerogram
     block
     capacity names statistics
-    excitation names number record
-    floor intensity record
+    excitation accelerogram names number
+    floor accelerogram intensity
     fragility intensity statistics
-    ida block capacity excitation integrator names number record
-    integrator block excitation names number record stop
-    intensity names record stop units
+    ida accelerogram block capacity excitation integrator names number
+    integrator accelerogram block excitation names number stop
+    intensity accelerogram names stop units
     names
     number
     procedures block capacity excitation floor fragility ida integrator intensity \
         record statistics stop
-    record stop units
+    record accelerogram stop units
     statistics names number stop streams
     stop
     streams

@@ -3,8 +3,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Arithmetic, Certificate, Certified, Model, Observe, Outcome, Overturning,
-    Response, Scene, Side, Work, respond,
+    Model, Observe, Outcome, Overturning, Response, Scene, Work, respond,
 };
 use rocking::record::Accelerogram;
 
@@ -138,29 +137,4 @@ fn a_peak_is_the_first_of_equal_ones() {
 fn nothing_costs_nothing() {
     let found = respond(&scene(Excitation::Free), &Observe::default());
     assert_eq!(found.unwrap().work, Work::default());
-}
-
-#[test]
-fn engines_disagree_about_a_fate_or_they_do_not() {
-    let over = Outcome::Overturned { time_s: 1.0, side: Side::Negative };
-    let stands = Outcome::Rocked { peak_ratio: 0.99 };
-    for (outcome, double, wrong) in [
-        (over, stands, true),
-        (stands, over, true),
-        (over, over, false),
-        (stands, stands, false),
-        (stands, Outcome::NoUplift, false),
-    ] {
-        let fate = Certified {
-            outcome,
-            margin: 1.0,
-            error: Some(0.0),
-            least: Certificate::default().least(),
-            resolved: true,
-            resolved_for_inputs: true,
-            by: Arithmetic::DoubleDouble,
-            double,
-        };
-        assert_eq!(fate.wrong_in_double(), wrong);
-    }
 }

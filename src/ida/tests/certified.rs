@@ -1,6 +1,6 @@
 use super::super::*;
+use crate::accelerogram::Accelerogram;
 use crate::integrator::Arithmetic;
-use crate::record::Accelerogram;
 
 /// A triangular lobe of half a second, 0.2 g high.
 fn lobe() -> NormalisedRecord {

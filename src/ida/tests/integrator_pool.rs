@@ -3,6 +3,7 @@
 //! that end before the record does.
 
 use super::compare::hold;
+use crate::accelerogram::Accelerogram;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
@@ -11,7 +12,6 @@ use crate::integrator::{
     Model, Observe, Overturning, Response, Scene, Solver, WorkLimit, respond,
 };
 use crate::number::dispatch::Isa;
-use crate::record::Accelerogram;
 
 /// Scenes to be run, and what came of them.
 struct Bench<'a> {

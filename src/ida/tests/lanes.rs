@@ -1,4 +1,5 @@
 use super::compare::same;
+use crate::accelerogram::{Accelerogram, AccelerogramError};
 use crate::block::{Block, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::ida::{
@@ -6,7 +7,6 @@ use crate::ida::{
 };
 use crate::integrator::{Model, Order, Overturning};
 use crate::number::dispatch::Isa;
-use crate::record::{Accelerogram, AccelerogramError};
 
 /// Filtered noise under a parabolic envelope, from a linear congruence.
 fn noise(seed: u64, dt_s: f64) -> Result<Accelerogram, AccelerogramError> {

@@ -38,6 +38,7 @@ const NARROWINGS: usize = 40;
 /// are found on the polynomials of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Forces {
     /// Largest |H|/N: the block does not slide where the coefficient of
     /// friction is above it. Infinite where N is not positive.

@@ -1,4 +1,5 @@
 use super::respond_precise;
+use crate::accelerogram::Accelerogram;
 use crate::block::{Block, Restitution};
 use crate::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
@@ -7,7 +8,6 @@ use crate::integrator::{Model, Observe, Overturning, Scene};
 use crate::number::double::DoubleDouble;
 use crate::number::octuple::Octuple;
 use crate::number::{Number, Real};
-use crate::record::Accelerogram;
 
 fn scene(model: Model, excitation: Excitation<'_>, ratio: f64) -> Scene<'_> {
     Scene {

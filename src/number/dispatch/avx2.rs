@@ -71,6 +71,8 @@ impl Neg for Pair {
     }
 }
 
+impl crate::number::sealed::Sealed for Pair {}
+
 impl Number for Pair {
     const LANES: bool = true;
 

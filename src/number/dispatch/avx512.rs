@@ -55,6 +55,8 @@ impl Neg for Eight {
     }
 }
 
+impl crate::number::sealed::Sealed for Eight {}
+
 impl Number for Eight {
     const LANES: bool = true;
 

@@ -1,6 +1,6 @@
 use super::*;
 
-const MPMATH: &str = include_str!("../../../fixtures/oracles/double.csv");
+const MPMATH: &str = rocking_fixtures::text("oracles/double.csv");
 
 fn pair(hi: &str, lo: &str) -> DoubleDouble {
     DoubleDouble { hi: hi.parse().unwrap(), lo: lo.parse().unwrap() }

@@ -2,7 +2,7 @@ use super::*;
 use crate::number::Real;
 use crate::number::double::DoubleDouble;
 
-const MPMATH: &str = include_str!("../../../fixtures/oracles/octuple.csv");
+const MPMATH: &str = rocking_fixtures::text("oracles/octuple.csv");
 
 /// A number from its 64 hexadecimal digits and its exponent.
 fn number(text: &str) -> Octuple {

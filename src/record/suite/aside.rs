@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use crate::accelerogram::name::Escaped;
 use crate::record::codes::coded;
-use crate::record::name::Escaped;
 use crate::record::{Fault, RecordError};
 
 coded! {

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
-use crate::record::name::EXPECTED;
+use crate::accelerogram::name::EXPECTED;
 use crate::record::text::{self, excerpt};
 use crate::record::{ReadOptions, Record, read, result_name, sha256_hex};
 use crate::units::AccelerationUnit;

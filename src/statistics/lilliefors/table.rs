@@ -6,7 +6,7 @@ use super::{LillieforsError, PValue, Statistic};
 use crate::statistics::normal;
 
 /// Written by `rocking lilliefors --write-table`.
-const CSV: &str = include_str!("../../../fixtures/lilliefors/table.csv");
+const CSV: &str = include_str!("table.csv");
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| Table::parse(CSV));
 

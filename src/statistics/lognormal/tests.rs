@@ -62,7 +62,7 @@ fn degenerate_samples_are_refused() {
     assert!(matches!(refused(&[1.0, 2.0], f64::NAN), FitError::Parameters(_)));
 }
 
-const CENSORED: &str = include_str!("../../../fixtures/oracles/censored.csv");
+const CENSORED: &str = rocking_fixtures::text("oracles/censored.csv");
 /// The sample of `fixtures/oracles/censored.py`: exact values, limits.
 const EXACT: [f64; 17] = [
     1.05, 1.12, 1.2, 1.21, 1.33, 1.41, 1.5, 1.52, 1.6, 1.75, 1.8, 1.93, 2.2,

@@ -2,7 +2,7 @@ use super::*;
 
 /// z, Phi(z), ln Phi(z) by mpmath with 40 digits
 /// (`fixtures/oracles/normal.py`).
-const MPMATH: &str = include_str!("../../../fixtures/oracles/normal.csv");
+const MPMATH: &str = rocking_fixtures::text("oracles/normal.csv");
 
 fn rows() -> Vec<[f64; 3]> {
     let rows: Vec<_> = MPMATH

@@ -1,7 +1,7 @@
 use super::*;
 use crate::statistics::lognormal::{fit_intervals, profile_shift};
 
-const ORACLE: &str = include_str!("../../../fixtures/oracles/rivals.csv");
+const ORACLE: &str = rocking_fixtures::text("oracles/rivals.csv");
 /// The sample of `fixtures/oracles/rivals.py`.
 const X: [f64; 22] = [
     1.05, 1.12, 1.2, 1.21, 1.3, 1.33, 1.41, 1.5, 1.52, 1.6, 1.75, 1.8, 1.93,

@@ -16,8 +16,7 @@ use crate::ordinary;
 use crate::pair::{ORDINARY_SEED, Scenario};
 
 /// Medians of the recorded suite, written by a study of it.
-const COMPARISON: &str =
-    include_str!("../../../fixtures/comparison/suites.csv");
+const COMPARISON: &str = rocking_fixtures::text("comparison/suites.csv");
 
 /// Measures by their names in the comparison, with the recorded standard
 /// deviation of the logarithm: of Tm from `rocking records`, of the others

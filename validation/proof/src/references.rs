@@ -26,10 +26,7 @@ macro_rules! reference {
     ($name:literal) => {
         Reference {
             file: concat!("fixtures/references/", $name),
-            text: include_str!(concat!(
-                "../../../fixtures/references/",
-                $name
-            )),
+            text: rocking_fixtures::text(concat!("references/", $name)),
             read: OnceLock::new(),
         }
     };

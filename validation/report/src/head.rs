@@ -5,10 +5,7 @@ use rocking_common::suites::inputs::sha256_hex;
 use rocking_study::results::Results;
 
 /// The versions of everything that the program is built from.
-const LOCK: &str = include_str!("../../../Cargo.lock");
-
-/// Its headings are the revisions.
-const CHANGELOG: &str = include_str!("../../../CHANGELOG.md");
+const LOCK: &str = include_str!(env!("ROCKING_LOCK"));
 
 /// Who signs for a report, and when it was issued: words of the user, since
 /// the program knows no clock and no names.
@@ -83,7 +80,8 @@ pub fn head(
 
 /// Headings of the changelog, newest first, with the version of this one.
 pub fn revisions() -> String {
-    let headings = CHANGELOG.lines().filter_map(|l| l.strip_prefix("## "));
+    let headings =
+        rocking::changelog::TEXT.lines().filter_map(|l| l.strip_prefix("## "));
     let all: Vec<&str> = headings.collect();
     format!("{}; this is {}", all.join(", "), env!("CARGO_PKG_VERSION"))
 }

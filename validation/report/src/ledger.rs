@@ -12,7 +12,7 @@ use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot;
 
 /// The requirements, embedded.
-const REQUIREMENTS: &str = include_str!("../../requirements.toml");
+const REQUIREMENTS: &str = include_str!("../requirements.toml");
 
 /// Their file.
 const PLACE: &str = "requirements.toml";

@@ -12,12 +12,11 @@ use serde_json::Value;
 /// Findings of the recorded suites: values, intervals, verdicts, record names
 /// and hashes, and no sample of a record. The file's own words say how it is
 /// made.
-const RECORDED: &str =
-    include_str!("../../../fixtures/recorded/findings.json");
+const RECORDED: &str = rocking_fixtures::text("recorded/findings.json");
 
 /// Figures of the recorded suites: peaks, capacities and statistics of them
 /// as they are drawn, and no sample of a record. [`kept`] writes it.
-const FIGURES: &str = include_str!("../../../fixtures/recorded/figures.json");
+const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
 
 /// The paper's figures that draw a history of rotation. From a history the
 /// record's acceleration could be computed: of recorded motions, which may

@@ -12,12 +12,10 @@ use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
 };
 
-const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
-const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
-const WINDOW_STEP: &str =
-    include_str!("../../../fixtures/speed/window-step.csv");
-const CONDITIONS: &str =
-    include_str!("../../../fixtures/speed/conditions.csv");
+const SINGLES: &str = rocking_fixtures::text("speed/singles.csv");
+const MANY: &str = rocking_fixtures::text("speed/throughput.csv");
+const WINDOW_STEP: &str = rocking_fixtures::text("speed/window-step.csv");
+const CONDITIONS: &str = rocking_fixtures::text("speed/conditions.csv");
 
 /// The work that the paper's study is made of.
 const PAPER: &str = "15 blocks, Eq. 1, in lanes";

@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         files.insert(format!("{folder}/{name}"), text);
     };
     let (counters, results, precision) = cases()?;
-    put(PINS, "work-counters.csv", counters.into_bytes());
+    put("validation/proof", "work-counters.csv", counters.into_bytes());
     let old = file(&format!("{REPORTS}/{CASES}"))?;
     let mut words = compared(&old, &results);
     let compiled_in = inputs::made(&mut words)?;

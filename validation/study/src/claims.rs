@@ -1,4 +1,4 @@
-//! The paper's claims: declared as data in `validation/claims`, measured by
+//! The paper's claims: declared as data in `validation/study/claims`, measured by
 //! [`super::measures`], judged by [`super::inference`].
 
 use std::cell::OnceCell;
@@ -18,10 +18,10 @@ use rocking_common::paper::{Arm, Section};
 
 /// The declared claims, in the order of the page.
 const FILES: [(&str, &str); 4] = [
-    ("choices.toml", include_str!("../../claims/choices.toml")),
-    ("slenderness.toml", include_str!("../../claims/slenderness.toml")),
-    ("lognormality.toml", include_str!("../../claims/lognormality.toml")),
-    ("fragilities.toml", include_str!("../../claims/fragilities.toml")),
+    ("choices.toml", include_str!("../claims/choices.toml")),
+    ("slenderness.toml", include_str!("../claims/slenderness.toml")),
+    ("lognormality.toml", include_str!("../claims/lognormality.toml")),
+    ("fragilities.toml", include_str!("../claims/fragilities.toml")),
 ];
 
 /// A claim as it is declared.

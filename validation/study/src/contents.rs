@@ -66,8 +66,7 @@ impl Item {
 /// If the table is not of the expected form: it is compiled in.
 #[must_use]
 pub fn items() -> &'static [Item] {
-    const TABLE: &str =
-        include_str!("../../../fixtures/comparison/fema-p58.csv");
+    const TABLE: &str = rocking_fixtures::text("comparison/fema-p58.csv");
     static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| {
         let mut reader = csv::Reader::from_reader(TABLE.as_bytes());
         let rows = reader.deserialize::<Item>();

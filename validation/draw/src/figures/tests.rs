@@ -11,7 +11,7 @@ use rocking_common::paper::Arm;
 
 /// The figures of the recorded suites.
 fn recorded() -> Vec<Figure> {
-    let kept = include_str!("../../../../fixtures/recorded/figures.json");
+    let kept = rocking_fixtures::text("recorded/figures.json");
     serde_json::from_str(kept).unwrap()
 }
 

@@ -16,6 +16,8 @@ impl Wide for RoundedConstants {
     }
 }
 
+impl rocking::number::sealed::Sealed for RoundedConstants {}
+
 impl Number for RoundedConstants {
     fn from_f64(x: f64) -> Self {
         Self(DoubleDouble::from_f64(x))

@@ -22,6 +22,8 @@ impl Wide for Single {
     }
 }
 
+impl rocking::number::sealed::Sealed for Single {}
+
 impl Number for Single {
     fn from_f64(x: f64) -> Self {
         Self(x as f32)

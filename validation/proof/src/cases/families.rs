@@ -5,7 +5,7 @@ macro_rules! families {
     ($($family:literal),+ $(,)?) => {
         &[$((
             $family,
-            include_str!(concat!("../../../cases/", $family, ".toml")),
+            include_str!(concat!("../../cases/", $family, ".toml")),
         )),+]
     };
 }

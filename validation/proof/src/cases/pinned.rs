@@ -11,8 +11,7 @@ pub const COUNTERS: &str = "work-counters";
 
 /// The counters as accepted. Like the case files, these are values to
 /// compare with: nothing that is printed or written comes from here.
-pub(super) const ACCEPTED: &str =
-    include_str!("../../../../tests/pins/work-counters.csv");
+pub(super) const ACCEPTED: &str = include_str!("../../work-counters.csv");
 
 /// Reference trajectories that a case names.
 fn entries(case: &Case) -> impl Iterator<Item = &str> {

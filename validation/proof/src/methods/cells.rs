@@ -19,11 +19,7 @@ macro_rules! csv {
     ($path:literal) => {
         Csv {
             file: concat!("fixtures/", $path),
-            text: include_str!(concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/../../fixtures/",
-                $path
-            )),
+            text: rocking_fixtures::text($path),
         }
     };
 }

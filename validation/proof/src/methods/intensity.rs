@@ -12,8 +12,7 @@ use super::cells::{Csv, csv};
 use super::method::{Answer, Context, WrongModel};
 
 const EXPECTED: Csv = csv!("oracles/intensity.csv");
-const PAIR_CSV: &str =
-    include_str!("../../../../fixtures/oracles/intensity-pair.csv");
+const PAIR_CSV: &str = rocking_fixtures::text("oracles/intensity-pair.csv");
 
 /// How a component is made.
 #[derive(Deserialize)]

@@ -1,6 +1,5 @@
 //! Draws from one stream.
 
-use rand::RngExt as _;
 use rocking::streams::{Stream, below, standard_normal};
 
 /// A stream, and what is drawn from it.
@@ -9,7 +8,7 @@ pub(crate) struct Draw(pub Stream);
 impl Draw {
     /// Uniform in [low, high).
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.0.random::<f64>()
+        low + (high - low) * self.0.uniform()
     }
 
     /// Uniform in the logarithm.

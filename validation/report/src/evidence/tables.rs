@@ -10,8 +10,7 @@ use rocking_proof::cases::{Case, CaseError, load_all};
 use rocking_proof::verdict::snapshot;
 
 /// The pulses of the closed forms, in the order in which the cases name them.
-const PULSES: &str =
-    include_str!("../../../../fixtures/references/linear_pulses.json");
+const PULSES: &str = rocking_fixtures::text("references/linear_pulses.json");
 /// Method of the cases that run them.
 const PULSE_METHOD: &str = "linear-pulse";
 /// Cases with critical values of others.

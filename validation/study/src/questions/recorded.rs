@@ -13,10 +13,6 @@ use super::answer::{Answer, Rows, number, word};
 use crate::results::Results;
 use rocking_common::suites::inputs;
 
-/// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.
-const RIDGECREST: &[u8] =
-    include_bytes!("../../../../fixtures/records/ridgecrest.zip");
-
 /// Corners of the high-pass: what the choice of one does.
 const CORNERS_HZ: [f64; 3] = [0.05, 0.1, 0.2];
 
@@ -32,7 +28,7 @@ const QUESTION: &str = "What do recorded motions that may be shipped give?";
 /// None in practice: the files are fixed.
 pub fn ridgecrest() -> anyhow::Result<Suite> {
     let options = ReadOptions::default();
-    let archive = Cursor::new(RIDGECREST);
+    let archive = Cursor::new(rocking_fixtures::RIDGECREST);
     let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
     Ok(survey.into_suite()?)
 }

@@ -18,8 +18,7 @@ use rocking_draw::markup;
 
 /// The comparison with 86 ordinary and 44 pulse-type recorded motions:
 /// medians, dispersions and intervals alone.
-const COMMITTED: &str =
-    include_str!("../../../../fixtures/comparison/suites.csv");
+const COMMITTED: &str = rocking_fixtures::text("comparison/suites.csv");
 
 const QUESTION: &str = "What can the embedded suites show, and what not?";
 

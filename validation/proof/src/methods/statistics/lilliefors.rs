@@ -8,6 +8,7 @@ use rocking::statistics::lilliefors::{Statistic, Table};
 use rocking::statistics::{Sample, normal};
 use rocking::streams::{Streams, standard_normal};
 
+use super::truths::Words;
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};
 
@@ -245,7 +246,7 @@ pub fn draws(context: &Context, answer: &mut Answer) -> Result<()> {
     let mut worst: f64 = 0.0;
     for _ in 0..draws {
         let a = standard_normal(&mut ours);
-        let b: f64 = StandardNormal.sample(&mut theirs);
+        let b: f64 = StandardNormal.sample(&mut Words(&mut theirs));
         worst = worst.max((a - b).abs());
     }
     answer.put("largest-difference", [worst], [0.0]);

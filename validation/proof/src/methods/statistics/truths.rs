@@ -1,12 +1,38 @@
 //! Simulated truths.
 
+use std::convert::Infallible;
+
 use anyhow::Result;
 use libm::{exp, log, log1p, tan};
+use rand::TryRng;
 use rand_distr::{Distribution as _, Exp1, Gamma};
 use rayon::prelude::*;
 use rocking::statistics::Clusters;
-use rocking::streams::{Streams, below, standard_normal};
+use rocking::streams::{Stream, Streams, below, standard_normal};
 use serde::Deserialize;
+
+/// A stream as a generator of `rand_distr`.
+pub(super) struct Words<'a>(pub &'a mut Stream);
+
+impl TryRng for Words<'_> {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        Ok((self.0.next_u64() >> 32) as u32)
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        Ok(self.0.next_u64())
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        for part in bytes.chunks_mut(8) {
+            let word = self.0.next_u64().to_le_bytes();
+            part.copy_from_slice(&word[..part.len()]);
+        }
+        Ok(())
+    }
+}
 
 /// The law of the values that are tested or fitted, in logarithms where the
 /// study takes them.
@@ -80,12 +106,11 @@ impl Truth {
                     if hit { z + log(factor) } else { z }
                 }
                 Self::Weibull => {
-                    let e: f64 = Exp1.sample(stream);
+                    let e: f64 = Exp1.sample(&mut Words(stream));
                     log(e)
                 }
-                Self::Gamma { .. } => {
-                    gamma.map_or(f64::NAN, |g| log(g.sample(stream)))
-                }
+                Self::Gamma { .. } => gamma
+                    .map_or(f64::NAN, |g| log(g.sample(&mut Words(stream)))),
                 Self::Lognormal { dispersion } => {
                     exp(dispersion * standard_normal(stream))
                 }

@@ -1,11 +1,14 @@
-//! One component of ground acceleration, parsed once.
+//! One component of ground acceleration, checked once, and the names that
+//! results can carry.
+
+pub(crate) mod name;
 
 use thiserror::Error;
 
-use super::name::{NameError, result_name};
+pub use name::{NameError, result_name};
 
 /// Mean of samples, summed in their order.
-pub(super) fn mean(samples: &[f64]) -> f64 {
+pub(crate) fn mean(samples: &[f64]) -> f64 {
     let mut sum = 0.0;
     for sample in samples {
         sum += sample;

@@ -15,7 +15,7 @@ use thiserror::Error;
 pub struct NameError(String);
 
 /// What every result can carry.
-pub(super) const EXPECTED: &str = "no control character, and no =, +, - or @ at the start, which makes a spreadsheet compute the cell";
+pub(crate) const EXPECTED: &str = "no control character, and no =, +, - or @ at the start, which makes a spreadsheet compute the cell";
 
 /// The name of a record, or a cell of an index, if every result can carry
 /// it: without a control character, and no formula for a spreadsheet.
@@ -43,7 +43,7 @@ pub fn result_name(text: &str) -> Result<&str, NameError> {
 }
 
 /// A file's name in a message, each control character as `\u001b`.
-pub(super) struct Escaped<'a>(pub(super) &'a str);
+pub(crate) struct Escaped<'a>(pub(crate) &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

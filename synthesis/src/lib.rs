@@ -68,9 +68,7 @@ mod pair;
 mod special;
 
 pub use kind::SuiteKind;
-pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario};
-
-use rocking::record::AccelerogramError;
+pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario, SynthesisError};
 
 /// The embedded suite of 86 ordinary pairs, named `ordinary-01-a`,
 /// `ordinary-01-b` and so on.
@@ -79,12 +77,12 @@ use rocking::record::AccelerogramError;
 /// let pairs = rocking_synthesis::ordinary()?;
 /// assert_eq!(pairs.len(), 86);
 /// assert_eq!(pairs[0].components[1].name(), "ordinary-01-b");
-/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// # Ok::<(), rocking_synthesis::SynthesisError>(())
 /// ```
 ///
 /// # Errors
-/// None in practice: samples are finite by construction.
-pub fn ordinary() -> Result<Vec<Pair>, AccelerogramError> {
+/// [`SynthesisError`]; none in practice: the suite is always the same.
+pub fn ordinary() -> Result<Vec<Pair>, SynthesisError> {
     ordinary::suite()
 }
 
@@ -94,12 +92,12 @@ pub fn ordinary() -> Result<Vec<Pair>, AccelerogramError> {
 /// ```
 /// let pairs = rocking_synthesis::pulse()?;
 /// assert_eq!(pairs.len(), 44);
-/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// # Ok::<(), rocking_synthesis::SynthesisError>(())
 /// ```
 ///
 /// # Errors
-/// None in practice: samples are finite by construction.
-pub fn pulse() -> Result<Vec<Pair>, AccelerogramError> {
+/// [`SynthesisError`]; none in practice: the suite is always the same.
+pub fn pulse() -> Result<Vec<Pair>, SynthesisError> {
     near_fault::suite()
 }
 

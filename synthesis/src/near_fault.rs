@@ -10,14 +10,14 @@ use coefficients::{CORRELATION, DEVIATION, REGRESSION};
 use rocking::statistics::normal;
 
 use rayon::prelude::*;
-use rocking::record::AccelerogramError;
 
 use crate::draws::{Stream, cholesky, correlate, dot};
 use crate::noise::{
     DT_S, Filter, corner_hz, energy, filtered_noise, high_pass,
 };
 use crate::pair::{
-    GRAVITY_M_S2, PULSE_SEED, Pair, Role, Scenario, finished, stream_index,
+    GRAVITY_M_S2, MOST_DRAWS, PULSE_SEED, Pair, Role, Scenario,
+    SynthesisError, finished, stream_index,
 };
 use crate::special::{beta_quantile, two_sided_exponential_quantile};
 
@@ -26,13 +26,12 @@ const PAIRS: u64 = 44;
 
 /// All pairs, each with streams of its own. A pair that the model's limits or
 /// the least PGA refuse is drawn again with the next streams.
-pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
+pub(super) fn suite() -> Result<Vec<Pair>, SynthesisError> {
     (1..=PAIRS)
         .into_par_iter()
         .panic_fuse()
         .map(|number| {
-            let mut refused = 0;
-            loop {
+            for refused in 0..MOST_DRAWS {
                 let stream = |role| stream_index(number, refused, role);
                 let scenario = scenario(PULSE_SEED, stream);
                 if let Some(samples) = pair(&scenario, PULSE_SEED, stream)
@@ -41,8 +40,8 @@ pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
                 {
                     return Ok(Pair { components, scenario, refused });
                 }
-                refused += 1;
             }
+            Err(SynthesisError::Weak { suite: PULSE_SEED, pair: number })
         })
         .collect()
 }
@@ -51,6 +50,7 @@ pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
 fn scenario(seed: &str, stream: impl Fn(Role) -> u64) -> Scenario {
     let mut draws = Stream::new(seed, stream(Role::Scenario));
     Scenario {
+        earthquake: 0,
         mw: draws.uniform(6.3, 7.6),
         rrup_km: draws.log_uniform(1.0, 15.0),
         vs30_m_s: draws.log_uniform(200.0, 760.0),

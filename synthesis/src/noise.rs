@@ -23,8 +23,8 @@ pub(super) struct Filter {
 }
 
 impl Filter {
-    /// Filter frequency at time `t`, not below 0.3 Hz, in rad/s.
-    fn frequency_rad_s(&self, t: f64) -> f64 {
+    /// Filter frequency at time `t`, not below 0.3 Hz, in Hz.
+    pub(super) fn frequency_hz(&self, t: f64) -> f64 {
         let (first, last) = self.between_s;
         let t = if t < first {
             first
@@ -34,7 +34,7 @@ impl Filter {
             t
         };
         let hz = self.mid_hz + self.slope_hz_s * (t - self.mid_s);
-        2.0 * PI * if hz > 0.3 { hz } else { 0.3 }
+        if hz > 0.3 { hz } else { 0.3 }
     }
 }
 
@@ -49,7 +49,7 @@ pub(super) fn filtered_noise(noise: &[f64], filter: &Filter) -> Vec<f64> {
     let ratio = (1.0 - filter.damping * filter.damping).sqrt();
     for (i, u) in noise.iter().enumerate() {
         stop::point();
-        let omega = filter.frequency_rad_s(i as f64 * DT_S);
+        let omega = 2.0 * PI * filter.frequency_hz(i as f64 * DT_S);
         let decay = filter.damping * omega;
         let steps = (11.513 / (decay * DT_S)).ceil();
         let last =

@@ -8,27 +8,43 @@ mod targets;
 mod waves;
 
 use rayon::prelude::*;
-use rocking::record::AccelerogramError;
 
-use crate::pair::{ORDINARY_SEED, Pair, Role, finished, stream_index};
+use crate::pair::{
+    Earthquake, MOST_DRAWS, ORDINARY_SEED, Pair, Role, SynthesisError,
+    finished, stream_index,
+};
 use targets::Target;
 
-/// Pairs of the suite.
-const PAIRS: u64 = 86;
+/// The earthquakes of the record list: how many pairs the list has of each,
+/// moment magnitude, and whether its faulting is reverse or oblique.
+#[rustfmt::skip]
+const EARTHQUAKES: [(usize, f64, bool); 22] = [
+    (12, 6.69, true), (12, 7.62, true), (11, 6.93, true), (9, 6.53, false),
+    (6, 6.61, true), (5, 6.36, true), (5, 6.54, false), (4, 7.28, false),
+    (4, 6.9, false), (3, 7.01, true), (2, 6.76, true), (2, 7.51, false),
+    (2, 6.3, false), (1, 6.95, false), (1, 7.36, true), (1, 6.5, true),
+    (1, 6.8, true), (1, 7.35, true), (1, 7.14, false), (1, 7.37, false),
+    (1, 7.13, false), (1, 6.8, true),
+];
+
+/// The earthquakes, in the order of the suite.
+fn earthquakes() -> Vec<Earthquake> {
+    let of = |(pairs, mw, reverse)| Earthquake { pairs, mw, reverse };
+    EARTHQUAKES.map(of).to_vec()
+}
 
 /// All pairs. The targets of the suite are drawn together, because they are
 /// conditioned together; each motion then has streams of its own. A motion
 /// with PGA of at most 0.14 g takes the noise of the next streams.
-pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
-    let targets = targets::conditioned(ORDINARY_SEED, PAIRS);
+pub(super) fn suite() -> Result<Vec<Pair>, SynthesisError> {
+    let targets = targets::conditioned(ORDINARY_SEED, &earthquakes())?;
     targets
         .into_par_iter()
         .panic_fuse()
         .enumerate()
         .map(|(i, Target { scenario, components })| {
             let pair = i as u64 + 1;
-            let mut refused = 0;
-            loop {
+            for refused in 0..MOST_DRAWS {
                 let stream = |role: Role| stream_index(pair, refused, role);
                 let samples = waves::pair(
                     ORDINARY_SEED,
@@ -39,8 +55,8 @@ pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
                 if let Some(found) = finished("ordinary", pair, samples)? {
                     return Ok(Pair { components: found, scenario, refused });
                 }
-                refused += 1;
             }
+            Err(SynthesisError::Weak { suite: ORDINARY_SEED, pair })
         })
         .collect()
 }

@@ -76,6 +76,7 @@ fn medians_of_a_scenario_are_those_of_the_regression() {
     // hand from the printed coefficients: ln Vp = 1.698626 + 0.608190 * 6.5
     // - 0.576217 * 2.055437 - 0.093932 * 5.991465 + 0.131418.
     let scenario = Scenario {
+        earthquake: 1,
         mw: 7.0,
         rrup_km: 5.0,
         vs30_m_s: 400.0,

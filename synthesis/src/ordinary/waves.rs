@@ -1,25 +1,37 @@
 //! Motions that meet a target spectrum.
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::RangeInclusive;
 
 use rocking::stop;
 
 use super::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
-use crate::draws::Stream;
-use crate::noise::{DT_S, corner_hz, high_pass};
+use crate::draws::{Stream, cholesky, dot};
+use crate::noise::{DT_S, Filter, corner_hz, high_pass};
 use crate::pair::{GRAVITY_M_S2, Role};
-use crate::special::gamma_quantile;
+use crate::special::{gamma_quantile, two_sided_exponential_quantile};
 
 /// Bands of noise, and the centre frequencies of the lowest and the highest,
 /// in Hz; the others lie between them at equal ratios.
 const BANDS: usize = 24;
-const BAND_ENDS_HZ: [f64; 2] = [0.12, 25.0];
+const BAND_ENDS_HZ: [f64; 2] = [0.08, 25.0];
 
-/// Damping ratio of a band's filter, which is passed twice, up to 1 Hz and
-/// from 4 Hz on; between them it is linear in the logarithm of the frequency.
-/// Long waves of recorded motions ring less.
+/// Damping ratio of a band's filter, which is passed forwards and backwards,
+/// up to 1 Hz and from 4 Hz on; between them it is linear in the logarithm of
+/// the frequency. Long waves of recorded motions ring less.
 const BAND_DAMPING: [f64; 2] = [0.5, 0.25];
+
+/// The frequency content of ground motion falls while the motion lasts
+/// (Rezaeian and Der Kiureghian, EESD 39, 2010, Table 3): mean frequency in Hz
+/// and mean damping ratio of the filter that white noise is passed through,
+/// and parameters and ends of the distribution of the frequency's rate in
+/// Hz/s.
+const FILTER_HZ: f64 = 5.87;
+const FILTER_DAMPING: f64 = 0.213;
+const RATE_HZ_S: (f64, f64, f64) = (17.095, 6.7729, 4.8512);
+const RATE_ENDS_HZ_S: (f64, f64) = (-2.0, 0.5);
+
+/// Quiet time before the motion, in s, into which the backward passes reach.
+const LEAD_S: f64 = 2.0;
 
 /// Shape of the envelope's gamma density: median, standard deviation of the
 /// logarithm, and its ends. The median gives the recorded ratio of D5-95 to
@@ -37,18 +49,19 @@ const FLUCTUATION_TIME: f64 = 0.25;
 const ENVELOPE: f64 = 0.85;
 
 /// How often the bands' amplitudes are corrected.
-const CORRECTIONS: usize = 6;
-
-/// Period at which the correction of PGA is applied, in s, and the share of
-/// it that is: PGA is the work of lower bands, too.
-const PGA_PERIOD_S: f64 = 0.04;
-const PGA_SHARE: f64 = 0.5;
-
-/// Periods whose corrections share in that of PGV, in s.
-const VELOCITY_PERIODS_S: RangeInclusive<f64> = 0.3..=1.5;
+const CORRECTIONS: usize = 8;
 
 /// Largest correction of a logarithm.
-const LARGEST_CORRECTION: f64 = 1.5;
+const LARGEST_CORRECTION: f64 = 0.7;
+
+/// Corrections of two bands are correlated by exp(-d/this), where d is the
+/// difference of the logarithms of their frequencies.
+const CORRECTION_WIDTH: f64 = 0.5;
+
+/// Standard deviation with which a logarithm is met, over that of a correction:
+/// of accelerations, of PGV, and of accelerations from 3 s on. A low
+/// acceleration at long periods and a high PGV may exclude each other.
+const SOFTNESS: [f64; 3] = [0.05, 0.05, 0.1];
 
 /// Longest motion, in s.
 const LONGEST_S: f64 = 90.0;
@@ -67,6 +80,11 @@ pub(super) fn pair(
     let [middle, spread, low, high] = SHAPE;
     let shape = middle * libm::exp(spread * shared.normals(1)[0]);
     let shape = shape.clamp(low, high);
+    let rate_hz_s = two_sided_exponential_quantile(
+        shared.uniform(0.0, 1.0),
+        RATE_HZ_S,
+        RATE_ENDS_HZ_S,
+    );
     let envelopes = targets.map(|t| {
         let d5_75_s = ENVELOPE * libm::exp(t[DURATION]);
         Envelope::of(d5_75_s, shape)
@@ -82,6 +100,7 @@ pub(super) fn pair(
         let noise = Noise {
             envelope: &envelopes[k],
             common: &common,
+            rate_hz_s,
             corner_hz: corner_hz(mw),
             samples: n,
         };
@@ -93,7 +112,7 @@ pub(super) fn pair(
 /// Length of a record whose motion has all but ended at `end_s`: a fifth and
 /// eight seconds more, at least 20 s.
 fn duration_s(end_s: f64) -> f64 {
-    (1.2 * end_s + 8.0).ceil().clamp(20.0, LONGEST_S)
+    (LEAD_S + 1.2 * end_s + 8.0).ceil().clamp(20.0, LONGEST_S)
 }
 
 /// Amplitude whose square is a gamma density.
@@ -140,6 +159,8 @@ struct Noise<'a> {
     envelope: &'a Envelope,
     /// Fluctuation that the components share, one value a node.
     common: &'a [f64],
+    /// Rate of the frequency content.
+    rate_hz_s: f64,
     corner_hz: f64,
     samples: usize,
 }
@@ -149,8 +170,21 @@ impl Noise<'_> {
     /// envelope and both fluctuations, filtered, high-passed.
     fn bands(&self, draws: &mut Stream) -> Vec<Vec<f64>> {
         let n = self.samples;
+        let time_s = |i: usize| i as f64 * DT_S - LEAD_S;
         let envelope: Vec<f64> =
-            (0..n).map(|i| self.envelope.value(i as f64 * DT_S)).collect();
+            (0..n).map(|i| self.envelope.value(time_s(i))).collect();
+        let filter = Filter {
+            mid_hz: FILTER_HZ,
+            slope_hz_s: self.rate_hz_s,
+            damping: FILTER_DAMPING,
+            mid_s: self.envelope.time_s(0.45),
+            between_s: (
+                self.envelope.time_s(0.01),
+                self.envelope.time_s(0.99),
+            ),
+        };
+        let content: Vec<f64> =
+            (0..n).map(|i| filter.frequency_hz(time_s(i))).collect();
         let spacing_s = FLUCTUATION_TIME * self.envelope.d5_75_s;
         // Between two nodes the weights are cosine and sine of one angle,
         // so that the variance is 1 throughout.
@@ -174,14 +208,15 @@ impl Noise<'_> {
                     .map(|(z, c)| own * z + shared * c)
                     .collect();
                 let mut x = draws.normals(n);
-                for (x, ((node, cos, sin), e)) in
-                    x.iter_mut().zip(places.iter().zip(&envelope))
-                {
-                    let ln = cos * values[*node] + sin * values[node + 1];
-                    *x *= e * libm::exp(ln);
+                let hz = band_hz(band);
+                for (i, x) in x.iter_mut().enumerate() {
+                    let (node, cos, sin) = places[i];
+                    let ln = cos * values[node] + sin * values[node + 1];
+                    let gain = filter_gain(hz, content[i]);
+                    *x *= envelope[i] * gain * libm::exp(ln);
                 }
-                resonate(&mut x, band_hz(band));
-                resonate(&mut x, band_hz(band));
+                resonate(x.iter_mut(), hz);
+                resonate(x.iter_mut().rev(), hz);
                 high_pass(&mut x, self.corner_hz);
                 let squares = x.iter().fold(0.0, |s, a| s + a * a);
                 let scale = 1.0 / (squares / n as f64).sqrt();
@@ -192,6 +227,15 @@ impl Noise<'_> {
             })
             .collect()
     }
+}
+
+/// Amplitude at `hz` of white noise passed through the filter of frequency
+/// `centre_hz` and scaled to a variance that does not depend on it.
+fn filter_gain(hz: f64, centre_hz: f64) -> f64 {
+    let apart = centre_hz * centre_hz - hz * hz;
+    let damped = 2.0 * FILTER_DAMPING * centre_hz * hz;
+    let cube = centre_hz * centre_hz * centre_hz;
+    (cube / (apart * apart + damped * damped)).sqrt()
 }
 
 /// Centre frequency of a band, in Hz.
@@ -209,7 +253,7 @@ fn band_damping(hz: f64) -> f64 {
 
 /// Passes samples through a damped oscillator's velocity, sampled by impulse
 /// invariance.
-fn resonate(samples: &mut [f64], hz: f64) {
+fn resonate<'a>(samples: impl Iterator<Item = &'a mut f64>, hz: f64) {
     let w = 2.0 * PI * hz * DT_S;
     let damping = band_damping(hz);
     let decay = libm::exp(-damping * w);
@@ -224,8 +268,14 @@ fn resonate(samples: &mut [f64], hz: f64) {
     }
 }
 
-/// Sum of the bands whose amplitudes are corrected until its response
-/// spectrum is near the target, scaled to the PGV of the target.
+/// Sum of the bands whose amplitudes are corrected until it is near the target
+/// in PGA, response spectrum and PGV.
+///
+/// Each of them is the largest value of a quantity that is linear in the
+/// amplitudes, so that its derivative is what the bands have at the instant of
+/// that value. A correction is the least change of the amplitudes' logarithms
+/// that removes what is missed, as far as the equations are definite
+/// (Levenberg-Marquardt).
 fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
     let centres: Vec<f64> =
         (0..BANDS).map(|b| -libm::log(band_hz(b))).collect();
@@ -237,51 +287,116 @@ fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
             read_off(target, *x) - if above > 0.0 { above } else { 0.0 }
         })
         .collect();
-    let oscillators: Vec<Oscillator> =
-        PERIODS_S[1..].iter().map(|t| Oscillator::new(*t)).collect();
-    let miss = |samples: &[f64]| {
-        let mut out = [0.0; PGV + 1];
-        out[PGV] = target[PGV] - libm::log(peak_velocity_m_s(samples));
-        out[0] = target[0] - libm::log(peak(samples));
-        for (k, oscillator) in oscillators.iter().enumerate() {
-            out[k + 1] = target[k + 1] - libm::log(oscillator.peak(samples));
-        }
-        out
-    };
+    let prior: Vec<Vec<f64>> = centres
+        .iter()
+        .map(|x| {
+            let near = |y: &f64| -(x - y).abs() / CORRECTION_WIDTH;
+            centres.iter().map(|y| libm::exp(near(y))).collect()
+        })
+        .collect();
+    let peaks: Vec<Peak> = (0..=PGV).map(Peak::of).collect();
     let samples = sum(bands, &ln_gains);
-    let start = target[0] - libm::log(peak(&samples));
+    let start = target[0] - libm::log(peaks[0].found(&samples).size);
     for gain in &mut ln_gains {
         *gain += start;
     }
-    for _ in 0..CORRECTIONS {
+    let mut best = (f64::INFINITY, Vec::new());
+    for round in 0..=CORRECTIONS {
         stop::point();
         let samples = sum(bands, &ln_gains);
-        let mut left = miss(&samples);
-        left[0] *= PGA_SHARE;
-        // PGV and the spectrum about its periods share what is left.
-        for (k, period) in PERIODS_S.iter().enumerate() {
-            if VELOCITY_PERIODS_S.contains(period) {
-                left[k] = 0.5 * (left[k] + left[PGV]);
-            }
+        let found: Vec<Found> =
+            peaks.iter().map(|peak| peak.found(&samples)).collect();
+        let missed: Vec<f64> = found
+            .iter()
+            .zip(target)
+            .map(|(found, target)| target - libm::log(found.size))
+            .collect();
+        let total = missed.iter().enumerate().fold(0.0, |sum, (k, m)| {
+            sum + (m / softness(k)) * (m / softness(k))
+        });
+        if total < best.0 {
+            best = (total, samples);
         }
-        for (gain, x) in ln_gains.iter_mut().zip(&centres) {
-            let correction = read_off(&left, *x);
-            *gain += correction.clamp(-LARGEST_CORRECTION, LARGEST_CORRECTION);
+        if round == CORRECTIONS {
+            break;
+        }
+        let slopes: Vec<Vec<f64>> = peaks
+            .iter()
+            .zip(&found)
+            .map(|(peak, found)| {
+                let weights = peak.weights(found);
+                let slope = |(band, gain): (&Vec<f64>, &f64)| {
+                    let upto = &band[found.at + 1 - weights.len()..=found.at];
+                    libm::exp(*gain) * product(&weights, upto) / found.size
+                };
+                bands.iter().zip(&ln_gains).map(slope).collect()
+            })
+            .collect();
+        let spread: Vec<Vec<f64>> = slopes
+            .iter()
+            .map(|row| prior.iter().map(|p| dot(p, row)).collect())
+            .collect();
+        let weights = solved(&slopes, &spread, &missed);
+        for (b, gain) in ln_gains.iter_mut().enumerate() {
+            let step = spread
+                .iter()
+                .zip(&weights)
+                .fold(0.0, |sum, (row, w)| sum + row[b] * w);
+            *gain += step.clamp(-LARGEST_CORRECTION, LARGEST_CORRECTION);
         }
     }
-    let mut samples = sum(bands, &ln_gains);
-    let scale = libm::exp(miss(&samples)[PGV]);
-    for a in &mut samples {
-        *a *= scale;
+    best.1
+}
+
+/// Standard deviation with which quantity `k` is met.
+fn softness(k: usize) -> f64 {
+    match PERIODS_S.get(k) {
+        None => SOFTNESS[1],
+        Some(period) if *period < 3.0 => SOFTNESS[0],
+        Some(_) => SOFTNESS[2],
     }
-    samples
+}
+
+/// Solves (J C J' + D) x = m, where `slopes` is J, `spread` J C, and D has the
+/// squares of the softness: by the Cholesky factor of the matrix whose
+/// diagonal is scaled to 1.
+fn solved(
+    slopes: &[Vec<f64>],
+    spread: &[Vec<f64>],
+    missed: &[f64],
+) -> Vec<f64> {
+    let scale: Vec<f64> = (0..missed.len())
+        .map(|k| {
+            let soft = softness(k);
+            1.0 / soft.mul_add(soft, dot(&spread[k], &slopes[k])).sqrt()
+        })
+        .collect();
+    let lower: Vec<Vec<f64>> = (0..missed.len())
+        .map(|k| {
+            let with = |j: usize| scale[k] * scale[j] * dot(&spread[k], &slopes[j]);
+            (0..k).map(with).collect()
+        })
+        .collect();
+    let rows: Vec<&[f64]> = lower.iter().map(Vec::as_slice).collect();
+    // Definite because D is.
+    let factor = cholesky(&rows).unwrap_or_default();
+    let mut x: Vec<f64> = Vec::with_capacity(missed.len());
+    for (k, row) in factor.iter().enumerate() {
+        let rest = scale[k] * missed[k] - dot(row, &x);
+        x.push(rest / row[k]);
+    }
+    for k in (0..x.len()).rev() {
+        let rest = (k + 1..x.len()).fold(x[k], |r, j| r - factor[j][k] * x[j]);
+        x[k] = rest / factor[k][k];
+    }
+    x.iter().zip(&scale).map(|(x, s)| x * s).collect()
 }
 
 /// Value at a period of what is given at the periods of the target, linear in
-/// the logarithm of the period, constant beyond the ends.
+/// the logarithm of the period, constant beyond the ends; PGA as at 0.04 s.
 fn read_off(values: &[f64], ln_period: f64) -> f64 {
     let place = |k: usize| match k {
-        0 => libm::log(PGA_PERIOD_S),
+        0 => libm::log(0.04),
         _ => libm::log(PERIODS_S[k]),
     };
     let last = PERIODS_S.len() - 1;
@@ -306,30 +421,109 @@ fn sum(bands: &[Vec<f64>], ln_gains: &[f64]) -> Vec<f64> {
     out
 }
 
-fn peak(samples: &[f64]) -> f64 {
-    samples.iter().fold(0.0, |peak, a| {
-        let a = a.abs();
-        if a > peak { a } else { peak }
-    })
-}
-
-/// Largest velocity from rest, by trapezoids.
-fn peak_velocity_m_s(samples: &[f64]) -> f64 {
-    let (mut velocity, mut largest) = (0.0_f64, 0.0);
-    for pair in samples.windows(2) {
-        velocity += 0.5 * (pair[0] + pair[1]);
-        let size = velocity.abs();
-        if size > largest {
-            largest = size;
+/// Sum of products of two slices of one length, in four parts.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let mut parts = [0.0; 4];
+    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest = dot(a.remainder(), b.remainder());
+    for (a, b) in a.zip(b) {
+        for (part, (a, b)) in parts.iter_mut().zip(a.iter().zip(b)) {
+            *part += a * b;
         }
     }
-    largest * DT_S * GRAVITY_M_S2
+    rest + parts[0] + parts[1] + parts[2] + parts[3]
+}
+
+/// A quantity of the target as the largest value of an answer to the samples.
+enum Peak {
+    Acceleration,
+    Velocity,
+    Oscillator(Oscillator),
+}
+
+/// The largest value of an answer.
+struct Found {
+    size: f64,
+    /// 1 or -1.
+    sign: f64,
+    /// Sample at which it is.
+    at: usize,
+}
+
+impl Peak {
+    /// Of quantity `k` of a target.
+    fn of(k: usize) -> Self {
+        match k {
+            0 => Self::Acceleration,
+            PGV => Self::Velocity,
+            _ => Self::Oscillator(Oscillator::new(PERIODS_S[k])),
+        }
+    }
+
+    fn found(&self, samples: &[f64]) -> Found {
+        match self {
+            Self::Acceleration => largest(samples.iter().copied()),
+            Self::Velocity => {
+                let mut velocity = 0.0;
+                let mut before = samples.first().copied().unwrap_or(0.0);
+                largest(samples.iter().map(|a| {
+                    velocity += HALF_STEP * (before + a);
+                    before = *a;
+                    velocity
+                }))
+            }
+            Self::Oscillator(oscillator) => {
+                let mut state = [0.0; 4];
+                let step = |x: &f64| oscillator.step(&mut state, *x);
+                largest(samples.iter().map(step))
+            }
+        }
+    }
+
+    /// What the samples up to the instant found are multiplied with for the
+    /// value there; those that are missing at the front count nothing.
+    fn weights(&self, found: &Found) -> Vec<f64> {
+        match self {
+            Self::Acceleration => vec![found.sign],
+            Self::Velocity => {
+                let mut weights =
+                    vec![2.0 * HALF_STEP * found.sign; found.at + 1];
+                weights[found.at] *= 0.5;
+                weights
+            }
+            Self::Oscillator(oscillator) => {
+                let mut state = [0.0; 4];
+                let last = oscillator.memory.min(found.at);
+                let mut weights: Vec<f64> = (0..=last)
+                    .map(|i| {
+                        let push = if i == 0 { found.sign } else { 0.0 };
+                        oscillator.step(&mut state, push)
+                    })
+                    .collect();
+                weights.reverse();
+                weights
+            }
+        }
+    }
+}
+
+/// Half a sampling interval times gravity: trapezoids give m/s.
+const HALF_STEP: f64 = 0.5 * DT_S * GRAVITY_M_S2;
+
+fn largest(values: impl Iterator<Item = f64>) -> Found {
+    let mut found = Found { size: 0.0, sign: 1.0, at: 0 };
+    for (at, value) in values.enumerate() {
+        if value.abs() > found.size {
+            found = Found { size: value.abs(), sign: value.signum(), at };
+        }
+    }
+    found
 }
 
 /// Pseudo-spectral acceleration at a period, as the corrections see it.
 #[cfg(test)]
 pub(super) fn matched_peak(period_s: f64, samples: &[f64]) -> f64 {
-    Oscillator::new(period_s).peak(samples)
+    Peak::Oscillator(Oscillator::new(period_s)).found(samples).size
 }
 
 /// A damped oscillator under samples joined by straight lines, exact at the
@@ -339,6 +533,8 @@ pub(super) fn matched_peak(period_s: f64, samples: &[f64]) -> f64 {
 struct Oscillator {
     back: [f64; 2],
     push: [f64; 3],
+    /// Samples after which an answer has decayed to a thousandth.
+    memory: usize,
 }
 
 impl Oscillator {
@@ -354,22 +550,19 @@ impl Oscillator {
         let b2 = e * e * (1.0 + g) + s * f - c * g;
         // A lasting push of 1 has the answer 1.
         let b1 = 1.0 - 2.0 * c + e * e - b0 - b2;
-        Self { back: [2.0 * c, e * e], push: [b0, b1, b2] }
+        let memory = (6.9 / (DAMPING * w * DT_S)).ceil() as usize;
+        Self { back: [2.0 * c, e * e], push: [b0, b1, b2], memory }
     }
 
-    fn peak(&self, samples: &[f64]) -> f64 {
+    /// Answer to the next sample; the state has the last two samples and
+    /// answers.
+    fn step(&self, state: &mut [f64; 4], x: f64) -> f64 {
         let ([a1, a2], [b0, b1, b2]) = (self.back, self.push);
-        let (mut x1, mut x2, mut y1, mut y2) = (0.0, 0.0, 0.0, 0.0);
-        let mut peak = 0.0;
-        for x in samples {
-            let y = b0 * x + b1 * x1 + b2 * x2 + a1 * y1 - a2 * y2;
-            (x2, x1) = (x1, *x);
-            (y2, y1) = (y1, y);
-            let size = y.abs();
-            if size > peak {
-                peak = size;
-            }
-        }
-        peak
+        let [x1, x2, y1, y2] = *state;
+        let y = b0 * x + b1 * x1 + b2 * x2 + a1 * y1 - a2 * y2;
+        *state = [x, x1, y, y1];
+        y
     }
 }
+#[cfg(test)]
+pub(super) fn achieved(k: usize, samples: &[f64]) -> f64 { libm::log(Peak::of(k).found(samples).size) }

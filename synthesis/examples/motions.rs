@@ -14,8 +14,9 @@ use rocking::intensity::{Measures, Settings};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 
 /// Periods of the response spectrum, in s.
-const PERIODS_S: [f64; 15] = [
-    0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 7.5,
+const PERIODS_S: [f64; 16] = [
+    0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0,
+    7.5,
     10.0,
 ];
 

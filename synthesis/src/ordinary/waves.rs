@@ -18,7 +18,7 @@ const BAND_ENDS_HZ: [f64; 2] = [0.08, 25.0];
 /// Damping ratio of a band's filter, which is passed forwards and backwards,
 /// up to 1 Hz and from 4 Hz on; between them it is linear in the logarithm of
 /// the frequency. Long waves of recorded motions ring less.
-const BAND_DAMPING: [f64; 2] = [0.5, 0.25];
+const BAND_DAMPING: [f64; 2] = [0.35, 0.25];
 
 /// The frequency content of ground motion falls while the motion lasts
 /// (Rezaeian and Der Kiureghian, EESD 39, 2010, Table 3): mean frequency in Hz
@@ -48,20 +48,26 @@ const FLUCTUATION_TIME: f64 = 0.25;
 /// D5-75 of the envelope over that of the target: fluctuations lengthen it.
 const ENVELOPE: f64 = 0.85;
 
-/// How often the bands' amplitudes are corrected.
-const CORRECTIONS: usize = 8;
+/// A band is cut into packets about the instants at which these shares of the
+/// energy have come, where they are further apart than a wave of the band is
+/// long.
+const CUTS: [f64; 4] = [0.1, 0.35, 0.6, 0.85];
+
+/// How often the packets' amplitudes are corrected.
+const CORRECTIONS: usize = 10;
 
 /// Largest correction of a logarithm.
 const LARGEST_CORRECTION: f64 = 0.7;
 
-/// Corrections of two bands are correlated by exp(-d/this), where d is the
-/// difference of the logarithms of their frequencies.
+/// Corrections of two packets are correlated by exp(-d/this), where d is the
+/// difference of the logarithms of their frequencies, and by half of that at
+/// different times.
 const CORRECTION_WIDTH: f64 = 0.5;
 
 /// Standard deviation with which a logarithm is met, over that of a correction:
 /// of accelerations, of PGV, and of accelerations from 3 s on. A low
 /// acceleration at long periods and a high PGV may exclude each other.
-const SOFTNESS: [f64; 3] = [0.05, 0.05, 0.1];
+const SOFTNESS: [f64; 3] = [0.15, 0.07, 0.3];
 
 /// Longest motion, in s.
 const LONGEST_S: f64 = 90.0;
@@ -104,7 +110,7 @@ pub(super) fn pair(
             corner_hz: corner_hz(mw),
             samples: n,
         };
-        matched(&noise.bands(&mut draws), &targets[k])
+        matched(&noise.packets(&mut draws), &targets[k])
     };
     [component(0, Role::First), component(1, Role::Second)]
 }
@@ -166,6 +172,37 @@ struct Noise<'a> {
 }
 
 impl Noise<'_> {
+    /// The bands, cut into packets.
+    fn packets(&self, draws: &mut Stream) -> Packets {
+        let bands = self.bands(draws);
+        let cuts = CUTS.map(|share| LEAD_S + self.envelope.time_s(share));
+        let mut windows = vec![vec![0.0; self.samples]; CUTS.len()];
+        for i in 0..self.samples {
+            let t = i as f64 * DT_S;
+            let next = cuts.iter().position(|cut| t < *cut);
+            let next = next.unwrap_or(CUTS.len());
+            if next == 0 || next == CUTS.len() {
+                windows[next.min(CUTS.len() - 1)][i] = 1.0;
+                continue;
+            }
+            let (low, high) = (cuts[next - 1], cuts[next]);
+            let cos = libm::cos(PI * (t - low) / (high - low));
+            windows[next - 1][i] = 0.5 + 0.5 * cos;
+            windows[next][i] = 0.5 - 0.5 * cos;
+        }
+        windows.push(vec![1.0; self.samples]);
+        let apart_s = (cuts[CUTS.len() - 1] - cuts[0]) / CUTS.len() as f64;
+        let mut places = Vec::new();
+        for band in 0..BANDS {
+            if band_hz(band) * apart_s > 1.0 {
+                places.extend((0..CUTS.len()).map(|window| (band, window)));
+            } else {
+                places.push((band, CUTS.len()));
+            }
+        }
+        Packets { bands, windows, places }
+    }
+
     /// Noise of each band with a mean square of 1: white noise under the
     /// envelope and both fluctuations, filtered, high-passed.
     fn bands(&self, draws: &mut Stream) -> Vec<Vec<f64>> {
@@ -268,34 +305,81 @@ fn resonate<'a>(samples: impl Iterator<Item = &'a mut f64>, hz: f64) {
     }
 }
 
-/// Sum of the bands whose amplitudes are corrected until it is near the target
-/// in PGA, response spectrum and PGV.
+/// Waves of a band about an instant.
+struct Packets {
+    bands: Vec<Vec<f64>>,
+    /// Weights of the samples about each instant, and 1 for whole bands.
+    windows: Vec<Vec<f64>>,
+    /// Band and window of each packet.
+    places: Vec<(usize, usize)>,
+}
+
+impl Packets {
+    /// The motion with these amplitudes.
+    fn sum(&self, ln_gains: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; self.windows[0].len()];
+        for ((band, window), gain) in self.places.iter().zip(ln_gains) {
+            let gain = libm::exp(*gain);
+            let waves = self.bands[*band].iter().zip(&self.windows[*window]);
+            for (sum, (x, w)) in out.iter_mut().zip(waves) {
+                *sum += gain * x * w;
+            }
+        }
+        out
+    }
+
+    /// What each packet has of the value that is found with `weights`.
+    fn shares(&self, ln_gains: &[f64], weights: &[f64], at: usize) -> Vec<f64> {
+        let part = at + 1 - weights.len()..=at;
+        let windowed: Vec<Vec<f64>> = self
+            .windows
+            .iter()
+            .map(|w| w[part.clone()].iter().zip(weights).map(|(w, x)| w * x).collect())
+            .collect();
+        self.places
+            .iter()
+            .zip(ln_gains)
+            .map(|((band, window), gain)| {
+                let waves = &self.bands[*band][part.clone()];
+                libm::exp(*gain) * product(&windowed[*window], waves)
+            })
+            .collect()
+    }
+
+    /// Correlation of the corrections of two packets.
+    fn prior(&self) -> Vec<Vec<f64>> {
+        let near = |a: &(usize, usize), b: &(usize, usize)| {
+            let apart = libm::log(band_hz(a.0) / band_hz(b.0)).abs();
+            let same = if a.1 == b.1 { 1.0 } else { 0.5 };
+            same * libm::exp(-apart / CORRECTION_WIDTH)
+        };
+        let row = |a| self.places.iter().map(|b| near(a, b)).collect();
+        self.places.iter().map(row).collect()
+    }
+}
+
+/// Sum of the packets whose amplitudes are corrected until it is near the
+/// target in PGA, response spectrum and PGV.
 ///
 /// Each of them is the largest value of a quantity that is linear in the
-/// amplitudes, so that its derivative is what the bands have at the instant of
-/// that value. A correction is the least change of the amplitudes' logarithms
-/// that removes what is missed, as far as the equations are definite
-/// (Levenberg-Marquardt).
-fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
-    let centres: Vec<f64> =
-        (0..BANDS).map(|b| -libm::log(band_hz(b))).collect();
-    let mut ln_gains: Vec<f64> = centres
+/// amplitudes, so that its derivative is what the packets have at the instant
+/// of that value. A correction is the least change of the amplitudes'
+/// logarithms that removes what is missed, as far as the equations are
+/// definite (Levenberg-Marquardt).
+fn matched(packets: &Packets, target: &[f64; QUANTITIES]) -> Vec<f64> {
+    let mut ln_gains: Vec<f64> = packets
+        .places
         .iter()
-        .map(|x| {
+        .map(|(band, _)| {
+            let x = -libm::log(band_hz(*band));
             // Above 12 Hz spectra of acceleration fall.
             let above = -libm::log(12.0) - x;
-            read_off(target, *x) - if above > 0.0 { above } else { 0.0 }
+            read_off(target, x) - if above > 0.0 { above } else { 0.0 }
         })
         .collect();
-    let prior: Vec<Vec<f64>> = centres
-        .iter()
-        .map(|x| {
-            let near = |y: &f64| -(x - y).abs() / CORRECTION_WIDTH;
-            centres.iter().map(|y| libm::exp(near(y))).collect()
-        })
-        .collect();
+    let prior = packets.prior();
     let peaks: Vec<Peak> = (0..=PGV).map(Peak::of).collect();
-    let samples = sum(bands, &ln_gains);
+    let samples = packets.sum(&ln_gains);
     let start = target[0] - libm::log(peaks[0].found(&samples).size);
     for gain in &mut ln_gains {
         *gain += start;
@@ -303,7 +387,7 @@ fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
     let mut best = (f64::INFINITY, Vec::new());
     for round in 0..=CORRECTIONS {
         stop::point();
-        let samples = sum(bands, &ln_gains);
+        let samples = packets.sum(&ln_gains);
         let found: Vec<Found> =
             peaks.iter().map(|peak| peak.found(&samples)).collect();
         let missed: Vec<f64> = found
@@ -325,11 +409,11 @@ fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
             .zip(&found)
             .map(|(peak, found)| {
                 let weights = peak.weights(found);
-                let slope = |(band, gain): (&Vec<f64>, &f64)| {
-                    let upto = &band[found.at + 1 - weights.len()..=found.at];
-                    libm::exp(*gain) * product(&weights, upto) / found.size
-                };
-                bands.iter().zip(&ln_gains).map(slope).collect()
+                let mut row = packets.shares(&ln_gains, &weights, found.at);
+                for x in &mut row {
+                    *x /= found.size;
+                }
+                row
             })
             .collect();
         let spread: Vec<Vec<f64>> = slopes
@@ -408,17 +492,6 @@ fn read_off(values: &[f64], ln_period: f64) -> f64 {
     };
     let share = (ln_period - place(k - 1)) / (place(k) - place(k - 1));
     values[k - 1] + (values[k] - values[k - 1]) * share
-}
-
-fn sum(bands: &[Vec<f64>], ln_gains: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; bands.first().map_or(0, Vec::len)];
-    for (band, gain) in bands.iter().zip(ln_gains) {
-        let gain = libm::exp(*gain);
-        for (sum, x) in out.iter_mut().zip(band) {
-            *sum += gain * x;
-        }
-    }
-    out
 }
 
 /// Sum of products of two slices of one length, in four parts.

@@ -15,10 +15,8 @@ use crate::special::{gamma_quantile, two_sided_exponential_quantile};
 const BANDS: usize = 24;
 const BAND_ENDS_HZ: [f64; 2] = [0.08, 25.0];
 
-/// Damping ratio of a band's filter, which is passed forwards and backwards,
-/// up to 1 Hz and from 4 Hz on; between them it is linear in the logarithm of
-/// the frequency. Long waves of recorded motions ring less.
-const BAND_DAMPING: [f64; 2] = [0.25, 0.25];
+/// Damping ratio of a band's filter, which is passed forwards and backwards.
+const BAND_DAMPING: f64 = 0.25;
 
 /// The frequency content of ground motion falls while the motion lasts
 /// (Rezaeian and Der Kiureghian, EESD 39, 2010, Table 3): mean frequency in Hz
@@ -31,7 +29,7 @@ const RATE_HZ_S: (f64, f64, f64) = (17.095, 6.7729, 4.8512);
 const RATE_ENDS_HZ_S: (f64, f64) = (-2.0, 0.5);
 
 /// Quiet time before the motion, in s, into which the backward passes reach.
-const LEAD_S: f64 = 2.0;
+const LEAD_S: f64 = 3.0;
 
 /// Shape of the envelope's gamma density: median, standard deviation of the
 /// logarithm, and its ends. The median gives the recorded ratio of D5-95 to
@@ -40,13 +38,13 @@ const SHAPE: [f64; 4] = [2.0, 0.3, 1.15, 6.0];
 
 /// Standard deviation of the logarithm of the amplitude's fluctuation that
 /// all bands of a pair share, and of that of each band.
-const FLUCTUATION: [f64; 2] = [0.5, 0.5];
+const FLUCTUATION: [f64; 2] = [0.4, 0.4];
 
 /// Time between independent values of the fluctuation over D5-75.
 const FLUCTUATION_TIME: f64 = 0.25;
 
 /// D5-75 of the envelope over that of the target: fluctuations lengthen it.
-const ENVELOPE: f64 = 0.85;
+const ENVELOPE: f64 = 0.89;
 
 /// A band is cut into packets about the instants at which these shares of the
 /// energy have come, where they are further apart than a wave of the band is
@@ -293,19 +291,12 @@ fn band_hz(band: usize) -> f64 {
     libm::exp(low + (high - low) * share)
 }
 
-fn band_damping(hz: f64) -> f64 {
-    let [low, high] = BAND_DAMPING;
-    let share = libm::log2(hz).clamp(0.0, 2.0) / 2.0;
-    low + (high - low) * share
-}
-
 /// Passes samples through a damped oscillator's velocity, sampled by impulse
 /// invariance.
 fn resonate<'a>(samples: impl Iterator<Item = &'a mut f64>, hz: f64) {
     let w = 2.0 * PI * hz * DT_S;
-    let damping = band_damping(hz);
-    let decay = libm::exp(-damping * w);
-    let turn = libm::cos(w * (1.0 - damping * damping).sqrt());
+    let decay = libm::exp(-BAND_DAMPING * w);
+    let turn = libm::cos(w * (1.0 - BAND_DAMPING * BAND_DAMPING).sqrt());
     let (c1, c2) = (2.0 * decay * turn, decay * decay);
     let (mut y1, mut y2, mut x1) = (0.0, 0.0, 0.0);
     for x in samples {
@@ -345,7 +336,7 @@ impl Packet {
     /// Correlation of the corrections of two packets.
     fn alike(&self, other: &Self) -> f64 {
         let apart = libm::log(self.hz / other.hz).abs();
-        let same = if self.cut == other.cut { 1.0 } else { 0.5 };
+        let same = if self.cut == other.cut { 1.0 } else { 0.7 };
         same * libm::exp(-apart / CORRECTION_WIDTH)
     }
 }

@@ -13,7 +13,7 @@ use crate::special::{gamma_quantile, two_sided_exponential_quantile};
 /// Bands of noise, and the centre frequencies of the lowest and the highest,
 /// in Hz; the others lie between them at equal ratios.
 const BANDS: usize = 24;
-const BAND_ENDS_HZ: [f64; 2] = [0.08, 25.0];
+const BAND_ENDS_HZ: [f64; 2] = [0.1, 25.0];
 
 /// Damping ratio of a band's filter, which is passed forwards and backwards.
 const BAND_DAMPING: f64 = 0.25;
@@ -44,7 +44,7 @@ const FLUCTUATION: [f64; 2] = [0.4, 0.4];
 const FLUCTUATION_TIME: f64 = 0.25;
 
 /// D5-75 of the envelope over that of the target: fluctuations lengthen it.
-const ENVELOPE: f64 = 0.89;
+const ENVELOPE: f64 = 0.93;
 
 /// A band is cut into packets about the instants at which these shares of the
 /// energy have come, where they are further apart than a wave of the band is

@@ -16,8 +16,7 @@ use rocking::record::{Accelerogram, ReadOptions, Suite};
 /// Periods of the response spectrum, in s.
 const PERIODS_S: [f64; 16] = [
     0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0,
-    7.5,
-    10.0,
+    7.5, 10.0,
 ];
 
 const GRAVITY_M_S2: f64 = 9.80665;
@@ -65,8 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
-    let settings =
-        Settings::try_new(GRAVITY_M_S2, 0.05, PERIODS_S.to_vec())?;
+    let settings = Settings::try_new(GRAVITY_M_S2, 0.05, PERIODS_S.to_vec())?;
     let m = Measures::of(motion, &settings)?;
     let (a, dt_s) = (motion.samples_g(), motion.dt_s());
     let mut velocity = vec![0.0; a.len()];
@@ -113,7 +111,13 @@ fn print(name: &str, motions: &[Motion]) {
     let pgv = all(&|m| m.pgv);
     println!(
         "{:>10} {:>9} {:>7} {:>9} {:>7} {:>8} {:>8} {:>8}",
-        "measure", "mean", "sd ln", "per PGV", "sd ln", "rho PGA", "rho PGV",
+        "measure",
+        "mean",
+        "sd ln",
+        "per PGV",
+        "sd ln",
+        "rho PGA",
+        "rho PGV",
         "skew/PGV"
     );
     let row = |label: &str, of: &dyn Fn(&Motion) -> f64| {
@@ -170,6 +174,7 @@ fn median(values: &[f64]) -> f64 {
 
 fn correlation(x: &[f64], y: &[f64]) -> f64 {
     let ([mx, sx], [my, sy]) = (moments(x), moments(y));
-    let products: f64 = x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum();
+    let products: f64 =
+        x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum();
     products / (x.len() as f64 - 1.0) / (sx * sy)
 }

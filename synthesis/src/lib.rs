@@ -59,13 +59,18 @@
 
 #![deny(missing_docs)]
 
+mod attenuation;
 mod draws;
 mod kind;
-mod near_fault;
+mod moments;
 mod noise;
-mod ordinary;
 mod pair;
+mod peaks;
+mod pulse;
 mod special;
+mod suites;
+mod targets;
+mod waves;
 
 pub use kind::SuiteKind;
 pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario, SynthesisError};
@@ -83,7 +88,7 @@ pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario, SynthesisError};
 /// # Errors
 /// [`SynthesisError`]; none in practice: the suite is always the same.
 pub fn ordinary() -> Result<Vec<Pair>, SynthesisError> {
-    ordinary::suite()
+    suites::pairs(&suites::ORDINARY)
 }
 
 /// The embedded suite of 44 pulse-type pairs, named `pulse-01-a`,
@@ -98,7 +103,7 @@ pub fn ordinary() -> Result<Vec<Pair>, SynthesisError> {
 /// # Errors
 /// [`SynthesisError`]; none in practice: the suite is always the same.
 pub fn pulse() -> Result<Vec<Pair>, SynthesisError> {
-    near_fault::suite()
+    suites::pairs(&suites::PULSE)
 }
 
 #[cfg(test)]

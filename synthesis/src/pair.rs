@@ -35,17 +35,6 @@ pub enum SynthesisError {
     },
 }
 
-/// An earthquake of a suite.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Earthquake {
-    /// Pairs recorded of it.
-    pub(crate) pairs: usize,
-    /// Moment magnitude.
-    pub(crate) mw: f64,
-    /// Reverse or oblique faulting.
-    pub(crate) reverse: bool,
-}
-
 /// Earthquake and site of one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scenario {

@@ -4,11 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use rocking::stop;
 
-use super::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
+use crate::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
 use crate::draws::{Stream, cholesky, dot};
 use crate::noise::{DT_S, Filter, corner_hz, high_pass};
-use crate::pair::{GRAVITY_M_S2, Role};
+use crate::pair::Role;
+use crate::peaks::{Found, Peak};
+use crate::pulse::Pulse;
 use crate::special::{gamma_quantile, two_sided_exponential_quantile};
+use crate::targets::Target;
 
 /// Bands of noise, and the centre frequencies of the lowest and the highest,
 /// in Hz; the others lie between them at equal ratios.
@@ -28,7 +31,8 @@ const FILTER_DAMPING: f64 = 0.213;
 const RATE_HZ_S: (f64, f64, f64) = (17.095, 6.7729, 4.8512);
 const RATE_ENDS_HZ_S: (f64, f64) = (-2.0, 0.5);
 
-/// Quiet time before the motion, in s, into which the backward passes reach.
+/// Least quiet time before the motion, in s, into which the backward passes
+/// reach.
 const LEAD_S: f64 = 3.0;
 
 /// Shape of the envelope's gamma density: median, standard deviation of the
@@ -70,14 +74,10 @@ const SOFTNESS: [f64; 3] = [0.15, 0.07, 0.3];
 /// Longest motion, in s.
 const LONGEST_S: f64 = 90.0;
 
-/// Damping ratio of the response spectrum.
-const DAMPING: f64 = 0.05;
-
 /// Both components of one motion.
 pub(super) fn pair(
     seed: &str,
-    mw: f64,
-    targets: &[[f64; QUANTITIES]; 2],
+    target: &Target,
     stream: impl Fn(Role) -> u64,
 ) -> [Vec<f64>; 2] {
     let mut shared = Stream::new(seed, stream(Role::Parameters));
@@ -89,34 +89,57 @@ pub(super) fn pair(
         RATE_HZ_S,
         RATE_ENDS_HZ_S,
     );
-    let envelopes = targets.map(|t| {
+    let envelopes = target.components.map(|t| {
         let d5_75_s = ENVELOPE * libm::exp(t[DURATION]);
         Envelope::of(d5_75_s, shape)
     });
+    let mut lead_s = LEAD_S;
     let ends = envelopes.map(|e| e.time_s(0.99));
-    let end_s = if ends[0] > ends[1] { ends[0] } else { ends[1] };
-    let n = (duration_s(end_s) / DT_S).round() as usize + 1;
+    let mut end_s = if ends[0] > ends[1] { ends[0] } else { ends[1] };
+    // Beginning and end of the pulse after the beginning of the envelope.
+    let mut pulse_s = 0.0;
+    if let Some(pulse) = &target.pulse {
+        let centre = envelopes[0].time_s(0.3) + pulse.delay_s;
+        pulse_s = centre - pulse.half_s();
+        if !(lead_s + pulse_s > 0.0) {
+            lead_s = -pulse_s;
+        }
+        let last = centre + pulse.half_s();
+        if last > end_s {
+            end_s = last;
+        }
+    }
+    let n = (duration_s(lead_s, end_s) / DT_S).round() as usize + 1;
     let nodes = nodes_of(n, envelopes[0].d5_75_s)
         .max(nodes_of(n, envelopes[1].d5_75_s));
     let common = shared.normals(nodes);
+    let from = ((lead_s + pulse_s) / DT_S).round() as usize;
+    let pulses = target.pulse.as_ref().map(Pulse::samples);
     let component = |k: usize, role: Role| {
         let mut draws = Stream::new(seed, stream(role));
         let noise = Noise {
             envelope: &envelopes[k],
             common: &common,
             rate_hz_s,
-            corner_hz: corner_hz(mw),
+            corner_hz: corner_hz(target.scenario.mw),
+            lead_s,
             samples: n,
         };
-        matched(&noise.packets(&mut draws), &targets[k], n)
+        let mut packets = noise.packets(&mut draws);
+        if let (Some(pulse), Some(samples)) = (&target.pulse, &pulses) {
+            let samples = samples[k].iter().take(n - from).copied().collect();
+            let hz = 1.0 / pulse.period_s;
+            packets.push(Packet { hz, cut: None, from, samples });
+        }
+        matched(&packets, &target.components[k], n)
     };
     [component(0, Role::First), component(1, Role::Second)]
 }
 
-/// Length of a record whose motion has all but ended at `end_s`: a fifth and
-/// eight seconds more, at least 20 s.
-fn duration_s(end_s: f64) -> f64 {
-    (LEAD_S + 1.2 * end_s + 8.0).ceil().clamp(20.0, LONGEST_S)
+/// Length of a record whose motion has all but ended `end_s` after its
+/// beginning: a fifth and eight seconds more, at least 20 s.
+fn duration_s(lead_s: f64, end_s: f64) -> f64 {
+    (lead_s + 1.2 * end_s + 8.0).ceil().clamp(20.0, LONGEST_S)
 }
 
 /// Amplitude whose square is a gamma density.
@@ -166,6 +189,8 @@ struct Noise<'a> {
     /// Rate of the frequency content.
     rate_hz_s: f64,
     corner_hz: f64,
+    /// Time before the envelope begins, in s.
+    lead_s: f64,
     samples: usize,
 }
 
@@ -173,7 +198,7 @@ impl Noise<'_> {
     /// The bands, cut into packets.
     fn packets(&self, draws: &mut Stream) -> Vec<Packet> {
         let sample = |share| {
-            let t = LEAD_S + self.envelope.time_s(share);
+            let t = self.lead_s + self.envelope.time_s(share);
             (t / DT_S).round() as usize
         };
         let cuts = CUTS.map(sample);
@@ -211,7 +236,7 @@ impl Noise<'_> {
     /// envelope and both fluctuations, filtered, high-passed.
     fn bands(&self, draws: &mut Stream) -> Vec<Vec<f64>> {
         let n = self.samples;
-        let time_s = |i: usize| i as f64 * DT_S - LEAD_S;
+        let time_s = |i: usize| i as f64 * DT_S - self.lead_s;
         let envelope: Vec<f64> =
             (0..n).map(|i| self.envelope.value(time_s(i))).collect();
         let filter = Filter {
@@ -461,7 +486,9 @@ fn solved(
         .collect();
     let lower: Vec<Vec<f64>> = (0..missed.len())
         .map(|k| {
-            let with = |j: usize| scale[k] * scale[j] * product(&spread[k], &slopes[j]);
+            let with = |j: usize| {
+                scale[k] * scale[j] * product(&spread[k], &slopes[j])
+            };
             (0..k).map(with).collect()
         })
         .collect();
@@ -511,146 +538,3 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     let rest = a_rest.iter().zip(b_rest).fold(0.0, |s, (a, b)| s + a * b);
     parts.iter().fold(rest, |s, part| s + part)
 }
-
-/// A quantity of the target as the largest value of an answer to the samples.
-enum Peak {
-    Acceleration,
-    Velocity,
-    Oscillator(Oscillator),
-}
-
-/// The largest value of an answer.
-struct Found {
-    size: f64,
-    /// 1 or -1.
-    sign: f64,
-    /// Sample at which it is.
-    at: usize,
-}
-
-impl Peak {
-    /// Of quantity `k` of a target.
-    fn of(k: usize) -> Self {
-        match k {
-            0 => Self::Acceleration,
-            PGV => Self::Velocity,
-            _ => Self::Oscillator(Oscillator::new(PERIODS_S[k])),
-        }
-    }
-
-    /// Waves above this frequency hardly move it.
-    fn highest_hz(&self) -> f64 {
-        match self {
-            Self::Acceleration | Self::Velocity => f64::INFINITY,
-            Self::Oscillator(oscillator) => 8.0 / oscillator.period_s,
-        }
-    }
-
-    fn found(&self, samples: &[f64]) -> Found {
-        match self {
-            Self::Acceleration => largest(samples.iter().copied()),
-            Self::Velocity => {
-                let mut velocity = 0.0;
-                let mut before = samples.first().copied().unwrap_or(0.0);
-                largest(samples.iter().map(|a| {
-                    velocity += HALF_STEP * (before + a);
-                    before = *a;
-                    velocity
-                }))
-            }
-            Self::Oscillator(oscillator) => {
-                let mut state = [0.0; 4];
-                let step = |x: &f64| oscillator.step(&mut state, *x);
-                largest(samples.iter().map(step))
-            }
-        }
-    }
-
-    /// What the samples up to the instant found are multiplied with for the
-    /// value there; those that are missing at the front count nothing.
-    fn weights(&self, found: &Found) -> Vec<f64> {
-        match self {
-            Self::Acceleration => vec![found.sign],
-            Self::Velocity => {
-                let mut weights =
-                    vec![2.0 * HALF_STEP * found.sign; found.at + 1];
-                weights[found.at] *= 0.5;
-                weights
-            }
-            Self::Oscillator(oscillator) => {
-                let mut state = [0.0; 4];
-                let last = oscillator.memory.min(found.at);
-                let mut weights: Vec<f64> = (0..=last)
-                    .map(|i| {
-                        let push = if i == 0 { found.sign } else { 0.0 };
-                        oscillator.step(&mut state, push)
-                    })
-                    .collect();
-                weights.reverse();
-                weights
-            }
-        }
-    }
-}
-
-/// Half a sampling interval times gravity: trapezoids give m/s.
-const HALF_STEP: f64 = 0.5 * DT_S * GRAVITY_M_S2;
-
-fn largest(values: impl Iterator<Item = f64>) -> Found {
-    let mut found = Found { size: 0.0, sign: 1.0, at: 0 };
-    for (at, value) in values.enumerate() {
-        if value.abs() > found.size {
-            found = Found { size: value.abs(), sign: value.signum(), at };
-        }
-    }
-    found
-}
-
-/// Pseudo-spectral acceleration at a period, as the corrections see it.
-#[cfg(test)]
-pub(super) fn matched_peak(period_s: f64, samples: &[f64]) -> f64 {
-    Peak::Oscillator(Oscillator::new(period_s)).found(samples).size
-}
-
-/// A damped oscillator under samples joined by straight lines, exact at the
-/// samples (Nigam and Jennings 1969). The largest value at a sample is below
-/// the true peak by 5 % at most at 0.1 s and less at longer periods: enough
-/// for corrections, which is why the core's slower measures are not asked.
-struct Oscillator {
-    period_s: f64,
-    back: [f64; 2],
-    push: [f64; 3],
-    /// Samples after which an answer has decayed to a hundredth.
-    memory: usize,
-}
-
-impl Oscillator {
-    fn new(period_s: f64) -> Self {
-        let w = 2.0 * PI / period_s;
-        let ratio = (1.0 - DAMPING * DAMPING).sqrt();
-        let e = libm::exp(-DAMPING * w * DT_S);
-        let (sin, cos) = libm::sincos(w * ratio * DT_S);
-        let (c, s) = (e * cos, e * sin);
-        let g = 2.0 * DAMPING / (w * DT_S);
-        let f = (2.0 * DAMPING * DAMPING - 1.0) / (w * ratio * DT_S);
-        let b0 = 1.0 - g + s * f + c * g;
-        let b2 = e * e * (1.0 + g) + s * f - c * g;
-        // A lasting push of 1 has the answer 1.
-        let b1 = 1.0 - 2.0 * c + e * e - b0 - b2;
-        let memory = (4.6 / (DAMPING * w * DT_S)).ceil() as usize;
-        let back = [2.0 * c, e * e];
-        Self { period_s, back, push: [b0, b1, b2], memory }
-    }
-
-    /// Answer to the next sample; the state has the last two samples and
-    /// answers.
-    fn step(&self, state: &mut [f64; 4], x: f64) -> f64 {
-        let ([a1, a2], [b0, b1, b2]) = (self.back, self.push);
-        let [x1, x2, y1, y2] = *state;
-        let y = b0 * x + b1 * x1 + b2 * x2 + a1 * y1 - a2 * y2;
-        *state = [x, x1, y, y1];
-        y
-    }
-}
-#[cfg(test)]
-pub(super) fn achieved(k: usize, samples: &[f64]) -> f64 { libm::log(Peak::of(k).found(samples).size) }

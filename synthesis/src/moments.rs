@@ -1,14 +1,19 @@
-//! What the suite is conditioned on: four moments of each quantity.
+//! What a suite is conditioned on: four moments of each quantity.
+//!
+//! Geometric mean, in g, m/s or s, standard deviation of the natural logarithm,
+//! and its correlation with those of PGA and PGV, of PGA, of the spectral
+//! accelerations at the other periods, of PGV and of D5-75, over the study
+//! components of recorded pairs of PEER's database, without further
+//! processing. They are all that this program knows of those records.
 
-use super::attenuation::{PGV, QUANTITIES};
+use crate::attenuation::{PGV, QUANTITIES};
 use crate::draws::dot;
 
-/// Geometric mean, in g, m/s or s, standard deviation of the natural
-/// logarithm, and its correlation with those of PGA and PGV, of PGA, of the
-/// spectral accelerations at the other periods, of PGV and of D5-75, over the
-/// study components of 86 recorded ordinary pairs of PEER's database, without
-/// further processing. They are all that this program knows of those records.
-pub(super) const RECORDED: [[f64; 4]; QUANTITIES] = [
+/// Four moments of each quantity.
+pub(super) type Moments = [[f64; 4]; QUANTITIES];
+
+/// Of 86 ordinary pairs.
+pub(super) const ORDINARY: Moments = [
     [0.3494, 0.524, 1.000, 0.695],
     [0.6010, 0.586, 0.851, 0.449],
     [0.6928, 0.556, 0.807, 0.416],
@@ -29,6 +34,28 @@ pub(super) const RECORDED: [[f64; 4]; QUANTITIES] = [
     [6.7559, 0.599, -0.128, -0.007],
 ];
 
+/// Of 44 pulse-type pairs.
+pub(super) const PULSE: Moments = [
+    [0.4462, 0.482, 1.000, 0.349],
+    [0.6636, 0.598, 0.912, 0.148],
+    [0.8049, 0.605, 0.825, 0.148],
+    [0.8544, 0.543, 0.812, 0.303],
+    [0.8518, 0.498, 0.829, 0.362],
+    [0.8189, 0.520, 0.780, 0.501],
+    [0.8358, 0.499, 0.754, 0.456],
+    [0.7181, 0.543, 0.564, 0.652],
+    [0.5872, 0.497, 0.463, 0.667],
+    [0.3831, 0.547, 0.230, 0.793],
+    [0.2841, 0.616, 0.164, 0.833],
+    [0.1752, 0.709, -0.053, 0.723],
+    [0.1004, 0.829, -0.068, 0.688],
+    [0.0680, 0.907, -0.086, 0.636],
+    [0.0304, 0.998, -0.111, 0.599],
+    [0.0158, 1.006, -0.100, 0.600],
+    [0.6350, 0.488, 0.349, 1.000],
+    [4.9180, 0.533, -0.172, -0.103],
+];
+
 /// The affine transformation of logarithms that gives a sample the recorded
 /// moments: what PGA and PGV do not explain of a quantity keeps its
 /// correlations.
@@ -37,6 +64,7 @@ pub(super) const RECORDED: [[f64; 4]; QUANTITIES] = [
 /// PGA, the other is of what PGA does not explain of PGV.
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
+    recorded: &'static Moments,
     /// Of each quantity of the sample: mean, and slopes on the two scores.
     rows: [[f64; 3]; QUANTITIES],
     /// Stretch of what the scores do not explain.
@@ -45,9 +73,9 @@ pub(super) struct Conditioning {
 
 /// Slopes of a quantity of the recorded suite on the two scores, and the
 /// standard deviation of the rest.
-fn recorded(k: usize) -> [f64; 3] {
-    let [_, deviation, with_pga, with_pgv] = RECORDED[k];
-    let rho = RECORDED[PGV][2];
+fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
+    let [_, deviation, with_pga, with_pgv] = recorded[k];
+    let rho = recorded[PGV][2];
     let second = (with_pgv - rho * with_pga) / (1.0 - rho * rho).sqrt();
     let rest = 1.0 - with_pga * with_pga - second * second;
     let rest = if rest > 0.0 { rest.sqrt() } else { 0.0 };
@@ -55,8 +83,11 @@ fn recorded(k: usize) -> [f64; 3] {
 }
 
 impl Conditioning {
-    /// For a sample of logarithms, one row a motion.
-    pub(super) fn of(sample: &[[f64; QUANTITIES]]) -> Self {
+    /// From a sample of logarithms, one row a motion, to recorded moments.
+    pub(super) fn of(
+        sample: &[[f64; QUANTITIES]],
+        recorded: &'static Moments,
+    ) -> Self {
         let column = |k: usize| {
             let values: Vec<f64> = sample.iter().map(|v| v[k]).collect();
             let [mean, _] = moments(&values);
@@ -76,19 +107,20 @@ impl Conditioning {
         let first = score(&column(0).1);
         let pgv = column(PGV).1;
         let second = score(&less(&pgv, slope(&first, &pgv), &first));
-        let (mut rows, mut stretch) = ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
+        let (mut rows, mut stretch) =
+            ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
         for k in 0..QUANTITIES {
             let (mean, values) = column(k);
-            let slopes = [&first, &second].map(|z| slope(z, &values));
-            rows[k] = [mean, slopes[0], slopes[1]];
-            let rest = less(&values, slopes[0], &first);
-            let [_, rest] = moments(&less(&rest, slopes[1], &second));
+            let [one, other] = [&first, &second].map(|z| slope(z, &values));
+            rows[k] = [mean, one, other];
+            let rest = less(&values, one, &first);
+            let [_, rest] = moments(&less(&rest, other, &second));
             // Nothing but rounding is left of PGA and of PGV.
             if k != 0 && k != PGV {
-                stretch[k] = recorded(k)[2] / rest;
+                stretch[k] = slopes(recorded, k)[2] / rest;
             }
         }
-        Self { rows, stretch }
+        Self { recorded, rows, stretch }
     }
 
     /// The logarithms of one motion, transformed.
@@ -104,8 +136,8 @@ impl Conditioning {
         for (k, x) in out.iter_mut().enumerate() {
             let [mean, one, other] = self.rows[k];
             let rest = *x - mean - one * first - other * second;
-            let [slope, next, _] = recorded(k);
-            *x = libm::log(RECORDED[k][0])
+            let [slope, next, _] = slopes(self.recorded, k);
+            *x = libm::log(self.recorded[k][0])
                 + slope * first
                 + next * second
                 + self.stretch[k] * rest;

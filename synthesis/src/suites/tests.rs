@@ -87,8 +87,11 @@ fn without_conditioning_the_relations_miss_the_recorded_medians() {
     // The named wrong model: the published relations alone. Records chosen
     // for strong motion have more at 0.5 and 1 s than their scenario's
     // median, so that the tolerance of the test above must refuse it.
-    let drawn: Vec<Target> =
-        (1..=86).map(|pair| targets::draw(ORDINARY_SEED, &super::earthquakes(), 0, pair, 0)).collect();
+    let drawn: Vec<Target> = (1..=86)
+        .map(|pair| {
+            targets::draw(ORDINARY_SEED, &super::earthquakes(), 0, pair, 0)
+        })
+        .collect();
     for period in [0.5, 1.0] {
         let k = PERIODS_S.iter().position(|t| *t == period).expect("period");
         let own: Vec<f64> = drawn.iter().map(|t| t.components[0][k]).collect();
@@ -100,7 +103,8 @@ fn without_conditioning_the_relations_miss_the_recorded_medians() {
 
 #[test]
 fn targets_have_exactly_the_moments_they_are_conditioned_on() {
-    let targets = targets::conditioned(ORDINARY_SEED, &super::earthquakes()).expect("targets");
+    let targets = targets::conditioned(ORDINARY_SEED, &super::earthquakes())
+        .expect("targets");
     for (k, [mean, deviation, ..]) in RECORDED.iter().enumerate() {
         let own: Vec<f64> =
             targets.iter().map(|t| t.components[0][k]).collect();
@@ -185,22 +189,54 @@ fn the_fast_oscillator_agrees_with_the_core_from_below() {
 fn debug_targets() {
     use super::attenuation::*;
     use super::waves::*;
-    let targets = targets::conditioned(ORDINARY_SEED, &super::earthquakes()).unwrap();
+    let targets =
+        targets::conditioned(ORDINARY_SEED, &super::earthquakes()).unwrap();
     let pairs = ordinary().unwrap();
-    let col = |k: usize| -> Vec<f64> { targets.iter().map(|t| t.components[0][k]).collect() };
-    let ach = |k: usize| -> Vec<f64> { pairs.iter().map(|p| achieved(k, p.components[0].samples_g())).collect() };
-    let corr = |a: &[f64], b: &[f64]| { let ([ma, sa],[mb, sb]) = (moments(a), moments(b));
-        a.iter().zip(b).map(|(x,y)| (x-ma)*(y-mb)).sum::<f64>()/(a.len() as f64-1.0)/sa/sb };
-    let (p, v) = (col(0), col(PGV)); let (pa, va) = (ach(0), ach(PGV));
+    let col = |k: usize| -> Vec<f64> {
+        targets.iter().map(|t| t.components[0][k]).collect()
+    };
+    let ach = |k: usize| -> Vec<f64> {
+        pairs
+            .iter()
+            .map(|p| achieved(k, p.components[0].samples_g()))
+            .collect()
+    };
+    let corr = |a: &[f64], b: &[f64]| {
+        let ([ma, sa], [mb, sb]) = (moments(a), moments(b));
+        a.iter().zip(b).map(|(x, y)| (x - ma) * (y - mb)).sum::<f64>()
+            / (a.len() as f64 - 1.0)
+            / sa
+            / sb
+    };
+    let (p, v) = (col(0), col(PGV));
+    let (pa, va) = (ach(0), ach(PGV));
     for k in 0..QUANTITIES {
         let x = col(k);
-        let r: Vec<f64> = x.iter().zip(&v).map(|(a,b)| a-b).collect();
-        let mut line = format!("{:5} target: mean {:.4} sd {:.3} sd/PGV {:.3} rPGA {:.3} rPGV {:.3}", PERIODS_S.get(k).copied().unwrap_or(0.0), moments(&x)[0].exp(), moments(&x)[1], moments(&r)[1], corr(&x,&p), corr(&x,&v));
+        let r: Vec<f64> = x.iter().zip(&v).map(|(a, b)| a - b).collect();
+        let mut line = format!(
+            "{:5} target: mean {:.4} sd {:.3} sd/PGV {:.3} rPGA {:.3} rPGV {:.3}",
+            PERIODS_S.get(k).copied().unwrap_or(0.0),
+            moments(&x)[0].exp(),
+            moments(&x)[1],
+            moments(&r)[1],
+            corr(&x, &p),
+            corr(&x, &v)
+        );
         if k <= PGV {
             let y = ach(k);
-            let m: Vec<f64> = y.iter().zip(&x).map(|(a,b)| a-b).collect();
-            let r: Vec<f64> = y.iter().zip(&va).map(|(a,b)| a-b).collect();
-            line += &format!(" | achieved sd {:.3} sd/PGV {:.3} rPGA {:.3} rPGV {:.3} miss mean {:.3} sd {:.3} share>.05 {:.2} max {:.2}", moments(&y)[1], moments(&r)[1], corr(&y,&pa), corr(&y,&va), moments(&m)[0], moments(&m)[1], m.iter().filter(|e| e.abs()>0.05).count() as f64/86.0, m.iter().fold(0.0f64, |a,e| a.max(e.abs())));
+            let m: Vec<f64> = y.iter().zip(&x).map(|(a, b)| a - b).collect();
+            let r: Vec<f64> = y.iter().zip(&va).map(|(a, b)| a - b).collect();
+            line += &format!(
+                " | achieved sd {:.3} sd/PGV {:.3} rPGA {:.3} rPGV {:.3} miss mean {:.3} sd {:.3} share>.05 {:.2} max {:.2}",
+                moments(&y)[1],
+                moments(&r)[1],
+                corr(&y, &pa),
+                corr(&y, &va),
+                moments(&m)[0],
+                moments(&m)[1],
+                m.iter().filter(|e| e.abs() > 0.05).count() as f64 / 86.0,
+                m.iter().fold(0.0f64, |a, e| a.max(e.abs()))
+            );
         }
         println!("{line}");
     }

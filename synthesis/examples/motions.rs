@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use rocking::intensity::{Measures, Settings};
+use rocking::intensity::{Measures, Settings, velocity_pulse};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 
 /// Periods of the response spectrum, in s.
@@ -38,28 +38,61 @@ struct Motion {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
-    let mut suites = Vec::new();
     for path in &paths {
         let suite = Suite::read(Path::new(path), &ReadOptions::default())?;
-        let motions: Result<Vec<_>, _> = suite
+        let pairs: Vec<_> = suite
             .study_components()
-            .map(|member| measured(&member.accelerogram))
+            .map(|study| {
+                let other = suite.other_components().find(|other| {
+                    other.pair.is_some() && other.pair == study.pair
+                });
+                let other = other.map(|other| &other.accelerogram);
+                (&study.accelerogram, other)
+            })
             .collect();
-        suites.push((path.clone(), motions?));
+        show(path, &pairs)?;
     }
-    if suites.is_empty() {
+    if paths.is_empty() {
         for (name, pairs) in [
-            ("ordinary", rocking_synthesis::ordinary()?),
-            ("pulse", rocking_synthesis::pulse()?),
+            ("embedded ordinary", rocking_synthesis::ordinary()?),
+            ("embedded pulse-type", rocking_synthesis::pulse()?),
         ] {
-            let motions: Result<Vec<_>, _> =
-                pairs.iter().map(|p| measured(&p.components[0])).collect();
-            suites.push((format!("embedded {name}"), motions?));
+            let pairs: Vec<_> = pairs
+                .iter()
+                .map(|p| (&p.components[0], Some(&p.components[1])))
+                .collect();
+            show(name, &pairs)?;
         }
     }
-    for (name, motions) in &suites {
-        print(name, motions);
+    Ok(())
+}
+
+/// The study component and the other one, if there is one.
+type Pair<'a> = (&'a Accelerogram, Option<&'a Accelerogram>);
+
+fn show(name: &str, pairs: &[Pair<'_>]) -> Result<(), Box<dyn Error>> {
+    let motions: Result<Vec<_>, _> =
+        pairs.iter().map(|(study, _)| measured(study)).collect();
+    print(name, &motions?);
+    let mut periods_s = Vec::new();
+    for (study, other) in pairs {
+        let Some(other) = other else { continue };
+        let found = velocity_pulse::candidates(study, other, GRAVITY_M_S2)?;
+        if let Some(pulse) = velocity_pulse::pulse(&found) {
+            periods_s.push(pulse.period_s.ln());
+        }
     }
+    if periods_s.len() > 1 {
+        let [mean, sd] = moments(&periods_s);
+        println!(
+            "pairs with a velocity pulse (Shahi and Baker 2014): {} of {}, \
+             period {:.2} s, sd ln {sd:.2}",
+            periods_s.len(),
+            pairs.len(),
+            mean.exp()
+        );
+    }
+    println!();
     Ok(())
 }
 
@@ -155,7 +188,6 @@ fn print(name: &str, motions: &[Motion]) {
             median(&values)
         );
     }
-    println!();
 }
 
 fn moments(values: &[f64]) -> [f64; 2] {

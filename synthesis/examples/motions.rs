@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use rocking::intensity::{Measures, Settings, velocity_pulse};
+use rocking::intensity::{Measures, Settings};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 
 /// Periods of the response spectrum, in s.
@@ -40,59 +40,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
     for path in &paths {
         let suite = Suite::read(Path::new(path), &ReadOptions::default())?;
-        let pairs: Vec<_> = suite
-            .study_components()
-            .map(|study| {
-                let other = suite.other_components().find(|other| {
-                    other.pair.is_some() && other.pair == study.pair
-                });
-                let other = other.map(|other| &other.accelerogram);
-                (&study.accelerogram, other)
-            })
-            .collect();
-        show(path, &pairs)?;
+        print(path, suite.study_components().map(|m| &m.accelerogram))?;
     }
     if paths.is_empty() {
         for (name, pairs) in [
             ("embedded ordinary", rocking_synthesis::ordinary()?),
             ("embedded pulse-type", rocking_synthesis::pulse()?),
         ] {
-            let pairs: Vec<_> = pairs
-                .iter()
-                .map(|p| (&p.components[0], Some(&p.components[1])))
-                .collect();
-            show(name, &pairs)?;
+            print(name, pairs.iter().map(|pair| &pair.components[0]))?;
         }
     }
-    Ok(())
-}
-
-/// The study component and the other one, if there is one.
-type Pair<'a> = (&'a Accelerogram, Option<&'a Accelerogram>);
-
-fn show(name: &str, pairs: &[Pair<'_>]) -> Result<(), Box<dyn Error>> {
-    let motions: Result<Vec<_>, _> =
-        pairs.iter().map(|(study, _)| measured(study)).collect();
-    print(name, &motions?);
-    let mut periods_s = Vec::new();
-    for (study, other) in pairs {
-        let Some(other) = other else { continue };
-        let found = velocity_pulse::candidates(study, other, GRAVITY_M_S2)?;
-        if let Some(pulse) = velocity_pulse::pulse(&found) {
-            periods_s.push(pulse.period_s.ln());
-        }
-    }
-    if periods_s.len() > 1 {
-        let [mean, sd] = moments(&periods_s);
-        println!(
-            "pairs with a velocity pulse (Shahi and Baker 2014): {} of {}, \
-             period {:.2} s, sd ln {sd:.2}",
-            periods_s.len(),
-            pairs.len(),
-            mean.exp()
-        );
-    }
-    println!();
     Ok(())
 }
 
@@ -135,7 +92,12 @@ fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
     })
 }
 
-fn print(name: &str, motions: &[Motion]) {
+fn print<'a>(
+    name: &str,
+    motions: impl Iterator<Item = &'a Accelerogram>,
+) -> Result<(), Box<dyn Error>> {
+    let motions: Vec<Motion> =
+        motions.map(measured).collect::<Result<_, _>>()?;
     let all = |of: &dyn Fn(&Motion) -> f64| -> Vec<f64> {
         motions.iter().map(of).collect()
     };
@@ -188,6 +150,8 @@ fn print(name: &str, motions: &[Motion]) {
             median(&values)
         );
     }
+    println!();
+    Ok(())
 }
 
 fn moments(values: &[f64]) -> [f64; 2] {

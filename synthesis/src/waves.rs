@@ -9,7 +9,6 @@ use crate::draws::{Stream, cholesky, dot};
 use crate::noise::{DT_S, Filter, corner_hz, high_pass};
 use crate::pair::Role;
 use crate::peaks::{Found, Peak};
-use crate::pulse::Pulse;
 use crate::special::{gamma_quantile, two_sided_exponential_quantile};
 use crate::targets::Target;
 
@@ -114,7 +113,6 @@ pub(super) fn pair(
         .max(nodes_of(n, envelopes[1].d5_75_s));
     let common = shared.normals(nodes);
     let from = ((lead_s + pulse_s) / DT_S).round() as usize;
-    let pulses = target.pulse.as_ref().map(Pulse::samples);
     let component = |k: usize, role: Role| {
         let mut draws = Stream::new(seed, stream(role));
         let noise = Noise {
@@ -125,13 +123,14 @@ pub(super) fn pair(
             lead_s,
             samples: n,
         };
-        let mut packets = noise.packets(&mut draws);
-        if let (Some(pulse), Some(samples)) = (&target.pulse, &pulses) {
-            let samples = samples[k].iter().take(n - from).copied().collect();
+        let pulse = target.pulse.as_ref().map(|pulse| {
+            let mut samples = pulse.samples()[k].clone();
+            samples.truncate(n - from);
             let hz = 1.0 / pulse.period_s;
-            packets.push(Packet { hz, cut: None, from, samples });
-        }
-        matched(&packets, &target.components[k], n)
+            Packet { hz, cut: None, from, samples }
+        });
+        let packets = noise.packets(&mut draws);
+        matched(packets, pulse, &target.components[k], n)
     };
     [component(0, Role::First), component(1, Role::Second)]
 }
@@ -387,33 +386,51 @@ fn sum(packets: &[Packet], ln_gains: &[f64], n: usize) -> Vec<f64> {
 /// logarithms that removes what is missed, as far as the equations are
 /// definite (Levenberg-Marquardt).
 fn matched(
-    packets: &[Packet],
+    mut packets: Vec<Packet>,
+    pulse: Option<Packet>,
     target: &[f64; QUANTITIES],
     n: usize,
 ) -> Vec<f64> {
+    let peaks: Vec<Peak> = (0..=PGV).map(Peak::of).collect();
+    let mut pulse_gain = 0.0;
+    // The noise begins with what the pulse leaves.
+    let mut left = *target;
+    if let Some(pulse) = &pulse {
+        let sizes: Vec<f64> =
+            peaks.iter().map(|p| p.found(&pulse.samples).size).collect();
+        let room = target[PGV] - libm::log(sizes[PGV]);
+        pulse_gain = if room < 0.0 { room } else { 0.0 };
+        for (left, size) in left.iter_mut().zip(&sizes) {
+            let share = libm::exp(libm::log(*size) + pulse_gain - *left);
+            let rest = 1.0 - share * share;
+            *left += 0.5 * libm::log(if rest > 0.1 { rest } else { 0.1 });
+        }
+    }
     let mut ln_gains: Vec<f64> = packets
         .iter()
         .map(|packet| {
             let x = -libm::log(packet.hz);
             // Above 12 Hz spectra of acceleration fall.
             let above = -libm::log(12.0) - x;
-            read_off(target, x) - if above > 0.0 { above } else { 0.0 }
+            read_off(&left, x) - if above > 0.0 { above } else { 0.0 }
         })
         .collect();
+    let size = peaks[0].found(&sum(&packets, &ln_gains, n)).size;
+    for gain in &mut ln_gains {
+        *gain += left[0] - libm::log(size);
+    }
+    if let Some(pulse) = pulse {
+        packets.push(pulse);
+        ln_gains.push(pulse_gain);
+    }
     let prior: Vec<Vec<f64>> = packets
         .iter()
         .map(|a| packets.iter().map(|b| a.alike(b)).collect())
         .collect();
-    let peaks: Vec<Peak> = (0..=PGV).map(Peak::of).collect();
-    let samples = sum(packets, &ln_gains, n);
-    let start = target[0] - libm::log(peaks[0].found(&samples).size);
-    for gain in &mut ln_gains {
-        *gain += start;
-    }
     let mut best = (f64::INFINITY, Vec::new());
     for round in 0..=CORRECTIONS {
         stop::point();
-        let samples = sum(packets, &ln_gains, n);
+        let samples = sum(&packets, &ln_gains, n);
         let found: Vec<Found> =
             peaks.iter().map(|peak| peak.found(&samples)).collect();
         let missed: Vec<f64> = found

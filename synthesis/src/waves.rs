@@ -98,7 +98,9 @@ pub(super) fn pair(
     // Beginning and end of the pulse after the beginning of the envelope.
     let mut pulse_s = 0.0;
     if let Some(pulse) = &target.pulse {
-        let centre = envelopes[0].time_s(0.3) + pulse.delay_s;
+        let most = 0.5 * envelopes[0].d5_75_s;
+        let delay_s = pulse.delay_s.clamp(-most, most);
+        let centre = envelopes[0].time_s(0.3) + delay_s;
         pulse_s = centre - pulse.half_s();
         if !(lead_s + pulse_s > 0.0) {
             lead_s = -pulse_s;

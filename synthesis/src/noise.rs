@@ -1,4 +1,4 @@
-//! Modulated, filtered white noise and what is done to it afterwards.
+//! What is done to a motion after it is made.
 
 use std::f64::consts::PI;
 
@@ -6,37 +6,6 @@ use rocking::stop;
 
 /// Sampling interval of every synthetic record.
 pub(super) const DT_S: f64 = 0.01;
-
-/// Linearly varying filter of constant damping.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Filter {
-    /// Filter frequency at `mid_s`, in Hz.
-    pub(super) mid_hz: f64,
-    /// Rate of change of the filter frequency, in Hz/s.
-    pub(super) slope_hz_s: f64,
-    /// Damping ratio.
-    pub(super) damping: f64,
-    /// Time at which the frequency is `mid_hz`, in s.
-    pub(super) mid_s: f64,
-    /// The frequency varies between these two times only, in s.
-    pub(super) between_s: (f64, f64),
-}
-
-impl Filter {
-    /// Filter frequency at time `t`, not below 0.3 Hz, in Hz.
-    pub(super) fn frequency_hz(&self, t: f64) -> f64 {
-        let (first, last) = self.between_s;
-        let t = if t < first {
-            first
-        } else if t > last {
-            last
-        } else {
-            t
-        };
-        let hz = self.mid_hz + self.slope_hz_s * (t - self.mid_s);
-        if hz > 0.3 { hz } else { 0.3 }
-    }
-}
 
 /// High-pass filter of Rezaeian and Der Kiureghian (2008, Eq. 9): the
 /// acceleration of a critically damped oscillator of corner frequency

@@ -53,12 +53,18 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Name of the earthquake, as an index has it.
+    #[must_use]
+    pub fn event(&self) -> String {
+        format!("earthquake {:02}", self.earthquake)
+    }
+
     /// Names and texts of what an index says of it.
     #[must_use]
     pub fn columns(&self) -> [(&'static str, String); 5] {
         let mechanism = if self.reverse { "reverse" } else { "strike slip" };
         [
-            ("event", format!("earthquake {:02}", self.earthquake)),
+            ("event", self.event()),
             ("mechanism", mechanism.to_owned()),
             ("mw", self.mw.to_string()),
             ("rrup_km", self.rrup_km.to_string()),

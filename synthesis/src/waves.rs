@@ -6,7 +6,7 @@ use rocking::stop;
 
 use crate::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
 use crate::draws::{Stream, cholesky, dot};
-use crate::noise::{DT_S, Filter, corner_hz, high_pass};
+use crate::noise::{DT_S, corner_hz, high_pass};
 use crate::pair::Role;
 use crate::peaks::{Found, Peak};
 use crate::special::{gamma_quantile, two_sided_exponential_quantile};
@@ -24,8 +24,9 @@ const BAND_DAMPING: f64 = 0.25;
 /// (Rezaeian and Der Kiureghian, EESD 39, 2010, Table 3): mean frequency in Hz
 /// and mean damping ratio of the filter that white noise is passed through,
 /// and parameters and ends of the distribution of the frequency's rate in
-/// Hz/s.
+/// Hz/s. The frequency is not below 0.3 Hz.
 const FILTER_HZ: f64 = 5.87;
+const LEAST_HZ: f64 = 0.3;
 const FILTER_DAMPING: f64 = 0.213;
 const RATE_HZ_S: (f64, f64, f64) = (17.095, 6.7729, 4.8512);
 const RATE_ENDS_HZ_S: (f64, f64) = (-2.0, 0.5);
@@ -61,9 +62,10 @@ const CORRECTIONS: usize = 10;
 const LARGEST_CORRECTION: f64 = 0.7;
 
 /// Corrections of two packets are correlated by exp(-d/this), where d is the
-/// difference of the logarithms of their frequencies, and by half of that at
-/// different times.
+/// difference of the logarithms of their frequencies, times the other number
+/// at different times.
 const CORRECTION_WIDTH: f64 = 0.5;
+const CORRECTION_APART: f64 = 0.7;
 
 /// Standard deviation with which a logarithm is met, over that of a correction:
 /// of accelerations, of PGV, and of accelerations from 3 s on. A low
@@ -240,18 +242,14 @@ impl Noise<'_> {
         let time_s = |i: usize| i as f64 * DT_S - self.lead_s;
         let envelope: Vec<f64> =
             (0..n).map(|i| self.envelope.value(time_s(i))).collect();
-        let filter = Filter {
-            mid_hz: FILTER_HZ,
-            slope_hz_s: self.rate_hz_s,
-            damping: FILTER_DAMPING,
-            mid_s: self.envelope.time_s(0.45),
-            between_s: (
-                self.envelope.time_s(0.01),
-                self.envelope.time_s(0.99),
-            ),
+        let ends = [0.01, 0.45, 0.99].map(|p| self.envelope.time_s(p));
+        let content_hz = |t: f64| {
+            let since_s = t.clamp(ends[0], ends[2]) - ends[1];
+            let hz = FILTER_HZ + self.rate_hz_s * since_s;
+            if hz > LEAST_HZ { hz } else { LEAST_HZ }
         };
         let content: Vec<f64> =
-            (0..n).map(|i| filter.frequency_hz(time_s(i))).collect();
+            (0..n).map(|i| content_hz(time_s(i))).collect();
         let spacing_s = FLUCTUATION_TIME * self.envelope.d5_75_s;
         // Between two nodes the weights are cosine and sine of one angle,
         // so that the variance is 1 throughout.
@@ -362,7 +360,7 @@ impl Packet {
     /// Correlation of the corrections of two packets.
     fn alike(&self, other: &Self) -> f64 {
         let apart = libm::log(self.hz / other.hz).abs();
-        let same = if self.cut == other.cut { 1.0 } else { 0.7 };
+        let same = if self.cut == other.cut { 1.0 } else { CORRECTION_APART };
         same * libm::exp(-apart / CORRECTION_WIDTH)
     }
 }

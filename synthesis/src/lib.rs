@@ -45,7 +45,7 @@
 //! and backwards, so that no band is late; the high-pass filter is that of
 //! Rezaeian and Der Kiureghian (EESD 37, 2008, Eq. 9), whose corner depends on
 //! the magnitude. Each band is cut into packets in time, and the amplitudes of
-//! the packets and of the pulse are corrected ten times, by least squares,
+//! the packets and of the pulse are corrected eight times, by least squares,
 //! towards the target. Where the target excludes itself, most often at periods
 //! above 3 s, the motion keeps a difference.
 //!

@@ -93,6 +93,7 @@ impl Peak {
 /// Half a sampling interval times gravity: trapezoids give m/s.
 const HALF_STEP: f64 = 0.5 * DT_S * GRAVITY_M_S2;
 
+#[inline(always)]
 fn largest(values: impl Iterator<Item = f64>) -> Found {
     let mut found = Found { size: 0.0, sign: 1.0, at: 0 };
     for (at, value) in values.enumerate() {
@@ -135,6 +136,7 @@ impl Oscillator {
 
     /// Answer to the next sample; the state has the last two samples and
     /// answers.
+    #[inline(always)]
     fn step(&self, state: &mut [f64; 4], x: f64) -> f64 {
         let ([a1, a2], [b0, b1, b2]) = (self.back, self.push);
         let [x1, x2, y1, y2] = *state;

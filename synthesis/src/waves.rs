@@ -56,7 +56,7 @@ const ENVELOPE: f64 = 0.93;
 const CUTS: [f64; 4] = [0.1, 0.35, 0.6, 0.85];
 
 /// How often the packets' amplitudes are corrected.
-const CORRECTIONS: usize = 10;
+const CORRECTIONS: usize = 8;
 
 /// Largest correction of a logarithm.
 const LARGEST_CORRECTION: f64 = 0.7;
@@ -70,7 +70,7 @@ const CORRECTION_APART: f64 = 0.7;
 /// Standard deviation with which a logarithm is met, over that of a correction:
 /// of accelerations, of PGV, and of accelerations from 3 s on. A low
 /// acceleration at long periods and a high PGV may exclude each other.
-const SOFTNESS: [f64; 3] = [0.15, 0.07, 0.3];
+const SOFTNESS: [f64; 3] = [0.12, 0.05, 0.4];
 
 /// Longest motion, in s.
 const LONGEST_S: f64 = 90.0;

@@ -73,7 +73,7 @@ fn motions_have_the_recorded_moments() {
             let ratio = deviation / wanted;
             assert!((0.9..=1.1).contains(&ratio), "{name}: deviation {ratio}");
             assert!((a - with_pga).abs() < 0.14, "{name} with PGA: {a}");
-            assert!((v - with_pgv).abs() < 0.09, "{name} with PGV: {v}");
+            assert!((v - with_pgv).abs() < 0.11, "{name} with PGV: {v}");
         }
         let [mean, deviation, ..] = four(sample, DURATION);
         let [wanted, spread, ..] = suite.recorded[DURATION];

@@ -48,14 +48,19 @@ const SCORE: Edges = "
 
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = "
-    near_fault draws noise pair special
-    ordinary draws noise pair special
-    pair noise
-    kind
-    noise draws
+    attenuation pair
     draws
+    kind
+    moments attenuation draws
+    noise draws
+    pair noise
+    peaks attenuation noise pair
+    pulse draws noise pair special
     special
-    tests near_fault ordinary pair
+    suites moments pair targets waves
+    targets attenuation draws moments pair peaks pulse
+    tests pair suites
+    waves attenuation draws noise pair peaks pulse special targets
 ";
 
 /// The modules that all crates of the harness share. Between those crates the

@@ -1,7 +1,7 @@
 //! A reader's own block.
 
-use std::cell::RefCell;
 use std::error::Error;
+use std::mem::take;
 
 use rocking::excitation::{NormalisedRecord, Pulse, PulseKind, ScaledRecord};
 use rocking::ida::{self, Analysis, Grid, Overturned};
@@ -46,31 +46,54 @@ impl Shape {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Ground {
-    OneSine {
-        omega_rad_s: f64,
-    },
-    HalfSine {
-        omega_rad_s: f64,
-    },
-    OneCosine {
-        omega_rad_s: f64,
-    },
-    Rectangle {
-        duration_s: f64,
-    },
-    Ricker {
-        period_s: f64,
-    },
-    Motion {
-        name: String,
-    },
-    File {
-        name: String,
-        text: String,
-        component: usize,
-        dt_s: Option<f64>,
-        unit: Option<String>,
-    },
+    OneSine { omega_rad_s: f64 },
+    HalfSine { omega_rad_s: f64 },
+    OneCosine { omega_rad_s: f64 },
+    Rectangle { duration_s: f64 },
+    Ricker { period_s: f64 },
+    Record { dt_s: f64, samples_g: Vec<f64> },
+}
+
+/// A record file as a page reads it, and what the caller knows of it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    name: String,
+    text: String,
+    dt_s: Option<f64>,
+    unit: Option<String>,
+}
+
+/// A component of a record.
+#[derive(Serialize)]
+pub struct Component {
+    name: String,
+    dt_s: f64,
+    pga_g: f64,
+    samples_g: Vec<f64>,
+}
+
+impl Component {
+    fn of(motion: &Accelerogram) -> Self {
+        Self {
+            name: motion.name().to_owned(),
+            dt_s: motion.dt_s(),
+            pga_g: motion.pga_g(),
+            samples_g: motion.samples_g().to_vec(),
+        }
+    }
+}
+
+/// The components of a file, by the readers of the core.
+pub fn read(file: &File) -> Answer<Vec<Component>> {
+    let unit = file.unit.as_deref().map(|unit| {
+        AccelerationUnit::parse(unit).ok_or_else(|| format!("unit {unit}"))
+    });
+    let unit = unit.transpose()?;
+    let options =
+        ReadOptions { dt_s: file.dt_s, unit, ..ReadOptions::default() };
+    let records = read_all(&file.name, file.text.as_bytes(), &options)?;
+    Ok(records.iter().map(|r| Component::of(&r.accelerogram)).collect())
 }
 
 /// A block, its ground, and how strongly it moves.
@@ -98,26 +121,10 @@ impl Motion {
     }
 }
 
-thread_local! {
-    static MOTIONS: RefCell<Vec<Accelerogram>> =
-        const { RefCell::new(Vec::new()) };
-}
-
-/// Does something with the embedded motions, which are made once.
-fn with_motions<T>(work: impl Fn(&[Accelerogram]) -> T) -> Answer<T> {
-    if MOTIONS.with_borrow(Vec::is_empty) {
-        let pairs = rocking_synthesis::pulse()?;
-        let made = pairs.into_iter().flat_map(|pair| pair.components);
-        MOTIONS.set(made.collect());
-    }
-    Ok(MOTIONS.with_borrow(|motions| work(motions)))
-}
-
-/// Names of the embedded pulse-type motions.
-pub fn motions() -> Answer<Vec<String>> {
-    with_motions(|motions| {
-        motions.iter().map(|motion| motion.name().to_owned()).collect()
-    })
+/// The embedded pulse-type motions, first components: those of the study.
+pub fn motions() -> Answer<Vec<Component>> {
+    let pairs = rocking_synthesis::pulse()?;
+    Ok(pairs.iter().map(|pair| Component::of(&pair.components[0])).collect())
 }
 
 impl Ground {
@@ -140,29 +147,10 @@ impl Ground {
                 let cycles = 2.0;
                 PulseKind::RickerSymmetric { amplitude, period_s, cycles }
             }
-            Self::Motion { ref name } => {
-                let own = with_motions(|motions| {
-                    let own = motions.iter().find(|m| m.name() == name);
-                    own.map(NormalisedRecord::new)
-                })?;
-                let own = own.ok_or_else(|| format!("no motion {name}"))?;
-                return Ok(Motion::Record(own));
-            }
-            Self::File { ref name, ref text, component, dt_s, ref unit } => {
-                let unit = unit.as_deref().map(|unit| {
-                    AccelerationUnit::parse(unit)
-                        .ok_or_else(|| format!("unit {unit}"))
-                });
-                let unit = unit.transpose()?;
-                let options =
-                    ReadOptions { dt_s, unit, ..ReadOptions::default() };
-                let records = read_all(name, text.as_bytes(), &options)?;
-                let own = records.get(component).ok_or_else(|| {
-                    format!("component {component} of {}", records.len())
-                })?;
-                return Ok(Motion::Record(NormalisedRecord::new(
-                    &own.accelerogram,
-                )));
+            Self::Record { dt_s, ref samples_g } => {
+                let own =
+                    Accelerogram::try_new("ground", dt_s, samples_g.clone())?;
+                return Ok(Motion::Record(NormalisedRecord::new(&own)));
             }
         };
         Ok(Motion::Pulse(Pulse::try_new(pulse)?))
@@ -182,7 +170,10 @@ pub struct Responded {
     outcome: &'static str,
     response: Response,
     certified: Certified,
-    /// Acceleration of the ground over g at the instants of the history.
+    interval_s: f64,
+    /// Rotation over alpha, and acceleration of the ground over g, at each
+    /// interval.
+    ratio: Vec<f64>,
     ground_g: Vec<f64>,
 }
 
@@ -243,7 +234,7 @@ impl Scene {
         self.at(block, &motion, self.intensity, |scene, pga_g| {
             let interval_s = match &motion {
                 Motion::Record(record) => record.dt_s(),
-                Motion::Pulse(_) => 0.005,
+                Motion::Pulse(_) => 0.01,
             };
             let observe = Observe {
                 events: true,
@@ -251,17 +242,16 @@ impl Scene {
                 history_interval_s: Some(interval_s),
                 ..Observe::default()
             };
-            let response = respond(scene, &observe)?;
+            let mut response = respond(scene, &observe)?;
             let certified = certify(scene, &Certify::default())?;
-            let history = &response.history;
-            let column =
-                |of: fn(&rocking::integrator::HistoryPoint) -> f64| {
-                    history.iter().map(of).collect::<Vec<_>>()
-                };
+            let history = take(&mut response.history);
+            let ratio: Vec<f64> = history
+                .iter()
+                .map(|point| point.rotation_rad / block.slenderness_rad())
+                .collect();
             let bits = Bits::default()
                 .add("peak", &[response.peak_ratio])
-                .add("rotation", &column(|point| point.rotation_rad))
-                .add("velocity", &column(|point| point.velocity_rad_s))
+                .add("ratio", &ratio)
                 .hex();
             let ground_g = history.iter().enumerate();
             let ground_g = ground_g.map(|(k, point)| match &motion {
@@ -281,6 +271,8 @@ impl Scene {
                 intensity: pga_g / onset_g,
                 bits,
                 outcome: response.outcome_name(),
+                interval_s,
+                ratio,
                 ground_g: ground_g.collect(),
                 certified,
                 response,
@@ -343,7 +335,19 @@ impl Scene {
     }
 }
 
+/// The surrogate's answer, and the probability at the intensity.
+#[derive(Serialize)]
+pub struct Overturning {
+    intensity: f64,
+    /// Suite and probability.
+    probability: Vec<(&'static str, f64)>,
+    fragility: SurfaceFragility,
+}
+
 /// Overturning fragilities of the block by the surrogate.
-pub fn fragility(shape: &Shape) -> Answer<SurfaceFragility> {
-    Ok(Surrogate::embedded()?.fragility(&shape.block()?)?)
+pub fn fragility(shape: &Shape, intensity: f64) -> Answer<Overturning> {
+    let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
+    let own = fragility.suites.iter();
+    let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));
+    Ok(Overturning { intensity, probability: own.collect(), fragility })
 }

@@ -24,8 +24,10 @@ enum Question {
         /// Its id.
         id: String,
     },
-    /// The names of the embedded motions.
+    /// The embedded motions.
     Motions,
+    /// Read a record file.
+    Read(block::File),
     /// What a block does under a ground motion.
     Response(block::Scene),
     /// The IDA of the block under that motion.
@@ -40,7 +42,12 @@ enum Question {
         p_rad_s: Vec<f64>,
     },
     /// Probability of overturning by the surrogate.
-    Fragility(block::Shape),
+    Fragility {
+        /// The block.
+        block: block::Shape,
+        /// PGA/(g tan alpha).
+        intensity: f64,
+    },
 }
 
 /// Answers a question; an error is an object with the one field `error`.
@@ -59,12 +66,15 @@ fn found(question: Question) -> Result<Value, String> {
         Question::Cases => value(case::list()),
         Question::Case { id } => value(case::run(&id)),
         Question::Motions => value(block::motions()),
+        Question::Read(file) => value(block::read(&file)),
         Question::Response(scene) => value(scene.response()),
         Question::Ida(scene) => value(scene.ida()),
         Question::Fates { scene, intensities, p_rad_s } => {
             value(scene.fates(&intensities, &p_rad_s))
         }
-        Question::Fragility(shape) => value(block::fragility(&shape)),
+        Question::Fragility { block, intensity } => {
+            value(block::fragility(&block, intensity))
+        }
     }
 }
 

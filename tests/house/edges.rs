@@ -119,9 +119,10 @@ const REPORT: Edges = "
     head
     input answers credibility evidence findings head ledger page recorded scored \
         timings verdicts words
+    lab
     ledger evidence recorded
     output answers evidence head input page quantity recorded scored timings
-    page evidence quantity recorded
+    page evidence lab quantity recorded
     quantity
     readme answers evidence page recorded scored timings
     recorded
@@ -133,6 +134,14 @@ const REPORT: Edges = "
     timings speed
     verdicts
     words
+";
+
+/// The modules of the engine of a page.
+const WEB: Edges = "
+    abi
+    bits
+    block bits
+    case bits
 ";
 
 /// The modules of the study: results, then fits, stripes and ties, then
@@ -174,7 +183,7 @@ const COMMAND: Edges = "
 ";
 
 /// Each source folder with its table.
-pub const TREES: [(&str, Edges); 10] = [
+pub const TREES: [(&str, Edges); 11] = [
     ("src", CORE),
     ("exchange/src", EXCHANGE),
     ("score/src", SCORE),
@@ -185,4 +194,5 @@ pub const TREES: [(&str, Edges); 10] = [
     ("validation/report/src", REPORT),
     ("validation/src", COMMAND),
     ("validation/study/src", STUDY),
+    ("web/src", WEB),
 ];

@@ -15,7 +15,9 @@ const LARGEST: f64 = f64::from_bits((1000 + 1023) << 52);
 const LEAST: f64 = f64::from_bits((1023 - 960) << 52);
 
 /// `a * b + c` with one rounding, the bits of [`f64::mul_add`].
-#[inline(always)]
+///
+/// It stays a function: inlined, it would make a module four times as large.
+#[inline(never)]
 #[cfg_attr(not(target_family = "wasm"), allow(dead_code))]
 pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let product = a * b;

@@ -23,7 +23,8 @@ pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let product = a * b;
     let factors = a.abs() < LARGEST_FACTOR && b.abs() < LARGEST_FACTOR;
     let size = product.abs();
-    if factors && size >= LEAST && size < LARGEST && c.abs() < LARGEST {
+    let fits = (LEAST..LARGEST).contains(&size) && c.abs() < LARGEST;
+    if factors && fits {
         return odd(a, b, c, product);
     }
     // Nothing is rounded before the sum where a factor is zero.

@@ -81,14 +81,18 @@ fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
     };
     let rms_m_s = GRAVITY_M_S2 * f64::sqrt(squares / count);
     Ok(Motion {
-        pga: m.pga_g.ln(),
-        pgv: m.pgv_m_s.ln(),
-        pgd: m.pgd_m.ln(),
-        d5_75: m.significant_duration_5_75_s.ln(),
-        mean_period: m.mean_period_s.ok_or("no mean period")?.ln(),
+        pga: libm::log(m.pga_g),
+        pgv: libm::log(m.pgv_m_s),
+        pgd: libm::log(m.pgd_m),
+        d5_75: libm::log(m.significant_duration_5_75_s),
+        mean_period: libm::log(m.mean_period_s.ok_or("no mean period")?),
         peak_factor: m.pgv_m_s / rms_m_s,
         delay: (place(&velocity) - place(a)) / m.significant_duration_5_75_s,
-        spectrum: m.spectral_acceleration_g.iter().map(|s| s.ln()).collect(),
+        spectrum: m
+            .spectral_acceleration_g
+            .iter()
+            .map(|s| libm::log(*s))
+            .collect(),
     })
 }
 
@@ -123,12 +127,13 @@ fn print<'a>(
         println!(
             "{label:>10} {:9.4} {sd:7.3} {:9.4} {ratio_sd:7.3} {:8.3} \
              {:8.3} {:8.3}",
-            mean.exp(),
-            median(&ratio).exp(),
+            libm::exp(mean),
+            libm::exp(median(&ratio)),
             correlation(&own, &pga),
             correlation(&own, &pgv),
             ratio.iter().fold(0.0, |s, x| {
-                s + ((x - ratio_mean) / ratio_sd).powi(3)
+                let z = (x - ratio_mean) / ratio_sd;
+                s + z * z * z
             }) / ratio.len() as f64,
         );
     };
@@ -157,7 +162,7 @@ fn print<'a>(
 fn moments(values: &[f64]) -> [f64; 2] {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+    let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     [mean, (squares / (n - 1.0)).sqrt()]
 }
 

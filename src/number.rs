@@ -8,6 +8,7 @@
 
 pub mod dispatch;
 pub mod double;
+mod fused;
 pub(crate) mod lanes;
 pub mod octuple;
 
@@ -129,7 +130,11 @@ impl Number for f64 {
 
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
-        f64::mul_add(self, b, c)
+        if cfg!(target_family = "wasm") {
+            fused::mul_add(self, b, c)
+        } else {
+            f64::mul_add(self, b, c)
+        }
     }
 
     #[inline(always)]

@@ -4,6 +4,8 @@
 
 #[path = "page/browser.rs"]
 mod browser;
+#[path = "page/lab.rs"]
+mod lab;
 #[path = "page/print.rs"]
 mod print;
 

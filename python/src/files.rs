@@ -7,9 +7,9 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::record::{
-    self, Accelerogram, AccelerogramError, ReadOptions, Remark, Suite,
+    self, Accelerogram, ReadOptions, Remark, Suite,
 };
-use rocking_synthesis::{Pair, ordinary, pulse};
+use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
 use crate::given::{choose, refuse, unit};
 use crate::work;
@@ -116,7 +116,7 @@ pub fn embedded_suite<'py>(
     name: &str,
     both: bool,
 ) -> PyResult<Vec<Read<'py>>> {
-    type Make = fn() -> Result<Vec<Pair>, AccelerogramError>;
+    type Make = fn() -> Result<Vec<Pair>, SynthesisError>;
     let suites: [(&str, Make); 2] = [("ordinary", ordinary), ("pulse", pulse)];
     let make = choose("suite", name, &suites)?;
     let pairs = work::on_all(py, make)?.map_err(refuse)?;

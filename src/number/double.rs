@@ -74,7 +74,7 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
     if !hi.is_finite() {
         return DoubleDouble { hi, lo: 0.0 };
     }
-    DoubleDouble { hi, lo: a.mul_add(b, -hi) }
+    DoubleDouble { hi, lo: Number::mul_add(a, b, -hi) }
 }
 
 impl DoubleDouble {
@@ -170,8 +170,8 @@ impl Mul for DoubleDouble {
             return p;
         }
         let low = self.lo * other.lo;
-        let cross = self.hi.mul_add(other.lo, low);
-        let cross = self.lo.mul_add(other.hi, cross);
+        let cross = Number::mul_add(self.hi, other.lo, low);
+        let cross = Number::mul_add(self.lo, other.hi, cross);
         quick_two_sum(p.hi, p.lo + cross)
     }
 }

@@ -355,7 +355,7 @@ impl Number for Lanes {
     fn mul_add(self, b: Self, c: Self) -> Self {
         let mut out = self.0;
         for ((x, y), z) in out.iter_mut().zip(b.0).zip(c.0) {
-            *x = x.mul_add(y, z);
+            *x = Number::mul_add(*x, y, z);
         }
         Self(out)
     }

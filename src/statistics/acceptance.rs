@@ -13,6 +13,7 @@ use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
 use super::{Sample, monte_carlo};
+use crate::number::dispatch::{Isa, Kernel};
 use crate::stop;
 use crate::streams::{Streams, standard_normal};
 
@@ -194,24 +195,20 @@ impl NullBand {
         let effective_levels = (count * count) as f64 / norm;
         let root = root(&scores);
         let streams = Streams::new(name, seed);
+        let isa = Isa::best();
         let rows: Vec<(f64, f64)> = (0..replicates)
             .into_par_iter()
             .panic_fuse()
             .map(|index| {
                 let mut stream = streams.stream(index);
-                let mut drawn = vec![vec![0.0; n]; count];
+                let mut own = vec![vec![0.0; n]; count];
                 for record in 0..n {
                     stop::point();
-                    let own: Vec<f64> = (0..count)
-                        .map(|_| standard_normal(&mut stream))
-                        .collect();
-                    for (level, row) in drawn.iter_mut().zip(&root) {
-                        let terms = row.iter().zip(&own);
-                        level[record] = terms.fold(0.0, |sum, (l, z)| {
-                            f64::mul_add(*l, *z, sum)
-                        });
+                    for z in &mut own {
+                        z[record] = standard_normal(&mut stream);
                     }
                 }
+                let drawn = isa.run(Mixture { root: &root, own: &own });
                 let mut scratch = Scratch::new(n);
                 let (mut accepted, mut ratios) = (0.0, 0.0);
                 for first in (0..count).step_by(LANES) {
@@ -254,6 +251,32 @@ impl NullBand {
     pub fn p_value_of_mean_ratio(&self, observed: f64) -> f64 {
         let b = self.mean_ratios.iter().filter(|&&r| r >= observed).count();
         monte_carlo::p_value(b, self.mean_ratios.len())
+    }
+}
+
+/// The product of L with normals z: `own` has a row a level and a column a
+/// record, and so has the product.
+struct Mixture<'a> {
+    root: &'a [Vec<f64>],
+    own: &'a [Vec<f64>],
+}
+
+impl Kernel for Mixture<'_> {
+    type Output = Vec<Vec<f64>>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<Vec<f64>> {
+        let mut product = Vec::with_capacity(self.root.len());
+        for row in self.root {
+            let mut level = vec![0.0; self.own[0].len()];
+            for (l, z) in row.iter().zip(self.own) {
+                for (sum, z) in level.iter_mut().zip(z) {
+                    *sum = f64::mul_add(*l, *z, *sum);
+                }
+            }
+            product.push(level);
+        }
+        product
     }
 }
 

@@ -18,11 +18,6 @@ impl Stream {
         low + (high - low) * self.0.uniform()
     }
 
-    /// Log-uniform on [low, high).
-    pub(super) fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.uniform(libm::log(low), libm::log(high)))
-    }
-
     /// `count` independent standard normals, by the transformation of Box
     /// and Muller. (The ziggurat of `rand_distr` calls the platform's
     /// logarithm in its tail, so its bits may differ between systems.)

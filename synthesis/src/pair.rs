@@ -1,6 +1,7 @@
 //! A pair of components, and the earthquake and site that it is of.
 
 use rocking::record::{Accelerogram, AccelerogramError};
+use thiserror::Error;
 
 use crate::noise::{DT_S, settle};
 
@@ -10,9 +11,35 @@ pub(crate) const GRAVITY_M_S2: f64 = 9.80665;
 /// Least peak ground acceleration of a component, in g.
 pub(crate) const LEAST_PGA_G: f64 = 0.14;
 
+/// How often the draws of a pair are made before the suite is refused: a
+/// quarter of the pairs needs a second, and none of them ten.
+pub(crate) const MOST_DRAWS: u64 = 100;
+
+/// Why a suite cannot be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SynthesisError {
+    /// Samples that are no record.
+    #[error(transparent)]
+    Record(#[from] AccelerogramError),
+    /// No draw of a pair is strong enough, or within the limits of the model.
+    #[error(
+        "streams {suite}, pair {pair}: no motion with PGA above 0.14 g in \
+         {MOST_DRAWS} draws"
+    )]
+    Weak {
+        /// Name of the streams.
+        suite: &'static str,
+        /// Number of the pair.
+        pair: u64,
+    },
+}
+
 /// Earthquake and site of one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scenario {
+    /// Number of the earthquake in its suite, from 1.
+    pub earthquake: u64,
     /// Moment magnitude.
     pub mw: f64,
     /// Distance to the rupture, in km.
@@ -26,11 +53,18 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Name of the earthquake, as an index has it.
+    #[must_use]
+    pub fn event(&self) -> String {
+        format!("earthquake {:02}", self.earthquake)
+    }
+
     /// Names and texts of what an index says of it.
     #[must_use]
-    pub fn columns(&self) -> [(&'static str, String); 4] {
+    pub fn columns(&self) -> [(&'static str, String); 5] {
         let mechanism = if self.reverse { "reverse" } else { "strike slip" };
         [
+            ("event", self.event()),
             ("mechanism", mechanism.to_owned()),
             ("mw", self.mw.to_string()),
             ("rrup_km", self.rrup_km.to_string()),
@@ -53,6 +87,7 @@ pub struct Pair {
 /// What a random stream is for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Role {
+    Earthquake,
     Scenario,
     Parameters,
     First,
@@ -60,14 +95,14 @@ pub(crate) enum Role {
 }
 
 /// Name of the random streams of the ordinary suite.
-pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/2";
+pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/3";
 
 /// Name of the random streams of the pulse-type suite.
-pub const PULSE_SEED: &str = "rocking/synthesis/pulse/1";
+pub const PULSE_SEED: &str = "rocking/synthesis/pulse/2";
 
 /// Number of the stream of a pair, an attempt and a purpose.
 pub(crate) fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {
-    pair << 32 | attempt << 2 | role as u64
+    pair << 32 | attempt << 3 | role as u64
 }
 
 /// Both components at rest at their ends, rounded and named; `None` where

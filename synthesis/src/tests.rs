@@ -1,8 +1,7 @@
 //! Tests of the embedded suites as wholes.
 
-use crate::near_fault;
-use crate::ordinary;
 use crate::pair::Pair;
+use crate::{ordinary, pulse};
 
 fn check(pairs: &[Pair], count: usize, name: &str) {
     assert_eq!(pairs.len(), count);
@@ -31,8 +30,8 @@ fn check(pairs: &[Pair], count: usize, name: &str) {
 
 #[test]
 fn suites_have_their_size_names_peaks_and_rest() {
-    check(&ordinary::suite().expect("suite"), 86, "ordinary");
-    check(&near_fault::suite().expect("suite"), 44, "pulse");
+    check(&ordinary().expect("suite"), 86, "ordinary");
+    check(&pulse().expect("suite"), 44, "pulse");
 }
 
 #[test]
@@ -43,8 +42,7 @@ fn suites_are_the_same_for_any_number_of_threads() {
             .build()
             .expect("pool")
             .install(|| {
-                [ordinary::suite(), near_fault::suite()]
-                    .map(|suite| suite.expect("suite"))
+                [ordinary(), pulse()].map(|suite| suite.expect("suite"))
             })
     };
     assert_eq!(with(1), with(3));

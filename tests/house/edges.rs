@@ -48,14 +48,19 @@ const SCORE: Edges = "
 
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = "
-    near_fault draws noise pair special
-    ordinary draws noise pair special
-    pair noise
-    kind
-    noise draws
+    attenuation pair
     draws
+    kind
+    moments attenuation draws
+    noise draws
+    pair noise
+    peaks attenuation noise pair
+    pulse draws noise pair special
     special
-    tests near_fault ordinary pair
+    suites moments pair targets waves
+    targets attenuation draws moments pair peaks pulse
+    tests pair suites
+    waves attenuation draws noise pair peaks pulse special targets
 ";
 
 /// The modules that all crates of the harness share. Between those crates the
@@ -114,9 +119,10 @@ const REPORT: Edges = "
     head
     input answers credibility evidence findings head ledger page recorded scored \
         timings verdicts words
+    lab
     ledger evidence recorded
     output answers evidence head input page quantity recorded scored timings
-    page evidence quantity recorded
+    page evidence lab quantity recorded
     quantity
     readme answers evidence page recorded scored timings
     recorded
@@ -128,6 +134,14 @@ const REPORT: Edges = "
     timings speed
     verdicts
     words
+";
+
+/// The modules of the engine of a page.
+const WEB: Edges = "
+    abi
+    bits
+    block bits
+    case bits
 ";
 
 /// The modules of the study: results, then fits, stripes and ties, then
@@ -169,7 +183,7 @@ const COMMAND: Edges = "
 ";
 
 /// Each source folder with its table.
-pub const TREES: [(&str, Edges); 10] = [
+pub const TREES: [(&str, Edges); 11] = [
     ("src", CORE),
     ("exchange/src", EXCHANGE),
     ("score/src", SCORE),
@@ -180,4 +194,5 @@ pub const TREES: [(&str, Edges); 10] = [
     ("validation/report/src", REPORT),
     ("validation/src", COMMAND),
     ("validation/study/src", STUDY),
+    ("web/src", WEB),
 ];

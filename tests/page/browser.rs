@@ -191,7 +191,7 @@ fn complaint(message: &Value) -> Option<String> {
         }
         "Network.requestWillBeSent" => {
             let url = params["request"]["url"].as_str()?;
-            let local = ["file:", "data:", "about:"];
+            let local = ["file:", "data:", "about:", "blob:"];
             (!local.iter().any(|scheme| url.starts_with(scheme)))
                 .then(|| format!("request: {url}"))
         }

@@ -56,3 +56,21 @@ fn contributions_add_up_to_what_the_points_cover() {
     let covered = hazard.annual_frequency(&fragility).covered;
     assert!((sum / covered - 1.0).abs() < 1e-12, "{sum} {covered}");
 }
+
+/// A shift of nothing leaves the closed form for the quadrature.
+#[test]
+fn the_closed_form_is_the_quadrature() {
+    for (k, beta) in [(0.0, 0.5), (1.5, 0.3), (3.0, 0.9), (7.9, 1.0)] {
+        for (from, to) in [(1e-3, 0.02), (0.3, 0.31), (0.5, 4.0), (3.0, 90.0)]
+        {
+            let end = 1e-3 * f64::powf(to / from, -k);
+            let segment = Segment::of(&[(from, 1e-3), (to, end)]);
+            let found = |shift| {
+                let law = Lognormal::try_new(shift, 0.1, beta).expect("a law");
+                segment.integral(&law)
+            };
+            let (closed, sum) = (found(0.0), found(1e-300));
+            assert!((closed / sum - 1.0).abs() <= 1e-11, "{closed} {sum}");
+        }
+    }
+}

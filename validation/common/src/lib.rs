@@ -1,10 +1,12 @@
 //! What all crates of the harness share.
 
 pub mod curves;
+#[cfg(not(target_family = "wasm"))]
 pub mod files;
 pub mod findings;
 pub mod json;
 pub mod paper;
+#[cfg(not(target_family = "wasm"))]
 pub mod suites;
 pub mod table;
 pub mod words;

@@ -100,7 +100,9 @@ impl StudySuite {
             component_rule: "the first component of each pair".into(),
             remarks: Remarks::default(),
             set_aside: SetAside::default(),
-            clusters: Clusters::singletons(pairs.len()),
+            clusters: Clusters::from_labels(
+                pairs.iter().map(|pair| pair.scenario.event()),
+            ),
             motions: pairs
                 .into_iter()
                 .map(|Pair { components: [study, other], .. }| Motion {

@@ -256,9 +256,17 @@ pub fn run_case(case: &Case) -> Outcome {
     outcome
 }
 
+/// Runs the case alone, without its wrong models.
+///
+/// # Errors
+/// An error where no answer can be given or judged.
+pub fn checks_of(case: &Case) -> Result<Vec<Check>> {
+    checks(case, methods::run(case, None), None)
+}
+
 /// Runs the case and its wrong models.
 fn fill(outcome: &mut Outcome, case: &Case) -> Result<()> {
-    outcome.checks = checks(case, methods::run(case, None), None)?;
+    outcome.checks = checks_of(case)?;
     let messages = &mut outcome.messages;
     let broken = outcome.checks.iter().filter(|check| !check.holds());
     messages.extend(broken.map(describe));

@@ -98,6 +98,7 @@ pub fn input<'a>(
     Ok(ReportInput {
         title: TITLE.into(),
         intro: vec![words.intro, answers::done(found, recorded)],
+        lab: false,
         head: [
             head::head(results, proof.is_some(), signatures),
             recorded.map(findings::kept).unwrap_or_default(),

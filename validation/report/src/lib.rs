@@ -7,6 +7,7 @@ pub mod evidence;
 pub mod findings;
 pub mod head;
 pub mod input;
+pub mod lab;
 pub mod ledger;
 pub mod output;
 pub mod page;

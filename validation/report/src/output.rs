@@ -91,7 +91,8 @@ fn laid_out(files: Files) -> Files {
 
 /// The report's files: `index.html`, numbers in `data/`, drawings in
 /// `figures/`. The page shows `proof`, the results of the declared cases,
-/// if they were handed in.
+/// if they were handed in. It links [`lab::LAB`](crate::lab::LAB) where that
+/// lies beside it.
 ///
 /// # Errors
 /// Where a figure cannot be drawn.
@@ -99,6 +100,7 @@ pub fn files(
     study: &Study,
     proof: Option<&Proof>,
     signatures: &Signatures,
+    lab: bool,
 ) -> anyhow::Result<Files> {
     let mut files = Files::new();
     let mut charts = vec![Timings::kept()?.figure(), scored::codes_figure()?];
@@ -127,6 +129,7 @@ pub fn files(
         proof,
         signatures,
     )?;
+    input.lab = lab;
     let mut titles = titles(study, &charts);
     let filed = input.annexes.iter().filter(|a| FILED.contains(&a.id));
     for table in filed.flat_map(|annex| &annex.tables) {

@@ -11,6 +11,7 @@ use maud::{DOCTYPE, Markup, html};
 
 use rocking_draw::page::head;
 
+use crate::lab::LAB;
 use input::Part;
 
 pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
@@ -37,7 +38,7 @@ pub fn page(input: &ReportInput<'_>) -> String {
                 header {
                     (sections::head(input))
                 }
-                nav aria-label="Contents" { (contents(&parts)) }
+                nav aria-label="Contents" { (contents(&parts, input.lab)) }
                 main id="main" tabindex="-1" {
                     @for part in &parts {
                         section id=(part.id)
@@ -58,12 +59,13 @@ pub fn page(input: &ReportInput<'_>) -> String {
         + "\n"
 }
 
-fn contents(parts: &[Part]) -> Markup {
+fn contents(parts: &[Part], lab: bool) -> Markup {
     html! {
         ul {
             @for part in parts {
                 li { a href={ "#" (part.id) } { (part.title) } }
             }
+            @if lab { li { a href=(LAB) { "Recompute in your browser" } } }
         }
     }
 }

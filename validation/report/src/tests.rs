@@ -123,7 +123,7 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
         let progress = ProgressBar::hidden();
         let study = Study::run(plan, &[ordinary, pulse], false, &progress);
         let signatures = Signatures::default();
-        output::files(&study.expect("study"), proof, &signatures)
+        output::files(&study.expect("study"), proof, &signatures, false)
             .expect("report")
     })
 }

@@ -2,6 +2,7 @@
 //! program.
 
 mod inputs;
+mod lab;
 
 use std::env;
 use std::ffi::OsString;
@@ -22,13 +23,15 @@ use rocking_proof::cases::{Cost, load_all};
 use rocking_proof::methods::{self, digits, digits_csv};
 use rocking_proof::verdict::{Outcome, run_all, snapshot};
 use rocking_report::evidence::Proof;
+use rocking_report::lab::LAB;
 use rocking_report::output::{FINDINGS, Files};
 use rocking_report::readme;
 use rocking_report::stale::{self, stale};
 
 /// Renews every committed file that holds results of this program: pins,
 /// help snapshots, docs/tables.md, the surrogate, the results on recorded
-/// suites where ../shared/records has them, reports/, the README's table.
+/// suites where ../shared/records has them, reports/, reports/lab.html where
+/// `web/build` can compile its engine, the README's table.
 ///
 /// It runs in the root of the repository, by cargo, so that the program is
 /// built from what is there. It runs the tests that hold such files, the
@@ -120,6 +123,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     words += &stale(Path::new(REPORTS), &report)?.unwrap_or_default();
     for (name, content) in &report {
         put(REPORTS, name, content.clone());
+    }
+    if let Some(page) = lab::made()? {
+        files.insert(format!("{REPORTS}/{LAB}"), page);
     }
     files.insert(README.into(), readme.into_bytes());
     let mut changed = changed(files, &mut words)?;

@@ -20,6 +20,7 @@ use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 use rocking_report::evidence::{NOT_RUN, Proof};
 use rocking_report::head::Signatures;
+use rocking_report::lab::LAB;
 use rocking_report::output::{self, Files};
 use rocking_report::stale;
 use rocking_study::Study;
@@ -126,7 +127,8 @@ pub(super) fn report(
     let line = ["study"].iter().chain(arguments);
     let args = Line::try_parse_from(line)?.args;
     let study = computed(plan(&args)?, &args, &suites(&args)?)?;
-    Ok(output::files(&study, proof, &args.signatures)?)
+    let lab = args.out.join(LAB).is_file();
+    Ok(output::files(&study, proof, &args.signatures, lab)?)
 }
 
 /// The suites that the options name.
@@ -194,7 +196,8 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let suites = suites(args)?;
     let study = computed(plan, args, &suites)?;
     let signatures = Signatures { commit: COMMIT, ..args.signatures.clone() };
-    let files = output::files(&study, proof.as_ref(), &signatures)?;
+    let lab = args.out.join(LAB).is_file();
+    let files = output::files(&study, proof.as_ref(), &signatures, lab)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {

@@ -16,6 +16,8 @@ pub struct ReportInput<'a> {
     pub title: String,
     /// What it is about and what was done, a paragraph each.
     pub intro: Vec<String>,
+    /// Whether the page that recomputes lies beside this one.
+    pub lab: bool,
     /// Name and value: the program, its input, the command.
     pub head: Vec<(String, String)>,
     /// What is signed for, and by whom or when if that was given.

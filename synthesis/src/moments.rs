@@ -1,0 +1,155 @@
+//! What a suite is conditioned on: four moments of each quantity.
+//!
+//! Geometric mean, in g, m/s or s, standard deviation of the natural logarithm,
+//! and its correlation with those of PGA and PGV, of PGA, of the spectral
+//! accelerations at the other periods, of PGV and of D5-75, over the study
+//! components of recorded pairs of PEER's database, without further
+//! processing. They are all that this program knows of those records.
+
+use crate::attenuation::{PGV, QUANTITIES};
+use crate::draws::dot;
+
+/// Four moments of each quantity.
+pub(super) type Moments = [[f64; 4]; QUANTITIES];
+
+/// Of 86 ordinary pairs.
+pub(super) const ORDINARY: Moments = [
+    [0.3494, 0.524, 1.000, 0.695],
+    [0.6010, 0.586, 0.851, 0.449],
+    [0.6928, 0.556, 0.807, 0.416],
+    [0.7456, 0.552, 0.869, 0.511],
+    [0.7432, 0.564, 0.853, 0.679],
+    [0.7263, 0.603, 0.789, 0.820],
+    [0.6175, 0.683, 0.693, 0.868],
+    [0.4363, 0.797, 0.667, 0.885],
+    [0.3350, 0.775, 0.594, 0.878],
+    [0.2022, 0.800, 0.520, 0.881],
+    [0.1187, 0.840, 0.431, 0.855],
+    [0.0611, 0.871, 0.372, 0.805],
+    [0.0381, 0.919, 0.277, 0.708],
+    [0.0248, 0.940, 0.292, 0.692],
+    [0.0111, 1.017, 0.270, 0.635],
+    [0.0057, 1.035, 0.274, 0.647],
+    [0.3063, 0.597, 0.695, 1.000],
+    [6.7559, 0.599, -0.128, -0.007],
+];
+
+/// Of 44 pulse-type pairs.
+pub(super) const PULSE: Moments = [
+    [0.4462, 0.482, 1.000, 0.349],
+    [0.6636, 0.598, 0.912, 0.148],
+    [0.8049, 0.605, 0.825, 0.148],
+    [0.8544, 0.543, 0.812, 0.303],
+    [0.8518, 0.498, 0.829, 0.362],
+    [0.8189, 0.520, 0.780, 0.501],
+    [0.8358, 0.499, 0.754, 0.456],
+    [0.7181, 0.543, 0.564, 0.652],
+    [0.5872, 0.497, 0.463, 0.667],
+    [0.3831, 0.547, 0.230, 0.793],
+    [0.2841, 0.616, 0.164, 0.833],
+    [0.1752, 0.709, -0.053, 0.723],
+    [0.1004, 0.829, -0.068, 0.688],
+    [0.0680, 0.907, -0.086, 0.636],
+    [0.0304, 0.998, -0.111, 0.599],
+    [0.0158, 1.006, -0.100, 0.600],
+    [0.6350, 0.488, 0.349, 1.000],
+    [4.9180, 0.533, -0.172, -0.103],
+];
+
+/// The affine transformation of logarithms that gives a sample the recorded
+/// moments: what PGA and PGV do not explain of a quantity keeps its
+/// correlations.
+///
+/// Scores have mean 0, standard deviation 1 and no correlation: one is that of
+/// PGA, the other is of what PGA does not explain of PGV.
+#[derive(Clone, Debug)]
+pub(super) struct Conditioning {
+    recorded: &'static Moments,
+    /// Of each quantity of the sample: mean, and slopes on the two scores.
+    rows: [[f64; 3]; QUANTITIES],
+    /// Stretch of what the scores do not explain.
+    stretch: [f64; QUANTITIES],
+}
+
+/// Slopes of a quantity of the recorded suite on the two scores, and the
+/// standard deviation of the rest.
+fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
+    let [_, deviation, with_pga, with_pgv] = recorded[k];
+    let rho = recorded[PGV][2];
+    let second = (with_pgv - rho * with_pga) / (1.0 - rho * rho).sqrt();
+    let rest = 1.0 - with_pga * with_pga - second * second;
+    let rest = if rest > 0.0 { rest.sqrt() } else { 0.0 };
+    [with_pga, second, rest].map(|x| deviation * x)
+}
+
+impl Conditioning {
+    /// From a sample of logarithms, one row a motion, to recorded moments.
+    pub(super) fn of(
+        sample: &[[f64; QUANTITIES]],
+        recorded: &'static Moments,
+    ) -> Self {
+        let column = |k: usize| {
+            let values: Vec<f64> = sample.iter().map(|v| v[k]).collect();
+            let [mean, _] = moments(&values);
+            (mean, values.iter().map(|x| x - mean).collect::<Vec<_>>())
+        };
+        let slope = |scores: &[f64], values: &[f64]| {
+            dot(scores, values) / (sample.len() as f64 - 1.0)
+        };
+        let less = |values: &[f64], slope: f64, scores: &[f64]| {
+            let rest = values.iter().zip(scores).map(|(x, z)| x - slope * z);
+            rest.collect::<Vec<f64>>()
+        };
+        let score = |values: &[f64]| {
+            let [_, deviation] = moments(values);
+            values.iter().map(|x| x / deviation).collect::<Vec<f64>>()
+        };
+        let first = score(&column(0).1);
+        let pgv = column(PGV).1;
+        let second = score(&less(&pgv, slope(&first, &pgv), &first));
+        let (mut rows, mut stretch) =
+            ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
+        for k in 0..QUANTITIES {
+            let (mean, values) = column(k);
+            let [one, other] = [&first, &second].map(|z| slope(z, &values));
+            rows[k] = [mean, one, other];
+            let rest = less(&values, one, &first);
+            let [_, rest] = moments(&less(&rest, other, &second));
+            // Nothing but rounding is left of PGA and of PGV.
+            if k != 0 && k != PGV {
+                stretch[k] = slopes(recorded, k)[2] / rest;
+            }
+        }
+        Self { recorded, rows, stretch }
+    }
+
+    /// The logarithms of one motion, transformed.
+    pub(super) fn apply(
+        &self,
+        values: &[f64; QUANTITIES],
+    ) -> [f64; QUANTITIES] {
+        let [mean, deviation, _] = self.rows[0];
+        let first = (values[0] - mean) / deviation;
+        let [mean, slope, deviation] = self.rows[PGV];
+        let second = (values[PGV] - mean - slope * first) / deviation;
+        let mut out = *values;
+        for (k, x) in out.iter_mut().enumerate() {
+            let [mean, one, other] = self.rows[k];
+            let rest = *x - mean - one * first - other * second;
+            let [slope, next, _] = slopes(self.recorded, k);
+            *x = libm::log(self.recorded[k][0])
+                + slope * first
+                + next * second
+                + self.stretch[k] * rest;
+        }
+        out
+    }
+}
+
+/// Mean and standard deviation.
+pub(super) fn moments(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().fold(0.0, |s, x| s + x) / n;
+    let squares = values.iter().fold(0.0, |s, x| s + (x - mean) * (x - mean));
+    [mean, (squares / (n - 1.0)).sqrt()]
+}

@@ -1,0 +1,160 @@
+//! Earthquakes, sites and target spectra of the suite.
+
+use crate::attenuation::{
+    PGV, QUANTITIES, between_components, correlation, deviation, median,
+};
+use crate::draws::{Stream, cholesky, correlate};
+use crate::moments::{Conditioning, Moments};
+use crate::pair::{
+    LEAST_PGA_G, MOST_DRAWS, Role, Scenario, SynthesisError, stream_index,
+};
+use crate::peaks::Peak;
+use crate::pulse::Pulse;
+
+/// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and
+/// the ends at which it is cut. The list has no sites: these are chosen, for
+/// the firm soils and soft rocks that stations stand on.
+const VS30_M_S: [f64; 4] = [380.0, 0.43, 180.0, 1000.0];
+
+/// What a suite is drawn from.
+pub(super) struct Suite {
+    /// Start of the names of its components.
+    pub(super) name: &'static str,
+    /// Name of its random streams.
+    pub(super) seed: &'static str,
+    /// Earthquakes: number of pairs, moment magnitude, and whether faulting is
+    /// reverse or oblique.
+    pub(super) earthquakes: &'static [(usize, f64, bool)],
+    /// Quantiles of the distance to the rupture: probability, km; between them
+    /// the logarithm is linear.
+    pub(super) distances_km: &'static [[f64; 2]],
+    /// Whether motions have a velocity pulse.
+    pub(super) pulses: bool,
+    /// Moments that the first components have.
+    pub(super) recorded: &'static Moments,
+}
+
+/// Earthquake, site, and logarithms of the quantities of both components.
+#[derive(Clone, Debug)]
+pub(super) struct Target {
+    pub(super) scenario: Scenario,
+    pub(super) pulse: Option<Pulse>,
+    pub(super) components: [[f64; QUANTITIES]; 2],
+}
+
+/// The targets of the whole suite: drawn pair by pair, then transformed so
+/// that the first components have the recorded moments. A pair whose PGA is
+/// not above 0.14 g then is drawn again, until all are.
+pub(super) fn conditioned(
+    suite: &Suite,
+) -> Result<Vec<Target>, SynthesisError> {
+    let counts = suite.earthquakes.iter().enumerate();
+    let pairs: Vec<usize> =
+        counts.flat_map(|(i, (pairs, ..))| vec![i; *pairs]).collect();
+    let draw =
+        |i: usize, attempt| draw(suite, pairs[i], i as u64 + 1, attempt);
+    let mut drawn: Vec<Target> =
+        (0..pairs.len()).map(|i| draw(i, 0)).collect();
+    let mut attempt = 0;
+    loop {
+        attempt += 1;
+        let first: Vec<_> = drawn.iter().map(|t| t.components[0]).collect();
+        let conditioning = Conditioning::of(&first, suite.recorded);
+        let out: Vec<Target> = drawn
+            .iter()
+            .map(|t| Target {
+                components: t.components.map(|c| conditioning.apply(&c)),
+                ..*t
+            })
+            .collect();
+        let least = libm::log(LEAST_PGA_G);
+        let weak = |t: &Target| !t.components.iter().all(|c| c[0] > least);
+        let weak: Vec<usize> =
+            (0..out.len()).filter(|i| weak(&out[*i])).collect();
+        let Some(pair) = weak.first() else { return Ok(out) };
+        if attempt == MOST_DRAWS {
+            return Err(SynthesisError::Weak {
+                suite: suite.seed,
+                pair: *pair as u64 + 1,
+            });
+        }
+        for i in weak {
+            drawn[i] = draw(i, attempt);
+        }
+    }
+}
+
+/// One pair of an earthquake without conditions. Deviations have a part that
+/// all pairs of the earthquake share.
+pub(super) fn draw(
+    suite: &Suite,
+    earthquake: usize,
+    pair: u64,
+    attempt: u64,
+) -> Target {
+    let mut draws =
+        Stream::new(suite.seed, stream_index(pair, attempt, Role::Scenario));
+    let rrup_km = quantile(suite.distances_km, draws.uniform(0.0, 1.0));
+    let [vs30, spread, softest, hardest] = VS30_M_S;
+    let vs30 = vs30 * libm::exp(spread * draws.normals(1)[0]);
+    let (_, mw, reverse) = suite.earthquakes[earthquake];
+    let earthquake = earthquake as u64 + 1;
+    let scenario = Scenario {
+        earthquake,
+        mw,
+        rrup_km,
+        vs30_m_s: vs30.clamp(softest, hardest),
+        reverse,
+        towards_site_km: if suite.pulses {
+            draws.uniform(5.0, 40.0)
+        } else {
+            0.0
+        },
+    };
+    let factor = factor();
+    let of_earthquake = stream_index(earthquake, 0, Role::Earthquake);
+    let common = Stream::new(suite.seed, of_earthquake).normals(QUANTITIES);
+    let common = correlate(&factor, &common);
+    let first = correlate(&factor, &draws.normals(QUANTITIES));
+    let own = correlate(&factor, &draws.normals(QUANTITIES));
+    let (middle, alike) = (median(&scenario), between_components());
+    let mut components = [middle; 2];
+    for (k, [total, between]) in deviation().into_iter().enumerate() {
+        let within = (total * total - between * between).sqrt();
+        let shared = between * between / (total * total);
+        let rho = (alike[k] - shared) / (1.0 - shared);
+        let rest = (1.0 - rho * rho).sqrt();
+        let second = rho * first[k] + rest * own[k];
+        components[0][k] += between * common[k] + within * first[k];
+        components[1][k] += between * common[k] + within * second;
+    }
+    let pulse = suite.pulses.then(|| Pulse::draw(&scenario, &mut draws));
+    for (out, samples) in
+        components.iter_mut().zip(pulse.iter().flat_map(Pulse::samples))
+    {
+        for (k, x) in out.iter_mut().enumerate().take(PGV + 1) {
+            // Peaks of pulse and other waves do not meet.
+            let part = Peak::of(k).found(&samples).size;
+            *x = 0.5 * libm::log(libm::exp(2.0 * *x) + part * part);
+        }
+    }
+    Target { scenario, pulse, components }
+}
+
+/// Factor of the correlation between the quantities of one component.
+pub(super) fn factor() -> Vec<Vec<f64>> {
+    let lower = correlation();
+    let rows: Vec<&[f64]> = lower.iter().map(Vec::as_slice).collect();
+    // Definite for these constants; a test holds it.
+    cholesky(&rows).unwrap_or_default()
+}
+
+/// Quantile at probability `p` of a table of positive numbers, whose logarithm
+/// is linear between its rows.
+fn quantile(table: &[[f64; 2]], p: f64) -> f64 {
+    let rows = table.windows(2).find(|rows| p < rows[1][0]);
+    rows.map_or(table[table.len() - 1][1], |rows| {
+        let ([p0, x0], [p1, x1]) = (rows[0], rows[1]);
+        x0 * libm::exp(libm::log(x1 / x0) * (p - p0) / (p1 - p0))
+    })
+}

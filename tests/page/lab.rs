@@ -1,0 +1,128 @@
+//! The committed page that recomputes: it is what the program makes now, and
+//! gives in a browser the bits that the program gives here.
+
+use std::fs;
+
+use rocking_report::lab::{LAB, engine_of, page};
+use serde_json::{Value, json};
+
+use super::{AXE, SCHEMES, WIDTHS_PX, axe, problems, root, started};
+
+/// Waits until a script says that something is so.
+fn until(what: &str) -> String {
+    format!(
+        "new Promise((done) => {{ const look = () => {what} ? done(true) : \
+         setTimeout(look, 50); look(); }})"
+    )
+}
+
+fn native(question: &Value) -> Value {
+    let answer = rocking_web::answer(&question.to_string());
+    let answer: Value = serde_json::from_str(&answer).expect("JSON");
+    assert_eq!(answer.get("error"), None);
+    answer
+}
+
+#[test]
+fn the_committed_laboratory_is_what_the_program_makes() {
+    let path = root().join("reports").join(LAB);
+    let committed = fs::read_to_string(path).expect("the page");
+    assert!(committed.len() <= 1 << 20, "{} bytes", committed.len());
+    let engine = engine_of(&committed).expect("an engine");
+    let now = page(&engine).expect("a page");
+    assert!(now == committed, "stale: `cargo run --release -- accept`");
+}
+
+#[test]
+fn the_laboratory_is_readable() {
+    let Some(mut browser) = started("lab") else { return };
+    let path = root().join("reports").join(LAB);
+    let mut found = Vec::new();
+    for width_px in WIDTHS_PX {
+        for scheme in SCHEMES {
+            let here = problems(&mut browser, &path, width_px, scheme);
+            found.extend(
+                here.iter().map(|p| format!("{width_px} px, {scheme}: {p}")),
+            );
+            if AXE.contains(&(width_px, scheme)) {
+                found.extend(axe(&mut browser).unwrap_or_default());
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_browser_gives_the_bits_of_the_program() {
+    let Some(mut browser) = started("bits") else { return };
+    browser.open(&root().join("reports").join(LAB), 1400, "light");
+    browser.evaluate(&until("document.body.dataset.ready"));
+    browser.evaluate("document.getElementById('all').click()");
+    browser.evaluate(&until("document.getElementById('stop').disabled"));
+    let differing = browser.evaluate(
+        "[...document.querySelectorAll('#cases tbody tr')].filter((row) => \
+         row.lastElementChild.textContent !== 'equal').map((row) => \
+         row.textContent)",
+    );
+    assert_eq!(differing, json!([]));
+    let cases = native(&json!({ "ask": "cases" }));
+    let count = cases.as_array().expect("a list").len();
+    assert!(count > 200, "{count} cases");
+    let rows = "document.querySelectorAll('#cases tbody tr').length";
+    assert_eq!(browser.evaluate(rows), count);
+}
+
+/// A second of shaking, as a column of time and acceleration.
+fn record() -> String {
+    let sample = |k: u32| {
+        let t = 0.01 * f64::from(k);
+        format!("{t:.2},{:.6}\n", 0.3 * libm::sin(9.0 * t))
+    };
+    let rows: String = (0..150).map(sample).collect();
+    format!("time (s),acceleration (g)\n{rows}")
+}
+
+#[test]
+fn a_dropped_record_has_the_bits_of_the_program() {
+    let Some(mut browser) = started("drop") else { return };
+    browser.open(&root().join("reports").join(LAB), 1400, "light");
+    browser.evaluate(&until("document.body.dataset.ready"));
+    let text = record();
+    let before = browser.evaluate("document.body.dataset.changed");
+    browser.evaluate(&format!(
+        "{{ const dataTransfer = new DataTransfer(); \
+         dataTransfer.items.add(new File([{}], 'dropped.csv')); \
+         dispatchEvent(new DragEvent('drop', {{ dataTransfer }})); }}",
+        json!(text)
+    ));
+    let changed = format!("document.body.dataset.changed !== {before}");
+    browser.evaluate(&until(&changed));
+    let read = native(&json!({
+        "ask": "read", "name": "dropped.csv", "text": text, "dt_s": null,
+        "unit": null,
+    }));
+    let scene = json!({
+        "block": { "width_m": 0.3, "height_m": 1.5 }, "eta": 0.92,
+        "intensity": 3.0,
+        "ground": {
+            "kind": "record", "dt_s": read[0]["dt_s"],
+            "samples_g": read[0]["samples_g"],
+        },
+    });
+    let ask = |what: &str| {
+        let mut question = scene.clone();
+        question["ask"] = json!(what);
+        native(&question)["bits"].as_str().expect("bits").to_owned()
+    };
+    let shown = browser.evaluate(
+        "[...document.querySelectorAll('#numbers tr')].find((row) => \
+         row.cells[0].textContent === 'Bits').cells[1].textContent",
+    );
+    assert_eq!(shown, ask("response"));
+    let words = "document.getElementById('ida-words').textContent";
+    browser.evaluate("document.getElementById('ida').click()");
+    browser.evaluate(&until(&format!("{words}.includes('Bits')")));
+    let shown = browser.evaluate(words);
+    let bits = ask("ida");
+    assert!(shown.as_str().expect("words").contains(&bits), "{shown} {bits}");
+}

@@ -1,0 +1,543 @@
+"use strict";
+(async () => {
+const $ = (id) => document.getElementById(id);
+const native = JSON.parse($("native").textContent);
+
+// An engine in a worker of its own: a question in, an answer out.
+function worker() {
+  let module, ready;
+  const start = () => { ready = WebAssembly.instantiate(module, {}); };
+  onmessage = async ({ data }) => {
+    if (data.module) { module = data.module; start(); return; }
+    let answer;
+    try {
+      const { room, answer: ask, answer_start, memory } = (await ready).exports;
+      const bytes = new TextEncoder().encode(JSON.stringify(data));
+      const at = room(bytes.length);
+      new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+      const length = ask();
+      const found = new Uint8Array(memory.buffer, answer_start(), length);
+      answer = JSON.parse(new TextDecoder().decode(found));
+    } catch (error) {
+      answer = { error: `the engine stopped: ${error.message}` };
+      start();
+    }
+    postMessage(answer);
+  };
+}
+const source = URL.createObjectURL(
+  new Blob([`(${worker})()`], { type: "text/javascript" }));
+
+// Some engines that share a queue of questions.
+class Engines {
+  constructor(module, most) {
+    Object.assign(this, { module, most, idle: [], all: [], queue: [] });
+  }
+  ask(question) {
+    return new Promise((resolve, reject) => {
+      this.queue.push({ question, resolve, reject });
+      this.next();
+    });
+  }
+  next() {
+    if (!this.queue.length) return;
+    if (!this.idle.length && this.all.length < this.most) {
+      const fresh = new Worker(source);
+      fresh.postMessage({ module: this.module });
+      this.all.push(fresh);
+      this.idle.push(fresh);
+    }
+    const own = this.idle.pop();
+    if (!own) return;
+    const task = this.queue.shift();
+    own.task = task;
+    own.onmessage = ({ data }) => {
+      own.task = null;
+      this.idle.push(own);
+      if (data.error === undefined) task.resolve(data);
+      else task.reject(new Error(data.error));
+      this.next();
+    };
+    own.postMessage(task.question);
+    this.next();
+  }
+  stop() {
+    const left = [...this.all.map((own) => own.task), ...this.queue];
+    this.all.forEach((own) => own.terminate());
+    this.idle = []; this.all = []; this.queue = [];
+    left.filter(Boolean).forEach((task) => task.reject(new Error("stopped")));
+  }
+}
+
+const unpacked = async () => {
+  const text = atob($("engine").textContent.trim());
+  const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream();
+  const whole = stream.pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(whole).arrayBuffer());
+};
+let module;
+try {
+  module = await unpacked();
+} catch (error) {
+  $("state").textContent = `The engine cannot start: ${error.message}`;
+  return;
+}
+const cores = Math.min(4, Math.max(1, navigator.hardwareConcurrency || 1));
+const own = new Engines(module, 1);
+const many = new Engines(module, cores);
+
+const make = (tag, text = "", attributes = {}) => {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  for (const [key, value] of Object.entries(attributes)) {
+    element.setAttribute(key, value);
+  }
+  return element;
+};
+const digits = (x, n = 6) =>
+  typeof x === "number" ? String(Number(x.toPrecision(n))) : "none";
+const rows = (table, pairs) => $(table).tBodies[0].replaceChildren(
+  ...pairs.map((cells) => {
+    const row = make("tr");
+    row.append(...cells.map((text, k) => k
+      ? make("td", text) : make("th", text, { scope: "row" })));
+    return row;
+  }));
+
+// ---- Recompute ----
+const listed = await many.ask({ ask: "cases" });
+$("state").textContent = `The engine is ready, on ${cores} ` +
+  `${cores > 1 ? "cores" : "core"}.`;
+const results = new Map();
+const lines = new Map();
+const runs = listed.filter((own) => native.cases[own.id]);
+const words = { equal: "yes", differs: "no", fails: "no" };
+
+function tally() {
+  const count = (what) => [...results.values()]
+    .filter((result) => result === what).length;
+  const wrong = count("differs") + count("fails");
+  $("progress").max = runs.length;
+  $("progress").value = results.size;
+  $("tally").textContent = `${results.size} of ${runs.length} cases run, ` +
+    `${count("equal")} equal to the last bit` +
+    (wrong ? `, ${count("differs")} differ, ${count("fails")} fail.` : ".");
+}
+async function run({ id }) {
+  const line = lines.get(id);
+  line.result.textContent = "running";
+  try {
+    const found = await many.ask({ ask: "case", id });
+    const first = found.checks[0];
+    line.here.textContent = `${first.observed[0] ?? "none"}`;
+    line.bits.textContent = found.bits;
+    const same = found.bits === native.cases[id].bits;
+    const result = !same ? "differs" : found.holds ? "equal" : "fails";
+    results.set(id, result);
+    line.result.textContent = result;
+    line.result.className = `verdict ${words[result]}`;
+  } catch (error) {
+    const stopped = error.message === "stopped";
+    if (!stopped) results.set(id, "fails");
+    line.result.textContent = stopped ? "not run" : error.message;
+  }
+  tally();
+}
+async function runAll(cases) {
+  $("stop").disabled = false;
+  await Promise.all(cases.map(run));
+  $("stop").disabled = true;
+}
+for (const [family, cases] of Object.entries(
+  Object.groupBy(runs, (own) => own.id.split("/")[0]))) {
+  const title = `${family.replaceAll("-", " ")}, ${cases.length}`;
+  const details = make("details");
+  const button = make("button", `Run ${family.replaceAll("-", " ")}`);
+  button.onclick = () => runAll(cases);
+  const box = make("div", "", { class: "scroll", role: "region",
+    tabindex: "0", "aria-label": `Cases: ${title}` });
+  const table = make("table", "", { class: "cards cases" });
+  table.append(make("caption", `Cases of ${family.replaceAll("-", " ")}`));
+  const heads = ["Claim", "First number here", "Compiled program", "Bits here",
+    "Bits of the program", "Result"];
+  const head = make("tr");
+  head.append(...heads.map((text) => make("th", text, { scope: "col" })));
+  table.createTHead().append(head);
+  const body = table.createTBody();
+  for (const { id, claim } of cases) {
+    const due = native.cases[id];
+    const row = make("tr");
+    const cells = ["", `${due.name} ${due.first}`, "", due.bits, "not run"]
+      .map((text, k) => make("td", text, { "data-label": heads[k + 1] }));
+    const [here, , bits, , result] = cells;
+    const name = make("th", claim, { scope: "row" });
+    lines.set(id, { here, bits, result });
+    row.append(name, ...cells);
+    body.append(row);
+  }
+  box.append(table);
+  details.append(make("summary", title), button, box);
+  $("cases").append(details);
+}
+const leftOut = native.left;
+$("left-why").textContent = `${leftOut.length} of ` +
+  `${runs.length + leftOut.length} declared cases take longer than about a ` +
+  "second in a browser.";
+$("left-list").append(...leftOut.map((id) => make("li", id)));
+$("all").onclick = () => runAll(runs);
+$("stop").onclick = () => many.stop();
+tally();
+
+// ---- Drawings ----
+const ticks = (low, high) => {
+  const rough = (high - low) / 5;
+  const ten = 10 ** Math.floor(Math.log10(rough));
+  const step = ten * [1, 2, 5, 10].find((m) => m * ten >= rough);
+  const found = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k += 1) {
+    found.push(Number((k * step).toPrecision(9)));
+  }
+  return found;
+};
+// Lines of [class, points] over axes; y is the range of the ordinate.
+function plot(title, across, up, series, x, y, limits = []) {
+  const [w, h, left, low] = [640, 300, 56, 44];
+  const to = (v, [a, b], from, until) => from + (until - from) * (v - a) / (b - a);
+  const px = (v) => to(v, x, left, w - 12).toFixed(1);
+  const py = (v) => to(v, y, h - low, 22).toFixed(1);
+  const line = (a, b, kind) =>
+    `<path class="${kind}" d="M${px(a[0])} ${py(a[1])}L${px(b[0])} ${py(b[1])}"/>`;
+  const parts = [`<title>${title}</title>`,
+    `<path class="axis" d="M${left} 22V${h - low}H${w - 12}"/>`];
+  for (const v of ticks(...x)) parts.push(
+    `<text x="${px(v)}" y="${h - low + 17}" text-anchor="middle">${v}</text>`);
+  for (const v of ticks(...y)) parts.push(
+    `<text x="${left - 6}" y="${py(v)}" dy=".35em" text-anchor="end">${v}</text>`);
+  parts.push(`<text x="${(left + w) / 2}" y="${h - 8}" text-anchor="middle">${across}</text>`,
+    `<text x="4" y="14">${up}</text>`);
+  for (const v of limits) parts.push(line([x[0], v], [x[1], v], "limit"));
+  for (const [kind, points] of series) {
+    const path = points.map(([a, b]) => `${px(a)} ${py(b)}`).join("L");
+    parts.push(`<path class="${kind}" d="M${path}"/>`);
+  }
+  return `<svg viewBox="0 0 ${w} ${h}" role="img" aria-label="${title}">${parts.join("")}</svg>`;
+}
+
+// ---- Your block ----
+const number = (id) => Number($(id).value);
+let components = [], motions = [], shown = null, changed = 0;
+const isPulse = () => !["motion", "file"].includes($("kind").value);
+const recorded = () =>
+  ($("kind").value === "file" ? components : motions)[
+    number($("kind").value === "file" ? "component" : "motion")];
+const shape = () => $("given").value === "lengths"
+  ? { width_m: number("width"), height_m: number("height") }
+  : { alpha_rad: number("alpha"), p_rad_s: number("p") };
+function ground() {
+  const [kind, duration_s] = [$("kind").value, number("duration")];
+  if (!isPulse()) {
+    const { dt_s, samples_g } = recorded();
+    return { kind: "record", dt_s, samples_g };
+  }
+  if (kind === "rectangle") return { kind, duration_s };
+  if (kind === "ricker") return { kind, period_s: duration_s / 2 };
+  const turns = kind === "half-sine" ? 1 : 2;
+  return { kind, omega_rad_s: turns * Math.PI / duration_s };
+}
+const scene = () => ({ block: shape(), eta: number("eta"), ground: ground(),
+  intensity: number("intensity") });
+
+const fates = {
+  "no-uplift": () => "The block does not lift.",
+  rocked: (r) => `The block rocks and stands. Its peak rotation is ` +
+    `${digits(r.peak_ratio)} alpha.`,
+  overturned: (r) => `The block overturns after ` +
+    `${digits(r.overturning_time_s)} s.`,
+};
+function show(found, took_ms) {
+  shown = found;
+  const { response: r, certified: c } = found;
+  $("verdict").textContent = fates[c.counts_as](c.counts_as === r.counts_as
+    ? r : { ...r, ...c, peak_ratio: c.edp }) +
+    (c.resolved ? ` The fate is sure, by ${c.by} arithmetic.`
+      : " The fate is unresolved even in the widest arithmetic.");
+  const least = r.certificate?.least;
+  rows("numbers", [
+    ["Slenderness alpha", `${found.alpha_rad} rad`],
+    ["Frequency parameter p", `${found.p_rad_s} rad/s`],
+    ["Width and height", `${digits(found.width_m)} m, ${digits(found.height_m)} m`],
+    ["Peak ground acceleration", `${found.pga_g} g`],
+    ["Peak rotation over alpha", `${r.peak_ratio}`],
+    ["Bound on its error", digits(r.error_estimate, 2)],
+    ["Time of the peak", `${digits(r.peak_time_s)} s`],
+    ["Impacts", `${r.impacts.length}`],
+    ["Distance from the other fate, over alpha", digits(r.fate_margin)],
+    ["Certificate", least ? `least clear decision: ${least.decision}, margin ` +
+      `over error ${digits(least.ratio, 3)} (clear from ` +
+      `${r.certificate.clear_from_ratio})` : "none"],
+    ["Condition number", digits(r.condition_number, 3)],
+    ["Bits", found.bits],
+    ["Computed in", `${took_ms.toFixed(0)} ms`],
+  ]);
+  const dt = found.interval_s;
+  const end = dt * Math.max(1, found.ratio.length - 1);
+  const most = found.ratio.reduce((m, v) => Math.max(m, Math.abs(v)), 1.1);
+  const peak = found.pga_g || 1;
+  const half = (values, factor) => values.map((v, k) => [k * dt, v * factor]);
+  $("history").innerHTML = plot("Rotation and ground acceleration in time",
+    "time (s)", "solid: rotation/alpha; ochre: ground acceleration, scaled",
+    [["two", half(found.ground_g, 0.5 / peak)], ["one", half(found.ratio, 1)]],
+    [0, end], [-most, most], [-1, 1]);
+  $("time").max = end;
+  $("time").value = 0;
+  draw();
+}
+function draw() {
+  const t = number("time");
+  $("time-out").textContent = `${t.toFixed(2)} s`;
+  if (!shown) return;
+  const k = Math.min(Math.round(t / shown.interval_s), shown.ratio.length - 1);
+  const angle = (shown.ratio[k] ?? 0) * shown.alpha_rad * 180 / Math.PI;
+  const scale = 190 / Math.hypot(shown.width_m, shown.height_m);
+  const [w, h] = [shown.width_m * scale, shown.height_m * scale];
+  const pivot = angle > 0 ? 160 + w / 2 : 160 - w / 2;
+  $("scene").innerHTML = `<svg viewBox="0 0 320 250" role="img" ` +
+    `aria-label="The block at this time"><title>The block, tilted by ` +
+    `${digits(angle, 3)} degrees</title><path class="axis" d="M10 230H310"/>` +
+    `<rect class="body" x="${160 - w / 2}" y="${230 - h}" width="${w}" ` +
+    `height="${h}" transform="rotate(${angle} ${pivot} 230)"/>` +
+    `<text x="10" y="247">ground ${digits(shown.ground_g[k] ?? 0, 2)} g</text></svg>`;
+}
+let playing = 0;
+function play() {
+  if (playing) { cancelAnimationFrame(playing); playing = 0; }
+  else {
+    let last = performance.now();
+    if (number("time") >= Number($("time").max)) $("time").value = 0;
+    const frame = (now) => {
+      $("time").value = number("time") + (now - last) / 1000;
+      last = now;
+      draw();
+      if (number("time") >= Number($("time").max)) { playing = 0; $("play").textContent = "Play"; }
+      else playing = requestAnimationFrame(frame);
+    };
+    playing = requestAnimationFrame(frame);
+  }
+  $("play").textContent = playing ? "Pause" : "Play";
+}
+$("play").onclick = play;
+$("time").oninput = draw;
+
+async function fragility() {
+  const { probability, fragility: f } = await own.ask({ ask: "fragility",
+    block: shape(), intensity: number("intensity") });
+  const percent = (x) => `${(100 * x).toFixed(1)} %`;
+  rows("fragility", probability.flatMap(([suite, p]) => {
+    const s = f.suites[suite];
+    return [
+      [`${suite}: probability`, percent(p)],
+      [`${suite}: median PGA`, `${digits(s.median_pga_g, 3)} g`],
+      [`${suite}: error of the surface, in probability`,
+        `${percent(s.surface_to_analyses.probability.rms)} (rms over ${s.surface_to_analyses.blocks} other blocks)`],
+      [`${suite}: what the choice of records leaves open (95 %)`,
+        `± ${percent(s.half_95_of_records.probability)}`],
+      [`${suite}: from simulated to recorded motions`,
+        `${percent(s.surface_to_recorded.probability.rms)} (rms over ${s.surface_to_recorded.blocks} blocks)`],
+    ];
+  }));
+  $("fragility-words").textContent = number("eta") === f.eta ? ""
+    : `The surface holds for a coefficient of restitution of ${f.eta}.`;
+}
+let busy = false, again = false;
+async function update() {
+  if (busy) { again = true; return; }
+  busy = true;
+  try {
+    do {
+      again = false;
+      if (!isPulse() && !recorded()) break;
+      const begin = performance.now();
+      show(await own.ask({ ask: "response", ...scene() }),
+        performance.now() - begin);
+      await fragility().catch((error) => {
+        rows("fragility", []);
+        $("fragility-words").textContent = error.message;
+      });
+    } while (again);
+  } catch (error) {
+    $("verdict").textContent = error.message;
+  }
+  busy = false;
+  changed += 1;
+  document.body.dataset.changed = changed;
+}
+const options = (id, list) => $(id).replaceChildren(...list.map((own, k) =>
+  make("option", own.name, { value: k })));
+async function chosen() {
+  const [kind, given] = [$("kind").value, $("given").value];
+  for (const part of document.querySelectorAll("[data-given]")) {
+    part.hidden = part.dataset.given !== given;
+  }
+  for (const part of document.querySelectorAll("[data-kind]")) {
+    const wanted = { pulse: isPulse(), recorded: !isPulse() };
+    part.hidden = !(wanted[part.dataset.kind] ?? part.dataset.kind === kind);
+  }
+  $("ida").disabled = isPulse();
+  $("duration-out").textContent = `${number("duration").toFixed(2)} s`;
+  $("intensity-out").textContent = number("intensity").toFixed(2);
+  if (kind === "motion" && !motions.length) {
+    $("verdict").textContent = "Simulating the motions.";
+    motions = await own.ask({ ask: "motions" });
+    options("motion", motions);
+  }
+  await update();
+}
+async function read(file) {
+  if (!file) return;
+  try {
+    components = await own.ask({ ask: "read", name: file.name,
+      text: new TextDecoder("utf-8", { ignoreBOM: true })
+        .decode(await file.arrayBuffer()),
+      dt_s: number("dt") || null, unit: $("unit").value || null });
+    options("component", components);
+    $("kind").value = "file";
+    await chosen();
+  } catch (error) {
+    $("kind").value = "file";
+    components = [];
+    await chosen();
+    $("verdict").textContent = error.message;
+  }
+}
+let dropped = null;
+const reread = () => read(dropped ?? $("file").files[0]);
+$("form").onsubmit = (event) => event.preventDefault();
+$("form").oninput = (event) => {
+  if (event.target.id === "file") dropped = null;
+  if (["file", "dt", "unit"].includes(event.target.id)) reread();
+  else chosen();
+};
+$("as-recorded").onclick = () => {
+  if (!recorded() || !shown) return;
+  const wanted = recorded().pga_g / Math.tan(shown.alpha_rad);
+  $("intensity").step = "any";
+  $("intensity").max = Math.max(10, wanted);
+  $("intensity").min = Math.min(0.5, wanted);
+  $("intensity").value = wanted;
+  chosen();
+};
+addEventListener("dragover", (event) => {
+  event.preventDefault();
+  document.body.classList.add("dropping");
+});
+addEventListener("dragleave", () => document.body.classList.remove("dropping"));
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  document.body.classList.remove("dropping");
+  dropped = event.dataTransfer.files[0];
+  read(dropped);
+});
+
+$("ida").onclick = async () => {
+  const begin = performance.now();
+  $("ida-words").textContent = "Running.";
+  try {
+    const found = await own.ask({ ask: "ida", ...scene() });
+    const { points, overturning } = found;
+    $("ida-words").textContent = `${found.analyses} analyses in ` +
+      `${(performance.now() - begin).toFixed(0)} ms. ` + (overturning
+        ? `First overturning at PGA/(g tan alpha) = ${overturning}.`
+        : "The block does not overturn.") + ` Bits ${found.bits}.`;
+    const right = Math.max(overturning ?? 0, ...points.map(([im]) => im)) * 1.05;
+    $("ida-drawing").innerHTML = plot("IDA curve of this record",
+      "PGA/(g tan alpha)", "peak rotation/alpha; dashed: overturning",
+      [["one", points], ...(overturning
+        ? [["limit", [[overturning, 0], [overturning, 1.1]]]] : [])],
+      [0, right], [0, 1.1], [1]);
+  } catch (error) { $("ida-words").textContent = error.message; }
+};
+
+// ---- Map of fates ----
+const SIDE = 25;
+function cell(canvas, i, j, fate, peak) {
+  const pen = canvas.getContext("2d");
+  const [left, low, w, h] = [70, 40, (620 - 80) / SIDE, (420 - 50) / SIDE];
+  const [x, y] = [left + i * w, 420 - low - (j + 1) * h];
+  const light = 92 - 50 * Math.min(1, peak);
+  pen.fillStyle = fate === "overturned" ? "#3a2020"
+    : fate === "unresolved" ? "#c9a227" : `hsl(212 60% ${light}%)`;
+  pen.fillRect(x, y, w + 0.5, h + 0.5);
+  if (fate === "unresolved") {
+    pen.strokeStyle = "#000";
+    pen.beginPath(); pen.moveTo(x, y); pen.lineTo(x + w, y + h); pen.stroke();
+  }
+}
+function frame(canvas, intensities, sizes) {
+  const pen = canvas.getContext("2d");
+  const style = getComputedStyle(document.body);
+  pen.clearRect(0, 0, 620, 420);
+  pen.fillStyle = style.color;
+  pen.font = "13px system-ui, sans-serif";
+  const mid = SIDE >> 1;
+  for (const k of [0, mid, SIDE - 1]) {
+    pen.textAlign = "center";
+    pen.fillText(digits(intensities[k], 3), 70 + (k + 0.5) * 540 / SIDE, 397);
+    pen.textAlign = "right";
+    pen.fillText(digits(sizes[k], 3), 62, 384 - (k + 0.5) * 370 / SIDE);
+  }
+  pen.textAlign = "center";
+  pen.fillText("intensity PGA/(g tan alpha)", 340, 415);
+  pen.save();
+  pen.translate(14, 200); pen.rotate(-Math.PI / 2);
+  pen.fillText("frequency parameter p (rad/s)", 0, 0);
+  pen.restore();
+}
+$("map").onclick = async () => {
+  if (!shown) return;
+  const around = (middle, factor) => Array.from({ length: SIDE }, (_, k) =>
+    middle * factor ** ((k - (SIDE >> 1)) / (SIDE >> 1)));
+  const intensities = around(number("intensity"), 2);
+  const sizes = around(shown.p_rad_s, 2);
+  const [canvas, base, begin] = [$("map-drawing"), scene(), performance.now()];
+  frame(canvas, intensities, sizes);
+  $("map").disabled = true;
+  $("map-stop").disabled = false;
+  const count = { overturned: 0, rocked: 0, "no-uplift": 0, unresolved: 0 };
+  const bits = [];
+  try {
+    await Promise.all(sizes.map(async (p, j) => {
+      const found = await many.ask({ ask: "fates", scene: base, intensities,
+        p_rad_s: [p] });
+      bits[j] = found.bits;
+      found.rows[0].forEach((fate, i) => {
+        count[fate] += 1;
+        cell(canvas, i, j, fate, found.peaks[0][i]);
+      });
+    }));
+    const pen = canvas.getContext("2d");
+    const [x, y] = [70 + 270, 420 - 40 - 185];
+    pen.lineWidth = 3;
+    for (const [color, size] of [["#fff", 9], ["#000", 7]]) {
+      pen.strokeStyle = color;
+      pen.beginPath();
+      pen.moveTo(x - size, y); pen.lineTo(x + size, y);
+      pen.moveTo(x, y - size); pen.lineTo(x, y + size);
+      pen.stroke();
+      pen.lineWidth = 1;
+    }
+    const text = `${count.overturned} of ${SIDE * SIDE} blocks overturn, ` +
+      `${count.rocked} rock and stand, ${count["no-uplift"]} do not lift, ` +
+      `${count.unresolved} are unresolved in double precision.`;
+    $("map-words").textContent = `${text} Computed in ` +
+      `${((performance.now() - begin) / 1000).toFixed(1)} s.`;
+    canvas.setAttribute("aria-label", `Map of fates: ${text}`);
+  } catch (error) { $("map-words").textContent = error.message; }
+  $("map").disabled = false;
+  $("map-stop").disabled = true;
+};
+$("map-stop").onclick = () => many.stop();
+
+await chosen();
+document.body.dataset.ready = "yes";
+})();

@@ -1,0 +1,25 @@
+//! The page that recomputes, where a compiler for its engine is.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use crate::failure::{At as _, Failure};
+use crate::terminal::note;
+use rocking_report::lab;
+
+/// Compiles the engine, and prints where it lies.
+const BUILD: &str = "web/build";
+
+/// The page; none where `web/build` says that something is missing.
+pub fn made() -> Result<Option<Vec<u8>>, Failure> {
+    note(BUILD);
+    let built = Command::new(BUILD).stderr(Stdio::inherit()).output();
+    let built = built.at(BUILD)?;
+    if !built.status.success() {
+        note(&format!("{} is left as it is", lab::LAB));
+        return Ok(None);
+    }
+    let engine = String::from_utf8_lossy(&built.stdout).trim().to_owned();
+    let engine = fs::read(&engine).at(&engine)?;
+    Ok(Some(lab::page(&engine)?.into_bytes()))
+}

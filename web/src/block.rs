@@ -1,0 +1,353 @@
+//! A reader's own block.
+
+use std::error::Error;
+use std::mem::take;
+
+use rocking::excitation::{NormalisedRecord, Pulse, PulseKind, ScaledRecord};
+use rocking::ida::{self, Analysis, Grid, Overturned};
+use rocking::integrator::{
+    Certified, Certify, Model, Response, Solver, certify, uplift_threshold,
+};
+use rocking::record::{Accelerogram, ReadOptions, read_all};
+use rocking::units::AccelerationUnit;
+use rocking::{Block, Excitation, Observe, Restitution, respond};
+use rocking_surrogate::{SurfaceFragility, Surrogate};
+use serde::{Deserialize, Serialize};
+
+use crate::bits::Bits;
+
+type Answer<T> = Result<T, Box<dyn Error>>;
+
+/// Standard gravity, m/s2.
+const GRAVITY_M_S2: f64 = rocking::units::STANDARD_GRAVITY_M_S2;
+
+/// A block by its two parameters, or by its lengths.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Shape {
+    Parameters { alpha_rad: f64, p_rad_s: f64 },
+    Lengths { width_m: f64, height_m: f64 },
+}
+
+impl Shape {
+    fn block(&self) -> Answer<Block> {
+        Ok(match *self {
+            Self::Parameters { alpha_rad, p_rad_s } => {
+                Block::try_new(alpha_rad, p_rad_s)?
+            }
+            Self::Lengths { width_m, height_m } => {
+                Block::from_dimensions(width_m, height_m, GRAVITY_M_S2)?
+            }
+        })
+    }
+}
+
+/// What moves the ground, before it is scaled.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Ground {
+    OneSine { omega_rad_s: f64 },
+    HalfSine { omega_rad_s: f64 },
+    OneCosine { omega_rad_s: f64 },
+    Rectangle { duration_s: f64 },
+    Ricker { period_s: f64 },
+    Record { dt_s: f64, samples_g: Vec<f64> },
+}
+
+/// A record file as a page reads it, and what the caller knows of it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    name: String,
+    text: String,
+    dt_s: Option<f64>,
+    unit: Option<String>,
+}
+
+/// A component of a record.
+#[derive(Serialize)]
+pub struct Component {
+    name: String,
+    dt_s: f64,
+    pga_g: f64,
+    samples_g: Vec<f64>,
+}
+
+impl Component {
+    fn of(motion: &Accelerogram) -> Self {
+        Self {
+            name: motion.name().to_owned(),
+            dt_s: motion.dt_s(),
+            pga_g: motion.pga_g(),
+            samples_g: motion.samples_g().to_vec(),
+        }
+    }
+}
+
+/// The components of a file, by the readers of the core.
+pub fn read(file: &File) -> Answer<Vec<Component>> {
+    let unit = file.unit.as_deref().map(|unit| {
+        AccelerationUnit::parse(unit).ok_or_else(|| format!("unit {unit}"))
+    });
+    let unit = unit.transpose()?;
+    let options =
+        ReadOptions { dt_s: file.dt_s, unit, ..ReadOptions::default() };
+    let records = read_all(&file.name, file.text.as_bytes(), &options)?;
+    Ok(records.iter().map(|r| Component::of(&r.accelerogram)).collect())
+}
+
+/// A block, its ground, and how strongly it moves.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    block: Shape,
+    eta: f64,
+    ground: Ground,
+    /// PGA/(g tan alpha); none leaves a record as it is.
+    intensity: Option<f64>,
+}
+
+enum Motion {
+    Pulse(Pulse),
+    Record(NormalisedRecord),
+}
+
+impl Motion {
+    fn record(&self) -> Answer<&NormalisedRecord> {
+        match self {
+            Self::Record(record) => Ok(record),
+            Self::Pulse(_) => Err("an IDA needs a record".into()),
+        }
+    }
+}
+
+/// The embedded pulse-type motions, first components: those of the study.
+pub fn motions() -> Answer<Vec<Component>> {
+    let pairs = rocking_synthesis::pulse()?;
+    Ok(pairs.iter().map(|pair| Component::of(&pair.components[0])).collect())
+}
+
+impl Ground {
+    fn motion(&self) -> Answer<Motion> {
+        let amplitude = 1.0;
+        let pulse = match *self {
+            Self::OneSine { omega_rad_s } => {
+                PulseKind::OneSine { amplitude, omega_rad_s }
+            }
+            Self::HalfSine { omega_rad_s } => {
+                PulseKind::HalfSine { amplitude, omega_rad_s }
+            }
+            Self::OneCosine { omega_rad_s } => {
+                PulseKind::OneCosine { amplitude, omega_rad_s }
+            }
+            Self::Rectangle { duration_s } => {
+                PulseKind::Rectangle { amplitude, duration_s }
+            }
+            Self::Ricker { period_s } => {
+                let cycles = 2.0;
+                PulseKind::RickerSymmetric { amplitude, period_s, cycles }
+            }
+            Self::Record { dt_s, ref samples_g } => {
+                let own =
+                    Accelerogram::try_new("ground", dt_s, samples_g.clone())?;
+                return Ok(Motion::Record(NormalisedRecord::new(&own)));
+            }
+        };
+        Ok(Motion::Pulse(Pulse::try_new(pulse)?))
+    }
+}
+
+/// A response and how sure it is.
+#[derive(Serialize)]
+pub struct Responded {
+    alpha_rad: f64,
+    p_rad_s: f64,
+    width_m: f64,
+    height_m: f64,
+    pga_g: f64,
+    intensity: f64,
+    bits: String,
+    outcome: &'static str,
+    response: Response,
+    certified: Certified,
+    interval_s: f64,
+    /// Rotation over alpha, and acceleration of the ground over g, at each
+    /// interval.
+    ratio: Vec<f64>,
+    ground_g: Vec<f64>,
+}
+
+/// An IDA curve.
+#[derive(Serialize)]
+pub struct Curve {
+    /// Intensity and demand (peak |theta|/alpha) of each standing analysis.
+    points: Vec<[f64; 2]>,
+    /// Intensity of the first overturning, bisected.
+    overturning: Option<f64>,
+    analyses: u64,
+    bits: String,
+}
+
+/// Fates: a row of outcomes for each frequency parameter.
+#[derive(Serialize)]
+pub struct Fates {
+    rows: Vec<Vec<&'static str>>,
+    peaks: Vec<Vec<f64>>,
+    bits: String,
+}
+
+impl Scene {
+    /// Runs `work` on the scene of a block at an intensity.
+    fn at<T>(
+        &self,
+        block: Block,
+        motion: &Motion,
+        intensity: Option<f64>,
+        work: impl FnOnce(&rocking::Scene<'_>, f64) -> Answer<T>,
+    ) -> Answer<T> {
+        let restitution = Restitution::constant(self.eta)?;
+        let onset_g = uplift_threshold(&block, Model::Nonlinear);
+        let pga_g = intensity.map(|intensity| intensity * onset_g);
+        let pulse;
+        let (excitation, pga_g) = match motion {
+            Motion::Pulse(unit) => {
+                let pga_g = pga_g.ok_or("a pulse needs an intensity")?;
+                pulse = unit.with_pga(pga_g)?;
+                (Excitation::Pulse(&pulse), pga_g)
+            }
+            Motion::Record(record) => {
+                let pga_g = pga_g.unwrap_or(record.pga_g());
+                let scaled = ScaledRecord::to_pga(record, pga_g);
+                (Excitation::Record(scaled), pga_g)
+            }
+        };
+        let scene = rocking::Scene::new(block, restitution, excitation);
+        work(&scene, pga_g)
+    }
+
+    /// The response of the block, its fate in the precision that it needs.
+    pub fn response(&self) -> Answer<Responded> {
+        let block = self.block.block()?;
+        let motion = self.ground.motion()?;
+        let lengths = block.dimensions(GRAVITY_M_S2)?;
+        let onset_g = uplift_threshold(&block, Model::Nonlinear);
+        self.at(block, &motion, self.intensity, |scene, pga_g| {
+            let interval_s = match &motion {
+                Motion::Record(record) => record.dt_s(),
+                Motion::Pulse(_) => 0.01,
+            };
+            let observe = Observe {
+                events: true,
+                accuracy: true,
+                history_interval_s: Some(interval_s),
+                ..Observe::default()
+            };
+            let mut response = respond(scene, &observe)?;
+            let certified = certify(scene, &Certify::default())?;
+            let history = take(&mut response.history);
+            let ratio: Vec<f64> = history
+                .iter()
+                .map(|point| point.rotation_rad / block.slenderness_rad())
+                .collect();
+            let bits = Bits::default()
+                .add("peak", &[response.peak_ratio])
+                .add("ratio", &ratio)
+                .hex();
+            let ground_g = history.iter().enumerate();
+            let ground_g = ground_g.map(|(k, point)| match &motion {
+                Motion::Record(record) => {
+                    record.samples().get(k).map_or(0.0, |a| a * pga_g)
+                }
+                Motion::Pulse(pulse) => {
+                    pulse.acceleration_g(point.time_s) * pga_g
+                }
+            });
+            Ok(Responded {
+                alpha_rad: block.slenderness_rad(),
+                p_rad_s: block.frequency_rad_s(),
+                width_m: lengths.width_m,
+                height_m: lengths.height_m,
+                pga_g,
+                intensity: pga_g / onset_g,
+                bits,
+                outcome: response.outcome_name(),
+                interval_s,
+                ratio,
+                ground_g: ground_g.collect(),
+                certified,
+                response,
+            })
+        })
+    }
+
+    /// The IDA of the record: levels of a tenth of the uplift threshold, the
+    /// first overturning bisected.
+    pub fn ida(&self) -> Answer<Curve> {
+        let block = self.block.block()?;
+        let motion = self.ground.motion()?;
+        let restitution = Restitution::constant(self.eta)?;
+        let analysis = Analysis {
+            grid: Grid::Im { step: 0.1 },
+            refine: Some(ida::REFINEMENT),
+            ..Analysis::paper(block, restitution)
+        };
+        let curve = ida::curve(motion.record()?, &analysis)?;
+        let standing = curve.response(Overturned::Refined)?;
+        let points: Vec<[f64; 2]> =
+            standing.vertices().map(|(im, edp)| [im, edp]).collect();
+        let overturning = standing.overturning_im();
+        let bits = Bits::default()
+            .add("points", points.as_flattened())
+            .add("overturning", &[overturning.unwrap_or(f64::INFINITY)])
+            .hex();
+        Ok(Curve { points, overturning, analyses: curve.analyses, bits })
+    }
+
+    /// What becomes of blocks of the same slenderness and other sizes, at
+    /// other intensities of the same motion.
+    pub fn fates(
+        &self,
+        intensities: &[f64],
+        p_rad_s: &[f64],
+    ) -> Answer<Fates> {
+        let alpha_rad = self.block.block()?.slenderness_rad();
+        let motion = self.ground.motion()?;
+        let solver = Solver { peak_only: true, ..Solver::default() };
+        let observe = Observe { accuracy: true, ..Observe::default() };
+        let (mut rows, mut peaks) = (Vec::new(), Vec::new());
+        let mut bits = Bits::default();
+        for p_rad_s in p_rad_s {
+            let block = Block::try_new(alpha_rad, *p_rad_s)?;
+            let (mut fates, mut row) = (Vec::new(), Vec::new());
+            for intensity in intensities {
+                let found =
+                    self.at(block, &motion, Some(*intensity), |scene, _| {
+                        Ok(solver.respond(scene, &observe)?)
+                    })?;
+                fates.push(found.outcome_name());
+                row.push(found.peak_ratio);
+            }
+            bits = bits.add("peaks", &row);
+            rows.push(fates);
+            peaks.push(row);
+        }
+        Ok(Fates { rows, peaks, bits: bits.hex() })
+    }
+}
+
+/// The surrogate's answer, and the probability at the intensity.
+#[derive(Serialize)]
+pub struct Overturning {
+    intensity: f64,
+    /// Suite and probability.
+    probability: Vec<(&'static str, f64)>,
+    fragility: SurfaceFragility,
+}
+
+/// Overturning fragilities of the block by the surrogate.
+pub fn fragility(shape: &Shape, intensity: f64) -> Answer<Overturning> {
+    let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
+    let own = fragility.suites.iter();
+    let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));
+    Ok(Overturning { intensity, probability: own.collect(), fragility })
+}

@@ -16,7 +16,7 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 use crate::number::lanes::Lanes;
 use crate::number::lanes::Simd;
 
@@ -105,7 +105,8 @@ impl Isa {
     #[must_use]
     pub fn is_wide(self) -> bool {
         // Without fused operations nothing is gained by lanes.
-        cfg!(not(target_arch = "x86_64")) || self.0 != Level::Baseline
+        cfg!(not(any(target_arch = "x86_64", target_family = "wasm")))
+            || self.0 != Level::Baseline
     }
 
     /// Runs `work` on one number at a time with this level's instructions.
@@ -125,9 +126,9 @@ impl Isa {
     #[inline]
     pub(crate) fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
-            #[cfg(not(target_arch = "x86_64"))]
+            #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
             Level::Baseline => Some(work.run::<Lanes>()),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(any(target_arch = "x86_64", target_family = "wasm"))]
             Level::Baseline => None,
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of this level exists only where detection

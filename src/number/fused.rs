@@ -15,13 +15,16 @@ const LARGEST: f64 = f64::from_bits((1000 + 1023) << 52);
 const LEAST: f64 = f64::from_bits((1023 - 960) << 52);
 
 /// `a * b + c` with one rounding, the bits of [`f64::mul_add`].
-#[inline(always)]
+///
+/// It stays a function: inlined, it would make a module four times as large.
+#[inline(never)]
 #[cfg_attr(not(target_family = "wasm"), allow(dead_code))]
 pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let product = a * b;
     let factors = a.abs() < LARGEST_FACTOR && b.abs() < LARGEST_FACTOR;
     let size = product.abs();
-    if factors && size >= LEAST && size < LARGEST && c.abs() < LARGEST {
+    let fits = (LEAST..LARGEST).contains(&size) && c.abs() < LARGEST;
+    if factors && fits {
         return odd(a, b, c, product);
     }
     // Nothing is rounded before the sum where a factor is zero.

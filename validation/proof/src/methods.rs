@@ -23,6 +23,7 @@ mod points;
 mod precise;
 mod response;
 mod schemes;
+#[cfg(not(target_family = "wasm"))]
 mod scored;
 mod sines;
 mod solution;
@@ -120,7 +121,10 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),
+    // A page leaves out the data set of the score.
+    #[cfg(not(target_family = "wasm"))]
     ("certified-values", scored::certified),
+    #[cfg(not(target_family = "wasm"))]
     ("diagnosis", scored::diagnosis),
     ("floor", floor::motion),
     ("intensity", intensity::measures),

@@ -81,14 +81,18 @@ fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
     };
     let rms_m_s = GRAVITY_M_S2 * f64::sqrt(squares / count);
     Ok(Motion {
-        pga: m.pga_g.ln(),
-        pgv: m.pgv_m_s.ln(),
-        pgd: m.pgd_m.ln(),
-        d5_75: m.significant_duration_5_75_s.ln(),
-        mean_period: m.mean_period_s.ok_or("no mean period")?.ln(),
+        pga: libm::log(m.pga_g),
+        pgv: libm::log(m.pgv_m_s),
+        pgd: libm::log(m.pgd_m),
+        d5_75: libm::log(m.significant_duration_5_75_s),
+        mean_period: libm::log(m.mean_period_s.ok_or("no mean period")?),
         peak_factor: m.pgv_m_s / rms_m_s,
         delay: (place(&velocity) - place(a)) / m.significant_duration_5_75_s,
-        spectrum: m.spectral_acceleration_g.iter().map(|s| s.ln()).collect(),
+        spectrum: m
+            .spectral_acceleration_g
+            .iter()
+            .map(|sa| libm::log(*sa))
+            .collect(),
     })
 }
 
@@ -118,18 +122,15 @@ fn print<'a>(
     let row = |label: &str, of: &dyn Fn(&Motion) -> f64| {
         let own = all(of);
         let ratio = all(&|m| of(m) - m.pgv);
-        let ([mean, sd], [ratio_mean, ratio_sd]) =
-            (moments(&own), moments(&ratio));
+        let ([mean, sd], [_, ratio_sd]) = (moments(&own), moments(&ratio));
         println!(
             "{label:>10} {:9.4} {sd:7.3} {:9.4} {ratio_sd:7.3} {:8.3} \
              {:8.3} {:8.3}",
-            mean.exp(),
-            median(&ratio).exp(),
+            libm::exp(mean),
+            libm::exp(median(&ratio)),
             correlation(&own, &pga),
             correlation(&own, &pgv),
-            ratio.iter().fold(0.0, |s, x| {
-                s + ((x - ratio_mean) / ratio_sd).powi(3)
-            }) / ratio.len() as f64,
+            skewness(&ratio),
         );
     };
     row("PGA", &|m| m.pga);
@@ -157,8 +158,14 @@ fn print<'a>(
 fn moments(values: &[f64]) -> [f64; 2] {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+    let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     [mean, (squares / (n - 1.0)).sqrt()]
+}
+
+fn skewness(values: &[f64]) -> f64 {
+    let [mean, sd] = moments(values);
+    let scores = values.iter().map(|x| (x - mean) / sd);
+    scores.map(|z| z * z * z).sum::<f64>() / values.len() as f64
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -12,6 +12,7 @@ use std::path::Path;
 
 use rocking::intensity::{Measures, Settings};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
+use rocking_synthesis::SuiteKind;
 
 /// Periods of the response spectrum, in s.
 const PERIODS_S: [f64; 16] = [
@@ -43,11 +44,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         print(path, suite.study_components().map(|m| &m.accelerogram))?;
     }
     if paths.is_empty() {
-        for (name, pairs) in [
-            ("embedded ordinary", rocking_synthesis::ordinary()?),
-            ("embedded pulse-type", rocking_synthesis::pulse()?),
-        ] {
-            print(name, pairs.iter().map(|pair| &pair.components[0]))?;
+        for (kind, pairs) in SuiteKind::BOTH
+            .into_iter()
+            .zip([rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?])
+        {
+            let name = format!("embedded {kind}");
+            print(&name, pairs.iter().map(|pair| &pair.components[0]))?;
+            println!("adjusted to");
+            for (name, [mean, sd, with_pga, with_pgv]) in
+                rocking_synthesis::adjusted_to(kind)
+            {
+                println!(
+                    "{name:>10} {mean:9.4} {sd:7.3} {:17} {with_pga:8.3} \
+                     {with_pgv:8.3}",
+                    ""
+                );
+            }
+            println!();
         }
     }
     Ok(())

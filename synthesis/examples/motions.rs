@@ -12,6 +12,7 @@ use std::path::Path;
 
 use rocking::intensity::{Measures, Settings};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
+use rocking_synthesis::SuiteKind;
 
 /// Periods of the response spectrum, in s.
 const PERIODS_S: [f64; 16] = [
@@ -43,11 +44,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         print(path, suite.study_components().map(|m| &m.accelerogram))?;
     }
     if paths.is_empty() {
-        for (name, pairs) in [
-            ("embedded ordinary", rocking_synthesis::ordinary()?),
-            ("embedded pulse-type", rocking_synthesis::pulse()?),
-        ] {
-            print(name, pairs.iter().map(|pair| &pair.components[0]))?;
+        for (kind, pairs) in SuiteKind::BOTH
+            .into_iter()
+            .zip([rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?])
+        {
+            let name = format!("embedded {kind}");
+            print(&name, pairs.iter().map(|pair| &pair.components[0]))?;
+            println!("adjusted to");
+            for (name, [mean, sd, with_pga, with_pgv]) in
+                rocking_synthesis::adjusted_to(kind)
+            {
+                println!(
+                    "{name:>10} {mean:9.4} {sd:7.3} {:17} {with_pga:8.3} \
+                     {with_pgv:8.3}",
+                    ""
+                );
+            }
+            println!();
         }
     }
     Ok(())
@@ -91,7 +104,7 @@ fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
         spectrum: m
             .spectral_acceleration_g
             .iter()
-            .map(|s| libm::log(*s))
+            .map(|sa| libm::log(*sa))
             .collect(),
     })
 }
@@ -122,8 +135,7 @@ fn print<'a>(
     let row = |label: &str, of: &dyn Fn(&Motion) -> f64| {
         let own = all(of);
         let ratio = all(&|m| of(m) - m.pgv);
-        let ([mean, sd], [ratio_mean, ratio_sd]) =
-            (moments(&own), moments(&ratio));
+        let ([mean, sd], [_, ratio_sd]) = (moments(&own), moments(&ratio));
         println!(
             "{label:>10} {:9.4} {sd:7.3} {:9.4} {ratio_sd:7.3} {:8.3} \
              {:8.3} {:8.3}",
@@ -131,10 +143,7 @@ fn print<'a>(
             libm::exp(median(&ratio)),
             correlation(&own, &pga),
             correlation(&own, &pgv),
-            ratio.iter().fold(0.0, |s, x| {
-                let z = (x - ratio_mean) / ratio_sd;
-                s + z * z * z
-            }) / ratio.len() as f64,
+            skewness(&ratio),
         );
     };
     row("PGA", &|m| m.pga);
@@ -164,6 +173,12 @@ fn moments(values: &[f64]) -> [f64; 2] {
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     [mean, (squares / (n - 1.0)).sqrt()]
+}
+
+fn skewness(values: &[f64]) -> f64 {
+    let [mean, sd] = moments(values);
+    let scores = values.iter().map(|x| (x - mean) / sd);
+    scores.map(|z| z * z * z).sum::<f64>() / values.len() as f64
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -104,5 +104,21 @@ pub fn pulse() -> Result<Vec<Pair>, SynthesisError> {
     suites::pairs(&suites::PULSE)
 }
 
+/// What the study components of a suite are adjusted to: name of each
+/// quantity; its geometric mean in g, m/s or s; the standard deviation of its
+/// logarithm; the correlation of that with those of PGA and of PGV.
+#[must_use]
+pub fn adjusted_to(kind: SuiteKind) -> Vec<(String, [f64; 4])> {
+    let suite = match kind {
+        SuiteKind::Ordinary => suites::ORDINARY,
+        SuiteKind::PulseType => suites::PULSE,
+    };
+    let spectrum = attenuation::PERIODS_S[1..].iter();
+    let names = std::iter::once("PGA".to_owned())
+        .chain(spectrum.map(|period| format!("SA {period} s")))
+        .chain(["PGV", "D5-75"].map(str::to_owned));
+    names.zip(*suite.recorded).collect()
+}
+
 #[cfg(test)]
 mod tests;

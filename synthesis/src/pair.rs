@@ -11,8 +11,7 @@ pub(crate) const GRAVITY_M_S2: f64 = 9.80665;
 /// Least peak ground acceleration of a component, in g.
 pub(crate) const LEAST_PGA_G: f64 = 0.14;
 
-/// How often the draws of a pair are made before the suite is refused: a
-/// quarter of the pairs needs a second, and none of them ten.
+/// How often a pair is drawn before the suite is refused.
 pub(crate) const MOST_DRAWS: u64 = 100;
 
 /// Why a suite cannot be made.
@@ -22,7 +21,7 @@ pub enum SynthesisError {
     /// Samples that are no record.
     #[error(transparent)]
     Record(#[from] AccelerogramError),
-    /// No draw of a pair is strong enough, or within the limits of the model.
+    /// No draw of a pair is strong enough.
     #[error(
         "streams {suite}, pair {pair}: no motion with PGA above 0.14 g in \
          {MOST_DRAWS} draws"

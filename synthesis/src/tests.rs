@@ -1,7 +1,6 @@
 //! Tests of the embedded suites as wholes.
 
 use crate::pair::Pair;
-use crate::{ordinary, pulse};
 
 fn check(pairs: &[Pair], count: usize, name: &str) {
     assert_eq!(pairs.len(), count);
@@ -30,8 +29,8 @@ fn check(pairs: &[Pair], count: usize, name: &str) {
 
 #[test]
 fn suites_have_their_size_names_peaks_and_rest() {
-    check(&ordinary().expect("suite"), 86, "ordinary");
-    check(&pulse().expect("suite"), 44, "pulse");
+    check(&crate::ordinary().expect("suite"), 86, "ordinary");
+    check(&crate::pulse().expect("suite"), 44, "pulse");
 }
 
 #[test]
@@ -42,7 +41,8 @@ fn suites_are_the_same_for_any_number_of_threads() {
             .build()
             .expect("pool")
             .install(|| {
-                [ordinary(), pulse()].map(|suite| suite.expect("suite"))
+                [crate::ordinary(), crate::pulse()]
+                    .map(|suite| suite.expect("suite"))
             })
     };
     assert_eq!(with(1), with(3));

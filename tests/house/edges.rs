@@ -57,10 +57,10 @@ const SYNTHESIS: Edges = "
     peaks attenuation noise pair
     pulse draws noise pair special
     special
-    suites moments pair targets waves
+    suites attenuation moments pair peaks targets waves
     targets attenuation draws moments pair peaks pulse
-    tests pair suites
-    waves attenuation draws noise pair peaks pulse special targets
+    tests pair
+    waves attenuation draws noise pair peaks special targets
 ";
 
 /// The modules that all crates of the harness share. Between those crates the

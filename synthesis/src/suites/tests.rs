@@ -250,8 +250,8 @@ fn the_fast_peaks_agree_with_the_core_from_below() {
     // at 0.1 s. An oscillator without damping would be high.
     let (pairs, measured) = &MADE[0];
     let samples = pairs[0].components[0].samples_g();
-    for (k, expected) in measured[0].iter().enumerate().take(PGV + 1) {
-        let ratio = Peak::of(k).found(samples).size / libm::exp(*expected);
+    for (k, ln) in measured[0].iter().enumerate().take(PGV + 1) {
+        let ratio = Peak::of(k).found(samples).size / libm::exp(*ln);
         assert!((0.95..=1.001).contains(&ratio), "{k}: {ratio}");
     }
 }

@@ -22,9 +22,8 @@ const LEAST: f64 = f64::from_bits((1023 - 960) << 52);
 pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let product = a * b;
     let factors = a.abs() < LARGEST_FACTOR && b.abs() < LARGEST_FACTOR;
-    let size = product.abs();
-    let fits = (LEAST..LARGEST).contains(&size) && c.abs() < LARGEST;
-    if factors && fits {
+    let product_fits = (LEAST..LARGEST).contains(&product.abs());
+    if factors && product_fits && c.abs() < LARGEST {
         return odd(a, b, c, product);
     }
     // Nothing is rounded before the sum where a factor is zero.

@@ -35,6 +35,7 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
     ReportInput {
         title: "Rocking: what was verified, what was found".into(),
         intro: vec!["Free-standing blocks under 86 + 44 records".into()],
+        lab: false,
         signatures: vec![
             ("Issued".into(), Some("a day".into())),
             ("Approved by".into(), None),

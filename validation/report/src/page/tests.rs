@@ -48,7 +48,6 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
         }],
         otherwise: Some("Other motions say the same.".into()),
         first: Vec::new(),
-        lab: false,
         scope: Chapter {
             text: vec!["Made-up numbers.".into()],
             ..Chapter::titled("scope", "Scope")

@@ -1,10 +1,11 @@
 //! Tests of the embedded suites as wholes.
 
 use crate::pair::Pair;
+use crate::suites::{ORDINARY, PULSE, pairs};
 
-fn check(pairs: &[Pair], count: usize, name: &str) {
-    assert_eq!(pairs.len(), count);
-    for (i, pair) in pairs.iter().enumerate() {
+fn check(made: &[Pair], count: usize, name: &str) {
+    assert_eq!(made.len(), count);
+    for (i, pair) in made.iter().enumerate() {
         for (record, letter) in pair.components.iter().zip(['a', 'b']) {
             let expected = format!("{name}-{:02}-{letter}", i + 1);
             assert_eq!(record.name(), expected);
@@ -29,8 +30,8 @@ fn check(pairs: &[Pair], count: usize, name: &str) {
 
 #[test]
 fn suites_have_their_size_names_peaks_and_rest() {
-    check(&crate::ordinary().expect("suite"), 86, "ordinary");
-    check(&crate::pulse().expect("suite"), 44, "pulse");
+    check(&pairs(&ORDINARY).expect("suite"), 86, "ordinary");
+    check(&pairs(&PULSE).expect("suite"), 44, "pulse");
 }
 
 #[test]
@@ -41,8 +42,7 @@ fn suites_are_the_same_for_any_number_of_threads() {
             .build()
             .expect("pool")
             .install(|| {
-                [crate::ordinary(), crate::pulse()]
-                    .map(|suite| suite.expect("suite"))
+                [&ORDINARY, &PULSE].map(|suite| pairs(suite).expect("suite"))
             })
     };
     assert_eq!(with(1), with(3));

@@ -59,7 +59,7 @@ const SYNTHESIS: Edges = "
     special
     suites attenuation moments pair peaks targets waves
     targets attenuation draws moments pair peaks pulse
-    tests pair
+    tests pair suites
     waves attenuation draws noise pair peaks special targets
 ";
 

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{block, case};
+use crate::block;
+use crate::case;
 
 /// What a page can ask.
 #[derive(Debug, Deserialize)]

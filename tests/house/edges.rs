@@ -138,10 +138,11 @@ const REPORT: Edges = "
 
 /// The modules of the engine of a page.
 const WEB: Edges = "
-    abi
+    abi question
     bits
     block bits
     case bits
+    question block case
 ";
 
 /// The modules of the study: results, then fits, stripes and ties, then

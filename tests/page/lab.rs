@@ -6,7 +6,7 @@ use std::fs;
 use rocking_report::lab::{LAB, engine_of, page};
 use serde_json::{Value, json};
 
-use super::{AXE, SCHEMES, WIDTHS_PX, axe, problems, root, started};
+use super::{AXE, CHECKS, SCHEMES, WIDTHS_PX, axe, lines, root, started};
 
 /// Waits until a script says that something is so.
 fn until(what: &str) -> String {
@@ -40,7 +40,10 @@ fn the_laboratory_is_readable() {
     let mut found = Vec::new();
     for width_px in WIDTHS_PX {
         for scheme in SCHEMES {
-            let here = problems(&mut browser, &path, width_px, scheme);
+            browser.open(&path, width_px, scheme);
+            browser.evaluate(&until("document.body.dataset.ready"));
+            let mut here = lines(&browser.evaluate(CHECKS)["problems"]);
+            here.extend(browser.events());
             found.extend(
                 here.iter().map(|p| format!("{width_px} px, {scheme}: {p}")),
             );

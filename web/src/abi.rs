@@ -27,7 +27,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
     let question = QUESTION.take();
-    let found = crate::answer(&String::from_utf8_lossy(&question));
+    let found = crate::question::answer(&String::from_utf8_lossy(&question));
     ANSWER.with_borrow_mut(|answer| {
         *answer = found;
         answer.len()

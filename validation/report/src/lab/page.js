@@ -265,7 +265,8 @@ function show(found, took_ms) {
     ["Frequency parameter p", `${found.p_rad_s} rad/s`],
     ["Width and height", `${digits(found.width_m)} m, ${digits(found.height_m)} m`],
     ["Peak ground acceleration", `${found.pga_g} g`],
-    ["Peak rotation over alpha", `${r.peak_ratio}`],
+    ["Peak rotation over alpha", c.counts_as === "overturned"
+      ? "none: the block overturns" : `${r.peak_ratio}`],
     ["Bound on its error", digits(r.error_estimate, 2)],
     ["Time of the peak in s", digits(r.peak_time_s)],
     ["Impacts", `${r.impacts.length}`],

@@ -243,8 +243,9 @@ fn short(x: f64) -> String {
 /// Evidence and gap of the input of a run on embedded suites, beside which
 /// results of recorded ones may be kept.
 fn synthetic(recorded: Option<&Findings>) -> (String, &'static str) {
-    let own = "Synthetic suites by published relations, adjusted to moments \
-               of recorded ones, with seeds and hashes under provenance";
+    let own = "Synthetic suites from published relations, adjusted to \
+               moments of PEER's motions, with seeds and hashes under \
+               provenance";
     let Some(recorded) = recorded else {
         return (
             format!("{own}."),

@@ -332,9 +332,9 @@ pub(super) fn limits(results: &Results) -> Vec<String> {
     ];
     if results.embedded() {
         out.push(
-            "The embedded suites are synthetic, from published stochastic \
-             models; they can show how the procedure works, not what \
-             recorded motions do."
+            "The embedded suites are synthetic, from published relations; \
+             they can show how the procedure works, not what recorded \
+             motions do."
                 .into(),
         );
     }

@@ -151,7 +151,10 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
     // The words in which the embedded suites are named.
     assert_eq!(own, said_of(&named("embedded synthetic suite, streams x")));
     let embedded = said_of(&Source::Embedded { streams: "x" });
-    assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
+    assert!(
+        embedded.contains("Synthetic suites from published"),
+        "{embedded}"
+    );
     assert!(embedded.contains("The embedded suites are synthetic"));
     assert!(embedded.contains("recorded motions anew"));
 }

@@ -115,7 +115,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     put(REPORTS, CASES, results.clone().into_bytes());
     put(REPORTS, DIGITS, precision.clone().into_bytes());
     let proof = Proof::from_texts(Path::new("data"), &results, precision)?;
-    let report = study::report(&[], Some(&proof))?;
+    let report = study::report(&["--out", REPORTS], Some(&proof))?;
     let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
     let findings = Findings::parse(&findings.unwrap_or_default())
         .map_err(Failure::gate)?;

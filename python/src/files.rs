@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
-use rocking::record::{
-    self, Accelerogram, ReadOptions, Remark, Suite,
-};
+use rocking::record::{self, Accelerogram, ReadOptions, Remark, Suite};
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
 use crate::given::{choose, refuse, unit};

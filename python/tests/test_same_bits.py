@@ -44,11 +44,11 @@ def test_a_response_has_the_bits_of_the_command_line(
             "--record",
             path,
             "--im",
-            1.5,
+            40,
             "--json",
         )
     )
-    found = rk.respond(rk.Block(alpha=0.2, p=3.0), record, im=1.5)
+    found = rk.respond(rk.Block(alpha=0.2, p=3.0), record, im=40)
     # JSON has no infinity: null is that of a block that overturned.
     assert said["edp"] is None and found.peak_ratio == float("inf")
     assert found.peak_time == said["peak_time_s"]

@@ -351,8 +351,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let Some(found) = found else {
             return Stage::Landed(Flight::Rest(from, since_s));
         };
-        let time = self.time(found.place);
-        self.screen = self.screen.map(|screen| screen.start(time));
+        self.screen = self.screen.map(Screen::start);
         let time_s = self.time_s(found.place);
         self.assess_first_uplift(&found, time_s);
         if !self.observes(time_s) {
@@ -456,14 +455,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             step.place = Place { piece: piece + 1, offset: N::zero() };
         }
         None
-    }
-
-    /// Time of a place of equal pieces, in 1/p.
-    #[inline(always)]
-    fn time(&self, place: Place<N>) -> N {
-        let piece = N::from_f64(place.piece as f64);
-        let length = self.forcing.length(place.piece);
-        piece.mul_add(length, place.offset)
     }
 
     pub fn time_s(&self, place: Place<N>) -> N {

@@ -104,6 +104,19 @@ impl<N: Number, const F: usize> Drive<N, F> {
     }
 }
 
+/// Derivative of u'' by u, from sine and cosine of u.
+#[inline(always)]
+pub(crate) fn curvature<N: Number, const F: usize>(
+    model: Model,
+    drive: &Drive<N, F>,
+    (sine, cosine): (N, N),
+) -> N {
+    match model {
+        Model::Nonlinear => drive.a.mul_add(cosine, drive.b * sine),
+        Model::Linearized => N::one(),
+    }
+}
+
 impl<N: Real> Dynamics<N> {
     pub fn new(
         block: &Block,

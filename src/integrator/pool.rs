@@ -294,12 +294,16 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     offset: group.offset[lane],
                 };
                 let (u, tau) = (solved.top[i], solved.turn[i]);
+                group.hand_screen(lane, slot);
                 slot.driver.raise_peak(u, place, tau);
                 group.peak[lane] = slot.driver.peak();
                 group.exit_from[lane] = slot.driver.exit_from();
             }
             group.u[lane] = solved.u[i];
             group.w[lane] = solved.w[i];
+            group.uu[lane] = solved.uu[i];
+            group.uw[lane] = solved.uw[i];
+            group.ww[lane] = solved.ww[i];
             group.here[lane] = solved.here[i];
             group.offset[lane] = solved.offset[i];
             group.amplitude[lane] = solved.amplitude[i];
@@ -307,13 +311,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                let [began, top_speed, uu, uw, ww, doubt] = &solved.screen;
-                group.began[lane] = began[i];
-                group.top_speed[lane] = top_speed[i];
-                group.uu[lane] = uu[i];
-                group.uw[lane] = uw[i];
-                group.ww[lane] = ww[i];
-                group.doubt[lane] = doubt[i];
+                group.doubt[lane] = solved.doubt[i];
                 let endless = group.impacts[lane] > group.most[lane];
                 if (solved.rested | solved.settled) & bit != 0 || endless {
                     let Some(slot) = &mut self.slots[id.slot()] else {
@@ -330,7 +328,6 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 }
                 group.side[lane] = group.side[lane].flipped();
             } else {
-                group.top_speed[lane] = solved.top_speed[i];
                 group.next[lane] += 1;
             }
             group.resume(lane);

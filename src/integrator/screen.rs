@@ -29,30 +29,35 @@ pub(crate) const DOUBTFUL: f64 = 1e-4;
 /// One above it has a larger margin than the error itself is allowed.
 pub(crate) const PROPAGATION: f64 = 0.01;
 
-/// Squarings in which the exponential of a flight's length is made.
-const SQUARINGS: u32 = 5;
+/// Share of the slenderness angle that the error of a peak is held against.
+const PEAK: f64 = 1e-3;
 
 /// The estimate of a run, in units of 1/p.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Screen<N> {
-    /// When the flight under way began.
-    pub began: N,
-    /// Largest speed in it so far, at the ends of its steps.
-    pub top_speed: N,
-    /// Covariance of the error of (u, w) there.
+    /// Covariance of the error of (u, w).
     pub uu: N,
     pub uw: N,
     pub ww: N,
     /// Sum of the squares of error over margin.
     pub doubt: N,
+    /// Variance of the error of the largest peak.
+    pub peak: N,
+}
+
+/// A step in flight, as the estimate sees it.
+pub(crate) struct Flown<N> {
+    /// Its length.
+    pub tau: N,
+    /// Derivative of u'' by u at its start.
+    pub curvature: N,
+    /// Velocity at its end.
+    pub w: N,
+    pub alpha: N,
 }
 
 /// An impact, as the estimate sees it.
 pub(crate) struct Landing<N> {
-    /// When.
-    pub time: N,
-    /// One over the length of a step.
-    pub inverse: N,
     /// Speed before it, and the accelerations before and after it.
     pub speed: N,
     pub before: N,
@@ -65,62 +70,52 @@ impl<N: Number> Screen<N> {
     /// Of a block at rest.
     pub fn at_rest() -> Self {
         let zero = N::zero();
-        Self {
-            began: zero,
-            top_speed: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
-            doubt: zero,
-        }
+        Self { uu: zero, uw: zero, ww: zero, doubt: zero, peak: zero }
     }
 
-    /// Lifts at a time.
+    /// Lifts.
     #[inline(always)]
-    pub fn start(self, time: N) -> Self {
-        let rest = Self::at_rest();
-        Self { began: time, doubt: self.doubt, ..rest }
+    pub fn start(self) -> Self {
+        let Self { doubt, peak, .. } = self;
+        Self { doubt, peak, ..Self::at_rest() }
     }
 
-    /// Flies to a time, in steps of a length.
+    /// Flies a step: half of its length at the velocity that it has, the
+    /// push of all of it, and the other half.
     ///
-    /// A step rounds the velocity as its largest speed goes, not as that of
-    /// the landing: a block that has moved fast may graze its base. And the
-    /// whole flight rounds the acceleration, which is a difference of terms
-    /// as large as alpha, however slow the block is.
+    /// The step rounds the velocity as it goes, and the acceleration, which
+    /// is a difference of terms as large as alpha, however slow the block is.
     #[inline(always)]
-    pub fn fly(self, time: N, inverse: N, alpha: N) -> Self {
-        let Self { began, top_speed, uu, uw, ww, doubt } = self;
-        let tau = time - began;
-        let growth = growth(tau);
-        let decay = N::one() / growth;
-        let half = N::ratio(1, 2);
-        let (c, s) = (half * (growth + decay), half * (growth - decay));
+    pub fn fly(self, step: &Flown<N>) -> Self {
+        let Self { uu, uw, ww, .. } = self;
+        let half = step.tau * N::ratio(1, 2);
+        let push = step.curvature * step.tau;
+        let met = half.mul_add(ww, uw);
+        let uu = half.mul_add(uw + met, uu);
+        let left = push.mul_add(uu, met);
+        let ww = push.mul_add(met + left, ww);
+        let uw = half.mul_add(ww, left);
+        let uu = half.mul_add(left + uw, uu);
         let roundoff = N::from_f64(0.5 * f64::EPSILON);
-        let (each, whole) = (roundoff * top_speed, roundoff * alpha * tau);
-        let steps = tau.mul_add(inverse, N::one());
-        let rounded = (each * each).mul_add(steps, whole * whole);
-        let ww = ww + rounded;
-        // In parts that are as small as the flight is short.
-        let (cu, su) = (c.mul_add(uu, s * uw), s.mul_add(uu, c * uw));
-        let (cw, sw) = (c.mul_add(uw, s * ww), s.mul_add(uw, c * ww));
-        Self {
-            began: time,
-            top_speed,
-            uu: c.mul_add(cu, s * cw),
-            uw: c.mul_add(cw, s * cu),
-            ww: s.mul_add(su, c * sw),
-            doubt,
-        }
+        let (each, whole) = (roundoff * step.w, roundoff * step.alpha);
+        let whole = whole * step.tau;
+        let ww = each.mul_add(each, whole.mul_add(whole, ww));
+        Self { uu, uw, ww, ..self }
+    }
+
+    /// The largest peak so far, a time after the start of a step.
+    #[inline(always)]
+    pub fn top(self, tau: N) -> Self {
+        let drift = tau.mul_add(self.ww, self.uw + self.uw);
+        Self { peak: tau.mul_add(drift, self.uu), ..self }
     }
 
     /// An impact: its speed against the error of that, the hop after it
     /// against the error of its time, and whether errors are small.
     #[inline(always)]
     pub fn land(self, at: &Landing<N>) -> Self {
-        let Landing { time, inverse, speed, before, after, eta, alpha } = *at;
-        let there = self.fly(time, inverse, alpha);
-        let Self { uu, uw, ww, doubt, .. } = there;
+        let Landing { speed, before, after, eta, alpha } = *at;
+        let Self { uu, uw, ww, doubt, .. } = self;
         // One division for all three.
         let all = N::one() / (speed * alpha * eta);
         let (slow, slender) = (all * (alpha * eta), all * (speed * eta));
@@ -139,12 +134,11 @@ impl<N: Number> Screen<N> {
         let (kept, mixed) = (eta * eta, eta * shear);
         let after_ww = mixed.mul_add(uw + uw, kept * ww);
         Self {
-            began: time,
-            top_speed: eta * speed,
             uu: kept * uu,
             uw: mixed.mul_add(uu, kept * uw),
             ww: (shear * shear).mul_add(uu, after_ww),
             doubt,
+            ..self
         }
     }
 
@@ -175,28 +169,13 @@ impl<N: Real> Screen<N> {
         !(self.doubt < N::from_f64(2.0 * DOUBTFUL * DOUBTFUL))
     }
 
-    /// Takes in the velocity at the end of a step.
+    /// Adds that the largest peak has an error.
     #[inline(always)]
-    pub fn pass(&mut self, w: N) {
-        let speed = w.abs();
-        if speed > self.top_speed {
-            self.top_speed = speed;
-        }
+    pub fn stand(self, alpha: N) -> Self {
+        let room = N::from_f64(1.0 / PEAK) / alpha;
+        let doubt = (room * room).mul_add(self.peak, self.doubt);
+        Self { doubt, ..self }
     }
-}
-
-/// Exponential, to a few percent up to ten, and no less than half of it up
-/// to thirty.
-#[inline(always)]
-fn growth<N: Number>(x: N) -> N {
-    let part = x * N::ratio(1, 1 << SQUARINGS);
-    let sum = part.mul_add(N::ratio(1, 3), N::one());
-    let sum = (part * N::ratio(1, 2)).mul_add(sum, N::one());
-    let mut growth = part.mul_add(sum, N::one());
-    for _ in 0..SQUARINGS {
-        growth = growth * growth;
-    }
-    growth
 }
 
 #[cfg(test)]

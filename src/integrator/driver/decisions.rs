@@ -9,7 +9,7 @@ use crate::integrator::driver::impact::Chatter;
 use crate::integrator::driver::{Driver, Motion, Tracked};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
-use crate::integrator::screen::{PROPAGATION, Screen};
+use crate::integrator::screen::PROPAGATION;
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
 
@@ -149,13 +149,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         !(c[0] + c[1] > low + rest)
     }
 
-    /// Takes the first lowest rotation of a step, which ends at a place, into
-    /// the rough certificate.
+    /// Takes the first lowest rotation of a step into the rough certificate.
     #[inline(never)]
     pub(super) fn screen_turning<const LEN: usize>(
         &mut self,
         series: &Series<N, LEN>,
-        end: Place<N>,
     ) {
         let mut v = series.v;
         let next = next_turning(&mut v, N::one(), self.isa);
@@ -165,30 +163,40 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if lowest > alpha * N::from_f64(PROPAGATION) {
             return;
         }
-        let inverse = self.forcing.inverse(end.piece);
-        let there = screen.fly(self.time(end), inverse, alpha);
-        let doubt = there.miss(lowest).doubt;
-        self.screen = Some(Screen { doubt, ..screen });
+        self.screen = Some(screen.miss(lowest));
     }
 
-    /// The rough certificate at the end of a run: what it decides last has
-    /// some margin over alpha, and it never came nearer to the other fate
-    /// than `own`.
+    /// Takes free motion into the rough certificate, before which the peak
+    /// was another: energy carries the error to a higher one.
+    pub(super) fn screen_coast(&mut self, before: N) {
+        let alpha = self.dynamics.alpha;
+        let peak = self.record.peak;
+        if let Some(screen) = &mut self.screen
+            && peak > before
+        {
+            let slope = (alpha - peak) / alpha;
+            screen.peak = (screen.uu + screen.ww) / (slope * slope);
+        }
+    }
+
+    /// The rough certificate at the end of a run: what it decides last, if
+    /// it does, has some margin over alpha, and a block that stands never
+    /// came nearer to the other fate than `own`.
     pub(super) fn screened(
         &self,
-        end: Option<N>,
-        margin: f64,
-        own: f64,
+        margin: Option<f64>,
+        own: Option<f64>,
     ) -> Option<f64> {
         let mut screen = self.screen?;
         let alpha = self.dynamics.alpha;
-        if let Some(time) = end {
-            let inverse = self.forcing.inverse(0);
-            screen = screen.fly(time, inverse, alpha);
+        if let Some(margin) = margin {
             screen = screen.end(alpha * N::from_f64(margin), alpha);
         }
+        if own.is_some() {
+            screen = screen.stand(alpha);
+        }
         // Of it, at least so much is the error over all of alpha.
-        let near = PROPAGATION / own;
+        let near = PROPAGATION / own.unwrap_or(1.0);
         let doubt = screen.doubt.to_f64();
         Some((doubt * near.mul_add(near, 1.0)).sqrt())
     }

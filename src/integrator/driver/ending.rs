@@ -61,7 +61,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
         let mut margin = None;
         let mut overturned = None;
-        // Where the last flight ended, and what was decided there.
+        // Margin of what was decided at the end of the last flight.
         let mut decided = None;
         match *flight {
             Flight::Rest(_, time_s) => {
@@ -75,7 +75,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             Flight::Overturned { time_s, side, margin: beyond } => {
                 margin = Some(beyond);
                 overturned = Some((time_s, side));
-                decided = Some((time_s * self.dynamics.p, beyond));
+                decided = Some(beyond);
                 for tracker in self.record.trackers() {
                     tracker.overturned();
                 }
@@ -93,10 +93,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                     until_s: self.until_s,
                     limit: self.limit,
                 };
+                let before = self.record.peak;
                 let fate = coast(&coasting, motion, &mut self.record);
+                self.screen_coast(before);
                 margin = fate.margin;
                 overturned = fate.overturned;
-                decided = Some((end_s * self.dynamics.p, fate.nearest));
+                decided = Some(fate.nearest);
                 if self.watched && self.record.exceeded.is_none() {
                     self.trace(motion);
                 }
@@ -109,7 +111,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         overturned: Option<(N, Side)>,
         margin: Option<f64>,
-        decided: Option<(N, f64)>,
+        decided: Option<f64>,
     ) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let record = &mut self.record;
@@ -132,13 +134,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             None => own.to_f64(),
         };
         let own = match outcome {
-            Outcome::Overturned { .. } => 1.0,
-            Outcome::Rocked { .. } | Outcome::NoUplift => own.to_f64(),
+            Outcome::Overturned { .. } => None,
+            Outcome::Rocked { .. } | Outcome::NoUplift => Some(own.to_f64()),
         };
-        let doubt = match decided {
-            Some((end, margin)) => self.screened(Some(end), margin, own),
-            None => self.screened(None, 1.0, own),
-        };
+        let doubt = self.screened(decided, own);
         let record = &mut self.record;
         let accuracy = record.accuracy;
         let inputs = record.inputs.or(accuracy);

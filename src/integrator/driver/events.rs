@@ -134,6 +134,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let offset = place.offset + tau;
             let time_s = self.time_s(Place { offset, ..place });
             self.record.peak_time_s = Some(time_s);
+            self.screen = self.screen.map(|screen| screen.top(tau));
             for tracker in self.record.trackers() {
                 tracker.peak(u.to_f64());
             }

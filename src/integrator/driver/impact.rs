@@ -74,8 +74,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         if let Some(screen) = self.screen {
             let landing = Landing {
-                time: self.time(step.place),
-                inverse: self.forcing.inverse(step.place.piece),
                 speed,
                 before: -self.dynamics.restoring(-f[0]),
                 after: -self.dynamics.restoring(f[0]),

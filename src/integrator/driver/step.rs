@@ -3,8 +3,9 @@
 use crate::integrator::driver::decisions::Stepped;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
-use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::screen::Flown;
 use crate::integrator::taylor::{Series, expand, slope, value};
 use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
@@ -143,8 +144,16 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.assess(series, x, &stepped, drive, step.place);
         }
         self.turning_points(series, x, (step.place, length));
-        if let Some(screen) = &mut self.screen {
-            screen.pass(end_w);
+        if let Some(screen) = self.screen {
+            let f = self.oriented(step.place, side, step.at_threshold);
+            let curvature = curvature(
+                self.dynamics.model,
+                &self.dynamics.drive(f),
+                self.sine_cosine(u),
+            );
+            let alpha = self.dynamics.alpha;
+            let flown = Flown { tau, curvature, w: end_w, alpha };
+            self.screen = Some(screen.fly(&flown));
         }
         if self.watched {
             self.sample_step(series, (tau, length), step.place, side);
@@ -156,7 +165,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         match event {
             Event::None => {
                 if self.screen.is_some() && self.may_miss(series) {
-                    self.screen_turning(series, step.place);
+                    self.screen_turning(series);
                 }
                 step.motion = Motion { side, u: end_u, w: end_w };
                 Some(Advance::Reached)
@@ -200,13 +209,18 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         drive: &Drive<N, F>,
     ) -> Series<N, LEN> {
         let model = self.dynamics.model;
-        let sine_cosine = match model {
+        expand(model, (u, w), length, drive, self.sine_cosine(u))
+    }
+
+    /// Sine and cosine of a rotation, as the model has them.
+    #[inline(always)]
+    fn sine_cosine(&self, u: N) -> (N, N) {
+        match self.dynamics.model {
             // Beyond pi/4 the short polynomials lose digits.
             Model::Nonlinear if u > N::ratio(785, 1000) => u.sin_cos(),
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, N::one()),
-        };
-        expand(model, (u, w), length, drive, sine_cosine)
+        }
     }
 
     /// Series of s a/g about a place.

@@ -56,11 +56,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             tracker.stop(motion, left.to_f64(), is_peak, times);
         }
         if let Some(screen) = self.screen {
-            let inverse = self.forcing.inverse(step.place.piece);
-            let time = self.time(step.place);
-            let there = screen.fly(time, inverse, self.dynamics.alpha);
-            let doubt = there.end(left, self.dynamics.alpha).doubt;
-            self.screen = Some(Screen { doubt, ..screen });
+            let doubt = screen.end(left, self.dynamics.alpha).doubt;
+            let peak = if is_peak { screen.uu } else { screen.peak };
+            self.screen = Some(Screen { doubt, peak, ..screen });
         }
     }
 
@@ -163,21 +161,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// overturning or to the end of observation.
     #[inline(never)]
     pub(super) fn follow(&mut self, motion: Motion<N>) -> Flight<N> {
-        let end = self.end_s() * self.dynamics.p;
         let mut free = self.free();
         free.events = self.events;
         free.until_s = self.until_s;
         free.record = mem::replace(&mut self.record, Tracked::empty());
-        free.screen = self.screen.map(|screen| {
-            let began = screen.began - end;
-            Screen { began, ..screen }
-        });
+        free.screen = self.screen;
         let flight = free.fly_free(motion);
         self.record = free.record;
-        self.screen = free.screen.map(|screen| {
-            let began = screen.began + end;
-            Screen { began, ..screen }
-        });
+        self.screen = free.screen;
         flight
     }
 

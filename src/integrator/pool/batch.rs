@@ -5,14 +5,14 @@
 //! plain impact is left to them.
 
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::pool::chatter::{Impacted, restoring};
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, Queue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
-use crate::integrator::screen::{Landing, PROPAGATION, Screen};
+use crate::integrator::screen::{Flown, Landing, PROPAGATION, Screen};
 use crate::integrator::taylor::{Series, expand, total, value};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -40,10 +40,7 @@ pub(super) struct Batch {
     alpha: Lanes,
     /// Velocity below which a block that leaves the base need not be followed.
     fastest: Lanes,
-    /// Start of the sample, in 1/p, and the rough certificates.
-    sample: Lanes,
-    began: Lanes,
-    top_speed: Lanes,
+    /// The rough certificates.
     uu: Lanes,
     uw: Lanes,
     ww: Lanes,
@@ -79,10 +76,11 @@ pub(super) struct Solved {
     /// Speed before the impact, and the forcing on the side before it.
     speed: Lanes,
     f: Lanes,
-    /// Largest speed of the flight, to the end of the step.
-    pub top_speed: Lanes,
-    /// The rough certificates after the impacts.
-    pub screen: [Lanes; 6],
+    /// The rough certificates; their sums after impacts.
+    pub uu: Lanes,
+    pub uw: Lanes,
+    pub ww: Lanes,
+    pub doubt: Lanes,
 }
 
 impl Solved {
@@ -108,8 +106,10 @@ impl Solved {
             amplitude: zero,
             speed: zero,
             f: zero,
-            top_speed: zero,
-            screen: [zero; 6],
+            uu: zero,
+            uw: zero,
+            ww: zero,
+            doubt: zero,
         }
     }
 }
@@ -157,9 +157,6 @@ impl Batch {
             eta: zero,
             alpha: zero,
             fastest: zero,
-            sample: zero,
-            began: zero,
-            top_speed: zero,
             uu: zero,
             uw: zero,
             ww: zero,
@@ -194,9 +191,6 @@ impl Batch {
             out.limit[i] = group.limit[lane];
             out.eta[i] = group.eta[lane];
             out.alpha[i] = group.alpha[lane];
-            out.sample[i] = group.piece(lane) as f64;
-            out.began[i] = group.began[lane];
-            out.top_speed[i] = group.top_speed[lane];
             out.uu[i] = group.uu[lane];
             out.uw[i] = group.uw[lane];
             out.ww[i] = group.ww[lane];
@@ -276,13 +270,26 @@ impl Batch {
         hard = hard.but_not(large);
         out.hard = hard.bits();
         let amplitude = V::load(&self.amplitude);
-        let top_speed = V::load(&self.top_speed);
+        let screen = Screen {
+            uu: V::load(&self.uu),
+            uw: V::load(&self.uw),
+            ww: V::load(&self.ww),
+            ..Screen::at_rest()
+        };
+        let curvature = curvature(model, &drive, small);
+        let fly = |tau, w, out: &mut Solved| {
+            let flown = Flown { tau, curvature, w, alpha };
+            let there = screen.fly(&flown);
+            there.uu.store(&mut out.uu);
+            there.uw.store(&mut out.uw);
+            there.ww.store(&mut out.ww);
+        };
         if FREE {
             out.left = left.but_not(hard).bits();
             (out.impact, out.turned) = (0, 0);
             (out.rested, out.settled) = (0, 0);
             let end_w = total(&v);
-            top_speed.max(end_w.abs()).store(&mut out.top_speed);
+            fly(h, end_w, out);
             total(&c).store(&mut out.u);
             end_w.store(&mut out.w);
             ahead.store(&mut out.here);
@@ -300,7 +307,7 @@ impl Batch {
         let turning = self.turning(&c, &v, x, near);
         left = left.or(turning.unsure);
         let end_w = impact.select(value(&v, x), total(&v));
-        top_speed.max(end_w.abs()).store(&mut out.top_speed);
+        fly(x * h, end_w, out);
         let turn = value(&c, turning.x);
         // Near the base a lowest rotation decides something.
         left = left.or(turning.low.but_not(low.lt(turn)));
@@ -355,10 +362,7 @@ impl Batch {
         let (threshold, cosine) =
             (V::load(&self.threshold), V::load(&self.cosine));
         let f = V::load(&out.f);
-        let (whole, sample) = (V::load(&self.whole), V::load(&self.sample));
         let landing = Landing {
-            time: sample.mul_add(whole, V::load(&out.offset)),
-            inverse: V::load(&self.inverse),
             speed: V::load(&out.speed),
             before: -restoring(model, threshold, cosine, f),
             after: -restoring(model, threshold, cosine, -f),
@@ -366,19 +370,19 @@ impl Batch {
             alpha: V::load(&self.alpha),
         };
         let screen = Screen {
-            began: V::load(&self.began),
-            top_speed: V::load(&out.top_speed),
-            uu: V::load(&self.uu),
-            uw: V::load(&self.uw),
-            ww: V::load(&self.ww),
+            uu: V::load(&out.uu),
+            uw: V::load(&out.uw),
+            ww: V::load(&out.ww),
             doubt: V::load(&self.doubt),
+            peak: V::zero(),
         };
-        let landed = screen.land(&landing);
-        let Screen { began, top_speed, uu, uw, ww, doubt } = landed;
-        let values = [began, top_speed, uu, uw, ww, doubt];
-        for (k, value) in values.into_iter().enumerate() {
-            value.store(&mut out.screen[k]);
-        }
+        let there = screen.land(&landing);
+        there.doubt.store(&mut out.doubt);
+        // The others have flown to the end of the sample.
+        let impact = V::Mask::of(out.impact);
+        impact.select(there.uu, screen.uu).store(&mut out.uu);
+        impact.select(there.uw, screen.uw).store(&mut out.uw);
+        impact.select(there.ww, screen.ww).store(&mut out.ww);
     }
 
     /// The first impact, as the driver and its root finder see it.

@@ -2,11 +2,11 @@
 
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
-use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
-use crate::integrator::screen::{PROPAGATION, Screen};
+use crate::integrator::screen::{Flown, PROPAGATION, Screen};
 use crate::integrator::taylor::{Series, expand};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -44,8 +44,6 @@ pub(super) struct Group<'a> {
     pub eta: Lanes,
     pub alpha: Lanes,
     /// The rough certificates.
-    pub began: Lanes,
-    pub top_speed: Lanes,
     pub uu: Lanes,
     pub uw: Lanes,
     pub ww: Lanes,
@@ -99,8 +97,6 @@ impl<'a> Group<'a> {
             limit: zero,
             eta: zero,
             alpha: zero,
-            began: zero,
-            top_speed: zero,
             uu: zero,
             uw: zero,
             ww: zero,
@@ -157,20 +153,26 @@ impl<'a> Group<'a> {
         slot.driver.fastest(self.piece(lane))
     }
 
+    /// Gives a lane's rough certificate to its run.
+    #[inline(always)]
+    pub fn hand_screen<T>(&self, lane: usize, slot: &mut Slot<'a, T>) {
+        let screen = slot.driver.screen();
+        *screen = Screen {
+            uu: self.uu[lane],
+            uw: self.uw[lane],
+            ww: self.ww[lane],
+            doubt: self.doubt[lane],
+            ..*screen
+        };
+    }
+
     /// Gives a lane's motion back to its run.
     #[inline(always)]
     pub fn release<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let steps = self.next[lane] - self.first[lane] + self.extra[lane];
         slot.driver.count_steps(steps);
         slot.driver.count_impacts(self.impacts[lane]);
-        *slot.driver.screen() = Screen {
-            began: self.began[lane],
-            top_speed: self.top_speed[lane],
-            uu: self.uu[lane],
-            uw: self.uw[lane],
-            ww: self.ww[lane],
-            doubt: self.doubt[lane],
-        };
+        self.hand_screen(lane, slot);
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
         let Stage::Flying(step) = &mut slot.stage else { return };
@@ -219,10 +221,8 @@ impl<'a> Group<'a> {
         self.eta[lane] = dynamics.eta;
         self.alpha[lane] = dynamics.alpha;
         self.low[lane] = dynamics.alpha * PROPAGATION * SAFETY;
-        let Screen { began, top_speed, uu, uw, ww, doubt } = screen;
-        (self.began[lane], self.doubt[lane]) = (began, doubt);
-        self.top_speed[lane] = top_speed;
-        (self.uu[lane], self.uw[lane], self.ww[lane]) = (uu, uw, ww);
+        (self.uu[lane], self.uw[lane]) = (screen.uu, screen.uw);
+        (self.ww[lane], self.doubt[lane]) = (screen.ww, screen.doubt);
         self.active |= 1 << lane;
     }
 
@@ -257,9 +257,22 @@ impl<'a> Group<'a> {
         let clear = active.and(free).and(enough);
         clear.select(end.0, u).store(&mut self.u);
         clear.select(end.1, w).store(&mut self.w);
-        let before = V::load(&self.top_speed);
-        let top_speed = before.max(end.1.abs());
-        clear.select(top_speed, before).store(&mut self.top_speed);
+        let screen = Screen {
+            uu: V::load(&self.uu),
+            uw: V::load(&self.uw),
+            ww: V::load(&self.ww),
+            ..Screen::at_rest()
+        };
+        let flown = Flown {
+            tau: h,
+            curvature: curvature(model, &drive, small),
+            w: end.1,
+            alpha: V::load(&self.alpha),
+        };
+        let there = screen.fly(&flown);
+        clear.select(there.uu, screen.uu).store(&mut self.uu);
+        clear.select(there.uw, screen.uw).store(&mut self.uw);
+        clear.select(there.ww, screen.ww).store(&mut self.ww);
         clear.select(ahead, here).store(&mut self.here);
         clear.select(V::zero(), offset).store(&mut self.offset);
         clear.count(&mut self.next);

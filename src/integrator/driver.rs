@@ -388,16 +388,20 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// From an impact elsewhere, after which the block comes to rest within
-    /// `after` (in 1/p), to the next uplift.
-    pub fn rest(&mut self, impact: Place<N>, after: N) -> Stage<N> {
-        let (place, time_s) = self.later(impact, after);
+    /// From an impact elsewhere that leaves a speed, after which the block
+    /// comes to rest within `after` (in 1/p), to the next uplift.
+    pub fn rest(&mut self, impact: Place<N>, w: N, after: N) -> Stage<N> {
+        let (place, time_s) = self.later(impact, w, after);
         self.uplift(place, time_s)
     }
 
-    /// The place some time (in 1/p) later in the same piece, and when (s).
+    /// Where in the same piece, and when (s), a block has come to rest some
+    /// time (in 1/p) after an impact that leaves a speed.
     #[inline(always)]
-    fn later(&self, place: Place<N>, after: N) -> (Place<N>, N) {
+    fn later(&mut self, place: Place<N>, w: N, after: N) -> (Place<N>, N) {
+        let left = self.forcing.length(place.piece) - place.offset;
+        let rest = |screen: Screen<N>| screen.rest(w, after, left - after);
+        self.screen = self.screen.map(rest);
         let time_s = self.time_s(place) + after / self.dynamics.p;
         let offset = place.offset + after;
         (Place { offset, ..place }, time_s)

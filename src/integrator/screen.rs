@@ -19,7 +19,7 @@ use crate::number::{Number, Real};
 /// one whose peak was another by more than 1e-6 in wider arithmetic was
 /// 1.5e-3. Certificates that were not clear came with estimates from 3.6e-5 on, and four of them
 /// from below this value; all their peaks but that one were right to 2e-8. `tests/trials.rs` looks at whole suites.
-pub(crate) const DOUBTFUL: f64 = 1e-4;
+pub(crate) const DOUBTFUL: f64 = 2e-3;
 
 /// Share of the slenderness angle that the error is held against: above it
 /// the linear propagation is not trusted.
@@ -30,7 +30,7 @@ pub(crate) const DOUBTFUL: f64 = 1e-4;
 pub(crate) const PROPAGATION: f64 = 0.01;
 
 /// Share of the slenderness angle that the error of a peak is held against.
-const PEAK: f64 = 1e-3;
+const PEAK: f64 = 1e-4;
 
 /// The estimate of a run, in units of 1/p.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,8 @@ pub(crate) struct Flown<N> {
     pub curvature: N,
     /// Velocity at its end.
     pub w: N,
-    pub alpha: N,
+    /// Size of the terms of the acceleration: alpha, and the forcing's.
+    pub size: N,
 }
 
 /// An impact, as the estimate sees it.
@@ -80,27 +81,23 @@ impl<N: Number> Screen<N> {
         Self { doubt, peak, ..Self::at_rest() }
     }
 
-    /// Flies a step: half of its length at the velocity that it has, the
-    /// push of all of it, and the other half.
+    /// Flies a step: its push first, then its length at the new velocity.
     ///
-    /// The step rounds the velocity as it goes, and the acceleration, which
-    /// is a difference of terms as large as alpha, however slow the block is.
+    /// It rounds the velocity, and the change of that, which is a difference
+    /// of terms as large as `size`, however slow the block is.
     #[inline(always)]
     pub fn fly(self, step: &Flown<N>) -> Self {
         let Self { uu, uw, ww, .. } = self;
-        let half = step.tau * N::ratio(1, 2);
-        let push = step.curvature * step.tau;
-        let met = half.mul_add(ww, uw);
-        let uu = half.mul_add(uw + met, uu);
-        let left = push.mul_add(uu, met);
-        let ww = push.mul_add(met + left, ww);
-        let uw = half.mul_add(ww, left);
-        let uu = half.mul_add(left + uw, uu);
-        let roundoff = N::from_f64(0.5 * f64::EPSILON);
-        let (each, whole) = (roundoff * step.w, roundoff * step.alpha);
-        let whole = whole * step.tau;
-        let ww = each.mul_add(each, whole.mul_add(whole, ww));
-        Self { uu, uw, ww, ..self }
+        let Flown { tau, curvature, w, size } = *step;
+        let push = curvature * tau;
+        let pushed = push.mul_add(uu, uw);
+        let ww = push.mul_add(uw + pushed, ww);
+        let uw = tau.mul_add(ww, pushed);
+        let uu = tau.mul_add(pushed + uw, uu);
+        let roundoff = N::from_f64(0.25 * f64::EPSILON * f64::EPSILON);
+        let change = size * tau;
+        let rounded = change.mul_add(change, w * w);
+        Self { uu, uw, ww: roundoff.mul_add(rounded, ww), ..self }
     }
 
     /// The largest peak so far, a time after the start of a step.
@@ -146,6 +143,16 @@ impl<N: Number> Screen<N> {
     #[inline(always)]
     pub fn miss(self, lowest: N) -> Self {
         let doubt = self.doubt + self.uu / (lowest * lowest);
+        Self { doubt, ..self }
+    }
+
+    /// Comes to rest, some time after an impact that leaves a speed, and
+    /// another before the chatter would have had to end.
+    #[inline(always)]
+    pub fn rest(self, w: N, after: N, before: N) -> Self {
+        let met = (after * after).mul_add(self.ww, self.uu);
+        let margin = w * before;
+        let doubt = self.doubt + met / (margin * margin);
         Self { doubt, ..self }
     }
 

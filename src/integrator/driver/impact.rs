@@ -93,7 +93,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         let left = self.forcing.length(step.place.piece) - step.place.offset;
         let chatter = self.chatter(&f, w, left)?;
-        let (place, time_s) = self.later(step.place, chatter.time);
+        let (place, time_s) = self.later(step.place, w, chatter.time);
         if self.record.accuracy.is_some() {
             self.assess_rest(&chatter, speed, error, time_s);
         }

@@ -146,13 +146,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.turning_points(series, x, (step.place, length));
         if let Some(screen) = self.screen {
             let f = self.oriented(step.place, side, step.at_threshold);
-            let curvature = curvature(
-                self.dynamics.model,
-                &self.dynamics.drive(f),
-                self.sine_cosine(u),
-            );
-            let alpha = self.dynamics.alpha;
-            let flown = Flown { tau, curvature, w: end_w, alpha };
+            let drive = self.dynamics.drive(f);
+            let sine_cosine = self.sine_cosine(u);
+            let curvature =
+                curvature(self.dynamics.model, &drive, sine_cosine);
+            let size = self.dynamics.alpha + f[0].abs();
+            let flown = Flown { tau, curvature, w: end_w, size };
             self.screen = Some(screen.fly(&flown));
         }
         if self.watched {

@@ -277,8 +277,9 @@ impl Batch {
             ..Screen::at_rest()
         };
         let curvature = curvature(model, &drive, small);
+        let size = alpha + forcing[0].abs();
         let fly = |tau, w, out: &mut Solved| {
-            let flown = Flown { tau, curvature, w, alpha };
+            let flown = Flown { tau, curvature, w, size };
             let there = screen.fly(&flown);
             there.uu.store(&mut out.uu);
             there.uw.store(&mut out.uw);

@@ -267,7 +267,7 @@ impl<'a> Group<'a> {
             tau: h,
             curvature: curvature(model, &drive, small),
             w: end.1,
-            alpha: V::load(&self.alpha),
+            size: V::load(&self.alpha) + forcing[0].abs(),
         };
         let there = screen.fly(&flown);
         clear.select(there.uu, screen.uu).store(&mut self.uu);

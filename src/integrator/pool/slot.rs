@@ -27,7 +27,7 @@ impl<'a, T> Slot<'a, T> {
     /// Comes to rest, some time after an impact.
     pub fn rest(&mut self, after: f64) {
         if let Stage::Flying(step) = &self.stage {
-            self.stage = self.driver.rest(step.place, after);
+            self.stage = self.driver.rest(step.place, step.motion.w, after);
         }
     }
 

@@ -6,7 +6,7 @@ use crate::integrator::Arithmetic;
 /// Rough estimate (see [`DOUBTFUL`](crate::integrator::DOUBTFUL)) above which
 /// an analysis has its decisions assessed one by one, where fates are
 /// certified.
-pub(crate) const WORTH_ASSESSING: f64 = 3e-5;
+pub(crate) const WORTH_ASSESSING: f64 = 5e-4;
 
 /// Whether outcome and peak of an analysis are resolved, and by which
 /// arithmetic.

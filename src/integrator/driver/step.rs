@@ -151,7 +151,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let curvature =
                 curvature(self.dynamics.model, &drive, sine_cosine);
             let size = self.dynamics.alpha + f[0].abs();
-            let flown = Flown { tau, curvature, w: end_w, size };
+            let (u, w) = (end_u, end_w);
+            let flown = Flown { tau, curvature, u, w, size };
             self.screen = Some(screen.fly(&flown));
         }
         if self.watched {

@@ -278,8 +278,8 @@ impl Batch {
         };
         let curvature = curvature(model, &drive, small);
         let size = alpha + forcing[0].abs();
-        let fly = |tau, w, out: &mut Solved| {
-            let flown = Flown { tau, curvature, w, size };
+        let fly = |tau, (u, w), out: &mut Solved| {
+            let flown = Flown { tau, curvature, u, w, size };
             let there = screen.fly(&flown);
             there.uu.store(&mut out.uu);
             there.uw.store(&mut out.uw);
@@ -290,8 +290,9 @@ impl Batch {
             (out.impact, out.turned) = (0, 0);
             (out.rested, out.settled) = (0, 0);
             let end_w = total(&v);
-            fly(h, end_w, out);
-            total(&c).store(&mut out.u);
+            let end_u = total(&c);
+            fly(h, (end_u, end_w), out);
+            end_u.store(&mut out.u);
             end_w.store(&mut out.w);
             ahead.store(&mut out.here);
             amplitude.store(&mut out.amplitude);
@@ -308,7 +309,8 @@ impl Batch {
         let turning = self.turning(&c, &v, x, near);
         left = left.or(turning.unsure);
         let end_w = impact.select(value(&v, x), total(&v));
-        fly(x * h, end_w, out);
+        let end_u = impact.select(value(&c, x), total(&c));
+        fly(x * h, (end_u, end_w), out);
         let turn = value(&c, turning.x);
         // Near the base a lowest rotation decides something.
         left = left.or(turning.low.but_not(low.lt(turn)));
@@ -350,7 +352,7 @@ impl Batch {
         out.turned = turning.top.bits();
         (turning.x * h).store(&mut out.turn);
         turn.store(&mut out.top);
-        impact.select(zero, total(&c)).store(&mut out.u);
+        impact.select(zero, end_u).store(&mut out.u);
         impact.select(w, end_w).store(&mut out.w);
         impact.select(-here, ahead).store(&mut out.here);
         impact.select(there, zero).store(&mut out.offset);

@@ -266,6 +266,7 @@ impl<'a> Group<'a> {
         let flown = Flown {
             tau: h,
             curvature: curvature(model, &drive, small),
+            u: end.0,
             w: end.1,
             size: V::load(&self.alpha) + forcing[0].abs(),
         };

@@ -49,7 +49,7 @@ fn a_base_that_is_nearly_met_is_held_against_the_error() {
     for share in [1e-9, 1e-6, 1.1e-6, 1e-5, 1e-3] {
         let lowest = share * ALPHA;
         let found = estimate(lowest, 0.01 * lowest);
-        assert!((found / 0.01 - 1.0).abs() < 0.01, "{share}: {found}");
+        assert!((found / 0.01 - 1.0).abs() < 0.02, "{share}: {found}");
         assert!(found > DOUBTFUL);
         let found = estimate(lowest, 1e-6 * lowest);
         assert!(found < DOUBTFUL, "{share}: {found}");

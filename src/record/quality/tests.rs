@@ -47,7 +47,7 @@ fn components_of_a_pair_are_compared() {
     };
     let (a, b) = (record("a", 401), record("b", 381));
     let codes = |pair| {
-        let one = |record, pair| Remarked { record, pair, read: &[] };
+        let one = |record, pair| Remarked::of(record, pair, &[]);
         let found =
             remarks_together(&[one(&a, Some("p")), one(&b, Some(pair))]);
         let unequal = Remark::UnequalComponents("b".to_owned());
@@ -69,7 +69,8 @@ fn a_recording_is_known_again_by_its_shape() {
     };
     let records =
         [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
-    let found = duplicates(&records.each_ref());
+    let profiles = records.map(|record| Profile::of(&record));
+    let found = duplicates(&profiles.each_ref());
     let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
     assert_eq!(pairs, [(0, 1)]);
 }

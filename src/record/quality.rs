@@ -5,6 +5,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::codes::coded;
@@ -275,19 +277,23 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 #[must_use]
 pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
-    let mut found = Vec::new();
-    for (i, first) in records.iter().enumerate() {
-        for (j, second) in records.iter().enumerate().skip(i + 1) {
-            if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
-                continue;
+    let later = |i: usize| {
+        let (first, near, near_first) = (records[i], &near, &near[i]);
+        let alike = move |j: usize| {
+            let second = records[j];
+            if first.dt_s != second.dt_s || differ(near_first, &near[j]) {
+                return None;
             }
             let correlation = correlation(first, second);
-            if correlation > SAME_RECORDING {
-                found.push((i, j, correlation));
-            }
-        }
-    }
-    found
+            (correlation > SAME_RECORDING).then_some((i, j, correlation))
+        };
+        (i + 1..records.len()).filter_map(alike)
+    };
+    let all = 0..records.len();
+    #[cfg(feature = "threads")]
+    return all.into_par_iter().panic_fuse().flat_map_iter(later).collect();
+    #[cfg(not(feature = "threads"))]
+    return all.flat_map(later).collect();
 }
 
 /// What is suspicious about each of several records: what their reading

@@ -277,23 +277,30 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 #[must_use]
 pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
-    let later = |i: usize| {
-        let (first, near, near_first) = (records[i], &near, &near[i]);
-        let alike = move |j: usize| {
-            let second = records[j];
-            if first.dt_s != second.dt_s || differ(near_first, &near[j]) {
-                return None;
-            }
-            let correlation = correlation(first, second);
-            (correlation > SAME_RECORDING).then_some((i, j, correlation))
-        };
-        (i + 1..records.len()).filter_map(alike)
+    let alike = |i: usize, j: usize| {
+        let (first, second) = (records[i], records[j]);
+        if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
+            return None;
+        }
+        let correlation = correlation(first, second);
+        (correlation > SAME_RECORDING).then_some((i, j, correlation))
     };
-    let all = 0..records.len();
+    // Some records against all later ones, so that these are read once.
+    let tile = |tile: usize| {
+        let from = tile * TILE;
+        let to = records.len().min(from + TILE);
+        let pairs = (from + 1..records.len())
+            .flat_map(move |j| (from..to.min(j)).map(move |i| (i, j)));
+        pairs.filter_map(|(i, j)| alike(i, j)).collect::<Vec<_>>()
+    };
+    let tiles = 0..records.len().div_ceil(TILE);
     #[cfg(feature = "threads")]
-    return all.into_par_iter().panic_fuse().flat_map_iter(later).collect();
+    let found = tiles.into_par_iter().panic_fuse().flat_map_iter(tile);
     #[cfg(not(feature = "threads"))]
-    return all.flat_map(later).collect();
+    let found = tiles.flat_map(tile);
+    let mut found: Vec<(usize, usize, f64)> = found.collect();
+    found.sort_by_key(|(i, j, _)| (*i, *j));
+    found
 }
 
 /// What is suspicious about each of several records: what their reading
@@ -332,6 +339,9 @@ pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
 
 /// Sums that are taken side by side.
 const LANES: usize = 8;
+
+/// Records that are compared with all later ones together.
+const TILE: usize = 16;
 
 /// Samples near a peak less their mean, of length 1.
 type NearPeak = [f32; 2 * FEW_SAMPLES];

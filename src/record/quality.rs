@@ -5,6 +5,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::codes::coded;
@@ -275,18 +277,29 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 #[must_use]
 pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
-    let mut found = Vec::new();
-    for (i, first) in records.iter().enumerate() {
-        for (j, second) in records.iter().enumerate().skip(i + 1) {
-            if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
-                continue;
-            }
-            let correlation = correlation(first, second);
-            if correlation > SAME_RECORDING {
-                found.push((i, j, correlation));
-            }
+    let alike = |i: usize, j: usize| {
+        let (first, second) = (records[i], records[j]);
+        if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
+            return None;
         }
-    }
+        let correlation = correlation(first, second);
+        (correlation > SAME_RECORDING).then_some((i, j, correlation))
+    };
+    // Some records against all later ones, so that these are read once.
+    let tile = |tile: usize| {
+        let from = tile * TILE;
+        let to = records.len().min(from + TILE);
+        let pairs = (from + 1..records.len())
+            .flat_map(move |j| (from..to.min(j)).map(move |i| (i, j)));
+        pairs.filter_map(|(i, j)| alike(i, j)).collect::<Vec<_>>()
+    };
+    let tiles = 0..records.len().div_ceil(TILE);
+    #[cfg(feature = "threads")]
+    let found = tiles.into_par_iter().panic_fuse().flat_map_iter(tile);
+    #[cfg(not(feature = "threads"))]
+    let found = tiles.flat_map(tile);
+    let mut found: Vec<(usize, usize, f64)> = found.collect();
+    found.sort_by_key(|(i, j, _)| (*i, *j));
     found
 }
 
@@ -326,6 +339,9 @@ pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
 
 /// Sums that are taken side by side.
 const LANES: usize = 8;
+
+/// Records that are compared with all later ones together.
+const TILE: usize = 16;
 
 /// Samples near a peak less their mean, of length 1.
 type NearPeak = [f32; 2 * FEW_SAMPLES];

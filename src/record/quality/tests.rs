@@ -67,10 +67,15 @@ fn a_recording_is_known_again_by_its_shape() {
         let samples = std::iter::repeat_n(0.0, shift).chain(wave);
         Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
     };
-    let records =
-        [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
-    let profiles = records.map(|record| Profile::of(&record));
-    let found = duplicates(&profiles.each_ref());
-    let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
-    assert_eq!(pairs, [(0, 1)]);
+    // More than are compared together: the scale of each is its own.
+    let pair = |(i, j, _): &(usize, usize, f64)| (*i, *j);
+    let many = (0..40).map(|k| match k {
+        37 => motion(77, -0.2, 9.0),
+        35 => motion(3, 0.1, 9.7),
+        _ => motion(0, 0.3, 9.0 + 0.7 * f64::from(k)),
+    });
+    let profiles: Vec<_> = many.map(|record| Profile::of(&record)).collect();
+    let found = duplicates(&profiles.iter().collect::<Vec<_>>());
+    let pairs: Vec<_> = found.iter().map(pair).collect();
+    assert_eq!(pairs, [(0, 37), (1, 35)]);
 }

@@ -31,7 +31,7 @@ use edges::{Edges, TREES};
 use source::{holds, named_modules, tokens};
 
 /// Libraries beside the core: manifest and sources.
-const LIBRARIES: [(&str, &[&str]); 12] = [
+const LIBRARIES: [(&str, &[&str]); 13] = [
     ("exchange/Cargo.toml", &["exchange/src"]),
     ("fixtures/Cargo.toml", &["fixtures/src"]),
     ("parquet/Cargo.toml", &["parquet/src"]),

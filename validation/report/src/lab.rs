@@ -17,9 +17,13 @@ const PAGE: &str = include_str!("lab/page.html");
 const OWN_STYLE: &str = include_str!("lab/page.css");
 const SCRIPT: &str = include_str!("lab/page.js");
 
-/// Between these the page has its engine.
-const ENGINE: [&str; 2] =
-    ["<script type=\"text/plain\" id=\"engine\">", "</script>"];
+/// The engine as `web/build` makes it.
+pub struct Engine {
+    /// What unpacks it: a WebAssembly module, as gzip.
+    pub unpacker: Vec<u8>,
+    /// A WebAssembly module, as LZMA.
+    pub packed: Vec<u8>,
+}
 
 /// What the compiled program gives.
 #[derive(Serialize)]
@@ -87,11 +91,11 @@ fn native() -> Result<Native> {
     Ok(Native { cases, left })
 }
 
-/// The page with an engine, a compressed (gzip) WebAssembly module.
+/// The page with an engine.
 ///
 /// # Errors
 /// Where a declared case gives no answer or fails.
-pub fn page(engine: &[u8]) -> Result<String> {
+pub fn page(engine: &Engine) -> Result<String> {
     let style = format!("{STYLE}{OWN_STYLE}");
     let hash = |text: &str| base64(&Sha256::digest(text));
     let policy = format!(
@@ -108,7 +112,8 @@ pub fn page(engine: &[u8]) -> Result<String> {
         ("{style}", style),
         ("{version}", env!("CARGO_PKG_VERSION").to_owned()),
         ("{native}", native),
-        ("{engine}", base64(engine)),
+        ("{unpacker}", base64(&engine.unpacker)),
+        ("{engine}", base64(&engine.packed)),
         ("{script}", SCRIPT.to_owned()),
     ];
     Ok(parts.iter().fold(PAGE.to_owned(), |page, (place, part)| {
@@ -118,10 +123,12 @@ pub fn page(engine: &[u8]) -> Result<String> {
 
 /// The engine that a page holds, as it stands there.
 #[must_use]
-pub fn engine_of(page: &str) -> Option<Vec<u8>> {
-    let (_, rest) = page.split_once(ENGINE[0])?;
-    let (engine, _) = rest.split_once(ENGINE[1])?;
-    from_base64(engine)
+pub fn engine_of(page: &str) -> Option<Engine> {
+    let part = |name: &str| {
+        let (_, rest) = page.split_once(&format!("id=\"{name}\">"))?;
+        from_base64(rest.split_once("</script>")?.0)
+    };
+    Some(Engine { unpacker: part("unpacker")?, packed: part("engine")? })
 }
 
 const ALPHABET: &[u8; 64] =

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context as _, Result, anyhow};
+use lzma_rust2::{LzmaOptions, LzmaWriter, Write as _};
 use rayon::prelude::*;
 use rocking_draw::page::STYLE;
 use rocking_proof::cases::load_all;
@@ -105,13 +106,12 @@ pub fn page(engine: &Engine) -> Result<String> {
         hash(SCRIPT),
         hash(&style)
     );
-    // No text of a case may end the script that holds it.
-    let native = serde_json::to_string(&native()?)?.replace('<', "\\u003c");
+    let native = packed(&serde_json::to_vec(&native()?)?)?;
     let parts = [
         ("{policy}", policy),
         ("{style}", style),
         ("{version}", env!("CARGO_PKG_VERSION").to_owned()),
-        ("{native}", native),
+        ("{native}", base64(&native)),
         ("{unpacker}", base64(&engine.unpacker)),
         ("{engine}", base64(&engine.packed)),
         ("{script}", SCRIPT.to_owned()),
@@ -119,6 +119,16 @@ pub fn page(engine: &Engine) -> Result<String> {
     Ok(parts.iter().fold(PAGE.to_owned(), |page, (place, part)| {
         page.replacen(place, part, 1)
     }))
+}
+
+/// LZMA, as the engine is packed.
+fn packed(bytes: &[u8]) -> Result<Vec<u8>> {
+    let options = LzmaOptions::with_preset(9);
+    let failed = |error| anyhow!("LZMA: {error:?}");
+    let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, None)
+        .map_err(failed)?;
+    writer.write_all(bytes).map_err(failed)?;
+    writer.finish().map_err(failed)
 }
 
 /// The engine that a page holds, as it stands there.

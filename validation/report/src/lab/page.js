@@ -1,7 +1,6 @@
 "use strict";
 (async () => {
 const $ = (id) => document.getElementById(id);
-const native = JSON.parse($("native").textContent);
 
 // Bytes in, bytes out, by the two buffers of a WebAssembly module.
 function call({ room, answer, answer_start, memory }, bytes) {
@@ -78,10 +77,13 @@ const unpacked = async () => {
     .pipeThrough(new DecompressionStream("gzip"));
   const unpacker = await WebAssembly.instantiate(
     await new Response(small).arrayBuffer(), {});
-  return WebAssembly.compile(call(unpacker.instance.exports, bytes("engine")));
+  const part = (id) => call(unpacker.instance.exports, bytes(id));
+  const native = JSON.parse(new TextDecoder().decode(part("native")));
+  return [native, await WebAssembly.compile(part("engine"))];
 };
-const module = await unpacked().catch((error) => {
+const [native, module] = await unpacked().catch((error) => {
   $("state").textContent = `The engine cannot start: ${error.message}`;
+  return [];
 });
 if (!module) return;
 const cores = Math.min(4, Math.max(1, navigator.hardwareConcurrency || 1));
@@ -447,9 +449,8 @@ function cell(canvas, i, j, fate, peak) {
   const pen = canvas.getContext("2d");
   const [left, low, w, h] = [70, 40, (620 - 80) / SIDE, (420 - 50) / SIDE];
   const [x, y] = [left + i * w, 420 - low - (j + 1) * h];
-  const light = 92 - 50 * Math.min(1, peak);
-  pen.fillStyle = fate === "overturned" ? "#3a2020"
-    : fate === "unresolved" ? "#c9a227" : `hsl(212 60% ${light}%)`;
+  const dark = { overturned: "#3a2020", unresolved: "#c9a227" }[fate];
+  pen.fillStyle = dark ?? `hsl(212 60% ${92 - 50 * Math.min(1, peak)}%)`;
   pen.fillRect(x, y, w + 0.5, h + 0.5);
   if (fate === "unresolved") {
     pen.strokeStyle = "#000";

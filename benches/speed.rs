@@ -14,11 +14,14 @@ use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};
 use rocking::number::dispatch::Isa;
 use rocking::number::double::DoubleDouble;
-use rocking::record::Accelerogram;
+use rocking::record::{Accelerogram, Processing, ReadOptions};
 use rocking::statistics::lilliefors::NullDistribution;
 use rocking_common::curves::Execution;
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
+use rocking_common::suites::export::at2;
+use rocking_common::suites::inputs::{profiles, reread};
+use rocking_common::suites::remarks::Remarks;
 use rocking_report::speed::cases::{self, Case};
 use rocking_report::speed::throughput::{Kernel, analyses};
 
@@ -33,6 +36,37 @@ static CASES: LazyLock<Vec<Case>> =
 
 fn main() {
     divan::main();
+}
+
+/// A suite in its files: read, remarked on, and read again; items are
+/// records.
+#[divan::bench(args = [500, 1000, 2000, 4000], sample_count = 3)]
+fn streamed(bencher: Bencher, records: usize) {
+    let place = tempfile::tempdir().expect("folder");
+    for k in 0..records {
+        let phase = f64::from(u32::try_from(k).expect("count"));
+        let wave = (0..1000).map(|i| {
+            let t = 0.01 * f64::from(i);
+            let beat = libm::sin((5.0 + 0.01 * phase) * t + phase);
+            0.2 * beat * libm::sin(0.314 * t) * libm::cos(phase * t)
+        });
+        let name = format!("{k:06}");
+        let motion = Accelerogram::try_new(&*name, 0.01, wave.collect());
+        let text = at2(&motion.expect("motion"));
+        let path = place.path().join(format!("{name}.at2"));
+        std::fs::write(path, text).expect("file");
+    }
+    let (read, none) = (ReadOptions::default(), Processing::default());
+    bencher.counter(ItemsCount::new(records)).bench_local(|| {
+        let suite = profiles::<anyhow::Error>(place.path(), read, &none);
+        let suite = suite.expect("suite");
+        black_box(Remarks::on(&suite));
+        let members: Vec<_> = suite.members().iter().collect();
+        reread(place.path(), read, &none, &members, |record, _| {
+            black_box(NormalisedRecord::new(record));
+            anyhow::Ok(())
+        })
+    });
 }
 
 /// The block in the middle of the paper's fifteen.

@@ -5,7 +5,8 @@
 use std::io::Cursor;
 
 use rocking::record::{
-    self, Format, ReadOptions, Record, RecordError, Suite, SuiteMember,
+    self, Format, ReadOptions, Record, RecordError, Suite, SuiteError,
+    SuiteMember,
 };
 use rocking::units::AccelerationUnit;
 use rocking_common::suites::inputs;
@@ -95,7 +96,12 @@ fn index(bytes: &[u8]) -> Result<(), String> {
 
 fn zip(bytes: &[u8]) -> Result<(), String> {
     let archive = Cursor::new(bytes);
-    let survey = inputs::survey_zip("x.zip", archive, &ReadOptions::default());
+    let survey = inputs::visit_zip(
+        "x.zip",
+        archive,
+        &ReadOptions::default(),
+        Ok::<_, SuiteError>,
+    );
     let survey = survey.map_err(|error| error.to_string())?;
     let suite = survey.into_suite().map_err(|error| error.to_string())?;
     hold_suite(suite)

@@ -33,7 +33,9 @@ mod text;
 pub use direction::Direction;
 pub use error::{Fault, RecordError};
 pub use processing::{Processing, ProcessingError};
-pub use quality::{Remark, Remarked, duplicates, remarks, remarks_together};
+pub use quality::{
+    Motion, Profile, Remark, Remarked, duplicates, remarks, remarks_together,
+};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
     Suite, SuiteError, SuiteMember, Survey, is_index,

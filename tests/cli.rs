@@ -352,6 +352,8 @@ fn threads_and_engine_do_not_change_a_byte() {
             ("5", "--threads 5"),
             ("baseline", "--isa baseline --threads 1"),
             ("scalar", "--engine scalar --threads 2"),
+            ("each", "--block-samples 1"),
+            ("blocks", "--block-samples 301"),
         ] {
             let (other, same) = ida(name, &format!("{how}{order}"));
             let other = other.replace(&format!("{name}.csv"), "1.csv");

@@ -31,7 +31,7 @@ use edges::{Edges, TREES};
 use source::{holds, named_modules, tokens};
 
 /// Libraries beside the core: manifest and sources.
-const LIBRARIES: [(&str, &[&str]); 12] = [
+const LIBRARIES: [(&str, &[&str]); 13] = [
     ("exchange/Cargo.toml", &["exchange/src"]),
     ("fixtures/Cargo.toml", &["fixtures/src"]),
     ("parquet/Cargo.toml", &["parquet/src"]),
@@ -44,10 +44,11 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
     ("validation/report/Cargo.toml", &["validation/report/src"]),
     ("validation/study/Cargo.toml", &["validation/study/src"]),
     ("web/Cargo.toml", &["web/src"]),
+    ("web/unpack/Cargo.toml", &["web/unpack/src", "web/src/abi.rs"]),
 ];
 
 /// Folders of sources that follow the same rules.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "src",
     "exchange/src",
     "parquet/src",
@@ -58,6 +59,7 @@ const SOURCES: [&str; 10] = [
     "tests",
     "benches",
     "web/src",
+    "web/unpack/src",
 ];
 
 /// Dependencies of the core that everybody gets who uses it.

@@ -7,6 +7,8 @@ use std::io::{Cursor, Write as _};
 use std::path::Path;
 
 use peak_alloc::PeakAlloc;
+use rocking::record::{Processing, Profile, ReadOptions, Suite};
+use rocking_common::suites::inputs;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -216,10 +218,42 @@ fn a_packed_megabyte_takes_no_more_either() {
     }
 }
 
+/// The samples of a suite that is worked off in blocks stay in their files.
+fn profiles_hold_no_samples() {
+    const RECORDS: usize = 40;
+    const SAMPLES: usize = 100_000;
+    let place = tempfile::tempdir().unwrap();
+    let text = dense(2 * SAMPLES).swap_remove(0).1;
+    fs::write(place.path().join("a.txt"), text).unwrap();
+    let rows = (0..RECORDS).map(|k| format!("a.txt,r{k},g,0.01\n"));
+    let index = format!("file,name,units,dt_s\n{}", rows.collect::<String>());
+    let path = place.path().join("i.csv");
+    fs::write(&path, index).unwrap();
+    let (read, none) = (ReadOptions::default(), Processing::default());
+    let before = ALLOCATOR.current_usage();
+    ALLOCATOR.reset_peak_usage();
+    let suite: Suite<Profile> =
+        inputs::profiles::<anyhow::Error>(&path, read, &none).unwrap();
+    let members: Vec<_> = suite.members().iter().collect();
+    let mut seen = 0;
+    inputs::reread::<anyhow::Error>(&path, read, &none, &members, |r, _| {
+        assert_eq!(r.samples_g().len(), SAMPLES);
+        seen += 1;
+        Ok(())
+    })
+    .unwrap();
+    assert_eq!(seen, RECORDS);
+    let used = ALLOCATOR.peak_usage() - before;
+    let held = RECORDS * SAMPLES * size_of::<f64>();
+    println!("a suite in blocks: {} MiB", used as f64 / MIB as f64);
+    assert!(4 * used < held, "{used} bytes, all samples {held}");
+}
+
 /// One test: two at a time would count each other's memory.
 #[test]
 fn a_megabyte_takes_no_more_than_sixty_four() {
     a_packed_megabyte_takes_no_more_either();
+    profiles_hold_no_samples();
     let mut most: BTreeMap<&str, (usize, String)> = BTreeMap::new();
     for (name, bytes) in hostile() {
         for (target, _) in targets::TARGETS {

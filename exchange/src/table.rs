@@ -67,6 +67,12 @@ impl Table {
     }
 }
 
+/// The rows of a table's text, without its header line.
+#[must_use]
+pub fn body(text: &str) -> &str {
+    text.split_once('\n').map_or("", |(_, rows)| rows)
+}
+
 /// A number as a cell: nine significant digits at most, `inf` or `-inf`,
 /// empty where there is none (NaN).
 #[must_use]

@@ -89,7 +89,7 @@ pub fn read_suite<'py>(
     let members = suite.members().iter();
     let records =
         members.filter(|m| both || m.study_component).map(|member| {
-            let mut attributes = member.attributes.clone();
+            let mut attributes = member.attributes_by_name();
             attributes.insert("file".to_owned(), member.file.clone());
             let event = member.event.clone();
             attributes.extend(event.map(|own| ("event".to_owned(), own)));

@@ -67,31 +67,43 @@ pub struct CurveSummary {
 /// ```
 #[must_use]
 pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
-    let mut resolution = ResolutionCounts::default();
-    for curve in curves {
-        resolution.add(&curve.resolution);
-    }
-    let one = |curve: &IdaCurve| CurveSummary {
-        record: curve.record.clone(),
-        levels: curve.points.len(),
-        overturning_im: curve.overturning.map(|first| first.im()),
+    let mut summary = IdaSummary {
+        records: 0,
+        analyses: 0,
+        overturned_curves: 0,
+        median_overturning_im: None,
+        resolution: ResolutionCounts::default(),
+        resurrections: analysis.resurrections.map(|_| 0),
+        curves: Vec::new(),
     };
-    let all: Vec<CurveSummary> = curves.iter().map(one).collect();
-    let ims = all.iter().map(|c| c.overturning_im.unwrap_or(f64::INFINITY));
-    let ims = ExtendedSample::try_new(&ims.collect::<Vec<_>>()).ok();
-    let median = |ims| QuantileType::default().of_extended(&ims, 0.5).ok();
-    IdaSummary {
-        records: curves.len(),
-        analyses: curves.iter().map(|curve| curve.analyses).sum(),
-        overturned_curves: curves
-            .iter()
-            .filter(|curve| curve.overturning.is_some())
-            .count(),
-        median_overturning_im: ims.and_then(median),
-        resolution,
-        resurrections: analysis
-            .resurrections
-            .map(|_| curves.iter().map(IdaCurve::resurrections).sum()),
-        curves: all,
+    summary.add(curves);
+    summary
+}
+
+impl IdaSummary {
+    /// Counts more curves under the same analysis, as if all had been
+    /// counted together.
+    pub fn add(&mut self, curves: &[IdaCurve]) {
+        let mut resurrections = 0;
+        for curve in curves {
+            let overturning_im = curve.overturning.map(|first| first.im());
+            self.resolution.add(&curve.resolution);
+            self.analyses += curve.analyses;
+            self.overturned_curves += usize::from(overturning_im.is_some());
+            resurrections += curve.resurrections();
+            self.curves.push(CurveSummary {
+                record: curve.record.clone(),
+                levels: curve.points.len(),
+                overturning_im,
+            });
+        }
+        self.records = self.curves.len();
+        self.resurrections =
+            self.resurrections.map(|before| before + resurrections);
+        let im = |c: &CurveSummary| c.overturning_im.unwrap_or(f64::INFINITY);
+        let ims: Vec<f64> = self.curves.iter().map(im).collect();
+        let ims = ExtendedSample::try_new(&ims).ok();
+        let median = |ims| QuantileType::default().of_extended(&ims, 0.5).ok();
+        self.median_overturning_im = ims.and_then(median);
     }
 }

@@ -91,22 +91,41 @@ pub fn pivot_forces(
     };
     let curves: Vec<Vec<Forces>> =
         pairs.par_iter().panic_fuse().map(of).collect::<Result<_, _>>()?;
-    let all = || curves.iter().flatten();
-    let analyses = all().count();
-    let need = |&friction: &f64| {
-        let need_more = all().filter(|f| !(f.friction <= friction)).count();
-        let share = need_more as f64 / analyses as f64;
-        FrictionNeed { friction, need_more, share }
-    };
-    let most = |most: f64, forces: &Forces| most.max(forces.friction);
-    let least = |least: f64, f: &Forces| least.min(f.least_normal_over_weight);
-    Ok(PivotForces {
-        analyses,
+    let need = |&friction| FrictionNeed { friction, need_more: 0, share: 0.0 };
+    let mut found = PivotForces {
+        analyses: 0,
         needs: friction.iter().map(need).collect(),
-        largest_friction: all().fold(0.0, most),
-        least_normal_over_weight: all().fold(1.0, least),
-        curves,
-    })
+        largest_friction: 0.0,
+        least_normal_over_weight: 1.0,
+        curves: Vec::new(),
+    };
+    found.count(curves);
+    Ok(found)
+}
+
+impl PivotForces {
+    /// Counts more curves under the same analysis and coefficients, as if
+    /// all had been counted together.
+    pub fn add(&mut self, more: Self) {
+        self.count(more.curves);
+    }
+
+    fn count(&mut self, curves: Vec<Vec<Forces>>) {
+        for f in curves.iter().flatten() {
+            self.analyses += 1;
+            for need in &mut self.needs {
+                let more = !(f.friction <= need.friction);
+                need.need_more += usize::from(more);
+            }
+            self.largest_friction = self.largest_friction.max(f.friction);
+            self.least_normal_over_weight =
+                self.least_normal_over_weight.min(f.least_normal_over_weight);
+        }
+        for need in &mut self.needs {
+            need.share = need.need_more as f64 / self.analyses as f64;
+        }
+        self.curves.extend(curves);
+    }
 }
 
 /// Whether a record asks for more friction than `friction` at one of the

@@ -2,13 +2,20 @@
 //!
 //! A remark changes nothing: samples stay as they are.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::codes::coded;
 use super::{Accelerogram, SuiteMember};
 use crate::accelerogram::mean;
+
+pub use profile::{Motion, Profile};
+
+mod profile;
 
 /// Range of PGA in g; outside it the unit is suspected.
 const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);
@@ -151,20 +158,32 @@ coded! {
 }
 
 /// A record to be remarked on, beside others.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Remarked<'a> {
     /// The record.
-    pub record: &'a Accelerogram,
+    pub profile: Cow<'a, Profile>,
     /// Name of its pair.
     pub pair: Option<&'a str>,
     /// What its reading found.
     pub read: &'a [Remark],
 }
 
-impl<'a> From<&'a SuiteMember> for Remarked<'a> {
-    fn from(member: &'a SuiteMember) -> Self {
+impl<'a> Remarked<'a> {
+    /// A record, the name of its pair, and what its reading found.
+    #[must_use]
+    pub fn of(
+        record: &Accelerogram,
+        pair: Option<&'a str>,
+        read: &'a [Remark],
+    ) -> Self {
+        Self { profile: Cow::Owned(Profile::of(record)), pair, read }
+    }
+}
+
+impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {
+    fn from(member: &'a SuiteMember<M>) -> Self {
         Self {
-            record: &member.accelerogram,
+            profile: member.accelerogram.profile(),
             pair: member.pair.as_deref(),
             read: &member.remarks,
         }
@@ -256,20 +275,31 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// on each side, and where these are alike, up to 512; scale, sign and mean
 /// do not matter.
 #[must_use]
-pub fn duplicates(records: &[&Accelerogram]) -> Vec<(usize, usize, f64)> {
-    let windows: Vec<_> = records.iter().map(|r| about_peak(r)).collect();
-    let mut found = Vec::new();
-    for (i, first) in windows.iter().enumerate() {
-        for (j, second) in windows.iter().enumerate().skip(i + 1) {
-            if records[i].dt_s() != records[j].dt_s() {
-                continue;
-            }
-            let correlation = correlation(first, second);
-            if correlation > SAME_RECORDING {
-                found.push((i, j, correlation));
-            }
+pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
+    let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
+    let alike = |i: usize, j: usize| {
+        let (first, second) = (records[i], records[j]);
+        if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
+            return None;
         }
-    }
+        let correlation = correlation(first, second);
+        (correlation > SAME_RECORDING).then_some((i, j, correlation))
+    };
+    // Some records against all later ones, so that these are read once.
+    let tile = |tile: usize| {
+        let from = tile * TILE;
+        let to = records.len().min(from + TILE);
+        let pairs = (from + 1..records.len())
+            .flat_map(move |j| (from..to.min(j)).map(move |i| (i, j)));
+        pairs.filter_map(|(i, j)| alike(i, j)).collect::<Vec<_>>()
+    };
+    let tiles = 0..records.len().div_ceil(TILE);
+    #[cfg(feature = "threads")]
+    let found = tiles.into_par_iter().panic_fuse().flat_map_iter(tile);
+    #[cfg(not(feature = "threads"))]
+    let found = tiles.flat_map(tile);
+    let mut found: Vec<(usize, usize, f64)> = found.collect();
+    found.sort_by_key(|(i, j, _)| (*i, *j));
     found
 }
 
@@ -280,61 +310,69 @@ pub fn duplicates(records: &[&Accelerogram]) -> Vec<(usize, usize, f64)> {
 pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
     let mut found: Vec<Vec<Remark>> = records
         .iter()
-        .map(|one| [one.read, &remarks(one.record)].concat())
+        .map(|one| [one.read, &one.profile.remarks].concat())
         .collect();
-    let shape = |r: &Accelerogram| (r.samples_g().len(), r.dt_s());
+    let shape = |r: &Profile| (r.samples, r.dt_s);
     let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (i, Remarked { pair, .. }) in records.iter().enumerate() {
         if let Some(pair) = pair {
             pairs.entry(pair).or_default().push(i);
         }
     }
-    for (i, Remarked { record, pair, .. }) in records.iter().enumerate() {
+    for (i, Remarked { profile, pair, .. }) in records.iter().enumerate() {
         let others = pair.map_or(&[][..], |pair| &pairs[pair]);
         let Some(&other) = others.iter().find(|j| **j != i) else { continue };
-        if shape(record) != shape(records[other].record) {
-            let name = records[other].record.name().to_owned();
-            found[i].push(Remark::UnequalComponents(name));
+        let other = &records[other].profile;
+        if shape(profile) != shape(other) {
+            found[i].push(Remark::UnequalComponents(other.name.clone()));
         }
     }
-    let motions: Vec<_> = records.iter().map(|one| one.record).collect();
-    for (i, j, correlation) in duplicates(&motions) {
+    let profiles: Vec<_> = records.iter().map(|one| &*one.profile).collect();
+    for (i, j, correlation) in duplicates(&profiles) {
         for (of, by) in [(i, j), (j, i)] {
-            let other = motions[by].name().to_owned();
+            let other = profiles[by].name.clone();
             found[of].push(Remark::Duplicate { other, correlation });
         }
     }
     found
 }
 
-/// Samples about the peak, and the peak's place among them.
-fn about_peak(record: &Accelerogram) -> (&[f64], usize) {
-    let samples = record.samples_g();
-    let mut peak = 0;
-    for (index, sample) in samples.iter().enumerate() {
-        if sample.abs() > samples[peak].abs() {
-            peak = index;
+/// Sums that are taken side by side.
+const LANES: usize = 8;
+
+/// Records that are compared with all later ones together.
+const TILE: usize = 16;
+
+/// Samples near a peak less their mean, of length 1.
+type NearPeak = [f32; 2 * FEW_SAMPLES];
+
+/// Whether two motions are surely not yet alike near their peaks.
+fn differ(first: &Option<NearPeak>, second: &Option<NearPeak>) -> bool {
+    let (Some(first), Some(second)) = (first, second) else { return false };
+    let mut sums = [0.0_f32; LANES];
+    for (x, y) in
+        first.as_chunks::<LANES>().0.iter().zip(second.as_chunks::<LANES>().0)
+    {
+        for k in 0..LANES {
+            sums[k] += x[k] * y[k];
         }
     }
-    let from = peak.saturating_sub(COMPARED_SAMPLES);
-    let to = samples.len().min(peak + COMPARED_SAMPLES + 1);
-    (&samples[from..to], peak - from)
+    let sum = sums.iter().fold(0.0, |sum, part| sum + f64::from(*part));
+    // In single precision, to a margin.
+    !(sum.abs() > NOT_YET_DIFFERENT - 1e-4)
 }
 
-fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
-    let before = first.1.min(second.1);
-    let rest = |w: &(&[f64], usize)| w.0.len() - w.1;
+fn correlation(first: &Profile, second: &Profile) -> f64 {
+    let before = first.before.min(second.before);
+    let rest = |w: &Profile| w.about_peak.len() - w.before;
     let after = rest(first).min(rest(second));
     if before + after < LEAST_COMPARED {
         return 0.0;
     }
-    let part = |w: &(&[f64], usize), before: usize, after: usize| {
-        w.1 - before..w.1 + after
-    };
     let about = |before: usize, after: usize| {
-        let x = &first.0[part(first, before, after)];
-        let y = &second.0[part(second, before, after)];
-        of_samples(x, y)
+        let part = |w: &Profile| w.before - before..w.before + after;
+        let x = &first.about_peak[part(first)];
+        of_samples(x, &second.about_peak[part(second)])
     };
     // A quick look, which spares most of the work.
     let few = before.min(FEW_SAMPLES) + after.min(FEW_SAMPLES);
@@ -347,17 +385,38 @@ fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
     about(before, after)
 }
 
+/// Mean of samples.
+fn mean_of(samples: &[f32]) -> f64 {
+    let sum = samples.iter().fold(0.0, |sum, a| sum + f64::from(*a));
+    sum / samples.len() as f64
+}
+
 /// Absolute correlation of samples less their means.
-fn of_samples(x: &[f64], y: &[f64]) -> f64 {
-    let (mean_x, mean_y) = (mean(x), mean(y));
-    let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
-    for (x, y) in x.iter().zip(y) {
-        let (x, y) = (x - mean_x, y - mean_y);
-        xx += x * x;
-        yy += y * y;
-        xy += x * y;
-    }
-    f64::abs(xy) / (xx * yy).sqrt()
+fn of_samples(x: &[f32], y: &[f32]) -> f64 {
+    let mut sums = [[0.0_f64; LANES]; 5];
+    let mut add = |x: &[f32; LANES], y: &[f32; LANES]| {
+        for k in 0..LANES {
+            let (x, y) = (f64::from(x[k]), f64::from(y[k]));
+            sums[0][k] += x;
+            sums[1][k] += y;
+            sums[2][k] += x * x;
+            sums[3][k] += y * y;
+            sums[4][k] += x * y;
+        }
+    };
+    let ((xs, x_rest), (ys, y_rest)) =
+        (x.as_chunks::<LANES>(), y.as_chunks::<LANES>());
+    xs.iter().zip(ys).for_each(|(x, y)| add(x, y));
+    let padded = |rest: &[f32]| {
+        let mut lanes = [0.0; LANES];
+        lanes[..rest.len()].copy_from_slice(rest);
+        lanes
+    };
+    add(&padded(x_rest), &padded(y_rest));
+    let [sx, sy, xx, yy, xy] = sums.map(|sum| sum.iter().sum::<f64>());
+    let n = x.len() as f64;
+    let (xx, yy) = (xx - sx * sx / n, yy - sy * sy / n);
+    f64::abs(xy - sx * sy / n) / (xx * yy).sqrt()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
 mod aside;
 mod cells;
@@ -16,8 +17,8 @@ pub use error::SuiteError;
 pub use survey::Survey;
 
 use super::{
-    Accelerogram, Format, Processing, ProcessingError, ReadOptions,
-    RecordError, Remark,
+    Accelerogram, Format, Motion, Processing, ProcessingError, Profile,
+    ReadOptions, RecordError, Remark,
 };
 use crate::units::AccelerationUnit;
 
@@ -48,9 +49,9 @@ impl fmt::Display for StudyRule {
 /// One record of a suite.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct SuiteMember {
-    /// The component.
-    pub accelerogram: Accelerogram,
+pub struct SuiteMember<M = Accelerogram> {
+    /// The component, or its profile.
+    pub accelerogram: M,
     /// File, relative to the folder or index.
     pub file: String,
     /// Format of the file.
@@ -68,15 +69,47 @@ pub struct SuiteMember {
     /// Earthquake of the record, by the index; records of one earthquake
     /// are no independent draws.
     pub event: Option<String>,
-    /// Other columns of the index, by name (magnitude, distance, ...).
-    pub attributes: BTreeMap<String, String>,
+    /// Other columns of the index (magnitude, distance, ...): name and cell,
+    /// in the index's order.
+    pub attributes: Vec<(Arc<str>, String)>,
+}
+
+impl<M> SuiteMember<M> {
+    /// The cells of the index's other columns, by name.
+    #[must_use]
+    pub fn attributes_by_name(&self) -> BTreeMap<String, String> {
+        let cells = self.attributes.iter();
+        cells.map(|(name, cell)| (name.to_string(), cell.clone())).collect()
+    }
+}
+
+impl SuiteMember {
+    /// The member without its samples.
+    #[must_use]
+    pub fn into_profile(self) -> SuiteMember<Profile> {
+        let Self { accelerogram, file, format, unit, site, remarks, .. } =
+            self;
+        let Self { pair, study_component, event, attributes, .. } = self;
+        SuiteMember {
+            accelerogram: Profile::of(&accelerogram),
+            file,
+            format,
+            unit,
+            site,
+            remarks,
+            pair,
+            study_component,
+            event,
+            attributes,
+        }
+    }
 }
 
 /// Records read together, in the index's order or by file name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Suite {
+pub struct Suite<M = Accelerogram> {
     name: String,
-    members: Vec<SuiteMember>,
+    members: Vec<SuiteMember<M>>,
     study_rule: StudyRule,
     set_aside: SetAside,
 }
@@ -140,7 +173,8 @@ impl Suite {
         options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        Survey::of_index(path, bytes, options, file_bytes)?.into_suite()
+        Survey::of_index(path, bytes, options, file_bytes, Ok)
+            .and_then(Survey::into_suite)
     }
 
     /// The suite with every record processed.
@@ -156,7 +190,9 @@ impl Suite {
         }
         Ok(self)
     }
+}
 
+impl<M: Motion> Suite<M> {
     /// Name of the folder or index, without its ending.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -165,7 +201,7 @@ impl Suite {
 
     /// All records.
     #[must_use]
-    pub fn members(&self) -> &[SuiteMember] {
+    pub fn members(&self) -> &[SuiteMember<M>] {
         &self.members
     }
 
@@ -184,24 +220,26 @@ impl Suite {
 
     /// The component of each pair that the study uses; a record without a
     /// partner is one.
-    pub fn study_components(&self) -> impl Iterator<Item = &SuiteMember> {
+    pub fn study_components(&self) -> impl Iterator<Item = &SuiteMember<M>> {
         self.members.iter().filter(|m| m.study_component)
     }
 
     /// The components that the study does not use.
-    pub fn other_components(&self) -> impl Iterator<Item = &SuiteMember> {
+    pub fn other_components(&self) -> impl Iterator<Item = &SuiteMember<M>> {
         self.members.iter().filter(|m| !m.study_component)
     }
 
     /// The pairs that have both components, the study's first.
     #[must_use]
-    pub fn both(&self) -> Vec<(&SuiteMember, &SuiteMember)> {
+    pub fn both(&self) -> Vec<(&SuiteMember<M>, &SuiteMember<M>)> {
+        let others: BTreeMap<&str, &SuiteMember<M>> = self
+            .other_components()
+            .filter_map(|other| Some((other.pair.as_deref()?, other)))
+            .collect();
         self.study_components()
             .filter_map(|study| {
-                let pair = study.pair.as_ref()?;
-                self.other_components()
-                    .find(|other| other.pair.as_ref() == Some(pair))
-                    .map(|other| (study, other))
+                let other = others.get(study.pair.as_deref()?)?;
+                Some((study, *other))
             })
             .collect()
     }

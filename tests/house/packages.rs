@@ -48,13 +48,18 @@ fn plain(path: &Path) -> Option<PathBuf> {
 }
 
 #[test]
-fn what_a_crate_compiles_in_is_in_its_package() {
+fn a_package_has_its_licences_and_what_it_compiles_in() {
     let libraries = LIBRARIES.map(|(manifest, _)| manifest);
     let others = ["Cargo.toml", "validation/Cargo.toml"];
     let (mut problems, mut seen) = (Vec::new(), 0);
     for manifest in libraries.into_iter().chain(others) {
         let folder = manifest.trim_end_matches("Cargo.toml");
         let files = package(manifest);
+        for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
+            if !files.contains(Path::new(licence)) {
+                problems.push(format!("{manifest}: no {licence}"));
+            }
+        }
         let sources =
             files.iter().filter(|f| f.extension().is_some_and(|e| e == "rs"));
         for source in sources {

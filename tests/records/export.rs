@@ -28,7 +28,7 @@ fn exported_suites_are_read_back_bit_for_bit() {
         assert_eq!(suite.both().len(), pairs.len());
         for ((study, _), pair) in suite.both().iter().zip(&pairs) {
             assert_eq!(study.accelerogram, pair.components[0]);
-            let mw: f64 = study.attributes["mw"].parse().unwrap();
+            let mw: f64 = study.attributes_by_name()["mw"].parse().unwrap();
             assert_eq!(mw, pair.scenario.mw);
         }
     }

@@ -23,7 +23,10 @@ fn pulse_periods_of_real_pairs_are_those_of_the_list() {
                 let all = candidates(pair.0, pair.1, STANDARD_GRAVITY_M_S2);
                 let all = all.expect("a pair of one interval");
                 let own = pulse(&all).map(|c| c.period_s);
-                (own, study.attributes["pulse_period_s"].parse().ok())
+                (
+                    own,
+                    study.attributes_by_name()["pulse_period_s"].parse().ok(),
+                )
             })
             .collect();
         let pairs = found.len();

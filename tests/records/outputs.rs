@@ -129,6 +129,20 @@ fn an_input_is_never_an_output() {
     assert!(error.contains("1.0e11 levels up to the highest IM"), "{error}");
 }
 
+#[test]
+fn a_file_that_a_table_names_is_an_input() {
+    let files: [(&str, &[u8]); 3] = [
+        ("sample.txt", b"0.3\n0.5\n0.4\n"),
+        ("blocks.csv", b"alpha,p,sample\n0.2,3,sample.txt\n"),
+        ("hazard.csv", b"pga_g,annual_frequency\n0.1,0.01\n0.5,0.001\n"),
+    ];
+    let folder = folder("named-input", &files);
+    let risk = "risk --blocks blocks.csv --hazard hazard.csv";
+    let error = refused(&folder, &format!("{risk} --plot sample.txt"));
+    assert!(error.contains("is read: expected another"), "{error}");
+    assert_eq!(std::fs::read(folder.join("sample.txt")).unwrap(), files[0].1);
+}
+
 #[cfg(unix)]
 #[test]
 fn two_outputs_never_go_to_one_file() {

@@ -1,4 +1,4 @@
-//! The boundary to a page: text goes in and out by two buffers.
+//! The boundary to a page: bytes go in and out by two buffers.
 //!
 //! The page asks for room, writes its question there, calls `answer`, and
 //! reads the answer where `answer_start` says.
@@ -11,7 +11,7 @@ use std::cell::RefCell;
 
 thread_local! {
     static QUESTION: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
-    static ANSWER: RefCell<String> = const { RefCell::new(String::new()) };
+    static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Room for a question of `length` bytes.
@@ -26,8 +26,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 /// Answers the question, and gives the length of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
-    let question = QUESTION.take();
-    let found = crate::question::answer(&String::from_utf8_lossy(&question));
+    let found = crate::answered(&QUESTION.take());
     ANSWER.with_borrow_mut(|answer| {
         *answer = found;
         answer.len()

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use rocking_proof::cases::{Case, Cost, load_all};
+use rocking_proof::methods::METHODS;
 use rocking_proof::verdict::checks_of;
 use serde::Serialize;
 
@@ -40,47 +41,12 @@ struct Check {
 /// Values shown of a list.
 const SHOWN: usize = 3;
 
-/// Methods whose cases take longer than about a second in a browser: trials of
-/// many scenes or samples, whole suites, the data set of the score.
-const SLOW: [&str; 24] = [
-    "adjustment-on-suite",
-    "bias",
-    "certificate-trials",
-    "certified-values",
-    "coverage",
-    "coverage-of-inference",
-    "critical-durations",
-    "curves-of-first-hops",
-    "diagnosis",
-    "ends-of-observation",
-    "fates-over-levels",
-    "interval-of-a-probability",
-    "lilliefors-asymptotics",
-    "lilliefors-mean",
-    "lilliefors-null",
-    "lilliefors-table",
-    "many-half-cycles",
-    "orders-of-naive-schemes",
-    "power-of-a-design",
-    "rates-by-earthquake",
-    "rejected-share",
-    "sine-bias",
-    "touches-of-the-threshold",
-    "velocity-pulse",
-];
-
-/// Methods that ask `statrs` for quantiles of Student's and the beta
-/// distribution: it takes the logarithm of the platform, so that their last
-/// digits differ between platforms.
-const OF_PLATFORM: [&str; 3] =
-    ["earthquakes-of-other-packages", "paired-procedures", "proportions"];
-
-/// The cases that a page runs: those of every `cargo test`, but for slow ones
-/// and those whose bits depend on the platform.
+/// The cases that a page runs: those of every `cargo test` whose method does
+/// not take long.
 pub fn list() -> Result<Vec<Listed>, Box<dyn Error>> {
     let quick = |case: &Case| {
-        let left = |methods: &[&str]| methods.contains(&&*case.method);
-        case.cost == Cost::Quick && !left(&SLOW) && !left(&OF_PLATFORM)
+        let of_page = METHODS.iter().any(|(name, _)| *name == case.method);
+        case.cost == Cost::Quick && of_page
     };
     let quick = load_all()?.into_iter().filter(quick);
     let listed = |case: Case| Listed {

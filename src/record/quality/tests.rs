@@ -47,7 +47,7 @@ fn components_of_a_pair_are_compared() {
     };
     let (a, b) = (record("a", 401), record("b", 381));
     let codes = |pair| {
-        let one = |record, pair| Remarked { record, pair, read: &[] };
+        let one = |record, pair| Remarked::of(record, pair, &[]);
         let found =
             remarks_together(&[one(&a, Some("p")), one(&b, Some(pair))]);
         let unequal = Remark::UnequalComponents("b".to_owned());
@@ -67,9 +67,15 @@ fn a_recording_is_known_again_by_its_shape() {
         let samples = std::iter::repeat_n(0.0, shift).chain(wave);
         Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
     };
-    let records =
-        [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
-    let found = duplicates(&records.each_ref());
-    let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
-    assert_eq!(pairs, [(0, 1)]);
+    // More than are compared together: the scale of each is its own.
+    let pair = |(i, j, _): &(usize, usize, f64)| (*i, *j);
+    let many = (0..40).map(|k| match k {
+        37 => motion(77, -0.2, 9.0),
+        35 => motion(3, 0.1, 9.7),
+        _ => motion(0, 0.3, 9.0 + 0.7 * f64::from(k)),
+    });
+    let profiles: Vec<_> = many.map(|record| Profile::of(&record)).collect();
+    let found = duplicates(&profiles.iter().collect::<Vec<_>>());
+    let pairs: Vec<_> = found.iter().map(pair).collect();
+    assert_eq!(pairs, [(0, 37), (1, 35)]);
 }

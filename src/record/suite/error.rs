@@ -71,6 +71,16 @@ pub enum SuiteError {
         /// The name.
         name: String,
     },
+    /// A record that changed between two readings.
+    #[error(
+        "{path}: record {name:?} has changed since it was first read: expected files that stay as they are"
+    )]
+    Changed {
+        /// Folder or index.
+        path: String,
+        /// The record.
+        name: String,
+    },
     /// A pair without exactly one study component, or of more than two.
     #[error(
         "{path}: pair {pair:?} has {components} components, {study} for the study: expected at most 2, and 1 for the study"
@@ -105,6 +115,7 @@ impl SuiteError {
             Self::Unreadable { path, .. }
             | Self::Empty { path, .. }
             | Self::Index { path, .. }
+            | Self::Changed { path, .. }
             | Self::SameName { path, .. }
             | Self::Pair { path, .. } => path,
         }
@@ -120,6 +131,7 @@ impl SuiteError {
             Self::Index { .. } => "index",
             Self::Mismatch { .. } => "mismatch",
             Self::SameName { .. } => "same-name",
+            Self::Changed { .. } => "changed",
             Self::Pair { .. } => "pair",
         }
     }

@@ -1,6 +1,7 @@
 //! The index of a suite: a CSV file with a header, columns by name.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
@@ -11,7 +12,7 @@ use crate::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
 pub(super) struct Index {
-    columns: Rc<[String]>,
+    columns: Rc<[Arc<str>]>,
     rows: Vec<Row>,
     paired: bool,
 }
@@ -23,15 +24,16 @@ pub(super) struct Row {
     file: String,
     /// PEER's number stands for a column `pair`.
     pair: Option<String>,
-    columns: Rc<[String]>,
+    columns: Rc<[Arc<str>]>,
     cells: Vec<String>,
 }
 
 /// Characters of a column's name, at most: every record carries the names.
 const LONGEST_NAME: usize = 64;
 
-/// Records of an index, at most: twice the largest database of its kind.
-const MOST_ROWS: usize = 50_000;
+/// Records of an index, at most: four times the largest database of its
+/// kind.
+const MOST_ROWS: usize = 100_000;
 
 /// Columns that mean something; others are attributes.
 const COLUMNS: [&str; 12] = [
@@ -95,8 +97,10 @@ impl Index {
             separator: separator(lines.get(head).copied().unwrap_or("")),
             lines: &lines,
         };
-        table.columns = table.head(head)?.into();
-        let mut rows = Vec::new();
+        let head_cells = table.head(head)?;
+        table.columns = head_cells.into_iter().map(Arc::from).collect();
+        let left = lines.len().saturating_sub(head + 1);
+        let mut rows = Vec::with_capacity(left.min(MOST_ROWS));
         for (line, text) in lines.iter().enumerate().skip(head + 1) {
             let blank = text.trim_matches([',', ';', ' ', '\t']).is_empty();
             if blank && peer.is_some() {
@@ -130,14 +134,14 @@ impl Index {
 
     /// Whether there is a column `name`.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.columns.iter().any(|column| column == name)
+        self.columns.iter().any(|column| **column == *name)
     }
 }
 
 /// Lines under a head of column names.
 struct Table<'a> {
     path: Rc<str>,
-    columns: Rc<[String]>,
+    columns: Rc<[Arc<str>]>,
     separator: char,
     lines: &'a [&'a str],
 }
@@ -198,7 +202,7 @@ impl Table<'_> {
 
     /// Place of the column `name`.
     fn place(&self, name: &str) -> Option<usize> {
-        self.columns.iter().position(|column| column == name)
+        self.columns.iter().position(|column| **column == *name)
     }
 
     fn cells(&self, line: usize) -> Result<Vec<String>, SuiteError> {
@@ -274,13 +278,14 @@ impl Row {
 
     /// A cell that is there and not empty.
     fn cell(&self, name: &str) -> Option<&str> {
-        let place = self.columns.iter().position(|column| column == name)?;
+        let place =
+            self.columns.iter().position(|column| **column == *name)?;
         Some(self.cells[place].as_str()).filter(|cell| !cell.is_empty())
     }
 
     /// The earthquake, which the index states for all records or for none.
     fn event(&self) -> Result<Option<String>, SuiteError> {
-        let stated = |name: &str| self.columns.iter().any(|c| c == name);
+        let stated = |name: &str| self.columns.iter().any(|c| **c == *name);
         match ["event", PEER_EVENT].into_iter().find(|name| stated(name)) {
             None => Ok(None),
             Some(name) => match self.cell(name) {
@@ -349,8 +354,8 @@ impl Row {
         };
         let named = self.columns.iter().zip(&self.cells);
         let attributes = named
-            .filter(|(name, _)| !COLUMNS.contains(&name.as_str()))
-            .map(|(name, cell)| (name.clone(), cell.clone()))
+            .filter(|(name, _)| !COLUMNS.contains(&&***name))
+            .map(|(name, cell)| (Arc::clone(name), cell.clone()))
             .collect();
         Ok(SuiteMember {
             accelerogram: match self.cell("name") {

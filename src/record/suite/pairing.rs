@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
-use crate::record::Direction;
 use crate::record::direction::{glued, is_azimuth, is_code};
+use crate::record::{Direction, Motion};
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 
@@ -45,8 +45,8 @@ fn is_orientation(end: &str) -> bool {
 /// Gives the two records that share event and station, or else a name but
 /// for its orientation, that as their pair; any other number of records stays
 /// unpaired.
-pub(super) fn pair_by_name(members: &mut [SuiteMember]) {
-    let key = |m: &SuiteMember| {
+pub(super) fn pair_by_name<M: Motion>(members: &mut [SuiteMember<M>]) {
+    let key = |m: &SuiteMember<M>| {
         m.site.clone().or_else(|| pair_key(m.accelerogram.name()))
     };
     let keys: Vec<_> = members.iter().map(key).collect();
@@ -62,7 +62,7 @@ pub(super) fn pair_by_name(members: &mut [SuiteMember]) {
 
 /// Marks, in each pair, the component whose name sorts first; a record
 /// without a partner is marked too.
-pub(super) fn mark_first(members: &mut [SuiteMember]) {
+pub(super) fn mark_first<M: Motion>(members: &mut [SuiteMember<M>]) {
     let mut first: BTreeMap<String, String> = BTreeMap::new();
     for member in members.iter() {
         let Some(pair) = &member.pair else { continue };
@@ -83,9 +83,9 @@ pub(super) fn mark_first(members: &mut [SuiteMember]) {
 
 /// Refuses a pair of more than two, and one without exactly one study
 /// component.
-pub(super) fn check_pairs(
+pub(super) fn check_pairs<M>(
     path: &str,
-    members: &[SuiteMember],
+    members: &[SuiteMember<M>],
 ) -> Result<(), SuiteError> {
     let mut pairs: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for member in members {
@@ -104,9 +104,9 @@ pub(super) fn check_pairs(
 }
 
 /// Refuses two records of one name.
-pub(super) fn check_names(
+pub(super) fn check_names<M: Motion>(
     path: &str,
-    members: &[SuiteMember],
+    members: &[SuiteMember<M>],
 ) -> Result<(), SuiteError> {
     let mut names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();

@@ -6,21 +6,24 @@ use std::path::{Path, PathBuf};
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::record::{
-    Direction, Fault, ReadOptions, Record, RecordError, Remark, file_bytes,
-    is_record, name_of, read_all, result_name, stem,
+    Direction, Fault, Motion, ReadOptions, Record, RecordError, Remark,
+    file_bytes, is_record, name_of, read_all, result_name, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
 const PEER_RESULTS: &str = "_SearchResults.csv";
 
 /// What a folder or index holds, refused records included.
+///
+/// Of each record that was read it has what the caller kept: the whole
+/// [`SuiteMember`], its profile, or nothing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Survey {
+pub struct Survey<K = SuiteMember> {
     /// The folder, index, archive or record, in messages.
     path: String,
     /// Name of the suite.
     name: String,
-    members: Vec<Result<SuiteMember, SuiteError>>,
+    members: Vec<Result<K, SuiteError>>,
     set_aside: SetAside,
     study_rule: StudyRule,
     paired: bool,
@@ -36,50 +39,83 @@ impl Survey {
         path: &Path,
         options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
+        Self::visit(path, options, Ok)
+    }
+}
+
+impl<K> Survey<K> {
+    /// Reads every record of the folder or index at `path`, or the record
+    /// file there, one after the other in their order, and holds what `keep`
+    /// makes of each.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use rocking::record::{ReadOptions, SuiteError, Survey};
+    /// let folder = Path::new("no such folder");
+    /// let mut samples = 0;
+    /// let found = Survey::visit(folder, &ReadOptions::default(), |member| {
+    ///     samples += member.accelerogram.samples_g().len();
+    ///     Ok::<(), SuiteError>(())
+    /// });
+    /// assert!(found.is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// [`SuiteError`] where the folder or index itself cannot be read, and
+    /// the first error of `keep`.
+    pub fn visit<E: From<SuiteError>>(
+        path: &Path,
+        options: &ReadOptions,
+        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
         let shown = path.display().to_string();
         if path.is_dir() {
             let (files, others) = contents(path)?;
             let names: Vec<String> = files.keys().cloned().collect();
+            let bytes = |name: &str| {
+                let own = || path.join(name);
+                file_bytes(&files.get(name).cloned().unwrap_or_else(own))
+            };
             let mut survey =
-                Self::of_files(&shown, &names, options, |name| {
-                    let own = || path.join(name);
-                    file_bytes(&files.get(name).cloned().unwrap_or_else(own))
-                })?;
+                Self::of_files(&shown, &names, options, bytes, keep)?;
             survey.set_aside.extend(others);
             return Ok(survey);
         }
-        let bytes = file_bytes(path)?;
+        let bytes = file_bytes(path).map_err(SuiteError::from)?;
         let base = path.parent().unwrap_or(Path::new(""));
         if !index::is_index(&bytes) && is_record(&bytes) {
             let base = base.display().to_string();
             let names = [name_of(path)];
             let read = |_: &str| Ok(bytes.clone());
-            let survey = Self::of_files(&base, &names, options, read)?;
+            let survey = Self::of_files(&base, &names, options, read, keep)?;
             let name = stem(&shown).to_owned();
             return Ok(Self { path: shown, name, ..survey });
         }
-        Self::of_index(&shown, &bytes, options, |file| {
-            file_bytes(&base.join(file))
-        })
+        let read = |file: &str| file_bytes(&base.join(file));
+        Self::of_index(&shown, &bytes, options, read, keep)
     }
 
     /// Reads every record among the files of a folder or archive, given by
     /// its path, the files' names and a function that gives the bytes of
-    /// each. If one of them is PEER's `_SearchResults.csv`, that is the
-    /// index. A name that comes twice is read once.
+    /// each, and holds what `keep` makes of it. If one of them is PEER's
+    /// `_SearchResults.csv`, that is the index. A name that comes twice is
+    /// read once.
     ///
     /// # Errors
-    /// [`SuiteError`] where an index cannot be read.
-    pub fn of_files(
+    /// [`SuiteError`] where an index cannot be read, and the first error of
+    /// `keep`.
+    pub fn of_files<E: From<SuiteError>>(
         path: &str,
         names: &[String],
         options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-    ) -> Result<Self, SuiteError> {
+        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
         let (names, doubled): (Vec<&String>, Vec<&String>) =
             names.iter().partition(|name| known.insert(*name));
-        let mut survey = Self::of_each(path, &names, options, file_bytes)?;
+        let mut survey =
+            Self::of_each(path, &names, options, file_bytes, keep)?;
         for name in doubled {
             let shown = format!("{path}/{name}");
             survey.refuse(name, Fault::Doubled.whole(&shown));
@@ -88,20 +124,22 @@ impl Survey {
     }
 
     /// Reads every record among files of different names.
-    fn of_each(
+    fn of_each<E: From<SuiteError>>(
         path: &str,
         names: &[&String],
         options: &ReadOptions,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-    ) -> Result<Self, SuiteError> {
+        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
         if let Some(results) = names.iter().find(|n| **n == PEER_RESULTS) {
-            let bytes = file_bytes(results)?;
+            let bytes = file_bytes(results).map_err(SuiteError::from)?;
             let shown = format!("{path}/{results}");
             let mut listed = BTreeSet::from([(*results).clone()]);
-            let survey = Self::of_index(&shown, &bytes, options, |name| {
+            let read = |name: &str| {
                 listed.insert(name.to_owned());
                 file_bytes(name)
-            })?;
+            };
+            let survey = Self::of_index(&shown, &bytes, options, read, keep)?;
             let name = container(path).to_owned();
             let mut survey = Self { name, ..survey };
             for name in names.iter().filter(|name| !listed.contains(**name)) {
@@ -128,7 +166,7 @@ impl Survey {
             });
             for record in found {
                 match horizontal(&shown, name, record) {
-                    Ok(member) => survey.members.push(Ok(member)),
+                    Ok(member) => survey.members.push(Ok(keep(member)?)),
                     Err(error) => survey.refuse(name, error),
                 }
             }
@@ -144,12 +182,13 @@ impl Survey {
         }
     }
 
-    pub(super) fn of_index(
+    pub(super) fn of_index<E: From<SuiteError>>(
         path: &str,
         bytes: &[u8],
         options: &ReadOptions,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-    ) -> Result<Self, SuiteError> {
+        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
         let index = index::Index::parse(path, bytes)?;
         let paired = index.is_paired();
         let study_rule = if index.has("study_component") {
@@ -157,9 +196,16 @@ impl Survey {
         } else {
             StudyRule::FirstName
         };
-        let member =
-            |row: index::Row| row.member(&file_bytes(row.file())?, options);
-        let members = index.into_rows().into_iter().map(member).collect();
+        let rows = index.into_rows();
+        let mut members = Vec::with_capacity(rows.len());
+        for row in rows {
+            let bytes = file_bytes(row.file()).map_err(SuiteError::from);
+            let member = bytes.and_then(|bytes| row.member(&bytes, options));
+            members.push(match member {
+                Ok(member) => Ok(keep(member)?),
+                Err(error) => Err(error),
+            });
+        }
         // An index as PEER names it has its folder's name.
         let folder = path.strip_suffix(PEER_RESULTS).map(container);
         let name = folder.filter(|folder| !folder.is_empty());
@@ -175,7 +221,7 @@ impl Survey {
 
     /// Every record that was looked for, in the index's order or by file
     /// name; pairs found by name are known to the suite only.
-    pub fn members(&self) -> &[Result<SuiteMember, SuiteError>] {
+    pub fn members(&self) -> &[Result<K, SuiteError>] {
         &self.members
     }
 
@@ -184,13 +230,15 @@ impl Survey {
     pub fn set_aside(&self) -> &SetAside {
         &self.set_aside
     }
+}
 
+impl<M: Motion> Survey<SuiteMember<M>> {
     /// The suite, if no record was refused.
     ///
     /// # Errors
     /// The first refused record; [`SuiteError::Empty`] without any; a name
     /// that two records share; a pair that is none.
-    pub fn into_suite(self) -> Result<Suite, SuiteError> {
+    pub fn into_suite(self) -> Result<Suite<M>, SuiteError> {
         let Self { path, name, members, set_aside, study_rule, paired } = self;
         let mut members =
             members.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -245,7 +293,7 @@ fn horizontal(
         pair: None,
         study_component: false,
         event: None,
-        attributes: BTreeMap::new(),
+        attributes: Vec::new(),
     })
 }
 

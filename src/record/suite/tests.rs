@@ -3,6 +3,9 @@
 use super::pairing::pair_key;
 use super::*;
 
+/// Keeps all of a record.
+const KEEP: fn(SuiteMember) -> Result<SuiteMember, SuiteError> = Ok;
+
 const MOTION: &str = "0\n0.2\n-0.1\n";
 
 /// What `sha256sum` prints of it, in capitals.
@@ -95,7 +98,7 @@ fn study_components_come_from_the_index() {
     let [(first, second)] = found.both()[..] else { panic!() };
     assert_eq!((&*first.file, &*second.file), ("a-2.txt", "a-1.txt"));
     assert_eq!(second.event.as_deref(), Some("Nowhere, \"old\""));
-    assert_eq!(second.attributes["mw"], "7.1");
+    assert_eq!(second.attributes_by_name()["mw"], "7.1");
     assert_eq!(second.attributes.len(), 1);
     for (flags, study) in [("0,0", 0), ("1,1", 2)] {
         let (one, two) = flags.split_once(',').unwrap();
@@ -199,11 +202,12 @@ fn smc_components_are_known_by_their_header() {
     let names: Vec<String> =
         files.iter().map(|f| format!("{}.smc", f.0)).collect();
     let options = ReadOptions::default();
-    let survey = Survey::of_files("d", &names, &options, |name| {
+    let bytes = |name: &str| {
         let stem = name.trim_end_matches(".smc");
         let file = files.iter().find(|f| f.0 == stem).unwrap();
         Ok(text(file.1, file.2).into_bytes())
-    });
+    };
+    let survey = Survey::of_files("d", &names, &options, bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     let kept: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
     assert_eq!(kept, ["0111a.smc", "0111c.smc", "0112_UP.smc"]);
@@ -240,7 +244,7 @@ fn of_a_kiknet_station_the_two_surface_components_make_a_suite() {
         Ok(file.1.clone().into_bytes())
     };
     let options = ReadOptions::default();
-    let survey = Survey::of_files("d", &names, &options, bytes).unwrap();
+    let survey = Survey::of_files("d", &names, &options, bytes, KEEP).unwrap();
     let aside: Vec<_> = survey
         .set_aside()
         .all()
@@ -286,7 +290,7 @@ fn a_suite_has_the_name_of_its_folder_or_file() {
         ("x/M6.5_0917/", "M6.5_0917"),
         ("x/peer.v2.zip", "peer.v2"),
     ] {
-        let survey = Survey::of_files(path, &names, &options, bytes);
+        let survey = Survey::of_files(path, &names, &options, bytes, KEEP);
         assert_eq!(survey.unwrap().into_suite().unwrap().name(), name);
     }
     for (path, name) in
@@ -311,9 +315,10 @@ fn at2_components_are_known_by_their_header() {
     };
     let names = ["d.AT2".to_owned(), "e.AT2".to_owned()];
     let options = ReadOptions::default();
-    let survey = Survey::of_files("f", &names, &options, |name| {
+    let bytes = |name: &str| {
         Ok(text(if name == "d.AT2" { "UP" } else { "90" }).into_bytes())
-    });
+    };
+    let survey = Survey::of_files("f", &names, &options, bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     assert_eq!(suite.members().len(), 1);
     assert_eq!(suite.members()[0].file, "e.AT2");
@@ -364,9 +369,12 @@ fn peers_search_results_are_an_index() {
     );
     assert_eq!(suite.both().len(), 1);
     assert_eq!(suite.members()[1].pair.as_deref(), Some("RSN9001"));
-    let attributes = &suite.members()[1].attributes;
-    assert_eq!(attributes["Earthquake Name"], "Nowhere, 1900");
-    assert_eq!(attributes["Magnitude"], "7.1");
+    let member = &suite.members()[1];
+    assert_eq!(
+        member.attributes_by_name()["Earthquake Name"],
+        "Nowhere, 1900"
+    );
+    assert_eq!(member.attributes_by_name()["Magnitude"], "7.1");
     let short = results.replace(", -----, -----", ", -----");
     assert_eq!(
         read(&short).unwrap_err().to_string(),

@@ -2,10 +2,10 @@
 //! is reported at once, and written whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Write as _};
+use std::io::{self, Seek as _, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, SpooledTempFile};
 
 pub use folder::{Folder, is_interrupted};
 pub use standard::standard_output;
@@ -16,7 +16,11 @@ mod folder;
 mod standard;
 mod unfinished;
 
-/// A place to write to, opened and found writable.
+/// Bytes of an unfinished output that are held in memory, at most.
+const HELD_BYTES: usize = 64 << 20;
+
+/// A place to write to, opened and found writable. What is written piece by
+/// piece gets there when it is finished, and not at all otherwise.
 ///
 /// A regular file is replaced at once and keeps its mode; through a link the
 /// linked file is. A device or a named pipe is written to. `-` is standard
@@ -29,9 +33,9 @@ pub struct Output {
 
 #[derive(Debug)]
 enum Sink {
-    Standard,
+    Standard(SpooledTempFile),
     /// A device or a named pipe.
-    Stream(PathBuf),
+    Stream(PathBuf, SpooledTempFile),
     File {
         target: PathBuf,
         part: NamedTempFile,
@@ -68,8 +72,8 @@ enum Place {
 impl Place {
     fn of(sink: &Sink) -> io::Result<Option<Self>> {
         Ok(match sink {
-            Sink::Standard => Some(Self::Standard),
-            Sink::Stream(_) => None,
+            Sink::Standard(_) => Some(Self::Standard),
+            Sink::Stream(..) => None,
             Sink::File { target, .. } => {
                 let folder = fs::canonicalize(folder_of(target))?;
                 let name = target.file_name().unwrap_or_default();
@@ -132,42 +136,64 @@ impl Output {
     /// Whether it is standard output.
     #[must_use]
     pub fn is_standard(&self) -> bool {
-        matches!(self.sink, Sink::Standard)
+        matches!(self.sink, Sink::Standard(_))
     }
 
     /// Writes all of it.
     ///
     /// # Errors
     /// [`WriteError`]; a regular file is as it was before then.
-    pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), WriteError> {
-        let content = content.as_ref();
-        self.write_with(&|out| out.write_all(content))
+    pub fn write(
+        mut self,
+        content: impl AsRef<[u8]>,
+    ) -> Result<(), WriteError> {
+        self.add(content)?;
+        self.finish()
     }
 
-    /// Writes what `content` gives, piece by piece; it may be asked twice.
+    /// Writes the next piece.
     ///
     /// # Errors
-    /// As [`Output::write`], and what `content` says.
-    pub fn write_with(self, content: Content<'_>) -> Result<(), WriteError> {
-        self.sink.write(content).map_err(WriteError::at(&self.path))
+    /// [`WriteError`]; a regular file is as it was before then.
+    pub fn add(&mut self, piece: impl AsRef<[u8]>) -> Result<(), WriteError> {
+        self.write_all(piece.as_ref()).map_err(WriteError::at(&self.path))
+    }
+
+    /// Puts what was written in its place.
+    ///
+    /// # Errors
+    /// [`WriteError`]; a regular file is as it was before then.
+    pub fn finish(self) -> Result<(), WriteError> {
+        self.sink.finish().map_err(WriteError::at(&self.path))
     }
 }
 
-/// Writes pieces of a file to where they go.
-type Content<'a> = &'a dyn Fn(&mut (dyn io::Write + Send)) -> io::Result<()>;
+impl Write for Output {
+    fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
+        match &mut self.sink {
+            Sink::Standard(part) | Sink::Stream(_, part) => part.write(piece),
+            Sink::File { part, .. } => part.write(piece),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
 
 impl Sink {
     fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
+        let held = SpooledTempFile::new(HELD_BYTES);
         if path == Path::new("-") {
             standard_output()?;
-            return Ok(Self::Standard);
+            return Ok(Self::Standard(held));
         }
         let target = match fs::metadata(path) {
             Ok(found) if found.is_dir() => {
                 return Err(io::ErrorKind::IsADirectory.into());
             }
             Ok(found) if !found.is_file() => {
-                return Ok(Self::Stream(path.to_owned()));
+                return Ok(Self::Stream(path.to_owned(), held));
             }
             Ok(_) => {
                 refuse_input(path, inputs)?;
@@ -195,34 +221,38 @@ impl Sink {
         Ok(Self::File { target, part })
     }
 
-    fn write(self, content: Content<'_>) -> io::Result<()> {
+    fn finish(self) -> io::Result<()> {
         match self {
-            Self::Standard => {
+            Self::Standard(mut part) => {
+                part.rewind()?;
                 let mut out = io::stdout();
-                match content(&mut out).and_then(|()| out.flush()) {
+                let done = io::copy(&mut part, &mut out);
+                match done.and_then(|_| out.flush()) {
                     Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
                     done => done,
                 }
             }
-            Self::Stream(path) => {
-                content(&mut File::options().write(true).open(path)?)
+            Self::Stream(path, mut part) => {
+                part.rewind()?;
+                let mut device = File::options().write(true).open(path)?;
+                io::copy(&mut part, &mut device).map(drop)
             }
-            Self::File { target, mut part } => {
-                content(&mut part)?;
+            Self::File { target, part } => {
                 part.as_file().sync_all()?;
-                match part.persist(&target).map_err(|e| e.error) {
-                    Err(error)
-                        if error.kind() == io::ErrorKind::ResourceBusy =>
-                    {
-                        // The file is mounted by itself.
-                        let mut options = File::options();
-                        let file = options.write(true).truncate(true);
-                        let mut file = file.open(&target)?;
-                        content(&mut file)?;
-                        file.sync_all()
-                    }
-                    done => done.map(drop),
+                let (error, mut part) = match part.persist(&target) {
+                    Ok(_) => return Ok(()),
+                    Err(unfinished) => (unfinished.error, unfinished.file),
+                };
+                if error.kind() != io::ErrorKind::ResourceBusy {
+                    return Err(error);
                 }
+                // The file is mounted by itself.
+                let mut options = File::options();
+                let mut file =
+                    options.write(true).truncate(true).open(&target)?;
+                part.rewind()?;
+                io::copy(&mut part, &mut file)?;
+                file.sync_all()
             }
         }
     }

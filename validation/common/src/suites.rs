@@ -190,7 +190,7 @@ impl StudySuite {
 
 /// Records by earthquake; each record by itself where the index names none.
 #[must_use]
-pub fn clusters(members: &[&SuiteMember]) -> Clusters {
+pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
     let events = members.iter().map(|member| member.event.as_deref());
     let events: Option<Vec<&str>> = events.collect();
     let records = || Clusters::singletons(members.len());

@@ -2,7 +2,9 @@
 //! page shows them.
 
 pub use rocking_exchange::columns;
-pub use rocking_exchange::table::{Table, cells, digits, number, optional};
+pub use rocking_exchange::table::{
+    Table, body, cells, digits, number, optional,
+};
 
 /// A table with its title.
 #[derive(Debug, Clone, Default)]

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context as _, Result, anyhow};
+use lzma_rust2::{LzmaOptions, LzmaWriter, Write as _};
 use rayon::prelude::*;
 use rocking_draw::page::STYLE;
 use rocking_proof::cases::load_all;
@@ -17,9 +18,13 @@ const PAGE: &str = include_str!("lab/page.html");
 const OWN_STYLE: &str = include_str!("lab/page.css");
 const SCRIPT: &str = include_str!("lab/page.js");
 
-/// Between these the page has its engine.
-const ENGINE: [&str; 2] =
-    ["<script type=\"text/plain\" id=\"engine\">", "</script>"];
+/// The engine as `web/build` makes it.
+pub struct Engine {
+    /// What unpacks it: a WebAssembly module, as gzip.
+    pub unpacker: Vec<u8>,
+    /// A WebAssembly module, as LZMA.
+    pub packed: Vec<u8>,
+}
 
 /// What the compiled program gives.
 #[derive(Serialize)]
@@ -87,11 +92,11 @@ fn native() -> Result<Native> {
     Ok(Native { cases, left })
 }
 
-/// The page with an engine, a compressed (gzip) WebAssembly module.
+/// The page with an engine.
 ///
 /// # Errors
 /// Where a declared case gives no answer or fails.
-pub fn page(engine: &[u8]) -> Result<String> {
+pub fn page(engine: &Engine) -> Result<String> {
     let style = format!("{STYLE}{OWN_STYLE}");
     let hash = |text: &str| base64(&Sha256::digest(text));
     let policy = format!(
@@ -101,14 +106,14 @@ pub fn page(engine: &[u8]) -> Result<String> {
         hash(SCRIPT),
         hash(&style)
     );
-    // No text of a case may end the script that holds it.
-    let native = serde_json::to_string(&native()?)?.replace('<', "\\u003c");
+    let native = packed(&serde_json::to_vec(&native()?)?)?;
     let parts = [
         ("{policy}", policy),
         ("{style}", style),
         ("{version}", env!("CARGO_PKG_VERSION").to_owned()),
-        ("{native}", native),
-        ("{engine}", base64(engine)),
+        ("{native}", base64(&native)),
+        ("{unpacker}", base64(&engine.unpacker)),
+        ("{engine}", base64(&engine.packed)),
         ("{script}", SCRIPT.to_owned()),
     ];
     Ok(parts.iter().fold(PAGE.to_owned(), |page, (place, part)| {
@@ -116,12 +121,24 @@ pub fn page(engine: &[u8]) -> Result<String> {
     }))
 }
 
+/// LZMA, as the engine is packed.
+fn packed(bytes: &[u8]) -> Result<Vec<u8>> {
+    let options = LzmaOptions::with_preset(9);
+    let failed = |error| anyhow!("LZMA: {error:?}");
+    let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, None)
+        .map_err(failed)?;
+    writer.write_all(bytes).map_err(failed)?;
+    writer.finish().map_err(failed)
+}
+
 /// The engine that a page holds, as it stands there.
 #[must_use]
-pub fn engine_of(page: &str) -> Option<Vec<u8>> {
-    let (_, rest) = page.split_once(ENGINE[0])?;
-    let (engine, _) = rest.split_once(ENGINE[1])?;
-    from_base64(engine)
+pub fn engine_of(page: &str) -> Option<Engine> {
+    let part = |name: &str| {
+        let (_, rest) = page.split_once(&format!("id=\"{name}\">"))?;
+        from_base64(rest.split_once("</script>")?.0)
+    };
+    Some(Engine { unpacker: part("unpacker")?, packed: part("engine")? })
 }
 
 const ALPHABET: &[u8; 64] =

@@ -160,8 +160,7 @@ impl ExcitationArgs {
             let Record { accelerogram, remarks: read, .. } =
                 read_file(path, &options)?;
             let record = self.processing.processing()?.apply(&accelerogram)?;
-            let remarked =
-                Remarked { record: &record, pair: None, read: &read };
+            let remarked = Remarked::of(&record, None, &read);
             let remarks = Remarks::of(&[remarked]);
             self.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);

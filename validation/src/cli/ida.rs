@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use rocking::block::Block;
+use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, Overturned, REFINEMENT,
@@ -17,7 +18,7 @@ use rocking::intensity::Intensity;
 use rocking::procedures::{
     IdaSummary, PivotForces, StripeResponses, summarise_ida,
 };
-use rocking::record::{Remarked, SetAside, Suite, SuiteMember};
+use rocking::record::{Profile, Remarked, SetAside, Suite, SuiteMember};
 use serde::Serialize;
 
 use self::forces::ForcesArgs;
@@ -31,10 +32,11 @@ use super::show::shown;
 use super::way::WayArgs;
 use crate::failure::Failure;
 use crate::terminal::{SOFTWARE, logged, progress, say};
-use rocking_common::files::Outputs;
-use rocking_common::suites::inputs::{files, read_suite};
+use rocking_common::files::{Output, Outputs};
+use rocking_common::suites::inputs::{BLOCK_SAMPLES, files, profiles, reread};
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::suites::{clusters, earthquakes};
+use rocking_common::table::body;
 use rocking_common::words::{printable, rounded};
 use rocking_draw::figures::common;
 use rocking_draw::figures::of_suite::ida_svg;
@@ -104,6 +106,10 @@ pub struct Args {
     forces: ForcesArgs,
     #[command(flatten)]
     way: WayArgs,
+    /// Samples of the records that are analysed together, about; results do
+    /// not depend on them.
+    #[arg(long, value_name = "N", hide = true, default_value_t = BLOCK_SAMPLES)]
+    block_samples: usize,
     #[command(flatten)]
     limit: LimitArgs,
     /// Table; `-` is standard output, with the summary on standard error.
@@ -135,10 +141,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
-    let way = args.way.way()?;
+    args.way.way()?;
     let read = args.reading.options(gravity_m_s2);
     let processing = args.processing.processing()?;
-    let suite = read_suite(&args.suite, read)?.processed(&processing)?;
+    let suite: Suite<Profile> =
+        profiles::<Failure>(&args.suite, read, &processing)?;
     let mut outputs = Outputs::of(files(&args.suite, &suite));
     let out = outputs.open(&args.out)?;
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
@@ -147,45 +154,55 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let remarked: Vec<Remarked<'_>> =
         chosen.iter().map(|member| Remarked::from(*member)).collect();
     let remarks = Remarks::of(&remarked);
+    drop(remarked);
     args.reading.judge(suite.set_aside(), &remarks)?;
-    let records: Vec<NormalisedRecord> = chosen
+    let events = chosen
         .iter()
-        .map(|member| NormalisedRecord::new(&member.accelerogram))
-        .collect();
-    let bar = progress(records.len() as u64);
-    let curves = logged(&bar, || {
-        args.threads.run(|| {
-            let only = std::slice::from_ref(&analysis);
-            way.curves(&records, only, &|| bar.inc(1))
-        })
-    })?
-    .map_err(curve_refused)?;
-    let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
-    bar.finish_and_clear();
-    let pivot = args
-        .threads
-        .run(|| args.forces.pivot(&records, &table, &analysis))?
-        .map_err(curve_refused)?;
-    let processing = words(&processing);
-    let processing = processing.as_deref();
+        .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")));
     let is_standard = out.is_standard();
-    let about = (processing.unwrap_or("none"), SOFTWARE);
-    let events: BTreeMap<&str, &str> = chosen
-        .iter()
-        .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")))
-        .collect();
-    let known = |record: &str| {
-        let event = events.get(record).copied().unwrap_or_default();
-        (remarks.codes(record), event.to_owned())
+    let mut work = Work {
+        args,
+        analysis: &analysis,
+        processing: words(&processing),
+        remarks: &remarks,
+        events: events.collect(),
+        bar: progress(chosen.len() as u64),
+        out,
+        forces_out,
+        curves: plot.is_asked().then(Vec::new),
+        summary: summarise_ida(&[], &analysis),
+        pivot: None,
     };
-    let rows = IdaTable::of(&table, &analysis, gravity_m_s2, about, known);
-    out.write(rows.csv())?;
-    if let (Some(out), Some(pivot)) = (forces_out, &pivot) {
-        out.write(forces::csv(pivot, &table))?;
+    let mut block = Vec::new();
+    let mut samples = 0;
+    reread(&args.suite, read, &processing, &chosen, |record, _| {
+        samples += record.samples_g().len();
+        block.push(NormalisedRecord::new(record));
+        if samples < args.block_samples {
+            return Ok(());
+        }
+        samples = 0;
+        work.run(&std::mem::take(&mut block))
+    })?;
+    work.run(&block)?;
+    let Work {
+        out,
+        forces_out,
+        curves,
+        mut summary,
+        pivot,
+        bar,
+        processing,
+        ..
+    } = work;
+    bar.finish_and_clear();
+    out.finish()?;
+    if let Some(out) = forces_out {
+        out.finish()?;
     }
-    let is_standard = plot.draw(|| svg(&table, &analysis))? || is_standard;
+    let drawn = plot.draw(|| svg(&curves.unwrap_or_default(), &analysis))?;
+    let is_standard = drawn || is_standard;
     let as_json = args.json.json && !is_standard;
-    let mut summary = summarise_ida(&table, &analysis);
     if !as_json {
         summary.curves.clear();
     }
@@ -193,7 +210,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         suite: suite.name(),
         earthquakes: earthquakes(&clusters(&chosen)),
         study_components: suite.study_rule().to_string(),
-        processing,
+        processing: processing.as_deref(),
         remarks: &remarks,
         set_aside: suite.set_aside(),
         highest_im: HIGHEST_IM,
@@ -209,11 +226,81 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     say(&text)
 }
 
+/// A suite that is worked off in blocks of records.
+struct Work<'a> {
+    args: &'a Args,
+    analysis: &'a Analysis,
+    processing: Option<String>,
+    remarks: &'a Remarks,
+    /// Earthquakes of the records; empty where the index names none.
+    events: BTreeMap<&'a str, &'a str>,
+    bar: indicatif::ProgressBar,
+    out: Output,
+    forces_out: Option<Output>,
+    /// The curves, where they are drawn.
+    curves: Option<Vec<ResponseCurve>>,
+    summary: IdaSummary,
+    pivot: Option<PivotForces>,
+}
+
+impl Work<'_> {
+    /// Runs the next records and writes their rows.
+    fn run(&mut self, records: &[NormalisedRecord]) -> Result<(), Failure> {
+        let Self { args, analysis, bar, .. } = self;
+        let way = args.way.way()?;
+        let only = std::slice::from_ref(*analysis);
+        let curves = logged(bar, || {
+            args.threads.run(|| way.curves(records, only, &|| bar.inc(1)))
+        })?
+        .map_err(curve_refused)?;
+        let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
+        let pivot = args
+            .threads
+            .run(|| args.forces.pivot(records, &table, analysis))?
+            .map_err(curve_refused)?;
+        let known = |record: &str| {
+            let event = self.events.get(record).copied().unwrap_or_default();
+            (self.remarks.codes(record), event.to_owned())
+        };
+        let processing = self.processing.as_deref().unwrap_or("none");
+        let about = (processing, SOFTWARE);
+        let gravity_m_s2 = args.model.gravity_m_s2;
+        let rows = IdaTable::of(&table, analysis, gravity_m_s2, about, known);
+        let is_first = self.summary.records == 0;
+        // The header stands once.
+        let part = |text: String| match is_first {
+            true => text,
+            false => body(&text).to_owned(),
+        };
+        self.out.add(part(rows.csv()))?;
+        if let Some(pivot) = pivot {
+            if let Some(out) = &mut self.forces_out {
+                out.add(part(forces::csv(&pivot, &table)))?;
+            }
+            match &mut self.pivot {
+                None => self.pivot = Some(pivot),
+                Some(all) => all.add(pivot),
+            }
+            if let Some(all) = &mut self.pivot {
+                all.curves.clear();
+            }
+        }
+        if let Some(drawn) = &mut self.curves {
+            for curve in &table {
+                drawn.push(curve.response(Overturned::Refined)?);
+            }
+        }
+        self.summary.add(&table);
+        Ok(())
+    }
+}
+
 /// The curves with their quantiles.
-fn svg(table: &[IdaCurve], analysis: &Analysis) -> Result<String, Failure> {
-    let curves = table.iter().map(|one| one.response(Overturned::Refined));
-    let curves = curves.collect::<Result<Vec<_>, _>>()?;
-    let stripes = StripeResponses::over(&curves, STEPS)?;
+fn svg(
+    curves: &[ResponseCurve],
+    analysis: &Analysis,
+) -> Result<String, Failure> {
+    let stripes = StripeResponses::over(curves, STEPS)?;
     let block = format!(
         "{}, {}, *g* tan *α* = {:.3} *g*",
         common::slenderness(analysis.block.slenderness_rad()),
@@ -221,7 +308,7 @@ fn svg(table: &[IdaCurve], analysis: &Analysis) -> Result<String, Failure> {
         uplift_threshold(&analysis.block, analysis.model)
     );
     let axis = common::intensity(Intensity::Pga);
-    Ok(ida_svg(&curves, &stripes, (axis, &block)))
+    Ok(ida_svg(curves, &stripes, (axis, &block)))
 }
 
 /// What is shown of a table.
@@ -273,11 +360,12 @@ impl Args {
         })
     }
 
+    /// The records of the component asked for, in the suite's order.
     fn chosen<'s>(
         &self,
-        suite: &'s Suite,
-    ) -> Result<Vec<&'s SuiteMember>, Failure> {
-        let chosen: Vec<_> = match self.component {
+        suite: &'s Suite<Profile>,
+    ) -> Result<Vec<&'s SuiteMember<Profile>>, Failure> {
+        let mut chosen: Vec<_> = match self.component {
             Component::Study => suite.study_components().collect(),
             Component::Both => suite.members().iter().collect(),
             Component::First | Component::Second => suite
@@ -290,6 +378,13 @@ impl Args {
                 })
                 .collect(),
         };
+        let places: BTreeMap<&str, usize> = suite
+            .members()
+            .iter()
+            .enumerate()
+            .map(|(place, member)| (member.accelerogram.name(), place))
+            .collect();
+        chosen.sort_by_key(|member| places[member.accelerogram.name()]);
         if chosen.is_empty() {
             return Err(Failure::input(format!(
                 "{}: no record of the component asked for",

@@ -129,7 +129,7 @@ impl GroundArgs {
                 ))
             })?;
             let measures = Measures::of(&member.accelerogram, &settings)?;
-            let mut attributes = member.attributes.clone();
+            let mut attributes = member.attributes_by_name();
             attributes.extend(own.get(name).into_iter().flatten().cloned());
             Ok(Unscaled { name: name.to_owned(), measures, attributes })
         });

@@ -66,8 +66,7 @@ struct Listed {
 
 impl Listed {
     fn remarked(&self) -> Remarked<'_> {
-        let (record, pair) = (&self.motion, self.pair.as_deref());
-        Remarked { record, pair, read: &self.remarks }
+        Remarked::of(&self.motion, self.pair.as_deref(), &self.remarks)
     }
 
     fn member(member: &SuiteMember, in_suite: bool) -> Self {
@@ -308,7 +307,7 @@ impl Listing {
             line: error.line(),
             message: error.to_string(),
         };
-        let survey = match inputs::survey(path, options) {
+        let survey = match inputs::visit(path, options, Ok) {
             Ok(survey) => survey,
             Err(error) => return self.refused.push(refused(&error)),
         };

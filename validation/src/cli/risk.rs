@@ -8,7 +8,7 @@ use rocking::procedures::{Exposed, FitOptions, Shift, risk};
 use rocking::statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
-use super::fragility::source::SourceArgs;
+use super::fragility::source::{Source, SourceArgs};
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
@@ -125,6 +125,13 @@ fn site(text: &str) -> Result<(f64, f64), String> {
     degrees.ok_or_else(|| "expected longitude,latitude in degrees".into())
 }
 
+/// What the fragilities come from.
+enum Basis {
+    Files(Source),
+    /// Median and dispersion.
+    Parameters(f64, f64),
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -138,14 +145,26 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and another file -: expected one of them as a file",
         ));
     }
+    let basis = match args.median.zip(args.dispersion) {
+        None => Basis::Files(args.source.open()?),
+        Some((median, beta)) => Basis::Parameters(median, beta),
+    };
     let inputs = args.source.inputs().into_iter();
-    let inputs = inputs.chain([args.hazard.clone()]).collect();
+    let named = match &basis {
+        Basis::Files(source) => source.inputs(),
+        Basis::Parameters(..) => Vec::new(),
+    };
+    let inputs = inputs.chain(named).chain([args.hazard.clone()]).collect();
     let plot = args.plot.open(&mut Outputs::of(inputs))?;
     let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
-    let fragilities = match (args.median, args.dispersion) {
-        (Some(median), Some(beta)) => given(options.shift, median, beta)?,
-        _ => args.threads.run(|| of_source(args, options, &hazard))??,
+    let fragilities = match &basis {
+        Basis::Files(source) => args
+            .threads
+            .run(|| of_source(args, source, options, &hazard))??,
+        Basis::Parameters(median, beta) => {
+            given(options.shift, *median, *beta)?
+        }
     };
     let years = args.site.years();
     let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
@@ -193,10 +212,10 @@ fn kind(law: &Lognormal) -> &'static str {
 /// the unit of the hazard curve.
 fn of_source(
     args: &Args,
+    source: &Source,
     mut options: FitOptions,
     hazard: &Hazard,
 ) -> Result<Vec<Exposed>, Failure> {
-    let source = args.source.open()?;
     // A bootstrap of the smallest value, or of a free shift, is refused.
     if matches!(options.shift, Shift::Given(_)) {
         options.draws = Some(args.bootstrap.draws());

@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::Subcommand;
 use rocking::intensity::Intensity;
+use rocking::record::{Processing, Profile, Suite};
 use rocking::stop::Stop;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Serialize;
@@ -20,7 +21,7 @@ use crate::failure::Failure;
 use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use crate::terminal::{SOFTWARE, note, print, say};
 use crate::threads::until;
-use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::inputs::profiles;
 use rocking_common::suites::remarks::Remarks;
 
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
@@ -239,12 +240,15 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     };
     let blocks: Vec<Given> =
         rows.into_iter().map(given).collect::<Result<_, _>>()?;
-    let options = args.reading.options(STANDARD_GRAVITY_M_S2);
-    let suite = read_suite(&args.suite, options)?;
+    let read = args.reading.options(STANDARD_GRAVITY_M_S2);
+    let suite: Suite<Profile> =
+        profiles::<Failure>(&args.suite, read, &Processing::default())?;
     args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
     let wanted = Wanted {
         blocks: &blocks,
         suite: &suite,
+        place: &args.suite,
+        read,
         demands: args.demands.clone(),
         levels: args
             .step_pga_g

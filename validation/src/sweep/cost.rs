@@ -9,8 +9,8 @@
 //! that it needs.
 
 use libm::log2;
-use rocking::excitation::NormalisedRecord;
 use rocking::ida::{HIGHEST_IM, REFINEMENT};
+use rocking::record::Profile;
 use serde::{Deserialize, Serialize};
 
 /// Coefficients of the guess of a curve's end.
@@ -47,7 +47,7 @@ impl Cost {
     /// levels `step_im` apart and `fits` bootstrapped fits of `replicates`.
     pub(super) fn of(
         p_rad_s: f64,
-        records: &[NormalisedRecord],
+        records: &[&Profile],
         step_im: f64,
         (fits, replicates): (usize, usize),
     ) -> Self {
@@ -57,7 +57,7 @@ impl Cost {
             let u = p_rad_s * record.velocity_ratio_s();
             let end = END[0] / u + END[1] / (u * u);
             let levels = end.min(HIGHEST_IM) / step_im + 1.0 + halvings;
-            let samples = record.samples().len() as f64;
+            let samples = record.samples() as f64;
             cost.analyses += levels;
             cost.core_s += levels * samples * SAMPLE_S;
         }

@@ -1,14 +1,13 @@
 //! Tiles put together: as CSV, and as Parquet where the program has it.
 
-use std::cell::RefCell;
-use std::io;
 use std::path::Path;
 
 use super::content::Content;
 use super::plan::Planned;
 use super::tile;
 use crate::failure::Failure;
-use rocking_common::files::Outputs;
+use rocking_common::files::{Output, Outputs};
+use rocking_common::table::body;
 
 /// Puts the tiles together in the plan's order, one after the other: as
 /// Parquet where the name of `out` ends so, else as CSV. The bytes are the
@@ -32,42 +31,23 @@ pub fn merge(
             out.display()
         )));
     }
-    let output = Outputs::of(planned.files()).open(out)?;
-    let refused = RefCell::new(None);
-    let written = output.write_with(&|file| {
-        let body = &|tile| {
-            tile::body(planned, content, tile).map_err(|failure| {
-                *refused.borrow_mut() = Some(failure);
-                io::Error::other("a tile is not done")
-            })
-        };
-        match parquet {
-            true => as_parquet(planned, content, body, file),
-            false => as_csv(planned, body, file),
-        }
-    });
-    match refused.into_inner() {
-        Some(failure) => Err(failure),
-        None => Ok(written?),
+    let mut output = Outputs::of(planned.files()).open(out)?;
+    match parquet {
+        true => as_parquet(planned, content, &mut output)?,
+        false => as_csv(planned, content, &mut output)?,
     }
+    Ok(output.finish()?)
 }
-
-/// Gives the text of a tile.
-type Bodies<'a> = &'a dyn Fn(usize) -> io::Result<String>;
 
 fn as_csv(
     planned: &Planned,
-    body: Bodies<'_>,
-    file: &mut dyn io::Write,
-) -> io::Result<()> {
+    content: Content,
+    output: &mut Output,
+) -> Result<(), Failure> {
     for tile in 0..planned.plan.tiles.len() {
-        let body = body(tile)?;
+        let text = tile::body(planned, content, tile)?;
         // The header stands once.
-        let rows = match tile {
-            0 => body.as_str(),
-            _ => body.split_once('\n').map_or("", |(_, rows)| rows),
-        };
-        file.write_all(rows.as_bytes())?;
+        output.add(if tile == 0 { &text } else { body(&text) })?;
     }
     Ok(())
 }
@@ -80,9 +60,8 @@ const GROUP_ROWS: usize = 1 << 20;
 fn as_parquet(
     planned: &Planned,
     content: Content,
-    body: Bodies<'_>,
-    file: &mut (dyn io::Write + Send),
-) -> io::Result<()> {
+    output: &mut Output,
+) -> Result<(), Failure> {
     use rocking_parquet::{Kind, Table, Writer};
 
     let plan = &planned.plan;
@@ -110,12 +89,12 @@ fn as_parquet(
     let table =
         Table { columns: &columns, notes: &notes, group_rows: GROUP_ROWS };
     let by = plan.software.replacen(' ', " version ", 1);
-    let mut writer = Writer::begin(file, &table, &by)?;
+    let mut writer = Writer::begin(output, &table, &by)?;
     let mut row = csv::StringRecord::new();
     for tile in 0..plan.tiles.len() {
-        let body = body(tile)?;
+        let body = tile::body(planned, content, tile)?;
         let mut reader = csv::Reader::from_reader(body.as_bytes());
-        while reader.read_record(&mut row).map_err(io::Error::other)? {
+        while reader.read_record(&mut row)? {
             writer.row(row.iter())?;
         }
     }
@@ -123,11 +102,6 @@ fn as_parquet(
 }
 
 #[cfg(not(feature = "parquet"))]
-fn as_parquet(
-    _: &Planned,
-    _: Content,
-    _: Bodies<'_>,
-    _: &mut dyn io::Write,
-) -> io::Result<()> {
-    Err(io::ErrorKind::Unsupported.into())
+fn as_parquet(_: &Planned, _: Content, _: &mut Output) -> Result<(), Failure> {
+    Err(std::io::Error::from(std::io::ErrorKind::Unsupported).into())
 }

@@ -8,7 +8,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
 use rocking::integrator::{Model, Overturning, uplift_threshold};
-use rocking::record::{Accelerogram, ReadOptions, Suite};
+use rocking::record::{Processing, Profile, ReadOptions, Suite, read};
 use rocking::statistics::Clusters;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
@@ -19,7 +19,7 @@ use crate::failure::{At as _, Failure};
 use crate::input;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
-use rocking_common::suites::inputs::{read_suite, sha256_hex};
+use rocking_common::suites::inputs::{BLOCK_SAMPLES, reread, sha256_hex};
 
 /// Version of the plan's shape.
 const SCHEMA: u32 = 4;
@@ -128,6 +128,8 @@ pub struct Planned {
     pub folder: PathBuf,
     /// SHA-256 of the plan's file.
     pub hash: String,
+    /// Samples of the records that are analysed together, about.
+    pub block_samples: usize,
 }
 
 /// What a plan is made of.
@@ -135,7 +137,11 @@ pub struct Wanted<'a> {
     /// The blocks.
     pub blocks: &'a [Given],
     /// The suite.
-    pub suite: &'a Suite,
+    pub suite: &'a Suite<Profile>,
+    /// Its folder, index or zip.
+    pub place: &'a Path,
+    /// How its records are read.
+    pub read: ReadOptions,
     /// Demands.
     pub demands: Vec<f64>,
     /// Levels of a curve.
@@ -168,13 +174,9 @@ impl Plan {
                 )));
             }
         }
-        let rows: Vec<export::Row<'_>> = export::members(wanted.suite, None)
-            .into_iter()
-            .filter(|row| row.study_component)
-            .collect();
-        let files = export::files(SUITE, &rows)?;
-        let motions: Vec<NormalisedRecord> =
-            rows.iter().map(|row| NormalisedRecord::new(row.motion)).collect();
+        let members: Vec<_> = wanted.suite.study_components().collect();
+        let profiles: Vec<&Profile> =
+            members.iter().map(|member| &member.accelerogram).collect();
         // A fit a demand and intensity measure.
         let fits = (INTENSITIES * wanted.demands.len(), REPLICATES);
         let costs: Vec<Cost> = wanted
@@ -182,22 +184,47 @@ impl Plan {
             .iter()
             .map(|given| {
                 let step_im = wanted.levels.step_im(&given.block()?);
-                Ok(Cost::of(given.p_rad_s, &motions, step_im, fits))
+                Ok(Cost::of(given.p_rad_s, &profiles, step_im, fits))
             })
             .collect::<Result<_, Failure>>()?;
-        let records = files
-            .iter()
-            .filter(|(path, _)| path.extension().is_some_and(|e| e == "at2"))
-            .zip(&rows)
-            .map(|((_, text), row)| {
-                (row.motion.name().to_owned(), sha256_hex(text))
-            })
-            .collect();
-        let events: Option<Vec<String>> = wanted
-            .suite
-            .study_components()
-            .map(|member| member.event.clone())
-            .collect();
+        let tiles = cost::tiles(&costs, 60.0 * wanted.tile_minutes);
+        let analyses = tiles.iter().map(|tile| tile.analyses as f64);
+        let analyses = analyses.fold(0.0, |sum, x| sum + x);
+        if !(analyses <= MOST_ANALYSES) {
+            return Err(Failure::input(format!(
+                "about {analyses:e} analyses: expected at most \
+                 {MOST_ANALYSES:e}; a larger step of the levels makes fewer"
+            )));
+        }
+        let path = folder.join("plan.json");
+        let there = fs::read_to_string(&path).ok();
+        let write = |path: &Path, text: &str| match there {
+            Some(_) => Ok(()),
+            None => write_atomically(&folder.join(path), text),
+        };
+        for part in [SUITE, "tiles"].into_iter().filter(|_| there.is_none()) {
+            let part = folder.join(part);
+            let place = format_args!("cannot make {}", part.display());
+            fs::create_dir_all(&part).at(place)?;
+        }
+        let own = members.iter().flat_map(|member| &member.attributes);
+        let event = members.iter().any(|member| member.event.is_some());
+        let own = own.map(|(name, _)| &**name).chain(event.then_some("event"));
+        let mut packing = export::Packing::new(SUITE, own);
+        let mut records = Vec::with_capacity(members.len());
+        let (place, read, none) =
+            (wanted.place, wanted.read, Processing::default());
+        reread(place, read, &none, &members, |motion, member| {
+            let row = export::member_of(motion, member);
+            let (path, text) = packing.add(&row)?;
+            let sum = sha256_hex(text.as_bytes());
+            records.push((motion.name().to_owned(), sum));
+            Ok::<_, Failure>(write(&path, &text)?)
+        })?;
+        let (index, text) = packing.finish();
+        write(&index, &text)?;
+        let events: Option<Vec<String>> =
+            members.iter().map(|member| member.event.clone()).collect();
         let plan = Self {
             schema: SCHEMA,
             software: software.into(),
@@ -208,36 +235,15 @@ impl Plan {
             blocks: wanted.blocks.to_vec(),
             records,
             events: events.unwrap_or_default(),
-            tiles: cost::tiles(&costs, 60.0 * wanted.tile_minutes),
+            tiles,
         };
-        let analyses = plan.tiles.iter().map(|tile| tile.analyses as f64);
-        let analyses = analyses.fold(0.0, |sum, x| sum + x);
-        if !(analyses <= MOST_ANALYSES) {
-            return Err(Failure::input(format!(
-                "about {analyses:e} analyses: expected at most \
-                 {MOST_ANALYSES:e}; a larger step of the levels makes fewer"
-            )));
-        }
         let text = plan.text();
-        let path = folder.join("plan.json");
-        match fs::read_to_string(&path) {
-            Ok(there) if there == text => return Planned::read(folder),
-            Ok(_) => {
-                return Err(Failure::input(format!(
-                    "{}: holds another plan; expected an empty folder, or the \
-                     same plan",
-                    folder.display()
-                )));
-            }
-            Err(_) => {}
-        }
-        for part in [SUITE, "tiles"] {
-            let part = folder.join(part);
-            let place = format_args!("cannot make {}", part.display());
-            fs::create_dir_all(&part).at(place)?;
-        }
-        for (name, content) in files {
-            write_atomically(&folder.join(name), content)?;
+        if there.is_some_and(|there| there != text) {
+            return Err(Failure::input(format!(
+                "{}: holds another plan; expected an empty folder, or the \
+                 same plan",
+                folder.display()
+            )));
         }
         write_atomically(&path, &text)?;
         Planned::read(folder)
@@ -354,35 +360,40 @@ impl Planned {
             hash: sha256_hex(text.as_bytes()),
             folder: folder.into(),
             plan,
+            block_samples: BLOCK_SAMPLES,
         })
     }
 
-    /// The packed records, each held to the plan's hash.
+    /// Some packed records from a place on, each held to the plan's hash: as
+    /// many as are analysed together.
     ///
     /// # Errors
     /// [`Failure`] for a record that is another now.
-    pub fn records(&self) -> Result<Vec<Accelerogram>, Failure> {
-        for (name, expected) in &self.plan.records {
-            let path = record_path(&self.folder, name);
-            let place = path.display();
-            let found =
-                fs::read(&path).at(format_args!("cannot read {place}"));
-            let found = sha256_hex(&found?);
+    pub fn records(
+        &self,
+        from: usize,
+    ) -> Result<Vec<NormalisedRecord>, Failure> {
+        let (mut records, mut samples) = (Vec::new(), 0);
+        for (name, expected) in &self.plan.records[from..] {
+            if samples >= self.block_samples {
+                break;
+            }
+            let path = self.folder.join(SUITE).join(format!("{name}.at2"));
+            let place = path.display().to_string();
+            let bytes =
+                fs::read(&path).at(format_args!("cannot read {place}"))?;
+            let found = sha256_hex(&bytes);
             if found != *expected {
                 return Err(Failure::input(format!(
                     "{place}: found hash {found}; expected {expected}, as \
                      planned"
                 )));
             }
+            let record = read(&place, &bytes, &ReadOptions::default())?;
+            samples += record.accelerogram.samples_g().len();
+            records.push(NormalisedRecord::new(&record.accelerogram));
         }
-        let options = ReadOptions {
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
-            ..ReadOptions::default()
-        };
-        let index = self.folder.join(format!("{SUITE}.csv"));
-        let suite = read_suite(&index, options)?;
-        let own = suite.members().iter();
-        Ok(own.map(|member| member.accelerogram.clone()).collect())
+        Ok(records)
     }
 
     /// Where a tile lies.
@@ -391,8 +402,4 @@ impl Planned {
         let name = format!("{}-{tile:05}.csv", content.name());
         self.folder.join("tiles").join(name)
     }
-}
-
-fn record_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(SUITE).join(format!("{name}.at2"))
 }

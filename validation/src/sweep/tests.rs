@@ -1,14 +1,15 @@
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use rocking::record::ReadOptions;
+use rocking::record::{Processing, Profile, ReadOptions, Suite};
 use rocking::stop::{Stop, StopError};
 
 use super::*;
-use rocking_common::suites::inputs::{read_suite, sha256_hex};
+use crate::failure::Failure;
+use rocking_common::suites::inputs::{profiles, sha256_hex};
 
 /// A suite of three half sines in a folder.
-fn suite(folder: &Path) -> rocking::record::Suite {
+fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
     let place = folder.join("records");
     fs::create_dir_all(&place).unwrap();
     for (name, scale) in [("a", 0.4), ("b", 0.6), ("c", 0.9)] {
@@ -23,7 +24,8 @@ fn suite(folder: &Path) -> rocking::record::Suite {
         unit: Some(rocking::units::AccelerationUnit::parse("g").unwrap()),
         gravity_m_s2: 9.81,
     };
-    read_suite(&place, read).unwrap()
+    let suite = profiles::<Failure>(&place, read, &Processing::default());
+    (suite.unwrap(), place, read)
 }
 
 fn plan(folder: &Path, tile_minutes: f64) -> Planned {
@@ -37,10 +39,12 @@ fn plan(folder: &Path, tile_minutes: f64) -> Planned {
             eta: 0.92,
         })
         .collect();
-    let suite = suite(folder);
+    let (suite, place, read) = suite(folder);
     let wanted = Wanted {
         blocks: &blocks,
         suite: &suite,
+        place: &place,
+        read,
         demands: vec![0.35, 1.0],
         levels: Levels::StepIm(0.05),
         rows: true,
@@ -68,9 +72,22 @@ fn merged(planned: &Planned, content: Content) -> String {
 #[test]
 fn any_tiles_and_any_tasks_give_the_same_bytes() {
     let mut sums = Vec::new();
-    for (tile_minutes, of) in [(1e9, 1), (1e-9, 1), (1e-9, 2), (1e-9, 5)] {
+    let all = usize::MAX;
+    for (tile_minutes, of, block_samples) in [
+        (1e9, 1, all),
+        (1e9, 1, 1),
+        (1e-9, 1, 201),
+        (1e-9, 2, all),
+        (1e-9, 5, all),
+    ] {
         let place = tempfile::tempdir().unwrap();
         let planned = plan(place.path(), tile_minutes);
+        let planned = Planned { block_samples, ..planned };
+        let first = planned.records(0).unwrap().len();
+        assert_eq!(
+            first,
+            if block_samples == all { 3 } else { block_samples.div_ceil(200) }
+        );
         let tiles = if tile_minutes > 1.0 { 1 } else { 7 };
         assert_eq!(planned.plan.tiles.len(), tiles);
         run_all(&planned, of);

@@ -3,7 +3,6 @@
 use std::fs;
 
 use rocking::capacity::InversionRule;
-use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Batch, IdaCurve, Overturned, curves};
 use rocking::intensity::Intensity;
 use rocking::statistics::ExtendedSample;
@@ -109,24 +108,31 @@ pub fn run(
     if left.is_empty() {
         return Ok(());
     }
-    let records: Vec<NormalisedRecord> =
-        planned.records()?.iter().map(NormalisedRecord::new).collect();
+    let first = planned.records(0)?;
     for tile in left {
         let blocks = plan.blocks_of(tile);
         let analyses = blocks
             .iter()
             .map(|block| plan.analysis(block))
             .collect::<Result<Vec<_>, _>>()?;
-        let found = curves(&records, &analyses, &Batch::default())?;
-        for content in Content::kept(plan) {
-            let columns = content.columns(plan);
-            let header: Vec<&str> =
-                columns.iter().map(|(name, _)| name.as_str()).collect();
-            let mut table = Table::with_schema(&header);
-            for (block, curves) in blocks.iter().zip(&found) {
-                fill(&mut table, plan, content, block, curves)?;
+        let mut all: Vec<Found<'_>> = blocks.iter().map(Found::new).collect();
+        let mut from = 0;
+        while from < plan.records.len() {
+            let next = match from {
+                0 => Vec::new(),
+                _ => planned.records(from)?,
+            };
+            let records = if from == 0 { &first } else { &next };
+            let found = curves(records, &analyses, &Batch::default())?;
+            for (all, curves) in all.iter_mut().zip(&found) {
+                for curve in curves {
+                    all.add(plan, curve)?;
+                }
             }
-            let body = table.finish();
+            from += records.len();
+        }
+        for content in Content::kept(plan) {
+            let body = text(plan, content, &all);
             let text = footer(&planned.hash, tile, &body);
             write_atomically(&planned.tile_path(content, tile), body + &text)?;
         }
@@ -135,91 +141,130 @@ pub fn run(
     Ok(())
 }
 
-fn unresolved(curve: &IdaCurve) -> usize {
-    curve.points.iter().filter(|point| !point.resolution.resolved).count()
+/// What is kept of the curves of a block.
+struct Found<'a> {
+    block: &'a Given,
+    curves: Vec<Curve>,
+    /// Cells of the levels, where the plan keeps them.
+    levels: Vec<[String; 6]>,
 }
 
-/// Capacities of a curve at the plan's demands.
-fn capacities(plan: &Plan, curve: &IdaCurve) -> Result<Vec<f64>, Failure> {
-    let response = curve.response(Overturned::Refined).at(&curve.record)?;
-    let at = |demand: &f64| {
-        let found = response.capacity(*demand, InversionRule::Median);
-        Ok(found.at(&curve.record)?.im())
-    };
-    plan.demands.iter().map(at).collect()
+/// What is kept of a curve.
+struct Curve {
+    record: String,
+    /// From PGA/(g tan alpha) to p PGV/(g tan alpha).
+    factor: f64,
+    overturning_im: f64,
+    analyses: u64,
+    unresolved: usize,
+    /// At the plan's demands.
+    capacities: Vec<f64>,
 }
 
-fn fill(
-    table: &mut Table,
-    plan: &Plan,
-    content: Content,
-    block: &Given,
-    curves: &[IdaCurve],
-) -> Result<(), Failure> {
-    let parameters = block.cells();
-    let mut row = |cells: &[&dyn ToString], more: &[String]| {
-        let cells = cells.iter().map(|cell| cell.to_string());
-        let own = [block.id.to_string()].into_iter();
-        let own = own.chain(parameters.clone()).chain(cells);
-        table.row(own.chain(more.to_vec()));
-    };
-    match content {
-        Content::Rows => {
-            for curve in curves {
-                let refined = curve.overturning.and_then(|o| o.refined);
-                let scanned = curve.points.iter().map(|point| (point, false));
-                let all = scanned.chain(refined.iter().map(|p| (p, true)));
-                for (point, refined) in all {
-                    let name: &dyn ToString = &curve.record;
-                    let numbers = [point.im, point.pga_g, point.edp()];
-                    let [im, pga_g, edp] = numbers.each_ref();
-                    let resolved = &point.resolution.resolved;
-                    row(&[name, im, pga_g, edp, &refined, resolved], &[]);
+impl<'a> Found<'a> {
+    fn new(block: &'a Given) -> Self {
+        Self { block, curves: Vec::new(), levels: Vec::new() }
+    }
+
+    fn add(&mut self, plan: &Plan, curve: &IdaCurve) -> Result<(), Failure> {
+        let response = curve.response(Overturned::Refined).at(&curve.record)?;
+        let at = |demand: &f64| {
+            let found = response.capacity(*demand, InversionRule::Median);
+            Ok(found.at(&curve.record)?.im())
+        };
+        let capacities: Result<Vec<f64>, Failure> =
+            plan.demands.iter().map(at).collect();
+        let points = curve.points.iter();
+        let overturning_im = curve.overturning.map(|o| o.im());
+        self.curves.push(Curve {
+            record: curve.record.clone(),
+            factor: curve.velocity_factor(self.block.p_rad_s),
+            overturning_im: overturning_im.unwrap_or(f64::INFINITY),
+            analyses: curve.analyses,
+            unresolved: points.filter(|p| !p.resolution.resolved).count(),
+            capacities: capacities?,
+        });
+        if plan.rows {
+            let refined = curve.overturning.and_then(|o| o.refined);
+            let scanned = curve.points.iter().map(|point| (point, false));
+            for (point, refined) in
+                scanned.chain(refined.iter().map(|point| (point, true)))
+            {
+                self.levels.push([
+                    curve.record.clone(),
+                    point.im.to_string(),
+                    point.pga_g.to_string(),
+                    point.edp().to_string(),
+                    refined.to_string(),
+                    point.resolution.resolved.to_string(),
+                ]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The text of a tile's file without its last line.
+fn text(plan: &Plan, content: Content, all: &[Found<'_>]) -> String {
+    let columns = content.columns(plan);
+    let header: Vec<&str> =
+        columns.iter().map(|(name, _)| name.as_str()).collect();
+    let mut table = Table::with_schema(&header);
+    for found in all {
+        let parameters = found.block.cells();
+        let mut row = |cells: &[String]| {
+            let own = [found.block.id.to_string()].into_iter();
+            let own = own.chain(parameters.clone());
+            table.row(own.chain(cells.iter().cloned()));
+        };
+        match content {
+            Content::Rows => found.levels.iter().for_each(|cells| row(cells)),
+            Content::Capacities => {
+                for curve in &found.curves {
+                    let mut cells = vec![
+                        curve.record.clone(),
+                        curve.factor.to_string(),
+                        curve.overturning_im.to_string(),
+                        curve.analyses.to_string(),
+                        curve.unresolved.to_string(),
+                    ];
+                    let own = curve.capacities.iter();
+                    cells.extend(own.map(ToString::to_string));
+                    row(&cells);
                 }
             }
-        }
-        Content::Capacities => {
-            for curve in curves {
-                let first =
-                    curve.overturning.map_or(f64::INFINITY, |o| o.im());
-                let factor = curve.velocity_factor(block.p_rad_s);
-                let counts = (&curve.analyses, &unresolved(curve));
-                let found = capacities(plan, curve)?;
-                let found: Vec<String> =
-                    found.iter().map(ToString::to_string).collect();
-                let name: &dyn ToString = &curve.record;
-                row(&[name, &factor, &first, counts.0, counts.1], &found);
-            }
-        }
-        Content::Fragilities => {
-            let by_record = curves
-                .iter()
-                .map(|curve| capacities(plan, curve))
-                .collect::<Result<Vec<_>, _>>()?;
-            let factors: Vec<f64> = curves
-                .iter()
-                .map(|curve| curve.velocity_factor(block.p_rad_s))
-                .collect();
-            let open: usize = curves.iter().map(unresolved).sum();
-            for (im, factors) in [
-                (Intensity::Pga, vec![1.0; curves.len()]),
-                (Intensity::Pgv, factors),
-            ] {
-                for (k, demand) in plan.demands.iter().enumerate() {
-                    let sample: Vec<f64> = by_record
-                        .iter()
-                        .zip(&factors)
-                        .map(|(own, factor)| own[k] * factor)
-                        .collect();
-                    let mut numbers =
-                        fragility(plan, &parameters, &sample, &factors);
-                    numbers.push(open.to_string());
-                    row(&[&im, demand, &sample.len()], &numbers);
+            Content::Fragilities => {
+                let curves = &found.curves;
+                let open: usize = curves.iter().map(|c| c.unresolved).sum();
+                for im in [Intensity::Pga, Intensity::Pgv] {
+                    let factors: Vec<f64> = match im {
+                        Intensity::Pga => vec![1.0; curves.len()],
+                        Intensity::Pgv => {
+                            curves.iter().map(|c| c.factor).collect()
+                        }
+                    };
+                    for (k, demand) in plan.demands.iter().enumerate() {
+                        let sample: Vec<f64> = curves
+                            .iter()
+                            .zip(&factors)
+                            .map(|(curve, x)| curve.capacities[k] * x)
+                            .collect();
+                        let mut cells = vec![
+                            im.to_string(),
+                            demand.to_string(),
+                            sample.len().to_string(),
+                        ];
+                        let own =
+                            fragility(plan, &parameters, &sample, &factors);
+                        cells.extend(own);
+                        cells.push(open.to_string());
+                        row(&cells);
+                    }
                 }
             }
         }
     }
-    Ok(())
+    table.finish()
 }
 
 /// Values reached, shift, and the median and dispersion of the shifted

@@ -5,7 +5,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::*;
-use crate::record::{ReadOptions, Suite, SuiteError, Survey};
+use crate::record::{ReadOptions, Suite, SuiteError, SuiteMember, Survey};
+
+/// Keeps all of a record.
+const KEEP: fn(SuiteMember) -> Result<SuiteMember, SuiteError> = Ok;
 
 /// An AT2 file of this component.
 fn at2(component: &str) -> String {
@@ -85,13 +88,8 @@ fn a_folder_says_what_is_no_record_in_it() {
 fn of_a_doubled_name_one_file_is_read_and_the_other_reported() {
     let names = ["a.AT2", "b.AT2", "b.AT2"].map(str::to_owned);
     let options = ReadOptions::default();
-    let survey =
-        Survey::of_files(
-            "z",
-            &names,
-            &options,
-            |_| Ok(at2("90").into_bytes()),
-        );
+    let bytes = |_: &str| Ok(at2("90").into_bytes());
+    let survey = Survey::of_files("z", &names, &options, bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     assert_eq!(suite.members().len(), 2);
     let [count] = suite.set_aside().counts()[..] else { panic!() };

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use anyhow::bail;
-use rocking::record::{Accelerogram, Suite};
+use rocking::record::{Accelerogram, Suite, SuiteMember};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_synthesis::Pair;
 
@@ -27,23 +27,30 @@ pub struct Row<'a> {
 /// The members of a suite, and what was done to them, in words.
 #[must_use]
 pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
-    let done = done.map(|words| ("processing", words.to_owned()));
-    suite
-        .members()
-        .iter()
-        .map(|member| Row {
-            motion: &member.accelerogram,
-            pair: member.pair.as_deref(),
-            study_component: member.study_component,
-            attributes: member
-                .attributes
-                .iter()
-                .map(|(name, cell)| (name.as_str(), cell.clone()))
-                .chain(member.event.clone().map(|event| ("event", event)))
-                .chain(done.clone())
-                .collect(),
-        })
-        .collect()
+    let row = |member: &'a SuiteMember| {
+        let mut row = member_of(&member.accelerogram, member);
+        let done = done.map(|words| ("processing", words.to_owned()));
+        row.attributes.extend(done);
+        row
+    };
+    suite.members().iter().map(row).collect()
+}
+
+/// A member of a suite, whose motion this is.
+#[must_use]
+pub fn member_of<'a, M>(
+    motion: &'a Accelerogram,
+    member: &'a SuiteMember<M>,
+) -> Row<'a> {
+    let cells = member.attributes.iter();
+    let cells = cells.map(|(name, cell)| (&**name, cell.clone()));
+    let event = member.event.clone().map(|event| ("event", event));
+    Row {
+        motion,
+        pair: member.pair.as_deref(),
+        study_component: member.study_component,
+        attributes: cells.chain(event).collect(),
+    }
 }
 
 /// The components of embedded pairs, with earthquake and site.
@@ -64,6 +71,20 @@ pub fn pairs(pairs: &[Pair]) -> Vec<Row<'_>> {
     rows
 }
 
+/// Columns of an index that every record has.
+const COLUMNS: [&str; 10] = [
+    "file",
+    "format",
+    "units",
+    "dt_s",
+    "npts",
+    "pga_g",
+    "pgv_m_s",
+    "pair",
+    "study_component",
+    "sha256",
+];
+
 /// The files of a suite `name`: `name.csv`, the index, and its records in a
 /// folder `name`.
 ///
@@ -73,26 +94,41 @@ pub fn files(
     name: &str,
     rows: &[Row<'_>],
 ) -> anyhow::Result<Vec<(PathBuf, Vec<u8>)>> {
-    let extra: BTreeSet<&str> = rows
-        .iter()
-        .flat_map(|row| row.attributes.iter().map(|(name, _)| *name))
-        .collect();
-    let columns = [
-        "file",
-        "format",
-        "units",
-        "dt_s",
-        "npts",
-        "pga_g",
-        "pgv_m_s",
-        "pair",
-        "study_component",
-        "sha256",
-    ];
-    let header: Vec<&str> = columns.into_iter().chain(extra.clone()).collect();
-    let mut index = Table::new(&header);
+    let extra = rows.iter().flat_map(|row| row.attributes.iter());
+    let mut packing = Packing::new(name, extra.map(|(name, _)| *name));
     let mut files = Vec::with_capacity(rows.len() + 1);
     for row in rows {
+        let (path, text) = packing.add(row)?;
+        files.push((path, text.into_bytes()));
+    }
+    let (path, text) = packing.finish();
+    files.push((path, text.into_bytes()));
+    Ok(files)
+}
+
+/// A suite that is made into files, one record after the other.
+pub struct Packing<'a> {
+    name: &'a str,
+    /// Columns of the index that not every record need have.
+    extra: BTreeSet<&'a str>,
+    index: Table,
+}
+
+impl<'a> Packing<'a> {
+    /// A suite `name` whose index has these columns beside its own.
+    #[must_use]
+    pub fn new(name: &'a str, extra: impl Iterator<Item = &'a str>) -> Self {
+        let extra: BTreeSet<&str> = extra.collect();
+        let header: Vec<&str> =
+            COLUMNS.into_iter().chain(extra.iter().copied()).collect();
+        Self { name, index: Table::new(&header), extra }
+    }
+
+    /// The file of the next record: its path and its text.
+    ///
+    /// # Errors
+    /// For a record whose name no file can have.
+    pub fn add(&mut self, row: &Row<'_>) -> anyhow::Result<(PathBuf, String)> {
         let motion = row.motion;
         let fits = |c: char| !c.is_control() && !"/\\".contains(c);
         if motion.name().is_empty() || !motion.name().chars().all(fits) {
@@ -101,7 +137,7 @@ pub fn files(
                 motion.name()
             );
         }
-        let file = format!("{name}/{}.at2", motion.name());
+        let file = format!("{}/{}.at2", self.name, motion.name());
         let text = at2(motion);
         let mut cells = vec![
             file.clone(),
@@ -115,18 +151,20 @@ pub fn files(
             u8::from(row.study_component).to_string(),
             sha256_hex(text.as_bytes()),
         ];
-        for column in &extra {
+        for column in &self.extra {
             let own = row.attributes.iter().find(|(name, _)| name == column);
             cells.push(own.map_or(String::new(), |(_, text)| text.clone()));
         }
-        index.row(cells);
-        files.push((PathBuf::from(file), text.into_bytes()));
+        self.index.row(cells);
+        Ok((PathBuf::from(file), text))
     }
-    files.push((
-        PathBuf::from(format!("{name}.csv")),
-        index.finish().into_bytes(),
-    ));
-    Ok(files)
+
+    /// The index: its path and its text.
+    #[must_use]
+    pub fn finish(self) -> (PathBuf, String) {
+        let path = PathBuf::from(format!("{}.csv", self.name));
+        (path, self.index.finish())
+    }
 }
 
 /// A record as AT2, five numbers of 25 characters a line: 17 digits, which

@@ -6,7 +6,10 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 pub use rocking::record::sha256_hex;
-use rocking::record::{ReadOptions, RecordError, Suite, SuiteError, Survey};
+use rocking::record::{
+    Accelerogram, Motion, Processing, ProcessingError, Profile, ReadOptions,
+    RecordError, Suite, SuiteError, SuiteMember, Survey,
+};
 use zip::ZipArchive;
 
 /// The index in an archive as PEER's site delivers it.
@@ -23,6 +26,10 @@ const SMALLEST_LIMIT: u64 = 1 << 20;
 /// than samples.
 const INDEX_PART: u64 = 12;
 
+/// Samples of the records that are analysed together, about: they and their
+/// curves are what a command holds, whatever the suite.
+pub const BLOCK_SAMPLES: usize = 1 << 22;
+
 /// Bytes as hexadecimal digits.
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
@@ -36,12 +43,62 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    survey(path, read)?.into_suite()
+    visit(path, read, Ok).and_then(Survey::into_suite)
+}
+
+/// Reads the suite at `path` and holds the profiles of its records, whose
+/// samples stay in their files: [`reread`] reads them.
+///
+/// # Errors
+/// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
+/// processed.
+pub fn profiles<E: From<SuiteError> + From<ProcessingError>>(
+    path: &Path,
+    read: ReadOptions,
+    processing: &Processing,
+) -> Result<Suite<Profile>, E> {
+    let survey = visit(path, read, |mut member| {
+        member.accelerogram = processing.apply(&member.accelerogram)?;
+        Ok::<_, E>(member.into_profile())
+    })?;
+    Ok(survey.into_suite()?)
+}
+
+/// Reads the records of `chosen`, members of the suite of [`profiles`], again
+/// one after the other, and gives each to `each`.
+///
+/// # Errors
+/// As [`profiles`]; [`SuiteError::Changed`] for a record that is another now;
+/// the first error of `each`.
+pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
+    path: &Path,
+    read: ReadOptions,
+    processing: &Processing,
+    chosen: &[&SuiteMember<Profile>],
+    mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
+) -> Result<(), E> {
+    let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
+        path: path.display().to_string(),
+        name: expected.accelerogram.name().to_owned(),
+    };
+    let mut left = chosen.iter().peekable();
+    visit(path, read, |SuiteMember { accelerogram: record, .. }| {
+        let is_it = |m: &&&SuiteMember<Profile>| {
+            m.accelerogram.name() == record.name()
+        };
+        let Some(expected) = left.next_if(is_it) else { return Ok(()) };
+        let record = processing.apply(&record)?;
+        if Profile::of(&record) != expected.accelerogram {
+            return Err(changed(expected).into());
+        }
+        each(&record, expected)
+    })?;
+    left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
 }
 
 /// The files that the suite read from `path` is made of.
 #[must_use]
-pub fn files(path: &Path, suite: &Suite) -> Vec<PathBuf> {
+pub fn files<M: Motion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     let base = match path.is_dir() {
         true => path,
         false => path.parent().unwrap_or(Path::new("")),
@@ -51,20 +108,24 @@ pub fn files(path: &Path, suite: &Suite) -> Vec<PathBuf> {
 }
 
 /// Reads every record of the folder, index or zip at `path`, checksums
-/// included.
+/// included, and holds what `keep` makes of each.
 ///
 /// # Errors
-/// As [`Survey::read`]; [`SuiteError::Unreadable`] for a damaged zip.
-pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
+/// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
+pub fn visit<K, E: From<SuiteError>>(
+    path: &Path,
+    read: ReadOptions,
+    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+) -> Result<Survey<K>, E> {
     if path.is_dir() || !is_zip(path) {
-        return Survey::read(path, &read);
+        return Survey::visit(path, &read, keep);
     }
     let shown = path.display().to_string();
     let file = File::open(path).map_err(|e| SuiteError::Unreadable {
         path: shown.clone(),
         reason: e.to_string(),
     })?;
-    survey_zip(&shown, file, &read)
+    visit_zip(&shown, file, &read, keep)
 }
 
 /// Reads every record of the zip `archive`, which `shown` names in messages.
@@ -74,12 +135,13 @@ pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
 /// 64 MiB of memory, whoever packed it.
 ///
 /// # Errors
-/// As [`survey`].
-pub fn survey_zip(
+/// As [`visit`].
+pub fn visit_zip<K, E: From<SuiteError>>(
     shown: &str,
     mut archive: impl Read + Seek,
     options: &ReadOptions,
-) -> Result<Survey, SuiteError> {
+    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+) -> Result<Survey<K>, E> {
     let unreadable = |reason: String| SuiteError::Unreadable {
         path: shown.to_owned(),
         reason,
@@ -91,7 +153,7 @@ pub fn survey_zip(
     if !has_end(&mut archive, size).map_err(|e| unreadable(e.to_string()))? {
         let cut =
             "the archive is cut: expected a list of its files at its end";
-        return Err(unreadable(cut.to_owned()));
+        return Err(unreadable(cut.to_owned()).into());
     }
     let refuse = |e: zip::result::ZipError| unreadable(e.to_string());
     let opened = ZipArchive::new(&mut archive).map_err(refuse)?;
@@ -112,7 +174,7 @@ pub fn survey_zip(
         names.extend(name.transpose().map_err(refuse)?.map(Into::into));
     }
     let (base, names) = contents(names);
-    Survey::of_files(shown, &names, options, |name| {
+    let unpacked = |name: &str| {
         let limit = if name == SEARCH_RESULTS { index_limit } else { left };
         let mut bytes = Vec::new();
         let path = format!("{base}{name}");
@@ -122,7 +184,8 @@ pub fn survey_zip(
         done.map(|()| bytes).map_err(|reason| {
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
-    })
+    };
+    Survey::of_files(shown, &names, options, unpacked, keep)
 }
 
 /// Names in the central directory of an archive, from its `start` on, that
@@ -214,4 +277,48 @@ fn unpack(
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_record_that_changed_between_two_readings_is_refused() {
+        let place = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| {
+            fs::write(place.path().join(name), text).unwrap();
+        };
+        write("a.txt", "0\n0.1\n-0.2\n");
+        write("b.txt", "0\n0.3\n-0.1\n");
+        let unit = Some(rocking::units::AccelerationUnit::Gravity);
+        let read =
+            ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
+        let none = Processing::default();
+        let path = place.path();
+        let suite = profiles::<anyhow::Error>(path, read, &none).unwrap();
+        let members: Vec<_> = suite.members().iter().collect();
+        let again = || {
+            let mut names = Vec::new();
+            let done: anyhow::Result<()> =
+                reread(path, read, &none, &members, |record, member| {
+                    assert_eq!(member.file, format!("{}.txt", record.name()));
+                    names.push(record.name().to_owned());
+                    Ok(())
+                });
+            (names, done.map_err(|error| error.to_string()))
+        };
+        assert_eq!(again(), (vec!["a".to_owned(), "b".to_owned()], Ok(())));
+        // One more record is none of the chosen.
+        write("aa.txt", "0\n0.1\n-0.2\n");
+        assert_eq!(again().0.len(), 2);
+        write("b.txt", "0\n0.3\n-0.11\n");
+        let (names, done) = again();
+        assert_eq!(names, ["a"]);
+        assert!(done.unwrap_err().contains("record \"b\" has changed"));
+        fs::remove_file(path.join("b.txt")).unwrap();
+        assert!(again().1.unwrap_err().contains("record \"b\" has changed"));
+    }
 }

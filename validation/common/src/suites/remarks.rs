@@ -1,7 +1,9 @@
 //! What is suspicious about the records of a command, reported wherever its
 //! results are.
 
-use rocking::record::{Remark, Remarked, Suite, remarks_together};
+use std::collections::BTreeMap;
+
+use rocking::record::{Motion, Remark, Remarked, Suite, remarks_together};
 use serde::{Serialize, Serializer};
 
 /// Codes of remarks, the gravest first.
@@ -30,6 +32,8 @@ pub struct Remarks {
     /// Name of a record and what is remarked, each code once, in the
     /// records' order.
     found: Vec<(String, Vec<Remark>)>,
+    /// Where the remarks on a record are.
+    places: BTreeMap<String, usize>,
 }
 
 impl Remarks {
@@ -45,14 +49,18 @@ impl Remarks {
                 is_new
             });
         }
-        let named = records.iter().map(|one| one.record.name().to_owned());
+        let named = records.iter().map(|one| one.profile.name().to_owned());
         let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());
-        Self { records: records.len(), found: found.collect() }
+        let found: Vec<(String, Vec<Remark>)> = found.collect();
+        let place =
+            |(place, (name, _)): (usize, &(String, _))| (name.clone(), place);
+        let places = found.iter().enumerate().map(place).collect();
+        Self { records: records.len(), found, places }
     }
 
     /// Remarks on all records of a suite.
     #[must_use]
-    pub fn on(suite: &Suite) -> Self {
+    pub fn on<M: Motion>(suite: &Suite<M>) -> Self {
         let all = suite.members().iter().map(Remarked::from);
         Self::of(&all.collect::<Vec<_>>())
     }
@@ -60,8 +68,8 @@ impl Remarks {
     /// Codes of the remarks on the record `name`, separated by blanks.
     #[must_use]
     pub fn codes(&self, name: &str) -> String {
-        let found = self.found.iter().find(|(record, _)| record == name);
-        let codes = found.map_or(&[][..], |(_, all)| all);
+        let place = self.places.get(name);
+        let codes = place.map_or(&[][..], |place| &self.found[*place].1);
         codes.iter().map(Remark::code).collect::<Vec<_>>().join(" ")
     }
 
@@ -145,7 +153,7 @@ mod tests {
         };
         let clean = [motion("a", 0.3, 0.0)];
         let of = |records: &[Accelerogram]| {
-            let one = |record| Remarked { record, pair: None, read: &[] };
+            let one = |record| Remarked::of(record, None, &[]);
             Remarks::of(&records.iter().map(one).collect::<Vec<_>>())
         };
         assert_eq!(of(&clean).words(), None);

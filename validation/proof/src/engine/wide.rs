@@ -24,10 +24,11 @@ pub struct WideTrace {
     pub resolved: bool,
 }
 
-/// Arithmetic of a run.
+/// Arithmetic of a run. A page has none that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Every operation rounded to 24 bits.
+    #[cfg(not(target_family = "wasm"))]
     Single,
     /// Double precision, the engine that users get.
     Double,
@@ -38,6 +39,7 @@ pub enum Arithmetic {
     DoubleDoubleOfRounded,
     /// Double-double with coefficients rounded to double precision: a
     /// mistake.
+    #[cfg(not(target_family = "wasm"))]
     RoundedConstants,
 }
 
@@ -77,6 +79,7 @@ impl WideTrace {
         };
         let (o, rounded, kept) = (&observe, Quotient::Rounded, Quotient::Kept);
         Ok(match arithmetic {
+            #[cfg(not(target_family = "wasm"))]
             Arithmetic::Single => {
                 Self::of(&respond_in::<Single>(scene, o, kept)?)
             }
@@ -87,6 +90,7 @@ impl WideTrace {
             Arithmetic::DoubleDoubleOfRounded => {
                 Self::of(&respond_in::<DoubleDouble>(scene, o, rounded)?)
             }
+            #[cfg(not(target_family = "wasm"))]
             Arithmetic::RoundedConstants => {
                 Self::of(&respond_in::<RoundedConstants>(scene, o, kept)?)
             }

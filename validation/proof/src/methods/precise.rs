@@ -87,6 +87,7 @@ impl Errors {
 
 fn run(context: &Context, scene: &Scene) -> Result<WideTrace> {
     let arithmetic = match context.wrong {
+        #[cfg(not(target_family = "wasm"))]
         Some(WrongModel::F64Constants) => Arithmetic::RoundedConstants,
         Some(WrongModel::F64Inputs) => Arithmetic::DoubleDoubleOfRounded,
         _ => Arithmetic::DoubleDouble,

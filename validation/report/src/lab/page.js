@@ -1,22 +1,24 @@
 "use strict";
 (async () => {
 const $ = (id) => document.getElementById(id);
-const native = JSON.parse($("native").textContent);
 
+// Bytes in, bytes out, by the two buffers of a WebAssembly module.
+function call({ room, answer, answer_start, memory }, bytes) {
+  const at = room(bytes.length);
+  new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+  const length = answer();
+  return new Uint8Array(memory.buffer, answer_start(), length);
+}
 // An engine in a worker of its own: a question in, an answer out.
-function worker() {
+function worker(call) {
   let module, ready;
   const start = () => { ready = WebAssembly.instantiate(module, {}); };
   onmessage = async ({ data }) => {
     if (data.module) { module = data.module; start(); return; }
     let answer;
     try {
-      const { room, answer: ask, answer_start, memory } = (await ready).exports;
-      const bytes = new TextEncoder().encode(JSON.stringify(data));
-      const at = room(bytes.length);
-      new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
-      const length = ask();
-      const found = new Uint8Array(memory.buffer, answer_start(), length);
+      const question = new TextEncoder().encode(JSON.stringify(data));
+      const found = call((await ready).exports, question);
       answer = JSON.parse(new TextDecoder().decode(found));
     } catch (error) {
       answer = { error: `the engine stopped: ${error.message}` };
@@ -26,7 +28,7 @@ function worker() {
   };
 }
 const source = URL.createObjectURL(
-  new Blob([`(${worker})()`], { type: "text/javascript" }));
+  new Blob([`(${worker})(${call})`], { type: "text/javascript" }));
 
 // Some engines that share a queue of questions.
 class Engines {
@@ -49,8 +51,7 @@ class Engines {
     }
     const own = this.idle.pop();
     if (!own) return;
-    const task = this.queue.shift();
-    own.task = task;
+    const task = own.task = this.queue.shift();
     own.onmessage = ({ data }) => {
       own.task = null;
       this.idle.push(own);
@@ -69,39 +70,37 @@ class Engines {
   }
 }
 
+const bytes = (id) =>
+  Uint8Array.from(atob($(id).textContent.trim()), (c) => c.charCodeAt(0));
 const unpacked = async () => {
-  const text = atob($("engine").textContent.trim());
-  const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream();
-  const whole = stream.pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(whole).arrayBuffer());
+  const small = new Blob([bytes("unpacker")]).stream()
+    .pipeThrough(new DecompressionStream("gzip"));
+  const unpacker = await WebAssembly.instantiate(
+    await new Response(small).arrayBuffer(), {});
+  const part = (id) => call(unpacker.instance.exports, bytes(id));
+  const native = JSON.parse(new TextDecoder().decode(part("native")));
+  return [native, await WebAssembly.compile(part("engine"))];
 };
-let module;
-try {
-  module = await unpacked();
-} catch (error) {
+const [native, module] = await unpacked().catch((error) => {
   $("state").textContent = `The engine cannot start: ${error.message}`;
-  return;
-}
+  return [];
+});
+if (!module) return;
 const cores = Math.min(4, Math.max(1, navigator.hardwareConcurrency || 1));
 const own = new Engines(module, 1);
 const many = new Engines(module, cores);
 
-const make = (tag, text = "", attributes = {}) => {
+const make = (tag, content = "", attributes = {}) => {
   const element = document.createElement(tag);
-  element.textContent = text;
+  element.append(...[content].flat());
   Object.entries(attributes).forEach((pair) => element.setAttribute(...pair));
   return element;
 };
 const digits = (x, n = 6) =>
   typeof x === "number" ? String(Number(x.toPrecision(n))) : "none";
 const rows = (table, pairs) => $(table).tBodies[0].replaceChildren(
-  ...pairs.map((cells) => {
-    const row = make("tr");
-    row.append(...cells.map((text, k) => k
-      ? make("td", text) : make("th", text, { scope: "row" })));
-    return row;
-  }));
+  ...pairs.map((cells) => make("tr", cells.map((text, k) => k
+    ? make("td", text) : make("th", text, { scope: "row" })))));
 
 // ---- Recompute ----
 const listed = await many.ask({ ask: "cases" });
@@ -110,7 +109,6 @@ $("state").textContent = `The engine is ready, on ${cores} ` +
 const results = new Map();
 const lines = new Map();
 const runs = listed.filter((own) => native.cases[own.id]);
-const words = { equal: "yes", differs: "no", fails: "no" };
 
 function tally() {
   const count = (what) => [...results.values()]
@@ -130,11 +128,11 @@ async function run({ id }) {
     const first = found.checks[0];
     line.here.textContent = `${first.observed[0] ?? "none"}`;
     line.bits.textContent = found.bits;
-    const same = found.bits === native.cases[id].bits;
-    const result = !same ? "differs" : found.holds ? "equal" : "fails";
+    const result = found.bits !== native.cases[id].bits ? "differs"
+      : found.holds ? "equal" : "fails";
     results.set(id, result);
     line.result.textContent = result;
-    line.result.className = `verdict ${words[result]}`;
+    line.result.className = `verdict ${result === "equal" ? "yes" : "no"}`;
   } catch (error) {
     const stopped = error.message === "stopped";
     if (!stopped) results.set(id, "fails");
@@ -151,54 +149,43 @@ for (const [family, cases] of Object.entries(
   Object.groupBy(runs, (own) => own.id.split("/")[0]))) {
   const name = family.replaceAll("-", " ");
   const title = `${name}, ${cases.length}`;
-  const details = make("details");
   const button = make("button", `Run ${name}`);
   button.onclick = () => runAll(cases);
-  const box = make("div", "", { class: "scroll", role: "region",
-    tabindex: "0", "aria-label": `Cases: ${title}` });
-  const table = make("table", "", { class: "cards cases" });
-  table.append(make("caption", `Cases: ${title}`));
   const heads = ["Claim", "First number here", "Compiled program", "Bits here",
     "Bits of the program", "Result"];
-  const head = make("tr");
-  head.append(...heads.map((text) => make("th", text, { scope: "col" })));
-  table.createTHead().append(head);
-  const body = table.createTBody();
-  for (const { id, claim } of cases) {
+  const body = cases.map(({ id, claim }) => {
     const due = native.cases[id];
-    const row = make("tr");
     const cells = ["", `${due.name} ${due.first}`, "", due.bits, "not run"]
       .map((text, k) => make("td", text, { "data-label": heads[k + 1] }));
     const [here, , bits, , result] = cells;
     lines.set(id, { here, bits, result });
-    row.append(make("th", claim, { scope: "row" }), ...cells);
-    body.append(row);
-  }
-  box.append(table);
-  details.append(make("summary", title), button, box);
-  $("cases").append(details);
+    return make("tr", [make("th", claim, { scope: "row" }), ...cells]);
+  });
+  const head = heads.map((text) => make("th", text, { scope: "col" }));
+  const table = make("table", [make("caption", `Cases: ${title}`),
+    make("thead", make("tr", head)), make("tbody", body)],
+  { class: "cards cases" });
+  const box = make("div", table, { class: "scroll", role: "region",
+    tabindex: "0", "aria-label": `Cases: ${title}` });
+  $("cases").append(make("details", [make("summary", title), button, box]));
 }
-const leftOut = native.left;
-$("left-why").textContent = `${leftOut.length} of ` +
-  `${runs.length + leftOut.length} declared cases take longer than about a ` +
+$("left-why").textContent = `${native.left.length} of ` +
+  `${runs.length + native.left.length} declared cases take longer than about a ` +
   "second in a browser, or rest on quantiles of Student's and the beta " +
   "distribution by the library statrs. That library uses the logarithm of " +
   "the platform, so that last digits differ there.";
-$("left-list").append(...leftOut.map((id) => make("li", id)));
+$("left-list").append(...native.left.map((id) => make("li", id)));
 $("all").onclick = () => runAll(runs);
 $("stop").onclick = () => many.stop();
 tally();
 
 // ---- Drawings ----
 const ticks = (low, high) => {
-  const rough = (high - low) / 5;
-  const ten = 10 ** Math.floor(Math.log10(rough));
-  const step = ten * [1, 2, 5, 10].find((m) => m * ten >= rough);
-  const found = [];
-  for (let k = Math.ceil(low / step); k * step <= high; k += 1) {
-    found.push(Number((k * step).toPrecision(9)));
-  }
-  return found;
+  const ten = 10 ** Math.floor(Math.log10((high - low) / 5));
+  const step = ten * [1, 2, 5, 10].find((m) => 5 * m * ten >= high - low);
+  const first = Math.ceil(low / step);
+  return Array.from({ length: Math.floor(high / step) - first + 1 },
+    (_, k) => Number(((first + k) * step).toPrecision(9)));
 };
 // Lines of [class, points] over axes; y is the range of the ordinate.
 function plot(title, across, up, series, x, y, limits = []) {
@@ -457,14 +444,13 @@ $("ida").onclick = async () => {
 };
 
 // ---- Map of fates ----
-const SIDE = 25;
+const SIDE = 25, MIDDLE = SIDE >> 1;
 function cell(canvas, i, j, fate, peak) {
   const pen = canvas.getContext("2d");
   const [left, low, w, h] = [70, 40, (620 - 80) / SIDE, (420 - 50) / SIDE];
   const [x, y] = [left + i * w, 420 - low - (j + 1) * h];
-  const light = 92 - 50 * Math.min(1, peak);
-  pen.fillStyle = fate === "overturned" ? "#3a2020"
-    : fate === "unresolved" ? "#c9a227" : `hsl(212 60% ${light}%)`;
+  const dark = { overturned: "#3a2020", unresolved: "#c9a227" }[fate];
+  pen.fillStyle = dark ?? `hsl(212 60% ${92 - 50 * Math.min(1, peak)}%)`;
   pen.fillRect(x, y, w + 0.5, h + 0.5);
   if (fate === "unresolved") {
     pen.strokeStyle = "#000";
@@ -477,8 +463,7 @@ function axes(canvas, intensities, sizes) {
   pen.clearRect(0, 0, 620, 420);
   pen.fillStyle = style.color;
   pen.font = "13px system-ui, sans-serif";
-  const mid = SIDE >> 1;
-  for (const k of [0, mid, SIDE - 1]) {
+  for (const k of [0, MIDDLE, SIDE - 1]) {
     pen.textAlign = "center";
     pen.fillText(digits(intensities[k], 3), 70 + (k + 0.5) * 540 / SIDE, 397);
     pen.textAlign = "right";
@@ -493,10 +478,10 @@ function axes(canvas, intensities, sizes) {
 }
 $("map").onclick = async () => {
   if (!shown) return;
-  const around = (middle, factor) => Array.from({ length: SIDE }, (_, k) =>
-    middle * factor ** ((k - (SIDE >> 1)) / (SIDE >> 1)));
-  const intensities = around(number("intensity"), 2);
-  const sizes = around(shown.p_rad_s, 2);
+  const around = (middle) => Array.from({ length: SIDE }, (_, k) =>
+    middle * 2 ** (k / MIDDLE - 1));
+  const intensities = around(number("intensity"));
+  const sizes = around(shown.p_rad_s);
   const [canvas, base, begin] = [$("map-drawing"), scene(), performance.now()];
   axes(canvas, intensities, sizes);
   const running = (is) => {
@@ -531,6 +516,8 @@ $("map").onclick = async () => {
 };
 $("map-stop").onclick = () => many.stop();
 
+// Twice: during the first answer the browser compiles what it runs.
 await chosen();
+await update();
 document.body.dataset.ready = "yes";
 })();

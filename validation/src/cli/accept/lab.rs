@@ -7,7 +7,7 @@ use crate::failure::{At as _, Failure};
 use crate::terminal::note;
 use rocking_report::lab;
 
-/// Compiles the engine, and prints where it lies.
+/// Compiles the engine, and prints in which folder it lies.
 const BUILD: &str = "web/build";
 
 /// The page; none where `web/build` says that something is missing.
@@ -19,7 +19,14 @@ pub fn made() -> Result<Option<Vec<u8>>, Failure> {
         note(&format!("{} is left as it is", lab::LAB));
         return Ok(None);
     }
-    let engine = String::from_utf8_lossy(&built.stdout).trim().to_owned();
-    let engine = fs::read(&engine).at(&engine)?;
+    let folder = String::from_utf8_lossy(&built.stdout).trim().to_owned();
+    let part = |name: &str| {
+        let path = format!("{folder}/{name}");
+        fs::read(&path).at(&path)
+    };
+    let engine = lab::Engine {
+        unpacker: part("unpack.wasm.gz")?,
+        packed: part("engine.wasm.lzma")?,
+    };
     Ok(Some(lab::page(&engine)?.into_bytes()))
 }

@@ -7,7 +7,7 @@ use rocking::block::Block;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking::intensity::{Measures, Settings};
-use rocking::record::{Processing, ReadOptions, Suite};
+use rocking::record::{Processing, ReadOptions, Suite, SuiteError};
 
 use super::answer::{Answer, Rows, number, word};
 use crate::results::Results;
@@ -29,7 +29,12 @@ const QUESTION: &str = "What do recorded motions that may be shipped give?";
 pub fn ridgecrest() -> anyhow::Result<Suite> {
     let options = ReadOptions::default();
     let archive = Cursor::new(rocking_fixtures::RIDGECREST);
-    let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
+    let survey = inputs::visit_zip(
+        "ridgecrest.zip",
+        archive,
+        &options,
+        Ok::<_, SuiteError>,
+    )?;
     Ok(survey.into_suite()?)
 }
 

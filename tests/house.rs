@@ -44,7 +44,7 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
     ("validation/report/Cargo.toml", &["validation/report/src"]),
     ("validation/study/Cargo.toml", &["validation/study/src"]),
     ("web/Cargo.toml", &["web/src"]),
-    ("web/unpack/Cargo.toml", &["web/unpack/src", "web/src/abi.rs"]),
+    ("web/unpack/Cargo.toml", &["web/unpack/src"]),
 ];
 
 /// Folders of sources that follow the same rules.

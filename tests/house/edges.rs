@@ -138,7 +138,7 @@ const REPORT: Edges = "
 
 /// The modules of the engine of a page.
 const WEB: Edges = "
-    abi
+    abi question
     bits
     block bits
     case bits

@@ -26,7 +26,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 /// Answers the question, and gives the length of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
-    let found = crate::answered(&QUESTION.take());
+    let found = crate::question::answered(&QUESTION.take());
     ANSWER.with_borrow_mut(|answer| {
         *answer = found;
         answer.len()

@@ -12,7 +12,3 @@ mod case;
 mod question;
 
 pub use question::answer;
-
-fn answered(question: &[u8]) -> Vec<u8> {
-    answer(&String::from_utf8_lossy(question)).into_bytes()
-}

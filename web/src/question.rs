@@ -54,6 +54,11 @@ pub fn answer(question: &str) -> String {
     found.to_string()
 }
 
+/// The same for the bytes of a page.
+pub fn answered(question: &[u8]) -> Vec<u8> {
+    answer(&String::from_utf8_lossy(question)).into_bytes()
+}
+
 fn found(question: Question) -> Result<Value, String> {
     match question {
         Question::Cases => value(case::list()),

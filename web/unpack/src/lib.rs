@@ -1,27 +1,9 @@
-//! Unpacks the engine of `reports/lab.html`: LZMA makes it a third smaller
-//! than the gzip that a browser knows.
+//! Unpacks what `reports/lab.html` carries: LZMA makes the engine a third
+//! smaller than the gzip that a browser knows.
 
 #![deny(missing_docs)]
 
 #[path = "../../src/abi.rs"]
 mod abi;
 
-use lzma_rust2::{LzmaReader, Read as _, Result};
-
-/// The engine, of a file of `xz --format=lzma`; nothing where it is no such
-/// file.
-fn answered(packed: &[u8]) -> Vec<u8> {
-    unpacked(packed).unwrap_or_default()
-}
-
-fn unpacked(packed: &[u8]) -> Result<Vec<u8>> {
-    let mut reader = LzmaReader::new_mem_limit(packed, u32::MAX, None)?;
-    let (mut whole, mut part) = (Vec::new(), [0; 4096]);
-    loop {
-        let length = reader.read(&mut part)?;
-        whole.extend_from_slice(&part[..length]);
-        if length == 0 {
-            return Ok(whole);
-        }
-    }
-}
+mod question;

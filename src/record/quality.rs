@@ -5,8 +5,6 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-#[cfg(feature = "threads")]
-use rayon::prelude::*;
 use thiserror::Error;
 
 use super::codes::coded;
@@ -286,20 +284,14 @@ pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
         (correlation > SAME_RECORDING).then_some((i, j, correlation))
     };
     // Some records against all later ones, so that these are read once.
-    let tile = |tile: usize| {
-        let from = tile * TILE;
+    let mut found = Vec::new();
+    for from in (0..records.len()).step_by(TILE) {
         let to = records.len().min(from + TILE);
-        let pairs = (from + 1..records.len())
-            .flat_map(move |j| (from..to.min(j)).map(move |i| (i, j)));
-        pairs.filter_map(|(i, j)| alike(i, j)).collect::<Vec<_>>()
-    };
-    let tiles = 0..records.len().div_ceil(TILE);
-    #[cfg(feature = "threads")]
-    let found = tiles.into_par_iter().panic_fuse().flat_map_iter(tile);
-    #[cfg(not(feature = "threads"))]
-    let found = tiles.flat_map(tile);
-    let mut found: Vec<(usize, usize, f64)> = found.collect();
-    found.sort_by_key(|(i, j, _)| (*i, *j));
+        for j in from + 1..records.len() {
+            found.extend((from..to.min(j)).filter_map(|i| alike(i, j)));
+        }
+    }
+    found.sort_by_key(|(i, j, _): &(usize, usize, f64)| (*i, *j));
     found
 }
 

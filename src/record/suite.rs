@@ -87,20 +87,17 @@ impl SuiteMember {
     /// The member without its samples.
     #[must_use]
     pub fn into_profile(self) -> SuiteMember<Profile> {
-        let Self { accelerogram, file, format, unit, site, remarks, .. } =
-            self;
-        let Self { pair, study_component, event, attributes, .. } = self;
         SuiteMember {
-            accelerogram: Profile::of(&accelerogram),
-            file,
-            format,
-            unit,
-            site,
-            remarks,
-            pair,
-            study_component,
-            event,
-            attributes,
+            accelerogram: Profile::of(&self.accelerogram),
+            file: self.file,
+            format: self.format,
+            unit: self.unit,
+            site: self.site,
+            remarks: self.remarks,
+            pair: self.pair,
+            study_component: self.study_component,
+            event: self.event,
+            attributes: self.attributes,
         }
     }
 }

@@ -106,8 +106,8 @@ pub struct Args {
     forces: ForcesArgs,
     #[command(flatten)]
     way: WayArgs,
-    /// Samples of the records that are analysed together, about; results do
-    /// not depend on them.
+    /// About how many samples the records of one block have; results do not
+    /// depend on it.
     #[arg(long, value_name = "N", hide = true, default_value_t = BLOCK_SAMPLES)]
     block_samples: usize,
     #[command(flatten)]

@@ -128,7 +128,7 @@ pub struct Planned {
     pub folder: PathBuf,
     /// SHA-256 of the plan's file.
     pub hash: String,
-    /// Samples of the records that are analysed together, about.
+    /// About how many samples the records of one block have.
     pub block_samples: usize,
 }
 
@@ -364,8 +364,8 @@ impl Planned {
         })
     }
 
-    /// Some packed records from a place on, each held to the plan's hash: as
-    /// many as are analysed together.
+    /// The packed records of the block that begins at a place, each held to
+    /// the plan's hash.
     ///
     /// # Errors
     /// [`Failure`] for a record that is another now.

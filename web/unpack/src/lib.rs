@@ -3,7 +3,6 @@
 
 #![deny(missing_docs)]
 
-#[path = "../../src/abi.rs"]
 mod abi;
 
 mod question;

@@ -26,8 +26,8 @@ const SMALLEST_LIMIT: u64 = 1 << 20;
 /// than samples.
 const INDEX_PART: u64 = 12;
 
-/// Samples of the records that are analysed together, about: they and their
-/// curves are what a command holds, whatever the suite.
+/// About how many samples the records of one block have. A command holds the
+/// records of one block and their curves at a time, however large the suite is.
 pub const BLOCK_SAMPLES: usize = 1 << 22;
 
 /// Bytes as hexadecimal digits.

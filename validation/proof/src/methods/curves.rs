@@ -24,7 +24,7 @@ use crate::trials::{Stratum, trial};
 const ANOTHER: f64 = 1e-6;
 
 /// Rough estimate from which on an analysis is flagged.
-const FLAGGED: f64 = 2e-3;
+const FLAGGED: f64 = 2.5e-3;
 
 /// Work of a run in wider arithmetic.
 const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };

@@ -121,10 +121,13 @@ class Scene:
         return min(0.2 * abs(w) / (self.p ** 2 * self.alpha), self.dt)
 
 
+MOST_IMPACTS = 10_000
+
+
 def run(scene, flight):
     """Peak u/alpha (inf: overturned) and times of the impacts. `flight(t,
     side, w)` gives a `Landing`; after the record it goes on to the first
-    impact."""
+    impact. A flight with errors may bounce without end."""
     peak, impacts, t = 0.0, [], 0.0
     while True:
         lifted = scene.exceedance(t)
@@ -142,6 +145,8 @@ def run(scene, flight):
             if t > scene.end:
                 return peak / scene.alpha, impacts
             impacts.append(t)
+            if len(impacts) > MOST_IMPACTS:
+                raise RuntimeError(f"{scene.name}: impacts without end at {t}")
             side, w = -side, -scene.eta * w
             rest = scene.chatter(t, side, w)
             if rest is not None:

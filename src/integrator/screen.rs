@@ -15,8 +15,8 @@ use crate::number::{Number, Real};
 /// A certificate is clear where 32 standard deviations are at most a quarter
 /// of every margin, which is 8e-3 here. The estimate leaves out what a
 /// certificate also takes in: the truncation of a series, and constants that
-/// are rounded once. So the threshold is a third of 8e-3, rounded down.
-/// `tests/trials` looks at the analyses of whole suites.
+/// are rounded once. So the threshold is lower, by a factor of three that was
+/// chosen on whole suites: see `tests/trials`.
 pub(crate) const DOUBTFUL: f64 = 2.5e-3;
 
 /// Share of the slenderness angle that the error is held against: above it

@@ -20,9 +20,9 @@ TURNS = []
 
 def integrator(tolerance):
     u, w = hy.make_vars("u", "w")
-    pp, alpha, f0, slope, t0 = (hy.par[i] for i in range(5))
+    pp, alpha, f0, slope = (hy.par[i] for i in range(4))
     y = alpha - u
-    force = f0 + slope * (hy.time - t0)
+    force = f0 + slope * hy.time
     system = [(u, w), (w, -pp * (hy.sin(y) + force * hy.cos(y)))]
     down = hy.event_direction.negative
     ended = [
@@ -47,33 +47,42 @@ def flights(ta):
         count = [0]
 
         def flight(t, side, w):
-            # At u = 0 exactly heyoka loses the next event.
-            ta.state[:] = (1e-16 * alpha, w)
+            # Time from the beginning of the flight or of its sample: a hop of
+            # a hundred-millionth of a second needs its digits.
+            ta.state[:] = (0.0, w)
             ta.pars[0], ta.pars[1] = scene.p ** 2, alpha
-            ta.time = t
             ta.reset_cooldowns()
             TURNS.clear()
             k, top = int(t / dt), 0.0
             if k < last and (k + 1) * dt - t < 1e-13:
                 k += 1
+            # A step that leaves u = 0 and is well inside the next hop: from
+            # u = 0 exactly heyoka loses the next event of the same step.
+            first = [scene.first_step(w)]
             while True:
                 if k < last:
-                    stop = (k + 1) * dt
-                    ta.pars[2:5] = (side * f[k], side * slope[k], k * dt)
+                    left = (k + 1) * dt - t
+                    now = side * (f[k] + slope[k] * (t - k * dt))
+                    ta.pars[2:4] = (now, side * slope[k])
                 else:
-                    stop = scene.end + 60.0
-                    ta.pars[2:5] = (0.0, 0.0, 0.0)
-                got = ta.propagate_until(stop)
-                outcome, steps = got[0], got[3]
-                count[0] += steps
+                    left = scene.end + 60.0 - t
+                    ta.pars[2:4] = (0.0, 0.0)
+                ta.time = 0.0
+                for stop in [*(x for x in first if x < left), left]:
+                    outcome, _, _, steps, *_ = ta.propagate_until(stop)
+                    count[0] += steps
+                    if outcome != hy.taylor_outcome.time_limit:
+                        break
+                first = []
                 top = max([top, *TURNS])
                 if int(outcome) == -1:
-                    return "impact", ta.time, ta.state[1], top
+                    return "impact", t + ta.time, ta.state[1], top
                 if int(outcome) == -2:
-                    return "overturned", ta.time, 0.0, top
+                    return "overturned", t + ta.time, 0.0, top
                 if outcome != hy.taylor_outcome.time_limit or k >= last:
-                    return str(outcome), ta.time, 0.0, top
+                    return str(outcome), t + ta.time, 0.0, top
                 k += 1
+                t = k * dt
 
         return flight, lambda: count[0]
 

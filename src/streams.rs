@@ -7,7 +7,7 @@
 
 mod normal;
 
-pub use normal::standard_normal;
+pub use normal::{standard_normal, standard_normals};
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
@@ -26,8 +26,18 @@ impl Stream {
     /// A number in [0, 1): a multiple of 2^-53, from one word.
     #[inline]
     pub fn uniform(&mut self) -> f64 {
-        (self.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+        fraction(self.next_u64())
     }
+
+    /// Fills in the next words, the bytes of each in little-endian order.
+    fn fill(&mut self, words: &mut [[u8; 8]]) {
+        self.0.fill_bytes(words.as_flattened_mut());
+    }
+}
+
+/// A number in [0, 1): a multiple of 2^-53, from a word.
+fn fraction(word: u64) -> f64 {
+    (word >> 11) as f64 * (0.5 * f64::EPSILON)
 }
 
 /// A family of 2^64 independent random streams.
@@ -59,6 +69,7 @@ impl Streams {
 
     /// The stream of this index, at its beginning.
     #[must_use]
+    #[inline]
     pub fn stream(&self, index: u64) -> Stream {
         let mut stream = ChaCha8Rng::from_seed(self.key);
         stream.set_stream(index);

@@ -23,6 +23,9 @@ pub(crate) trait Simd: Number {
     /// From places in memory.
     fn gather(from: [&f64; WIDTH]) -> Self;
 
+    /// The first and the second numbers of pairs in memory.
+    fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self);
+
     /// To memory.
     fn store(self, to: &mut Lanes);
 
@@ -115,6 +118,11 @@ impl Simd for Lanes {
     #[inline(always)]
     fn gather(from: [&f64; WIDTH]) -> Self {
         Self(from.map(|x| *x))
+    }
+
+    #[inline(always)]
+    fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
+        (Self(from.map(|pair| pair[0])), Self(from.map(|pair| pair[1])))
     }
 
     #[inline(always)]

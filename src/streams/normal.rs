@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use libm::{erfc, exp, log};
 
-use super::Stream;
+use super::{Stream, fraction};
 
 /// Layers, a power of two.
 const LAYERS: usize = 256;
@@ -42,11 +42,6 @@ fn density(x: f64) -> f64 {
     exp(-0.5 * x * x)
 }
 
-/// A number in (0, 1) with 52 bits.
-fn open(stream: &mut Stream) -> f64 {
-    ((stream.next_u64() >> 12) as f64 + 0.5) * f64::EPSILON
-}
-
 /// A standard normal variate from a stream.
 ///
 /// ```
@@ -57,32 +52,92 @@ fn open(stream: &mut Stream) -> f64 {
 /// ```
 #[must_use]
 pub fn standard_normal(stream: &mut Stream) -> f64 {
-    let Ziggurat { edges, heights } = &*ZIGGURAT;
-    loop {
-        let bits = stream.next_u64();
-        let layer = bits as usize % LAYERS;
-        // In [-1, 1), from the bits that don't choose the layer, exactly.
+    let first = stream.next_u64();
+    ZIGGURAT.variate(first, || stream.next_u64())
+}
+
+/// Words that [`standard_normals`] draws at once, at most.
+const AHEAD: usize = 64;
+
+/// Fills in standard normal variates from a stream: the numbers that as many
+/// calls of [`standard_normal`] give, in less time.
+///
+/// ```
+/// use rocking::streams::{Streams, standard_normal, standard_normals};
+/// let streams = Streams::new("example", 0);
+/// let mut z = [0.0; 3];
+/// standard_normals(&mut streams.stream(0), &mut z);
+/// let mut stream = streams.stream(0);
+/// assert_eq!(z, [(); 3].map(|()| standard_normal(&mut stream)));
+/// ```
+pub fn standard_normals(stream: &mut Stream, values: &mut [f64]) {
+    let ziggurat = &*ZIGGURAT;
+    let mut words = [[0; 8]; AHEAD];
+    let mut left = values.iter_mut();
+    while left.len() > 0 {
+        // A variate takes a word or more: none of these stays unused.
+        let drawn = &mut words[..left.len().min(AHEAD)];
+        stream.fill(drawn);
+        let mut drawn = drawn.iter().map(|word| u64::from_le_bytes(*word));
+        while let Some(first) = drawn.next() {
+            let next = || drawn.next().unwrap_or_else(|| stream.next_u64());
+            if let Some(value) = left.next() {
+                *value = ziggurat.variate(first, next);
+            }
+        }
+    }
+}
+
+impl Ziggurat {
+    /// A variate from a word, and from the next ones where it needs more.
+    #[inline(always)]
+    fn variate(&self, first: u64, next: impl FnMut() -> u64) -> f64 {
+        let (layer, u) = Self::split(first);
+        let x = u * self.edges[layer];
+        if x.abs() < self.edges[layer + 1] {
+            return x;
+        }
+        self.beside(first, next)
+    }
+
+    /// A layer, and a number in [-1, 1) from the bits that don't choose the
+    /// layer, exactly.
+    #[inline(always)]
+    fn split(bits: u64) -> (usize, f64) {
         let u = (bits >> 12) as f64 * (2.0 * f64::EPSILON) - 1.0;
-        let x = u * edges[layer];
-        if x.abs() < edges[layer + 1] {
-            return x;
-        }
-        if layer == 0 {
-            return tail(stream, u < 0.0);
-        }
-        let rise = heights[layer + 1] - heights[layer];
-        let height = heights[layer + 1] - rise * stream.uniform();
-        if height < density(x) {
-            return x;
+        (bits as usize % LAYERS, u)
+    }
+
+    /// A variate from a word that may lie beside the rectangle of its layer.
+    #[cold]
+    fn beside(&self, mut bits: u64, mut next: impl FnMut() -> u64) -> f64 {
+        let Self { edges, heights } = self;
+        loop {
+            let (layer, u) = Self::split(bits);
+            let x = u * edges[layer];
+            if x.abs() < edges[layer + 1] {
+                return x;
+            }
+            if layer == 0 {
+                return tail(next, u < 0.0);
+            }
+            let rise = heights[layer + 1] - heights[layer];
+            let height = heights[layer + 1] - rise * fraction(next());
+            if height < density(x) {
+                return x;
+            }
+            bits = next();
         }
     }
 }
 
 /// Beyond [`START`], by Marsaglia's method.
-fn tail(stream: &mut Stream, negative: bool) -> f64 {
+fn tail(mut next: impl FnMut() -> u64, negative: bool) -> f64 {
+    // In (0, 1), with 52 bits.
+    let mut open = || ((next() >> 12) as f64 + 0.5) * f64::EPSILON;
     loop {
-        let x = log(open(stream)) / START;
-        let y = log(open(stream));
+        let x = log(open()) / START;
+        let y = log(open());
         if -2.0 * y >= x * x {
             return if negative { x - START } else { START - x };
         }
@@ -92,6 +147,22 @@ fn tail(stream: &mut Stream, negative: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::streams::Streams;
+
+    /// Where a word is refused, in the last of a draw too.
+    #[test]
+    fn many_at_once_are_those_one_by_one() {
+        let streams = Streams::new("test of many at once", 0);
+        for n in (0..200).chain([4096]) {
+            let (mut one, mut many) = (streams.stream(n), streams.stream(n));
+            let mut values = vec![f64::NAN; n as usize];
+            standard_normals(&mut many, &mut values);
+            for value in values {
+                assert_eq!(value, standard_normal(&mut one), "of {n}");
+            }
+            assert_eq!(many.next_u64(), one.next_u64(), "after {n}");
+        }
+    }
 
     #[test]
     fn layers_have_equal_areas() {

@@ -124,6 +124,20 @@ impl Simd for Pair {
     }
 
     #[inline(always)]
+    fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
+        let [a, b, c, d, e, f, g, h] = from.map(|pair| pair.as_ptr());
+        let (even, odd) = level!({
+            let two = |low, high| {
+                let low = _mm256_castpd128_pd256(_mm_loadu_pd(low));
+                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(high))
+            };
+            (Self(two(a, c), two(e, g)), Self(two(b, d), two(f, h)))
+        });
+        let first = both!(Self, |x, y| _mm256_unpacklo_pd(x, y), even, odd);
+        (first, both!(Self, |x, y| _mm256_unpackhi_pd(x, y), even, odd))
+    }
+
+    #[inline(always)]
     fn store(self, to: &mut Lanes) {
         // Volatile: a selection stored where it was loaded would else become a
         // masked store, which takes many cycles on some processors.

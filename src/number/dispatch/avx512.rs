@@ -105,6 +105,24 @@ impl Simd for Eight {
     }
 
     #[inline(always)]
+    fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
+        let [a, b, c, d, e, f, g, h] = from.map(|pair| pair.as_ptr());
+        level!({
+            let two = |low, high| {
+                let low = _mm256_castpd128_pd256(_mm_loadu_pd(low));
+                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(high))
+            };
+            let four = |a, b, c, d| {
+                let low = _mm512_castpd256_pd512(two(a, b));
+                _mm512_insertf64x4::<1>(low, two(c, d))
+            };
+            let (even, odd) = (four(a, c, e, g), four(b, d, f, h));
+            let first = Self(_mm512_unpacklo_pd(even, odd));
+            (first, Self(_mm512_unpackhi_pd(even, odd)))
+        })
+    }
+
+    #[inline(always)]
     fn store(self, to: &mut Lanes) {
         level!(_mm512_storeu_pd(to.0.as_mut_ptr(), self.0));
     }

@@ -12,12 +12,19 @@ struct Everything {
     b: Lanes,
 }
 
+impl Everything {
+    fn pairs(&self) -> [[f64; 2]; WIDTH] {
+        std::array::from_fn(|lane| [self.b.0[7 - lane], self.a.0[lane]])
+    }
+}
+
 impl WithSimd for Everything {
     type Output = (Vec<[u64; WIDTH]>, Vec<u8>, [u64; WIDTH]);
 
     fn run<V: Simd>(self) -> Self::Output {
         let (a, b) = (V::load(&self.a), V::load(&self.b));
         let c = V::gather(std::array::from_fn(|lane| &self.b.0[7 - lane]));
+        let (d, e) = V::gather_pairs(self.pairs().each_ref());
         let (sine, cosine) = b.sin_cos_small();
         let (less, same) = (a.lt(b), a.eq(b));
         let numbers = [
@@ -35,6 +42,8 @@ impl WithSimd for Everything {
             sine,
             cosine,
             c,
+            d,
+            e,
             less.select(a, c),
         ];
         let truths = [

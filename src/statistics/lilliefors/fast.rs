@@ -1,15 +1,16 @@
 //! D of several samples at once, for simulations.
 //!
-//! Eight samples lie in lanes and are sorted together by a network of
-//! comparisons (Batcher's odd-even merge; Knuth, TAOCP 3, 5.2.2, algorithm
-//! M), which branches nowhere. Phi comes from a table of cubics. A lane has
-//! the bits that its sample has in any other lane, at every level of
-//! instructions.
+//! Eight samples lie in lanes. D needs no sorted sample (Gonzalez, Sahni and
+//! Franta, ACM Trans. Math. Software 3 (1977) 60): of the values whose Phi
+//! lies in a bin of width 1/n, only the smallest and the largest can be
+//! furthest from the steps of the empirical distribution. Phi comes from a
+//! table of cubics. A lane has the bits that its sample has in any other
+//! lane, at every level of instructions.
 
 use std::sync::LazyLock;
 
 use crate::number::dispatch::{Isa, Kernel, WithSimd};
-use crate::number::lanes::{Lanes, Simd, WIDTH};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 use crate::statistics::normal;
 
 /// Samples at once.
@@ -18,29 +19,39 @@ pub(crate) const LANES: usize = WIDTH;
 /// A number of each sample.
 type Each = [f64; LANES];
 
-/// Values of a sample, at most, that a network sorts: a longer sample has
-/// more comparisons in it than a sort of its own.
-const LARGEST_NETWORK: usize = 2048;
-
 /// Working space of [`LANES`] replicates.
 pub(crate) struct Scratch {
     /// The values of a sample, to be filled in.
     pub values: Vec<f64>,
     /// Row i has the values i of all samples.
     rows: Vec<Lanes>,
-    /// Comparisons of rows, in order; none for long samples.
-    network: Vec<(u32, u32)>,
+    /// Bin k holds Phi in [k/n, (k + 1)/n); the last one holds Phi = 1.
+    bins: Vec<Bin>,
+}
+
+/// What D needs of the values of each sample in a bin.
+#[derive(Clone, Copy)]
+struct Bin {
+    count: Lanes,
+    lowest: Lanes,
+    highest: Lanes,
+}
+
+impl Bin {
+    const EMPTY: Self = Self {
+        count: Lanes::splat(0.0),
+        lowest: Lanes::splat(f64::INFINITY),
+        highest: Lanes::splat(f64::NEG_INFINITY),
+    };
 }
 
 impl Scratch {
     /// Space for samples of n values.
     pub fn new(n: usize) -> Self {
-        let network =
-            if n <= LARGEST_NETWORK { network(n) } else { Vec::new() };
         Self {
             values: vec![0.0; n],
             rows: vec![Lanes::splat(0.0); n],
-            network,
+            bins: vec![Bin::EMPTY; n + 1],
         }
     }
 
@@ -55,45 +66,13 @@ impl Scratch {
     /// was put is lost.
     pub fn statistics(&mut self) -> Each {
         let isa = Isa::best();
-        let [means, scales] = isa.run(Moments(&self.rows));
-        if self.network.is_empty() {
-            for lane in 0..LANES {
-                for (value, row) in self.values.iter_mut().zip(&self.rows) {
-                    *value = row.0[lane];
-                }
-                self.values.sort_unstable_by(f64::total_cmp);
-                self.put(lane);
-            }
-        }
-        let Self { rows, network, .. } = self;
-        if isa.run_wide(Sort { rows, network }).is_none() {
-            Sort { rows, network }.run::<Lanes>();
-        }
-        isa.run(Distances { rows, means, scales })
+        let Self { rows, bins, .. } = self;
+        let [means, scales] = isa.run(Moments(rows));
+        let [means, scales] = [means, scales].map(Lanes);
+        isa.run_wide(Distances { rows, bins, means, scales }).unwrap_or_else(
+            || Distances { rows, bins, means, scales }.run::<Lanes>(),
+        )
     }
-}
-
-/// Comparisons that sort n values, each of a lower and a higher place.
-fn network(n: usize) -> Vec<(u32, u32)> {
-    let mut found = Vec::new();
-    let top = n.next_power_of_two() / 2;
-    let mut p = top;
-    while p > 0 {
-        let (mut q, mut r, mut d) = (top, 0, p);
-        loop {
-            for i in 0..n.saturating_sub(d) {
-                if i & p == r {
-                    found.push((i as u32, (i + d) as u32));
-                }
-            }
-            if q == p {
-                break;
-            }
-            (d, q, r) = (q - p, q / 2, p);
-        }
-        p /= 2;
-    }
-    found
 }
 
 /// Means and one over standard deviations of the samples.
@@ -125,59 +104,58 @@ impl Kernel for Moments<'_> {
     }
 }
 
-/// The comparisons of a network.
-struct Sort<'a> {
-    rows: &'a mut [Lanes],
-    network: &'a [(u32, u32)],
-}
-
-impl WithSimd for Sort<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Simd>(self) {
-        for &(low, high) in self.network {
-            let (low, high) = (low as usize, high as usize);
-            let a = V::load(&self.rows[low]);
-            let b = V::load(&self.rows[high]);
-            a.min(b).store(&mut self.rows[low]);
-            b.max(a).store(&mut self.rows[high]);
-        }
-    }
-}
-
-/// D of sorted samples with these moments.
+/// D of samples with these moments.
 struct Distances<'a> {
-    rows: &'a [Lanes],
-    means: Each,
-    scales: Each,
+    rows: &'a mut [Lanes],
+    bins: &'a mut [Bin],
+    means: Lanes,
+    scales: Lanes,
 }
 
-impl Kernel for Distances<'_> {
+impl WithSimd for Distances<'_> {
     type Output = Each;
 
     #[inline(always)]
-    fn run(self) -> Each {
-        let Self { rows, means, scales } = self;
-        let table = &*PHI;
-        let step = 1.0 / rows.len() as f64;
-        let mut distances = [0.0; LANES];
-        let mut below = 0.0;
-        for row in rows.iter() {
-            let mut z = [0.0; LANES];
+    fn run<V: Simd>(self) -> Each {
+        let Self { rows, bins, means, scales } = self;
+        let (means, scales) = (V::load(&means), V::load(&scales));
+        let count = rows.len() as f64;
+        let zero = V::from_f64(0.0);
+        let knots = PHI.as_slice();
+        for row in &mut *rows {
+            let f = phi(knots, (V::load(row) - means) * scales);
+            f.store(row);
+        }
+        bins.fill(Bin::EMPTY);
+        for row in rows {
+            let (_, places) = floor(V::load(row) * V::from_f64(count));
             for lane in 0..LANES {
-                z[lane] = (row.0[lane] - means[lane]) * scales[lane];
-            }
-            let f = table.at(z);
-            let (before, after) = (below * step, (below + 1.0) * step);
-            below += 1.0;
-            for lane in 0..LANES {
-                let further = larger(f[lane] - before, after - f[lane]);
-                distances[lane] = larger(distances[lane], further);
+                let (bin, f) = (&mut bins[places[lane]], row[lane]);
+                bin.count[lane] += 1.0;
+                bin.lowest[lane] = smaller(f, bin.lowest[lane]);
+                bin.highest[lane] = larger(f, bin.highest[lane]);
             }
         }
-        distances
+        let step = V::from_f64(1.0 / count);
+        let (mut distances, mut below) = (zero, zero);
+        for bin in bins {
+            let through = below + V::load(&bin.count);
+            let before = V::load(&bin.lowest) - below * step;
+            let after = through * step - V::load(&bin.highest);
+            let further = before.max(after).max(distances);
+            distances = below.lt(through).select(further, distances);
+            below = through;
+        }
+        let mut found = Lanes::splat(0.0);
+        distances.store(&mut found);
+        found.0
     }
+}
+
+/// The smaller of two numbers that are not NaN: one instruction.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// The larger of two numbers that are not NaN: one instruction.
@@ -186,54 +164,50 @@ fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// Phi by cubics between knots 1/128 apart: error at most
-/// h^4 max|phi'''|/384 = 1.4e-11.
-struct PhiTable {
-    knots: Vec<[f64; 2]>,
-}
-
-const STEPS_PER_UNIT: f64 = 128.0;
-/// Beyond, Phi is 0 or 1 to 6e-16.
-const END: f64 = 8.0;
 /// 2^52.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
-/// Bits of the number of a cell: the last is 2 END `STEPS_PER_UNIT` = 2048.
-const LAST_CELL: usize = 0xfff;
 
-static PHI: LazyLock<PhiTable> = LazyLock::new(|| {
+/// The largest whole numbers that numbers from 0 to 2^32 are not below, and
+/// these as indices: the last bits of their sums with 2^52.
+#[inline(always)]
+fn floor<V: Simd>(x: V) -> (V, [usize; LANES]) {
+    let whole = V::from_f64(WHOLE);
+    let nearest = (x + whole) - whole;
+    let less = nearest - V::from_f64(1.0);
+    let floor = x.lt(nearest).select(less, nearest);
+    let mut sums = Lanes::splat(0.0);
+    (floor + whole).store(&mut sums);
+    (floor, sums.0.map(|sum| sum.to_bits() as u32 as usize))
+}
+
+/// Knots of Phi and of its derivative times their distance of 1/128.
+static PHI: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
     let steps = (2.0 * END * STEPS_PER_UNIT) as u32;
     let knot = |k| {
         let z = f64::from(k) / STEPS_PER_UNIT - END;
         [normal::cdf(z), normal::pdf(z) / STEPS_PER_UNIT]
     };
-    PhiTable { knots: (0..=steps + 1).map(knot).collect() }
+    (0..=steps + 1).map(knot).collect()
 });
 
-impl PhiTable {
-    #[inline(always)]
-    fn at(&self, z: Each) -> Each {
-        let (mut t, mut cells) = ([0.0; LANES], [0; LANES]);
-        for lane in 0..LANES {
-            let position = (z[lane].clamp(-END, END) + END) * STEPS_PER_UNIT;
-            let cell = position.floor();
-            t[lane] = position - cell;
-            // Whole numbers below 2^52 are the last bits of this sum.
-            cells[lane] = (cell + WHOLE).to_bits() as usize & LAST_CELL;
-        }
-        let (mut from, mut to) = ([[0.0; 2]; LANES], [[0.0; 2]; LANES]);
-        for lane in 0..LANES {
-            from[lane] = self.knots[cells[lane]];
-            to[lane] = self.knots[cells[lane] + 1];
-        }
-        let mut f = [0.0; LANES];
-        for lane in 0..LANES {
-            let ([f0, d0], [f1, d1]) = (from[lane], to[lane]);
-            let (t, rise) = (t[lane], f1 - f0);
-            let (a, b) = (d0 - rise, rise - d1);
-            f[lane] = f0 + t * (rise + (1.0 - t) * (a * (1.0 - t) + b * t));
-        }
-        f
-    }
+const STEPS_PER_UNIT: f64 = 128.0;
+/// Beyond, Phi is 0 or 1 to 6e-16.
+const END: f64 = 8.0;
+
+/// Phi by cubics between knots: error at most
+/// h^4 max|phi'''|/384 = 1.4e-11.
+#[inline(always)]
+fn phi<V: Simd>(knots: &[[f64; 2]], z: V) -> V {
+    let end = V::from_f64(END);
+    let position = z.max(-end).min(end) + end;
+    let position = position * V::from_f64(STEPS_PER_UNIT);
+    let (floor, cells) = floor(position);
+    let t = position - floor;
+    let (f0, d0) = V::gather_pairs(cells.map(|cell| &knots[cell]));
+    let (f1, d1) = V::gather_pairs(cells.map(|cell| &knots[cell + 1]));
+    let (rise, rest) = (f1 - f0, V::from_f64(1.0) - t);
+    let (a, b) = (d0 - rise, rise - d1);
+    f0 + t * (rise + rest * (a * rest + b * t))
 }
 
 #[cfg(test)]
@@ -246,35 +220,15 @@ mod tests {
     fn cubics_are_close_to_phi() {
         for k in -90_000..=90_000 {
             let z = f64::from(k) * 1e-4;
-            let error = (PHI.at([z; LANES])[3] - normal::cdf(z)).abs();
+            let error = (phi(&PHI, Lanes::splat(z))[3] - normal::cdf(z)).abs();
             assert!(error < 2e-11, "{z}: {error:e}");
         }
-    }
-
-    /// By the 0-1 principle: a network that sorts all zeros and ones sorts.
-    #[test]
-    fn the_network_sorts() {
-        let sorts = |n: usize, ones: u32| {
-            let mut values: Vec<u32> =
-                (0..n).map(|i| (ones >> i) & 1).collect();
-            for (low, high) in network(n) {
-                if values[low as usize] > values[high as usize] {
-                    values.swap(low as usize, high as usize);
-                }
-            }
-            values.is_sorted()
-        };
-        for n in 1..=13 {
-            assert!((0..1 << n).all(|ones| sorts(n, ones)), "{n}");
-        }
-        // One comparison less, and it does not.
-        assert_eq!(network(4).len(), 5);
     }
 
     #[test]
     fn statistic_in_lanes_is_that_of_the_sample() {
         let streams = Streams::new("test of the lanes", 0);
-        for n in [4, 5, 7, 44, 86, 400, LARGEST_NETWORK + 1] {
+        for n in [4, 5, 7, 44, 86, 400, 3000] {
             let mut scratch = Scratch::new(n);
             let rounds = if n > 400 { 1 } else { 25 };
             for round in 0..rounds {

@@ -6,7 +6,7 @@ use super::fast::{LANES, Scratch};
 use super::{LillieforsError, PValue};
 use crate::statistics::{Proportion, monte_carlo, normal};
 use crate::stop;
-use crate::streams::{Stream, Streams, standard_normal};
+use crate::streams::{Stream, Streams, standard_normals};
 
 /// Replicates that share one scratch space.
 const CHUNK: u64 = 4096;
@@ -59,9 +59,7 @@ impl NullDistribution {
     ) -> Result<Self, LillieforsError> {
         let streams = Streams::new(&format!("lilliefors, {n}"), seed);
         let draw = |stream: &mut Stream, values: &mut [f64]| {
-            for value in values {
-                *value = standard_normal(stream);
-            }
+            standard_normals(stream, values);
             0
         };
         Ok(Self::of_draws(n, replicates, &streams, draw)?.0)

@@ -9,7 +9,7 @@ use crate::statistics::lilliefors::{
     LillieforsError, NullDistribution, PValue, standardised,
 };
 use crate::stop;
-use crate::streams::{Streams, standard_normal};
+use crate::streams::{Streams, standard_normals};
 
 /// Null distributions of A^2, W^2 and 1 - W for samples of one size, by
 /// simulation: p-values free of any approximation but the number of
@@ -76,9 +76,8 @@ impl Battery {
                     .map(|index| {
                         stop::point();
                         let mut stream = streams.stream(index);
-                        let values: Vec<f64> = (0..n)
-                            .map(|_| standard_normal(&mut stream))
-                            .collect();
+                        let mut values = vec![0.0; n];
+                        standard_normals(&mut stream, &mut values);
                         let scores = standardised(&Sample::of(values))?;
                         let deficit = deficit(&weights, &scores);
                         Ok([a2(&scores), w2(&scores), deficit])

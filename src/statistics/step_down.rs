@@ -32,7 +32,7 @@ impl StepDown {
     ///
     /// `caution` counts standard errors of the draws: `error` is taken that
     /// much smaller, and p that much larger (Wilson's limit). A deviation
-    /// that is not a number counts as none.
+    /// that is not a number counts as larger than any number.
     ///
     /// ```
     /// use rocking::statistics::step_down::StepDown;
@@ -67,7 +67,10 @@ impl StepDown {
                 .into_par_iter()
                 .panic_fuse()
                 .map(|row| {
-                    most(&mut active.iter().map(|k| deviation(row, *k)))
+                    most(&mut active.iter().map(|k| {
+                        let found = deviation(row, *k);
+                        if found.is_nan() { f64::INFINITY } else { found }
+                    }))
                 })
                 .collect();
             largest.sort_by(f64::total_cmp);
@@ -104,4 +107,21 @@ fn upper(found: usize, of: usize, errors: f64) -> f64 {
         (share + square / (2.0 * n) + errors * root) / (1.0 + square / n);
     let counted = (found as f64 + 1.0) / (n + 1.0);
     if limit > counted { limit } else { counted }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::StepDown;
+
+    #[test]
+    fn what_is_not_a_number_rejects_nothing() {
+        let rejected = |share: f64, statistic: f64| {
+            let of = |row: usize, _| {
+                if (row as f64) < share * 100.0 { f64::NAN } else { 0.5 }
+            };
+            StepDown::new(&[statistic], 100, of, 0.05, 0.0).rejected[0]
+        };
+        assert!(rejected(0.0, 1.0) && rejected(0.05, 1.0));
+        assert!(!rejected(0.06, 1.0) && !rejected(0.0, f64::NAN));
+    }
 }

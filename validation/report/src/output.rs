@@ -95,7 +95,7 @@ fn laid_out(files: Files) -> Files {
 /// lies beside it.
 ///
 /// # Errors
-/// Where a figure cannot be drawn.
+/// Where a figure cannot be drawn, and for two files of one name.
 pub fn files(
     study: &Study,
     proof: Option<&Proof>,
@@ -108,18 +108,17 @@ pub fn files(
     let figures = recorded::figures(study)?;
     for figure in figures.iter().chain(&charts) {
         let name = &figure.heading.name;
-        files.insert(format!("{name}.svg"), figure.svg().into_bytes());
-        files.insert(format!("{name}.csv"), figure.csv().into_bytes());
+        put(&mut files, format!("{name}.svg"), figure.svg())?;
+        put(&mut files, format!("{name}.csv"), figure.csv())?;
     }
-    let single = single_csv(&study.results);
-    files.insert("single-records.csv".into(), single.into_bytes());
-    let text = study.findings.text();
-    files.insert("findings.json".into(), text.into_bytes());
+    put(&mut files, "single-records.csv", single_csv(&study.results))?;
+    put(&mut files, "findings.json", study.findings.text())?;
     if !study.results.embedded() {
-        let text = recorded::kept(study)?;
-        files.insert("figures.json".into(), text.into_bytes());
+        put(&mut files, "figures.json", recorded::kept(study)?)?;
     }
-    files.extend(questions::files(&study.answers));
+    for (name, text) in questions::files(&study.answers) {
+        put(&mut files, name, text)?;
+    }
     let mut input = input::input(
         &study.results,
         &figures,
@@ -133,8 +132,7 @@ pub fn files(
     let mut titles = titles(study, &charts);
     let filed = input.annexes.iter().filter(|a| FILED.contains(&a.id));
     for table in filed.flat_map(|annex| &annex.tables) {
-        let name = format!("{}.csv", table.name);
-        files.entry(name).or_insert_with(|| csv(table));
+        put(&mut files, format!("{}.csv", table.name), csv(table))?;
         titles.insert(table.name.clone(), table.title.clone());
     }
     input.files = list(&files, proof, &titles);
@@ -142,19 +140,31 @@ pub fn files(
     Ok(laid_out(files))
 }
 
+/// Adds a file, whose name no other file may have.
+fn put(
+    files: &mut Files,
+    name: impl Into<String>,
+    text: impl Into<Vec<u8>>,
+) -> anyhow::Result<()> {
+    let name = name.into();
+    anyhow::ensure!(!files.contains_key(&name), "two files named {name}");
+    files.insert(name, text.into());
+    Ok(())
+}
+
 /// Annexes whose tables no other file has.
 const FILED: [&str; 5] =
     ["blocks", "comparison", "speed-tried", "others", "requirements"];
 
 /// A table of the page as CSV.
-fn csv(printed: &PlainTable) -> Vec<u8> {
+fn csv(printed: &PlainTable) -> String {
     let header: Vec<&str> =
         printed.header.iter().map(String::as_str).collect();
     let mut table = Table::new(&header);
     for row in &printed.rows {
         table.row(row.clone());
     }
-    table.finish().into_bytes()
+    table.finish()
 }
 
 /// The data files and their hashes, with what they hold.

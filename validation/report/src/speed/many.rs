@@ -106,6 +106,5 @@ fn make(
 ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
     let lanes = how == WAYS[0];
     let way = if lanes { Execution::default() } else { Execution::OneByOne };
-    let job = Job { analyses, records, way, threads: 1 };
-    if lanes { job.measure_thrice(work) } else { job.measure(work) }
+    Job { analyses, records, way, threads: 1 }.measure_thrice(work)
 }

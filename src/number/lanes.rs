@@ -347,7 +347,7 @@ impl Neg for Lanes {
 impl crate::number::sealed::Sealed for Lanes {}
 
 impl Number for Lanes {
-    const LANES: bool = true;
+    const WRITTEN_OUT: bool = true;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

@@ -134,19 +134,19 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if !(v[0] < N::zero()) {
             return false;
         }
-        let mut variation = N::zero();
-        for k in (1..LEN).rev() {
-            variation = variation + v[k].abs();
-        }
-        if v[0].abs() > variation {
-            return false;
-        }
         let mut rest = N::zero();
         for k in (2..LEN).rev() {
             rest = rest + c[k].abs();
         }
         let low = self.dynamics.alpha * N::from_f64(PROPAGATION);
-        !(c[0] + c[1] > low + rest)
+        if c[0] + c[1] > low + rest {
+            return false;
+        }
+        let mut variation = N::zero();
+        for k in (1..LEN).rev() {
+            variation = variation + v[k].abs();
+        }
+        !(v[0].abs() > variation)
     }
 
     /// Takes the first lowest rotation of a step into the rough certificate.

@@ -96,8 +96,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let drive = self.dynamics.drive(oriented);
-        let series: Series<N, LEN> = self.expand((u, w), length, &drive);
-        self.take(step, length, &series, None)
+        let small = self.sine_cosine(u);
+        let model = self.dynamics.model;
+        let series: Series<N, LEN> =
+            expand(model, (u, w), length, &drive, small);
+        self.take(step, length, &series, (&drive, small), None)
     }
 
     /// [`Self::attempt`] with its decisions assessed.
@@ -111,15 +114,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         isa.run(Assessed::<_, _, LEN, _, _> { driver: self, step, length })
     }
 
-    /// A step by its series, unless that leaves too much; with what it leaves
-    /// of the velocity where it is assessed.
+    /// A step by its series, unless that leaves too much; with the forcing
+    /// and with sine and cosine of the rotation at its start, and with what it
+    /// leaves of the velocity where it is assessed.
     #[inline(always)]
     fn take<const LEN: usize>(
         &mut self,
         step: &mut Step<N>,
         length: N,
         series: &Series<N, LEN>,
-        assessed: Option<(N, &Drive<N, F>)>,
+        (drive, small): (&Drive<N, F>, (N, N)),
+        left: Option<N>,
     ) -> Option<Advance<N>> {
         let Motion { side, u, w } = step.motion;
         let Series { c, v } = series;
@@ -134,7 +139,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 (x, x * length, (value(c, x), value(v, x)))
             }
         };
-        if let Some((left, drive)) = assessed {
+        if let Some(left) = left {
             let left = match event {
                 Event::None => left,
                 _ => left * power(x, LEN - 1),
@@ -144,16 +149,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.assess(series, x, &stepped, drive, step.place);
         }
         self.turning_points(series, x, (step.place, length));
-        if let Some(screen) = self.screen {
-            let f = self.oriented(step.place, side, step.at_threshold);
-            let drive = self.dynamics.drive(f);
-            let sine_cosine = self.sine_cosine(u);
-            let curvature =
-                curvature(self.dynamics.model, &drive, sine_cosine);
-            let size = self.dynamics.alpha + f[0].abs();
+        if let Some(screen) = &mut self.screen {
+            let curvature = curvature(self.dynamics.model, drive, small);
+            let size = self.dynamics.alpha + drive.f[0].abs();
             let (u, w) = (end_u, end_w);
             let flown = Flown { tau, curvature, u, w, size };
-            self.screen = Some(screen.fly(&flown));
+            *screen = screen.fly(&flown);
         }
         if self.watched {
             self.sample_step(series, (tau, length), step.place, side);
@@ -300,7 +301,10 @@ where
         let Motion { side, u, w } = step.motion;
         let oriented = driver.oriented(step.place, side, step.at_threshold);
         let drive = driver.dynamics.drive(oriented);
-        let long: Series<N, HARD> = driver.expand((u, w), length, &drive);
+        let small = driver.sine_cosine(u);
+        let model = driver.dynamics.model;
+        let long: Series<N, HARD> =
+            expand(model, (u, w), length, &drive, small);
         let series: Series<N, LEN> = long.beginning();
         let mut left = surely_left_by(&long.v, length);
         if LEN < HARD {
@@ -310,7 +314,7 @@ where
             let most = if by_u > by_w { by_u } else { by_w };
             left = most + left;
         }
-        driver.take(step, length, &series, Some((left, &drive)))
+        driver.take(step, length, &series, (&drive, small), Some(left))
     }
 }
 

@@ -74,7 +74,7 @@ impl Neg for Pair {
 impl crate::number::sealed::Sealed for Pair {}
 
 impl Number for Pair {
-    const LANES: bool = true;
+    const WRITTEN_OUT: bool = true;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

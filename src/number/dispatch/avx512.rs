@@ -58,7 +58,7 @@ impl Neg for Eight {
 impl crate::number::sealed::Sealed for Eight {}
 
 impl Number for Eight {
-    const LANES: bool = true;
+    const WRITTEN_OUT: bool = true;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

@@ -46,7 +46,7 @@ pub struct WorkLimit {
 }
 
 impl WorkLimit {
-    /// For many analyses at once, some eight times as fast: 1e7 impacts and
+    /// For many analyses at once, some six times as fast: 1e7 impacts and
     /// 2e7 steps, about a second.
     pub const IDA: Self = Self { impacts: 10_000_000, steps: 20_000_000 };
 }

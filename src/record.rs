@@ -14,6 +14,7 @@ mod at2;
 mod codes;
 mod column;
 mod cosmos;
+mod counted;
 mod csv;
 mod direction;
 mod error;
@@ -26,6 +27,7 @@ mod number;
 mod processing;
 mod quality;
 mod resorce;
+pub mod sampling;
 mod smc;
 mod suite;
 mod text;
@@ -57,6 +59,9 @@ pub enum Format {
     At2,
     /// One value a line, without a header.
     Column,
+    /// A name, number of samples and interval, samples: eqsig, EMOD3D,
+    /// RspMatch.
+    Counted,
     /// Two columns, time and acceleration.
     Csv,
     /// RESORCE, 5E14.7.
@@ -80,13 +85,14 @@ pub enum Format {
 const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
 
 /// Formats by name, for messages.
-const FORMATS: &str = "afad, at2, cosmos, esm, geonet, knet, resorce, smc, csv (time, acceleration), column";
+const FORMATS: &str = "afad, at2, cosmos, esm, geonet, knet, resorce, smc, counted (count and interval, samples), csv (time, acceleration), column";
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::At2 => "at2",
             Self::Column => "column",
+            Self::Counted => "counted",
             Self::Csv => "csv",
             Self::Resorce => "resorce",
             Self::Cosmos => "cosmos",
@@ -114,7 +120,8 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 
 /// What the caller knows about a file.
 ///
-/// What a file states can be said again, but not be overruled.
+/// What a file states can be said again, but not be overruled. In a suite it
+/// is taken for the files that state none, of which there must be one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
     /// Sampling interval in s, for files that state none.
@@ -123,13 +130,15 @@ pub struct ReadOptions {
     pub unit: Option<AccelerationUnit>,
     /// Gravity in m/s2 by which an SI record is divided.
     pub gravity_m_s2: f64,
+    /// Whether the folders in the folder of a suite are entered.
+    pub recursive: bool,
 }
 
 impl Default for ReadOptions {
     /// Nothing but standard gravity.
     fn default() -> Self {
         let gravity_m_s2 = units::STANDARD_GRAVITY_M_S2;
-        Self { dt_s: None, unit: None, gravity_m_s2 }
+        Self { dt_s: None, unit: None, gravity_m_s2, recursive: false }
     }
 }
 
@@ -157,6 +166,32 @@ pub struct Record {
     /// Event and station, where the file names both: components of one
     /// motion share them.
     pub site: Option<String>,
+    /// What the caller gave because the file states none.
+    pub given: Given,
+}
+
+/// What the caller gave of a record whose file states none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Given {
+    /// Sampling interval.
+    pub dt: bool,
+    /// Unit of the samples.
+    pub unit: bool,
+}
+
+/// A record, and what the caller gave although its file states another: a
+/// fault in a file read alone.
+struct Settled {
+    record: Record,
+    dt: Result<(), RecordError>,
+    unit: Result<(), RecordError>,
+}
+
+impl Settled {
+    /// The record, if nothing given contradicts its file.
+    fn agreed(self) -> Result<Record, RecordError> {
+        self.dt.and(self.unit).map(|()| self.record)
+    }
 }
 
 /// What a format's reader finds: one component in the file's own unit.
@@ -204,7 +239,16 @@ pub fn read(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Record, RecordError> {
-    let mut records = read_all(file, bytes, options)?;
+    settle_one(file, bytes, options)?.agreed()
+}
+
+/// As [`settle`], for a file of one component.
+fn settle_one(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Settled, RecordError> {
+    let mut records = settle(file, bytes, options)?;
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
         Some(_) => Err(Fault::SeveralChannels(records.len() + 1).whole(file)),
@@ -221,6 +265,17 @@ pub fn read_all(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
+    let settled = settle(file, bytes, options)?;
+    settled.into_iter().map(Settled::agreed).collect()
+}
+
+/// Reads all components of a file; what the caller gives is taken where the
+/// file states none.
+fn settle(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Settled>, RecordError> {
     read_text(file, bytes, options, |text| {
         format_of(text).ok_or_else(|| unknown(text))
     })
@@ -250,7 +305,8 @@ pub fn read_as(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
-    read_text(file, bytes, options, |_| Ok(format))
+    let settled = read_text(file, bytes, options, |_| Ok(format))?;
+    settled.into_iter().map(Settled::agreed).collect()
 }
 
 fn read_text(
@@ -258,7 +314,7 @@ fn read_text(
     bytes: &[u8],
     options: &ReadOptions,
     format: impl Fn(&Text<'_>) -> Result<Format, RecordError>,
-) -> Result<Vec<Record>, RecordError> {
+) -> Result<Vec<Settled>, RecordError> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
         return Err(Fault::Gravity(gravity).whole(file));
@@ -280,6 +336,7 @@ fn read_text(
         Format::Resorce => vec![resorce::read(&text)?],
         Format::At2 => vec![at2::read(&text)?],
         Format::Cosmos => cosmos::read(&text)?,
+        Format::Counted => vec![counted::read(&text)?],
         Format::Column => vec![column::read(&text)?],
         Format::Csv => vec![csv::read(&text)?],
     };
@@ -293,7 +350,7 @@ fn read_text(
 /// The format by content; formats that name themselves come first.
 fn format_of(text: &Text<'_>) -> Option<Format> {
     type Recognises = fn(&Text<'_>) -> bool;
-    let formats: [(Recognises, Format); 10] = [
+    let formats: [(Recognises, Format); 11] = [
         (smc::recognises, Format::Smc),
         (knet::recognises, Format::Knet),
         (esm::recognises, Format::Esm),
@@ -302,6 +359,7 @@ fn format_of(text: &Text<'_>) -> Option<Format> {
         (resorce::recognises, Format::Resorce),
         (at2::recognises, Format::At2),
         (cosmos::recognises, Format::Cosmos),
+        (counted::recognises, Format::Counted),
         (column::recognises, Format::Column),
         (csv::recognises, Format::Csv),
     ];
@@ -381,7 +439,7 @@ fn name_of(path: &Path) -> String {
 }
 
 /// File name without folders and without what follows the last dot, unless
-/// that is the component (K-NET's `.EW`).
+/// that is the component (K-NET's `.EW`, EMOD3D's `.090` and `.ver`).
 fn stem(file: &str) -> &str {
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     match name.rsplit_once('.') {
@@ -392,7 +450,8 @@ fn stem(file: &str) -> &str {
 
 fn is_component(end: &str) -> bool {
     let letters = end.trim_end_matches(['1', '2']);
-    matches!(letters, "EW" | "NS" | "UD")
+    let azimuth = end.len() == 3 && direction::is_azimuth(end);
+    azimuth || matches!(letters, "EW" | "NS" | "UD" | "ver")
 }
 
 /// Settles interval and unit between file and caller, and converts.
@@ -402,30 +461,34 @@ fn complete(
     channel: Channel,
     several: bool,
     options: &ReadOptions,
-) -> Result<Record, RecordError> {
+) -> Result<Settled, RecordError> {
     let fail = |fault: Fault| fault.whole(text.file());
-    let dt_s = match (channel.dt, options.dt_s) {
+    let given =
+        Given { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
+    let dt = match (channel.dt, options.dt_s) {
         (Some(stated_s), Some(given_s))
             if !((stated_s - given_s).abs() <= 1e-9 * stated_s) =>
         {
-            return Err(fail(Fault::IntervalConflict { stated_s, given_s }));
+            Err(fail(Fault::IntervalConflict { stated_s, given_s }))
         }
-        (Some(dt_s), _) | (None, Some(dt_s)) => dt_s,
-        (None, None) => return Err(fail(Fault::IntervalMissing)),
+        _ => Ok(()),
     };
+    let dt_s = channel.dt.or(options.dt_s);
+    let dt_s = dt_s.ok_or_else(|| fail(Fault::IntervalMissing))?;
     if !(dt_s > 0.0 && dt_s.is_finite()) {
         return Err(fail(Fault::Interval(dt_s.to_string())));
     }
     if !(dt_s >= INTERVALS_S.0 && dt_s <= INTERVALS_S.1) {
         return Err(fail(Fault::IntervalRange(dt_s)));
     }
-    let unit = match (channel.unit, options.unit) {
+    let same_unit = match (channel.unit, options.unit) {
         (Some(stated), Some(given)) if stated != given => {
-            return Err(fail(Fault::UnitConflict { stated, given }));
+            Err(fail(Fault::UnitConflict { stated, given }))
         }
-        (Some(unit), _) | (None, Some(unit)) => unit,
-        (None, None) => return Err(fail(Fault::UnitMissing)),
+        _ => Ok(()),
     };
+    let unit = channel.unit.or(options.unit);
+    let unit = unit.ok_or_else(|| fail(Fault::UnitMissing))?;
     let per_gravity = unit.per_gravity(options.gravity_m_s2);
     let mut samples = channel.samples;
     for sample in &mut samples {
@@ -455,7 +518,7 @@ fn complete(
     }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)
         .map_err(|error| fail(error.into()))?;
-    Ok(Record {
+    let record = Record {
         accelerogram,
         format,
         unit,
@@ -464,7 +527,9 @@ fn complete(
         remarks,
         channel,
         site,
-    })
+        given,
+    };
+    Ok(Settled { record, dt, unit: same_unit })
 }
 
 #[cfg(test)]

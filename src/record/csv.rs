@@ -2,90 +2,139 @@
 //!
 //! Separator: semicolon, comma, tab or blanks. A header names the columns and
 //! may state their units (`time_ms`, `acc [m/s2]`); lines that begin with `#`
-//! are comments, and may state units in brackets. A first column that is no
-//! time is refused. The first sample counts as t = 0, whatever its time.
+//! are comments, and may state units in brackets. A cell may stand in quotes.
+//! A first column that is no time is refused, but for the running number that
+//! pandas writes under no name or `index`. The first sample counts as t = 0, whatever its time.
 //! Lines dropped at either end leave no trace: an index's `npts` tells. A
 //! file that ends within a number is refused where the number's form tells
 //! it.
 
 use super::fields::{Forms, one_number};
 use super::number;
+use super::sampling::{self, Digits, Sampling};
 use super::text::Text;
-use super::{Channel, Fault, RecordError};
-pub(super) use header::comments;
+use super::{Channel, Fault, RecordError, Remark};
 use header::header;
+pub(super) use header::{bracketed, comments};
 
 mod header;
 
 /// Whether the first or second line has two numbers.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
     let mut lines = text.lines().filter(|l| !l.starts_with('#'));
-    let pair = |line: Option<&str>| {
+    let numbers = |line: Option<&str>, count: usize| {
         line.is_some_and(|line| {
             let parts = split(line);
-            parts.len() == 2 && parts.iter().all(|p| number::is_number(p))
+            parts.len() == count && parts.iter().all(|p| number::is_number(p))
         })
     };
-    pair(lines.next()) || pair(lines.next())
+    let (first, second) = (lines.next(), lines.next());
+    let columns = if first.is_some_and(is_numbered) { 3 } else { 2 };
+    numbers(first, 2) || numbers(second, columns)
 }
 
-/// The columns of a line; of more than two, three.
+/// The columns of a line, without quotes; of more than three, four.
 fn split(line: &str) -> Vec<&str> {
     let line = line.trim();
     for separator in [';', ','] {
         if line.contains(separator) {
-            return line.split(separator).map(str::trim).take(3).collect();
+            let mut quoted = false;
+            let cells = line.split(|c| {
+                quoted ^= c == '"';
+                c == separator && !quoted
+            });
+            return cells.map(bare).take(4).collect();
         }
     }
-    line.split_whitespace().take(3).collect()
+    line.split_whitespace().map(bare).take(4).collect()
+}
+
+/// A cell without its quotes.
+fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let inner = cell.strip_prefix('"').and_then(|c| c.strip_suffix('"'));
+    inner.map_or(cell, str::trim)
+}
+
+/// Whether a header line begins with the column in which pandas numbers the
+/// rows.
+fn is_numbered(line: &str) -> bool {
+    let names = ["", "index", "unnamed: 0"];
+    let parts = split(line);
+    parts.len() == 3 && names.contains(&&*parts[0].to_ascii_lowercase())
 }
 
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut times = Vec::with_capacity(text.len());
     let mut samples = Vec::with_capacity(text.len());
-    let mut decimals = 0;
+    let mut digits = Digits::default();
     let mut forms = Forms::default();
     let mut units = comments(text)?;
     let mut head = true;
+    let mut numbered = false;
     for (index, line) in text.lines().enumerate() {
         if line.starts_with('#') {
             continue;
         }
-        let parts = split(line);
+        let mut parts = split(line);
         if head && !parts.iter().all(|p| number::is_number(p)) {
-            units = units.and(header(text, index, line)?);
+            numbered = is_numbered(line);
+            let named = &parts[usize::from(numbered)..];
+            units = units.and(header(text, index, named)?);
             head = false;
             continue;
         }
         head = false;
+        if numbered {
+            let number = parts.remove(0);
+            if number.parse::<usize>() != Ok(times.len()) {
+                let expected = format!("{}, the row's number", times.len());
+                return Err(text.no_number(index, number, &expected));
+            }
+        }
         let &[time, value] = parts.as_slice() else {
             let expected = "two numbers, time and acceleration";
             return Err(text.no_number(index, line, expected));
         };
         let (time_read, form) = one_number(text, index, time)?;
-        decimals = decimals.max(places(time, form));
+        add(&mut digits, time, form);
         times.push(time_read);
         let (sample, form) = one_number(text, index, value)?;
         forms.push(sample, form);
         samples.push(sample);
     }
-    let remarks = forms.check_ended(text)?;
-    let dt = step(text, &times, decimals)? / units.per_second;
-    let unit = units.acceleration;
-    let dt = Some(dt);
+    if times.len() < 2 {
+        return Err(text.at_end(Fault::Ends("a second time")));
+    }
+    let mut remarks = forms.check_ended(text)?;
+    let resolution_s =
+        |i: usize| digits.resolution_s(times[i]) / units.per_second;
+    let times_s: Vec<f64> =
+        times.iter().map(|time| time / units.per_second).collect();
+    let found = sampling::interval(&times_s, resolution_s);
+    let Sampling { dt_s, off_s, .. } = found.map_err(|fault| {
+        let line = |index| line_of(text, &times, index);
+        let line = fault.index().map_or(text.len() - 1, line);
+        text.on_line(line, fault.into())
+    })?;
+    remarks.extend(Remark::of_times(dt_s, off_s));
+    let (dt, unit) = (Some(dt_s), units.acceleration);
     Ok(Channel { dt, unit, samples, remarks, ..Channel::default() })
 }
 
-/// Decimal places that a written time resolves.
-fn places(time: &str, form: number::Form) -> i32 {
-    let digits = i32::try_from(form.decimals.unwrap_or(0)).unwrap_or(0);
-    let exponent = &time[time.len() - form.exponent..];
-    let power = exponent
+/// Adds the decimal places and the significant digits of a written time.
+fn add(digits: &mut Digits, time: &str, form: number::Form) {
+    let (mantissa, exponent) = time.split_at(time.len() - form.exponent);
+    let exponent = exponent
         .trim_start_matches(['e', 'E', 'd', 'D'])
         .parse::<i32>()
         .unwrap_or(0);
-    digits.saturating_sub(power).clamp(0, 18)
+    let count = |n: usize| i32::try_from(n).unwrap_or(i32::MAX);
+    let decimals = count(form.decimals.unwrap_or(0));
+    let written = mantissa.trim_start_matches(['+', '-', '0', '.']);
+    let significant = written.bytes().filter(u8::is_ascii_digit).count();
+    digits.add(decimals.saturating_sub(exponent), count(significant));
 }
 
 /// Index of the line of sample `i`: what is no comment, after the header if
@@ -95,70 +144,4 @@ fn line_of(text: &Text<'_>, times: &[f64], i: usize) -> usize {
         || text.lines().enumerate().filter(|(_, l)| !l.starts_with('#'));
     let header = data().count() - times.len();
     data().nth(header + i).map_or(0, |(index, _)| index)
-}
-
-/// The constant step of `times`, each rounded to `places` decimals.
-///
-/// Where the step itself has that many decimals, it is taken as written.
-fn step(
-    text: &Text<'_>,
-    times: &[f64],
-    places: i32,
-) -> Result<f64, RecordError> {
-    let (Some(&start), Some(&end)) = (times.first(), times.last()) else {
-        return Err(text.at_end(Fault::Ends("time and acceleration")));
-    };
-    if times.len() < 2 {
-        return Err(text.at_end(Fault::Ends("a second time")));
-    }
-    // Rounded once: products of a rounded unit are not what was written.
-    let per_unit = (0..places).fold(1.0, |scale, _| scale * 10.0);
-    let unit = 1.0 / per_unit;
-    let mean = (end - start) / (times.len() - 1) as f64;
-    let written = (mean * per_unit).round() / per_unit;
-    // Rounding of the times, and of the double they are read into.
-    let allowed = 0.5000001 * unit + 4.0 * f64::EPSILON * end.abs();
-    let off = |dt: f64| {
-        (0..times.len()).find(|&i| {
-            !((times[i] - (start + i as f64 * dt)).abs() <= 2.0 * allowed)
-        })
-    };
-    // Times without a rounding error, however few decimals they have.
-    let first = times[1] - start;
-    let exact = |i: usize| {
-        let off = times[i] - (start + i as f64 * first);
-        off.abs() <= 1e-9 * first
-    };
-    if (1..times.len()).all(exact) && first > 0.0 {
-        return Ok(if (written - first).abs() <= 1e-9 * first {
-            written
-        } else {
-            first
-        });
-    }
-    if !(mean > 0.0) {
-        let (found_s, expected_s) = (end, start);
-        let fault = Fault::Backwards { found_s, expected_s };
-        return Err(text.on_line(line_of(text, times, times.len() - 1), fault));
-    }
-    if !(allowed < 0.25 * mean) {
-        let fault = Fault::Coarse { step_s: mean, places: places.max(0) };
-        return Err(text.on_line(line_of(text, times, 1), fault));
-    }
-    if off(written).is_none() {
-        return Ok(written);
-    }
-    let uneven = (1..times.len()).find(|&i| {
-        !((times[i] - times[i - 1] - first).abs() <= 4.0 * allowed)
-    });
-    match uneven.or_else(|| off(mean)) {
-        None => Ok(mean),
-        Some(i) => {
-            let fault = Fault::Step {
-                found_s: times[i],
-                expected_s: times[i - 1] + first,
-            };
-            Err(text.on_line(line_of(text, times, i), fault))
-        }
-    }
 }

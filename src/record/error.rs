@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::AccelerogramError;
 use super::codes::coded;
+use super::sampling::Uneven;
 use crate::accelerogram::name::{Escaped, NameError};
 use crate::units::AccelerationUnit;
 
@@ -39,6 +40,12 @@ impl RecordError {
     #[must_use]
     pub fn unreadable(file: &str, reason: String) -> Self {
         Fault::Unreadable(reason).whole(file)
+    }
+
+    /// The error of a file of an archive whose name leads out of it.
+    #[must_use]
+    pub fn outside(file: &str) -> Self {
+        Fault::Outside.whole(file)
     }
 
     /// Name of the file, as it was given.
@@ -142,6 +149,11 @@ coded! {
             "its name comes again in the archive: expected each name once, and the last is read"
         )]
         Doubled = "doubled",
+        /// A file of an archive whose name leads out of it.
+        #[error(
+            "its name in the archive has a part `..`: expected a place inside"
+        )]
+        Outside = "outside",
         /// A file beside an index that lists the suite.
         #[error(
             "not in the index of the folder: expected a row for each record of the suite"
@@ -228,35 +240,8 @@ coded! {
         #[error("{0:?}: expected a finite number")]
         NotFinite(String) = "not-finite",
         /// Times that do not advance by one step.
-        #[error(
-            "time {found_s} s: expected {expected_s} s, a constant step from the line before"
-        )]
-        Step {
-            /// Time found in s.
-            found_s: f64,
-            /// Time expected in s.
-            expected_s: f64,
-        } = "step",
-        /// A first column whose end does not lie after its beginning.
-        #[error(
-            "the times end at {found_s} s: expected more than {expected_s} s, at which they begin"
-        )]
-        Backwards {
-            /// Last time in s.
-            found_s: f64,
-            /// First time in s.
-            expected_s: f64,
-        } = "backwards",
-        /// Times with too few decimals to show whether their step is constant.
-        #[error(
-            "times of {places} decimals with a mean step of {step_s:.6} s: expected a constant step that the decimals resolve"
-        )]
-        Coarse {
-            /// Mean step in s.
-            step_s: f64,
-            /// Decimals of the times.
-            places: i32,
-        } = "coarse",
+        #[error(transparent)]
+        Step(#[from] Uneven) = "step",
         /// The samples contradict the peak in the header.
         #[error(
             "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"

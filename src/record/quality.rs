@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::codes::coded;
-use super::{Accelerogram, SuiteMember};
+use super::{Accelerogram, Given, SuiteMember};
 use crate::accelerogram::mean;
 
 pub use profile::{Motion, Profile};
@@ -23,6 +23,8 @@ const INTERVAL_RANGE_S: (f64, f64) = (1e-4, 0.1);
 const CLIPPED_SAMPLES: usize = 3;
 /// Time with the same non-zero sample, in s, that means a dead channel.
 const FLAT_S: f64 = 0.5;
+/// Share of the interval that a time may be off constant steps.
+const TIMES_OFF: f64 = 0.01;
 /// Share of PGV that the velocity at the end may reach.
 const END_VELOCITY: f64 = 0.1;
 /// Share of PGA that the mean may reach.
@@ -111,6 +113,16 @@ coded! {
             /// Sampling interval in s.
             dt_s: f64,
         } = "interval-rounded",
+        /// Times that are rounded, or sums in single precision.
+        #[error(
+            "times lie up to {off_s:.2e} s from constant steps of {dt_s} s, which are taken: rounded, or added up in single precision?"
+        )]
+        Times {
+            /// Sampling interval in s.
+            dt_s: f64,
+            /// Largest distance in s.
+            off_s: f64,
+        } = "times",
         /// Zeros at the ends.
         #[error(
             "exact zeros for {leading_s:.2} s at the start and {trailing_s:.2} s at the end: padded"
@@ -155,6 +167,14 @@ coded! {
     }
 }
 
+impl Remark {
+    /// What to remark on times up to `off_s` from constant steps `dt_s`.
+    pub(super) fn of_times(dt_s: f64, off_s: f64) -> Option<Self> {
+        let near = off_s <= TIMES_OFF * dt_s;
+        (!near).then_some(Self::Times { dt_s, off_s })
+    }
+}
+
 /// A record to be remarked on, beside others.
 #[derive(Clone, Debug)]
 pub struct Remarked<'a> {
@@ -164,6 +184,8 @@ pub struct Remarked<'a> {
     pub pair: Option<&'a str>,
     /// What its reading found.
     pub read: &'a [Remark],
+    /// What the caller gave because its file states none.
+    pub given: Given,
 }
 
 impl<'a> Remarked<'a> {
@@ -174,7 +196,9 @@ impl<'a> Remarked<'a> {
         pair: Option<&'a str>,
         read: &'a [Remark],
     ) -> Self {
-        Self { profile: Cow::Owned(Profile::of(record)), pair, read }
+        let (profile, given) =
+            (Cow::Owned(Profile::of(record)), Given::default());
+        Self { profile, pair, read, given }
     }
 }
 
@@ -184,6 +208,7 @@ impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {
             profile: member.accelerogram.profile(),
             pair: member.pair.as_deref(),
             read: &member.remarks,
+            given: member.given,
         }
     }
 }

@@ -1,6 +1,5 @@
 //! What a header line or a comment says of two columns.
 
-use super::split;
 use crate::record::text::{Text, excerpt};
 use crate::record::{Fault, RecordError};
 use crate::units::AccelerationUnit;
@@ -90,9 +89,10 @@ const OTHERS: [&str; 6] = ["vel", "disp", "spect", "psa", "psv", "fourier"];
 pub(super) fn header(
     text: &Text<'_>,
     index: usize,
-    line: &str,
+    cells: &[&str],
 ) -> Result<Units, RecordError> {
-    let (time, value) = columns(line);
+    let line = text.line(index).unwrap_or("");
+    let (time, value) = columns(line, cells);
     let time = Name::of(&time);
     let value = Name::of(&value);
     if !TIMES.contains(&time.name.as_str()) {
@@ -113,14 +113,14 @@ pub(super) fn header(
     Ok(Units { per_second, acceleration })
 }
 
-/// The two names of a header line. Where blanks separate them, a unit in
-/// brackets belongs to the word before.
-fn columns(line: &str) -> (String, String) {
-    let clean = line.replace(['"', '\''], "");
-    let parts = split(&clean);
-    if let [time, value] = parts.as_slice() {
-        return ((*time).to_owned(), (*value).to_owned());
+/// The two names of a header line with these cells. Where blanks separate
+/// them, a unit in brackets belongs to the word before.
+fn columns(line: &str, cells: &[&str]) -> (String, String) {
+    if let [time, value] = cells {
+        let bare = |cell: &str| cell.replace('\'', "");
+        return (bare(time), bare(value));
     }
+    let clean = line.replace(['"', '\''], "");
     let mut words = clean.split_whitespace().peekable();
     let mut time = words.next().unwrap_or("").to_owned();
     if words.peek().is_some_and(|word| word.starts_with(['(', '['])) {
@@ -166,7 +166,7 @@ impl Name {
 }
 
 /// Texts in round or square brackets.
-fn bracketed(text: &str) -> impl Iterator<Item = &str> {
+pub(in crate::record) fn bracketed(text: &str) -> impl Iterator<Item = &str> {
     text.split(['(', '[']).skip(1).filter_map(|part| {
         let end = part.find([')', ']'])?;
         Some(part[..end].trim())

@@ -79,7 +79,7 @@ fn two_columns_state_their_interval() {
     let cases = [
         ("0,1\n0,2\n", "test:2: the times end at 0 s: expected more"),
         ("0.1,1\n0.0,2\n", "test:2: the times end at 0 s: expected more"),
-        ("0.00,1\n0.00,1\n0.01,2\n", "test:2: times of 2 decimals with"),
+        ("0.00,1\n0.00,1\n0.01,2\n", "test:2: time 0 s: expected 0.005 s"),
         ("0.0,1\n0.1,2\n0.2\n", "test:3: \"0.2\": expected two numbers"),
         ("0.0,1\n0.1,2\n0.2,x\n", "test:3: \"x\": expected a number"),
         ("0.0,1\n0.1,NaN\n", "test:2: \"NaN\": expected a finite"),
@@ -93,6 +93,88 @@ fn two_columns_state_their_interval() {
     assert_eq!(si.accelerogram.pga_g(), 1.0);
     let gal = read_text("t_s,a_cm_s2\n0,980.665\n1,2\n").unwrap();
     assert_eq!(gal.accelerogram.pga_g(), 1.0);
+}
+
+/// Times with few digits are read by what their digits resolve, with a
+/// remark; where the step changes is told.
+#[test]
+fn times_have_the_digits_of_their_program() {
+    let rows = |time: &dyn Fn(u32) -> String, n: u32| -> String {
+        (0..n).map(|i| format!("{} 0.5\n", time(i))).collect()
+    };
+    let read = |text: &str| read("test", text.as_bytes(), &in_g(None));
+    // MATLAB's five digits beyond 100 s; zeros at the end are left out.
+    let five = |i: u32| {
+        let rounded = format!("{:.4e}", f64::from(i) * 0.005);
+        rounded.parse::<f64>().unwrap().to_string()
+    };
+    let record = read(&rows(&five, 24_000)).unwrap();
+    assert_eq!(record.accelerogram.dt_s(), 0.005);
+    let [remark @ Remark::Times { .. }] = &record.remarks[..] else {
+        panic!("{:?}", record.remarks)
+    };
+    let expected = "times lie up to 5.00e-3 s from constant steps of 0.005 s";
+    assert!(remark.to_string().starts_with(expected), "{remark}");
+    // 128 times a second with three decimals, and with Fortran's exponents.
+    let three = |i: u32| format!("{:.3}", f64::from(i) / 128.0);
+    let record = read(&rows(&three, 3000)).unwrap();
+    assert_eq!(record.accelerogram.dt_s(), 1.0 / 128.0);
+    let fortran = |i: u32| format!("{:.6E}", f64::from(i) / 128.0);
+    let record = read(&rows(&fortran, 3000)).unwrap();
+    assert_eq!(record.accelerogram.dt_s(), 1.0 / 128.0);
+    assert_eq!(record.remarks, []);
+    // The product of an index and a step, both in single precision.
+    let single = |i: u32| format!("{:.9}", i as f32 * 0.005_f32);
+    let record = read(&rows(&single, 20_000)).unwrap();
+    assert_eq!(record.accelerogram.dt_s(), 0.005);
+    // A step that changes; the header and comments count as lines.
+    let steps = "t a\n# note\n0 1\n0.005 1\n0.006 1\n0.007 1\n0.008 1\n";
+    assert_eq!(
+        read(steps).unwrap_err().to_string(),
+        "test:5: time 0.006 s: expected 0.01 s, a constant step from the \
+         times before, or times with more digits"
+    );
+    for unit in ["ms", "s"] {
+        let per_second = if unit == "ms" { 1e3 } else { 1.0 };
+        let time = |i: u32| {
+            let step = if i < 700 { 0.0 } else { 0.004 };
+            format!("{:.4}", per_second * (f64::from(i) * 0.005 + step))
+        };
+        let text = format!("t ({unit}) a\n{}", rows(&time, 1000));
+        let error = read(&text).unwrap_err().to_string();
+        let expected = "test:702: time 3.504 s: expected ";
+        assert!(error.starts_with(expected), "{error}");
+    }
+}
+
+/// Cells in quotes, and the column in which pandas numbers the rows.
+#[test]
+fn quotes_and_numbered_rows_are_read() {
+    let expected = read_text("time,acc (g)\n0.00,0.1\n0.01,-0.2\n").unwrap();
+    for text in [
+        "\"time\",\"acc (g)\"\n\"0.00\",\"0.1\"\n\"0.01\",\"-0.2\"\n",
+        "\"time\";\"acc (g)\"\n\"0.00\"; 0.1\n0.01;\"-0.2\"\n",
+        "time,\"acc (g)\"\n0.00,0.1\n0.01,-0.2\n",
+        ",time,acc (g)\n0,0.00,0.1\n1,0.01,-0.2\n",
+        "index,time,acc (g)\n0,0.00,0.1\n1,0.01,-0.2\n",
+        "Unnamed: 0,time,acc (g)\n0,0.00,0.1\n1,0.01,-0.2\n",
+        "\"\",\"time\",\"acc (g)\"\n\"0\",0.00,0.1\n\"1\",0.01,-0.2\n",
+    ] {
+        assert_eq!(read_text(text).as_ref(), Ok(&expected), "{text}");
+    }
+    let comma = "\"time\",\"acc, north (g)\"\n0.00,0.1\n0.01,-0.2\n";
+    assert_eq!(read_text(comma).as_ref(), Ok(&expected));
+    refused_with(&[
+        (",time,acc\n0,0,1\n2,1,2\n", "test:3: \"2\": expected 1, the row's"),
+        (",time,acc\n0,0,1\n1,1\n", "test:3: \"1,1\": expected two"),
+        ("n,time,acc\n0,0,1\n1,1,2\n", "test:1: begins with"),
+        ("t,\"a\n0,1\n1,2\n", "test: no unit"),
+        ("\"t\",\"a\"\n0,1\n1,\"2\n", "test:3: \"\\\"2\": expected"),
+        (
+            "\"t\",\"a\"\n0,1\n\"1,2\"\n",
+            "test:3: \"\\\"1,2\\\"\": expected two",
+        ),
+    ]);
 }
 
 /// Units that a header or a comment states; columns that are no times.
@@ -155,6 +237,20 @@ fn a_first_line_unlike_all_others_is_refused() {
     for head in ["0", "0.00000", "# 4"] {
         let text = format!("{head}\n{rows}");
         assert!(read("t", text.as_bytes(), &in_g(Some(0.01))).is_ok());
+    }
+    // Gravity as a factor before an interval, written as the samples are.
+    for factor in ["9.806650e+02", "9.810000e+00", "1"] {
+        let text = format!("{factor}\n1.000000e-02\n-2.039432e-05\n0.0e+00\n");
+        let text = text.replace("0.0e+00", "7.953786e-04");
+        let error = refused(&text).to_string();
+        assert!(error.starts_with(&format!("test:1: {factor:?}")), "{error}");
+    }
+    // What is neither a whole number nor an interval is a sample, however
+    // many digits it has.
+    for first in ["0.2027100355086725", "0.10135501775433625"] {
+        let text = format!("{first}\n-0.1013550177543\n0.0506775088771\n");
+        let record = read("t", text.as_bytes(), &in_g(Some(0.01))).unwrap();
+        assert_eq!(record.accelerogram.samples_g().len(), 3);
     }
     // A negative number is neither, however it is written.
     for text in ["-1.315\n0.7936\n0.1828\n", "-4\n0.1\n0.2\n0.3\n0.4\n"] {

@@ -7,7 +7,7 @@ use rocking::record::{Motion, Remark, Remarked, Suite, remarks_together};
 use serde::{Serialize, Serializer};
 
 /// Codes of remarks, the gravest first.
-const GRAVEST: [&str; 15] = [
+const GRAVEST: [&str; 16] = [
     "units",
     "interval",
     "vertical",
@@ -20,6 +20,7 @@ const GRAVEST: [&str; 15] = [
     "duplicate",
     "direction",
     "unequal-components",
+    "times",
     "interval-rounded",
     "end-velocity",
     "padding",
@@ -29,6 +30,8 @@ const GRAVEST: [&str; 15] = [
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks {
     records: usize,
+    /// Records whose interval, and whose unit, the caller gave.
+    given: (usize, usize),
     /// Name of a record and what is remarked, each code once, in the
     /// records' order.
     found: Vec<(String, Vec<Remark>)>,
@@ -55,7 +58,11 @@ impl Remarks {
         let place =
             |(place, (name, _)): (usize, &(String, _))| (name.clone(), place);
         let places = found.iter().enumerate().map(place).collect();
-        Self { records: records.len(), found, places }
+        let count = |given: fn(&Remarked<'_>) -> bool| {
+            records.iter().filter(|one| given(one)).count()
+        };
+        let given = (count(|one| one.given.dt), count(|one| one.given.unit));
+        Self { records: records.len(), given, found, places }
     }
 
     /// Remarks on all records of a suite.
@@ -71,6 +78,24 @@ impl Remarks {
         let place = self.places.get(name);
         let codes = place.map_or(&[][..], |place| &self.found[*place].1);
         codes.iter().map(Remark::code).collect::<Vec<_>>().join(" ")
+    }
+
+    /// For how many of the records the caller's interval and unit were
+    /// taken, where the files of others state theirs.
+    #[must_use]
+    pub fn given(&self) -> Vec<String> {
+        let (dt, unit) = self.given;
+        let all = [("--dt", dt, "interval"), ("--units", unit, "unit")];
+        let some = |count: usize| count > 0 && count < self.records;
+        let words = |(flag, count, what): (&str, usize, &str)| {
+            format!(
+                "{flag}: taken for {count} of {} records, whose files state \
+                 no {what}",
+                self.records
+            )
+        };
+        let some = all.into_iter().filter(|(_, count, _)| some(*count));
+        some.map(words).collect()
     }
 
     /// Each code with the number of its records, and the first record's

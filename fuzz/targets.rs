@@ -23,6 +23,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("case", case),
     ("column", |bytes| format(Format::Column, bytes)),
     ("cosmos", |bytes| format(Format::Cosmos, bytes)),
+    ("counted", |bytes| format(Format::Counted, bytes)),
     ("csv", |bytes| format(Format::Csv, bytes)),
     ("esm", |bytes| format(Format::Esm, bytes)),
     ("geonet", |bytes| format(Format::Geonet, bytes)),
@@ -45,10 +46,11 @@ pub fn run(name: &str, bytes: &[u8]) -> Result<(), String> {
     target(bytes)
 }
 
-/// One column states neither interval nor unit.
+/// One column states neither interval nor unit, a head with a count no unit.
 fn options(format: Option<Format>) -> ReadOptions {
     let column = format == Some(Format::Column);
-    let unit = column.then_some(AccelerationUnit::Gravity);
+    let unitless = column || format == Some(Format::Counted);
+    let unit = unitless.then_some(AccelerationUnit::Gravity);
     let dt_s = column.then_some(0.01);
     ReadOptions { dt_s, unit, ..ReadOptions::default() }
 }

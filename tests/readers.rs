@@ -47,7 +47,8 @@ fn the_corpus_gets_the_verdict_in_its_names() {
 /// `None` where the file is refused.
 fn channels(target: &str, bytes: &[u8]) -> Option<(Vec<Vec<f64>>, bool)> {
     let column = target == "column";
-    let unit = column.then_some(AccelerationUnit::Gravity);
+    let unitless = column || target == "counted";
+    let unit = unitless.then_some(AccelerationUnit::Gravity);
     let dt_s = column.then_some(0.01);
     let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
     let records = record::read_all("x", bytes, &options).ok()?;
@@ -127,8 +128,10 @@ fn none(found: &[Passed]) {
 }
 
 /// Formats that state their number of samples.
-const COUNTED: &[&str] =
-    &["afad", "at2", "cosmos", "esm", "geonet", "knet", "resorce", "smc"];
+const COUNTED: &[&str] = &[
+    "afad", "at2", "cosmos", "counted", "esm", "geonet", "knet", "resorce",
+    "smc",
+];
 /// Formats of fixed width, or whose seeds are; one AT2 is free text.
 const FIXED: &[&str] =
     &["afad", "at2", "cosmos", "geonet", "knet", "resorce", "smc"];
@@ -175,7 +178,9 @@ fn a_dropped_or_doubled_line_never_passes() {
         let numbers = lines(bytes);
         let numbers = numbers.iter().map(|l| l.first());
         let head = numbers
-            .take_while(|first| !first.is_some_and(u8::is_ascii_digit))
+            .take_while(|first| {
+                !first.is_some_and(|b| b.is_ascii_digit() || *b == b'"')
+            })
             .count();
         let mut changes = with_lines(bytes, 2);
         changes.extend(with_lines(bytes, 0).drain(head + 1..count - 1));

@@ -22,7 +22,8 @@ fn options(
     gravity: f64,
 ) -> PyResult<ReadOptions> {
     let unit = units.map(unit).transpose()?;
-    Ok(ReadOptions { dt_s: dt, unit, gravity_m_s2: gravity })
+    let rest = ReadOptions::default();
+    Ok(ReadOptions { dt_s: dt, unit, gravity_m_s2: gravity, ..rest })
 }
 
 /// A missing path is `FileNotFoundError`, everything else `ValueError`.

@@ -2,8 +2,10 @@
 //!
 //! Generations differ in the line that counts: `NPTS=  4096, DT= .0100 SEC`
 //! with or without commas, unit, filter poles and blanks, and the oldest
-//! `4096  .0100  NPTS, DT` with the values first.
+//! `4096  .0100  NPTS, DT` with the values first. What has no digit behind the
+//! samples (`*** End Data ***`) ends them.
 
+use super::csv::bracketed;
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
 use super::{Channel, Direction, Fault, RecordError, fields};
@@ -42,9 +44,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     while text.line(first).is_some_and(|line| line.trim().is_empty()) {
         first += 1;
     }
-    let layout = fields::infer(text, first, 0);
-    let samples = fields::read(text, first, text.len(), layout)?;
-    text.check_count(samples.len(), count)?;
+    let end = text.end_of_numbers(first);
+    let layout = fields::infer(text, first, end, 0);
+    let samples = fields::read(text, first, end, layout)?;
+    text.check_count_at(end - 1, samples.len(), count)?;
     let label = component(text);
     let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
     Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
@@ -65,7 +68,13 @@ fn unit(
     counting: usize,
 ) -> Result<Option<AccelerationUnit>, RecordError> {
     for (index, line) in text.lines().take(counting).enumerate() {
-        let Some(end) = after_units_of(line) else { continue };
+        let Some(end) = after_units_of(line) else {
+            match in_unit(line) {
+                Some(Ok(unit)) => return Ok(Some(unit)),
+                Some(Err(_)) => return Err(text.quantity(index)),
+                None => continue,
+            }
+        };
         let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
         if other.iter().any(|name| text::contains(&line[..end], name)) {
             return Err(text.quantity(index));
@@ -85,6 +94,30 @@ fn unit(
         };
     }
     Ok(None)
+}
+
+/// The unit of a line such as `ACCELERATION IN G`, `Accelerations (g)` or
+/// `The units are (g)`, or that of another quantity.
+fn in_unit(line: &str) -> Option<Result<AccelerationUnit, &str>> {
+    let named = |words: &[&str]| {
+        words.iter().find_map(|word| text::after_word(line, word))
+    };
+    let unit = |end: usize| {
+        let rest = &line[end..];
+        let word = text::after_word(rest, "IN").map(|from| &rest[from..]);
+        let word = word.and_then(|rest| rest.split_whitespace().next());
+        word.or_else(|| bracketed(rest).next())
+    };
+    let units = ["ACCELERATION", "ACCELERATIONS", "ACC", "UNITS", "UNIT"];
+    if let Some(end) = named(&units) {
+        let word = unit(end)?.trim_end_matches(['.', ',', ';', ':']);
+        return AccelerationUnit::parse(word).map(Ok);
+    }
+    let end = named(&["VELOCITY", "DISPLACEMENT"])?;
+    let word = unit(end)?.to_ascii_lowercase();
+    let length = ["cm", "m", "in", "mm"];
+    let other = word.split(['/', '.', ',']).next().unwrap_or("");
+    length.contains(&other).then_some(Err(line))
 }
 
 fn after_units_of(line: &str) -> Option<usize> {

@@ -8,7 +8,10 @@
 use super::fields::{Forms, one_number};
 use super::number;
 use super::text::Text;
-use super::{Channel, RecordError, csv};
+use super::{Channel, RecordError, counted, csv};
+
+/// Gravity in m/s2, cm/s2, ft/s2 and in/s2.
+const GRAVITY: [f64; 4] = [9.81, 981.0, 32.17, 386.1];
 
 /// Whether the first line that is no comment is one number.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
@@ -35,19 +38,27 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     Ok(Channel { unit, samples, remarks, ..Channel::default() })
 }
 
-/// Refuses a first line that is a count or an interval.
+/// Refuses a first line that is a count or an interval, or gravity before an
+/// interval: a factor that some programs write there.
 fn check_first(
     text: &Text<'_>,
     samples: &[f64],
     forms: &Forms,
 ) -> Result<(), RecordError> {
     let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
+    let mut lines = text.lines().enumerate();
+    let mut lines = lines.by_ref().filter(|(_, line)| !line.starts_with('#'));
+    let (index, line) = lines.next().unwrap_or_default();
+    let interval = |line: &str| counted::interval(line).is_some();
+    let whole = line.trim().bytes().all(|b| b.is_ascii_digit() || b == b'+');
     let count = first == rest.len() as f64 && rest.len() > 1;
-    if !(count || (forms.first_differs() && first > 0.0)) {
+    let unlike = forms.first_differs() && first > 0.0;
+    let gravity = GRAVITY.iter().any(|g| (first - g).abs() <= 1e-3 * g)
+        && lines.next().is_some_and(|(_, line)| interval(line));
+    if !(count || gravity || (unlike && (whole || interval(line)))) {
         return Ok(());
     }
-    let index = text.lines().position(|line| !line.starts_with('#'));
-    let expected = "a sample, written as those on the lines below: a count \
-                    or an interval belongs behind a #";
-    Err(text.header(index.unwrap_or(0), expected))
+    let expected = "a sample, written as those on the lines below: a count, \
+                    an interval or a factor belongs behind a #";
+    Err(text.header(index, expected))
 }

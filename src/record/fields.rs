@@ -32,7 +32,7 @@ impl Layout {
     }
 }
 
-/// The layout that at least half of the lines have, if the numbers end one
+/// The layout that at least half of the lines `first..end` have, if the numbers end one
 /// width apart, the first field being `missing` characters narrower; `None`
 /// for free text.
 ///
@@ -41,9 +41,10 @@ impl Layout {
 pub(super) fn infer(
     text: &Text<'_>,
     first: usize,
+    end: usize,
     missing: usize,
 ) -> Option<Layout> {
-    let count = text.len().saturating_sub(first);
+    let count = end.saturating_sub(first);
     let full = if count > 1 { count - 1 } else { count };
     let mut votes: BTreeMap<Layout, usize> = BTreeMap::new();
     for line in text.lines_from(first).take(full) {

@@ -27,8 +27,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let scale = scale(text)?;
     let (memo, _) = keys::value(text, "Memo.")?;
     let first = memo + 1;
-    let layout = fields::infer(text, first, 1);
-    let layout = layout.or_else(|| fields::infer(text, first, 0));
+    let infer = |missing| fields::infer(text, first, text.len(), missing);
+    let layout = infer(1).or_else(|| infer(0));
     let mut samples = fields::read(text, first, text.len(), layout)?;
     let expected = frequency_hz * duration_s;
     if !(expected <= 1e9 && expected.fract() == 0.0) {

@@ -17,7 +17,7 @@ pub use error::SuiteError;
 pub use survey::Survey;
 
 use super::{
-    Accelerogram, Format, Motion, Processing, ProcessingError, Profile,
+    Accelerogram, Format, Given, Motion, Processing, ProcessingError, Profile,
     ReadOptions, RecordError, Remark,
 };
 use crate::units::AccelerationUnit;
@@ -69,6 +69,8 @@ pub struct SuiteMember<M = Accelerogram> {
     /// Earthquake of the record, by the index; records of one earthquake
     /// are no independent draws.
     pub event: Option<String>,
+    /// What the caller gave because neither file nor index states it.
+    pub given: Given,
     /// Other columns of the index (magnitude, distance, ...): name and cell,
     /// in the index's order.
     pub attributes: Vec<(Arc<str>, String)>,
@@ -97,6 +99,7 @@ impl SuiteMember {
             pair: self.pair,
             study_component: self.study_component,
             event: self.event,
+            given: self.given,
             attributes: self.attributes,
         }
     }

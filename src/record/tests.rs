@@ -4,6 +4,7 @@ use super::*;
 
 mod columns;
 mod cosmos;
+mod counted;
 mod directions;
 mod nations;
 mod networks;
@@ -218,6 +219,49 @@ fn at2_headers_that_say_too_little_are_refused() {
     assert!(
         refusal(head).contains("test:2: the file ends: expected a line like")
     );
+}
+
+/// Words for the unit that other programs than PEER's write, and a word
+/// behind the samples.
+#[test]
+fn at2_of_other_programs_is_read() {
+    let line = "NPTS= 7, DT= .01 SEC";
+    let headed = |head: &str| {
+        at2(line).replace("ACCELERATION TIME SERIES IN UNITS OF G", head)
+    };
+    use AccelerationUnit as U;
+    for (head, unit) in [
+        ("ACCELERATION IN G", U::Gravity),
+        ("File Type: Accelerations (g)", U::Gravity),
+        ("The units are (g)", U::Gravity),
+        ("ACCELERATION IN CM/S/S.", U::CentimetrePerSecondSquared),
+        ("Acc. [m/s2]", U::MetrePerSecondSquared),
+    ] {
+        let record = read_text(&headed(head)).expect(head);
+        assert_eq!(record.unit, unit, "{head}");
+    }
+    for head in ["VELOCITY IN CM/SEC", "Displacements", "DISPLACEMENT (cm)"] {
+        let text = headed(head);
+        let given = read("test", text.as_bytes(), &in_g(None));
+        let quantity = "test:3: \"";
+        match head {
+            "Displacements" => assert!(given.is_ok(), "{head}"),
+            _ => assert!(given.unwrap_err().to_string().starts_with(quantity)),
+        }
+    }
+    for head in ["ACCELERATION IN THE BASIN", "ACCELERATION"] {
+        assert!(refusal(&headed(head)).starts_with("test: no unit in the"));
+    }
+    let ended = format!("{}*** End Data ***\n\n", at2(line));
+    assert_eq!(read_text(&ended), read_text(&at2(line)));
+    // The count holds the file to its samples, at their own place.
+    let short = ended.replace("NPTS= 7", "NPTS= 8");
+    assert_eq!(
+        refusal(&short),
+        "test:6: 7 samples: expected 8, the number that the file states"
+    );
+    let more = ended.replace("*** End", "   .1000000E-02\n*** End");
+    assert!(read_text(&more).is_err());
 }
 
 #[test]

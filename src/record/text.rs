@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Fault, RecordError};
+use super::{Fault, RecordError, number};
 use crate::stop;
 use crate::units::AccelerationUnit;
 
@@ -169,6 +169,19 @@ impl<'a> Text<'a> {
     /// All lines.
     pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
         self.lines_from(0)
+    }
+
+    /// Index of the line after the last one, from index `first` on, that has
+    /// a digit or is meant as a number: some programs write words behind
+    /// their numbers.
+    pub(super) fn end_of_numbers(&self, first: usize) -> usize {
+        let number = |index: &usize| {
+            let line = self.line(*index).unwrap_or("");
+            line.bytes().any(|b| b.is_ascii_digit())
+                || line.split_whitespace().any(number::is_number)
+        };
+        let last = (first..self.len()).rev().find(number);
+        last.map_or(self.len(), |index| index + 1)
     }
 
     /// Whether the text ends with the end of a line.

@@ -24,6 +24,8 @@ coded! {
         Unlisted = "unlisted",
         /// A file of an archive under a name that comes again.
         Doubled = "doubled",
+        /// A file of an archive whose name leads out of it.
+        Outside = "outside",
         /// A folder, which is not entered.
         Folder = "folder",
         /// A link to nothing.
@@ -44,6 +46,7 @@ impl AsideReason {
             Fault::Quantity(_) => Self::Quantity,
             Fault::Unlisted => Self::Unlisted,
             Fault::Doubled => Self::Doubled,
+            Fault::Outside => Self::Outside,
             Fault::Folder => Self::Folder,
             Fault::DeadLink => Self::Link,
             Fault::Device => Self::Device,
@@ -61,6 +64,7 @@ impl AsideReason {
             Self::Quantity => "of another quantity than acceleration",
             Self::Unlisted => "not in the index",
             Self::Doubled => "under a name that comes again",
+            Self::Outside => "named as outside the archive",
             Self::Folder if one => "folder that is not entered",
             Self::Folder => "folders that are not entered",
             Self::Link if one => "link to nothing",

@@ -7,7 +7,9 @@ use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
 use crate::accelerogram::name::EXPECTED;
 use crate::record::text::{self, excerpt};
-use crate::record::{ReadOptions, Record, read, result_name, sha256_hex};
+use crate::record::{
+    Given, ReadOptions, Record, Settled, result_name, settle_one, sha256_hex,
+};
 use crate::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
@@ -329,11 +331,12 @@ impl Row {
     }
 
     /// Reads the row's record from `content` and checks what the row says
-    /// about it.
+    /// about it. What only the caller states, `see` settles.
     pub(super) fn member(
         &self,
         content: &[u8],
         options: &ReadOptions,
+        see: impl FnOnce(Settled) -> Record,
     ) -> Result<SuiteMember, SuiteError> {
         self.check_sum(content)?;
         let unit = match self.cell("units") {
@@ -343,9 +346,22 @@ impl Row {
                     .ok_or_else(|| self.refuse(cell, "g, m/s2 or cm/s2"))?,
             ),
         };
-        let dt_s = self.positive("dt_s")?.or(options.dt_s);
+        let dt_s = self.positive("dt_s")?;
+        let stated =
+            Given { dt: dt_s.is_some(), unit: self.cell("units").is_some() };
+        let dt_s = dt_s.or(options.dt_s);
         let read_options = ReadOptions { dt_s, unit, ..*options };
-        let record = read(&self.file, content, &read_options)?;
+        let mut settled = settle_one(&self.file, content, &read_options)?;
+        // The row speaks of this file alone.
+        if stated.dt {
+            settled.dt?;
+            (settled.dt, settled.record.given.dt) = (Ok(()), false);
+        }
+        if stated.unit {
+            settled.unit?;
+            (settled.unit, settled.record.given.unit) = (Ok(()), false);
+        }
+        let record = see(settled);
         self.check(&record, options.gravity_m_s2)?;
         let study_component = match self.cell("study_component") {
             None | Some("0" | "false") => false,
@@ -376,6 +392,7 @@ impl Row {
             },
             study_component,
             event: self.event()?,
+            given: record.given,
             attributes,
         })
     }

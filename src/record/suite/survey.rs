@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::record::{
-    Direction, Fault, Motion, ReadOptions, Record, RecordError, Remark,
-    file_bytes, is_record, name_of, read_all, result_name, stem,
+    Direction, Fault, Given, Motion, ReadOptions, Record, RecordError, Remark,
+    Settled, file_bytes, is_record, name_of, result_name, settle, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -70,7 +70,8 @@ impl<K> Survey<K> {
     ) -> Result<Self, E> {
         let shown = path.display().to_string();
         if path.is_dir() {
-            let (files, others) = contents(path)?;
+            let (mut files, mut others) = Default::default();
+            contents(path, "", options.recursive, &mut files, &mut others)?;
             let names: Vec<String> = files.keys().cloned().collect();
             let bytes = |name: &str| {
                 let own = || path.join(name);
@@ -156,21 +157,25 @@ impl<K> Survey<K> {
             study_rule: StudyRule::FirstName,
             paired: false,
         };
+        let mut given = Seen::default();
         for name in names {
             let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
-                .and_then(|bytes| read_all(&shown, &bytes, options));
+                .and_then(|bytes| settle(&shown, &bytes, options));
             let found = records.unwrap_or_else(|error| {
                 survey.refuse(name, error);
                 Vec::new()
             });
-            for record in found {
-                match horizontal(&shown, name, record) {
+            let within = name.rsplit_once('/').map(|(within, _)| within);
+            let within = within.filter(|_| options.recursive);
+            for settled in found {
+                match horizontal(&shown, name, within, given.see(settled)) {
                     Ok(member) => survey.members.push(Ok(keep(member)?)),
                     Err(error) => survey.refuse(name, error),
                 }
             }
         }
+        survey.members.extend(given.unused());
         Ok(survey)
     }
 
@@ -198,14 +203,18 @@ impl<K> Survey<K> {
         };
         let rows = index.into_rows();
         let mut members = Vec::with_capacity(rows.len());
+        let mut given = Seen::default();
         for row in rows {
             let bytes = file_bytes(row.file()).map_err(SuiteError::from);
-            let member = bytes.and_then(|bytes| row.member(&bytes, options));
+            let member = bytes.and_then(|bytes| {
+                row.member(&bytes, options, |settled| given.see(settled))
+            });
             members.push(match member {
                 Ok(member) => Ok(keep(member)?),
                 Err(error) => Err(error),
             });
         }
+        members.extend(given.unused());
         // An index as PEER names it has its folder's name.
         let folder = path.strip_suffix(PEER_RESULTS).map(container);
         let name = folder.filter(|folder| !folder.is_empty());
@@ -257,6 +266,33 @@ impl<M: Motion> Survey<SuiteMember<M>> {
     }
 }
 
+/// What the caller gave, over the files of a suite: which of it a file took,
+/// and the first file that states another.
+#[derive(Default)]
+struct Seen {
+    taken: Given,
+    dt: Option<RecordError>,
+    unit: Option<RecordError>,
+}
+
+impl Seen {
+    fn see(&mut self, settled: Settled) -> Record {
+        let Settled { record, dt, unit } = settled;
+        self.taken.dt |= record.given.dt;
+        self.taken.unit |= record.given.unit;
+        self.dt = self.dt.take().or(dt.err());
+        self.unit = self.unit.take().or(unit.err());
+        record
+    }
+
+    /// The first contradiction to what no file took.
+    fn unused<K>(self) -> impl Iterator<Item = Result<K, SuiteError>> {
+        let dt = self.dt.filter(|_| !self.taken.dt);
+        let unit = self.unit.filter(|_| !self.taken.unit);
+        dt.into_iter().chain(unit).map(|error| Err(error.into()))
+    }
+}
+
 /// Name of a folder, whole, or of a zip without its ending.
 fn container(path: &str) -> &str {
     let path = path.trim_end_matches('/');
@@ -265,10 +301,12 @@ fn container(path: &str) -> &str {
 }
 
 /// A record of a folder as a member of the suite, unless it is vertical or
-/// from a borehole, or results cannot carry the file's name.
+/// from a borehole, or results cannot carry the file's name. The name of the
+/// folder `within` the suite's goes before the record's.
 fn horizontal(
     shown: &str,
     file: &str,
+    within: Option<&str>,
     record: Record,
 ) -> Result<SuiteMember, RecordError> {
     let name = || record.accelerogram.name().to_owned();
@@ -283,8 +321,15 @@ fn horizontal(
         remarks.push(Remark::Direction);
     }
     result_name(file).map_err(|error| Fault::Name(error).whole(shown))?;
+    let mut accelerogram = record.accelerogram;
+    if let Some(within) = within {
+        let name = format!("{within}/{}", accelerogram.name());
+        accelerogram = accelerogram
+            .named(name)
+            .map_err(|error| Fault::from(error).whole(shown))?;
+    }
     Ok(SuiteMember {
-        accelerogram: record.accelerogram,
+        accelerogram,
         file: file.to_owned(),
         format: record.format,
         unit: record.unit,
@@ -293,24 +338,36 @@ fn horizontal(
         pair: None,
         study_component: false,
         event: None,
+        given: record.given,
         attributes: Vec::new(),
     })
 }
 
-/// Files of a folder by name, and what else is in it; hidden things are left
-/// out.
+/// Adds the files of the folder `within` of `root` by their names from there,
+/// and what else is in it; hidden things are left out. Links to folders are
+/// not entered: they may lead back.
 fn contents(
-    path: &Path,
-) -> Result<(BTreeMap<String, PathBuf>, Vec<Aside>), SuiteError> {
+    root: &Path,
+    within: &str,
+    recursive: bool,
+    files: &mut BTreeMap<String, PathBuf>,
+    others: &mut Vec<Aside>,
+) -> Result<(), SuiteError> {
+    let path = &root.join(within);
     let fail = |error: std::io::Error| SuiteError::Unreadable {
         path: path.display().to_string(),
         reason: error.to_string(),
     };
-    let (mut files, mut others) = (BTreeMap::new(), Vec::new());
     for entry in std::fs::read_dir(path).map_err(fail)? {
         let file = entry.map_err(fail)?.path();
         let name = name_of(&file);
         if name.starts_with('.') {
+            continue;
+        }
+        let name = format!("{within}{name}");
+        let own = std::fs::symlink_metadata(&file);
+        if recursive && own.is_ok_and(|found| found.is_dir()) {
+            contents(root, &format!("{name}/"), recursive, files, others)?;
             continue;
         }
         let fault = match std::fs::metadata(&file) {
@@ -320,7 +377,7 @@ fn contents(
             // A file that cannot be read is refused when it is read.
             Ok(_) | Err(_) => None,
         };
-        let shown = format!("{}/{name}", path.display());
+        let shown = format!("{}/{name}", root.display());
         let other = fault.map(|fault| Aside::of(&name, fault.whole(&shown)));
         match other {
             Some(Ok(aside)) => others.push(aside),
@@ -330,7 +387,7 @@ fn contents(
         }
     }
     others.sort_by(|a, b| a.file.cmp(&b.file));
-    Ok((files, others))
+    Ok(())
 }
 
 /// Whether there is a link at `path`, and nothing where it leads.

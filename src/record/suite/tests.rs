@@ -381,3 +381,58 @@ fn peers_search_results_are_an_index() {
         "s.csv:7: \"8 cells\": expected 9 cells, as the head"
     );
 }
+
+/// An interval and a unit are taken for the files that state none, however
+/// many others there are; what none takes and one contradicts is refused.
+#[test]
+fn what_is_given_is_for_files_that_state_none() {
+    let at2 = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere\n\
+        ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .005 SEC\n\
+        0.1\n0.2\n-0.1\n";
+    let all =
+        [("a.AT2", at2), ("b.txt", MOTION), ("c.txt", "# a [g]\n0.1\n0\n")];
+    let suite = |files: &[(&str, &str)], dt_s, unit| {
+        let names: Vec<String> =
+            files.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let bytes = |name: &str| {
+            let found = files.iter().find(|(known, _)| *known == name);
+            Ok(found.unwrap().1.as_bytes().to_vec())
+        };
+        let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
+        Survey::of_files("f", &names, &options, bytes, KEEP)
+            .and_then(Survey::into_suite)
+            .map_err(|error| error.to_string())
+    };
+    let si = Some(AccelerationUnit::MetrePerSecondSquared);
+    let mixed = suite(&all, Some(0.02), si).unwrap();
+    let found: Vec<_> = mixed
+        .members()
+        .iter()
+        .map(|m| (m.accelerogram.dt_s(), m.unit, m.given.dt, m.given.unit))
+        .collect();
+    let g = AccelerationUnit::Gravity;
+    assert_eq!(
+        found,
+        [
+            (0.005, g, false, false),
+            (0.02, AccelerationUnit::MetrePerSecondSquared, true, true),
+            (0.02, g, true, false),
+        ]
+    );
+    assert_eq!(
+        suite(&all[..1], Some(0.02), None).unwrap_err(),
+        "f/a.AT2: sampling interval 0.02 s was given: expected 0.005 s, \
+         which the file states"
+    );
+    let unit = "f/a.AT2: unit m/s2 was given: expected g, which the file";
+    assert!(suite(&all[..1], None, si).unwrap_err().starts_with(unit));
+    assert!(suite(&all[..1], Some(0.005), Some(g)).is_ok());
+    // A row of an index speaks of its file alone.
+    let index = "file,dt_s,units\na.AT2,0.02,g\n";
+    let options = ReadOptions { unit: si, ..ReadOptions::default() };
+    let found = Suite::from_index("i.csv", index.as_bytes(), &options, |_| {
+        Ok(at2.as_bytes().to_vec())
+    });
+    let row = "a.AT2: sampling interval 0.02 s was given: expected 0.005 s";
+    assert!(found.unwrap_err().to_string().starts_with(row));
+}

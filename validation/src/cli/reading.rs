@@ -5,17 +5,24 @@ use rocking::record::{ReadOptions, SetAside};
 use rocking::units::AccelerationUnit;
 
 use crate::failure::Failure;
+use crate::terminal::note;
 use rocking_common::suites::remarks::Remarks;
 
 /// What record files do not state.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ReadArgs {
-    /// Sampling interval in s of record files that state none.
+    /// Sampling interval in s of record files that state none; those that
+    /// state one keep it.
     #[arg(long, value_name = "S")]
     dt: Option<f64>,
-    /// Unit of record files that state none: g, m/s2 or cm/s2.
+    /// Unit of record files that state none (g, m/s2 or cm/s2); those that
+    /// state one keep it.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     units: Option<AccelerationUnit>,
+    /// Enter the folders in a folder of records, such as one for each event;
+    /// their names go before the records'.
+    #[arg(long)]
+    recursive: bool,
     /// Fail where anything about a record is suspicious, or anything in the
     /// folder or zip is no record of the suite: `rocking records` lists what.
     #[arg(long)]
@@ -31,7 +38,8 @@ impl ReadArgs {
     /// How records are read under gravity `gravity_m_s2`.
     #[must_use]
     pub fn options(self, gravity_m_s2: f64) -> ReadOptions {
-        ReadOptions { dt_s: self.dt, unit: self.units, gravity_m_s2 }
+        let (dt_s, unit, recursive) = (self.dt, self.units, self.recursive);
+        ReadOptions { dt_s, unit, gravity_m_s2, recursive }
     }
 
     /// The first flag given, to be refused where no record is read.
@@ -41,13 +49,15 @@ impl ReadArgs {
             Some("--dt")
         } else if self.units.is_some() {
             Some("--units")
+        } else if self.recursive {
+            Some("--recursive")
         } else {
             self.strict.then_some("--strict")
         }
     }
 
-    /// Refuses remarks on records and what was set aside beside them, where
-    /// that was asked for.
+    /// Tells for how many records the flags were taken, and with `--strict`
+    /// refuses remarks on records and what was set aside beside them.
     ///
     /// # Errors
     /// [`Failure`] with both in short.
@@ -56,6 +66,9 @@ impl ReadArgs {
         set_aside: &SetAside,
         remarks: &Remarks,
     ) -> Result<(), Failure> {
+        for words in remarks.given() {
+            note(&words);
+        }
         let remarks =
             remarks.words().map(|words| format!("remarks on {words}"));
         let aside = (!set_aside.is_empty()).then(|| {

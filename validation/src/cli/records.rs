@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Format, ReadOptions, RecordError, Remark, Remarked, SetAside, Suite,
-    SuiteMember,
+    self, Format, Given, ReadOptions, RecordError, Remark, Remarked, SetAside,
+    Suite, SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde::Serialize;
@@ -62,11 +62,14 @@ struct Listed {
     study_component: Option<bool>,
     /// What reading found; with what the samples show, once all are read.
     remarks: Vec<Remark>,
+    given: Given,
 }
 
 impl Listed {
     fn remarked(&self) -> Remarked<'_> {
-        Remarked::of(&self.motion, self.pair.as_deref(), &self.remarks)
+        let given = self.given;
+        let pair = self.pair.as_deref();
+        Remarked { given, ..Remarked::of(&self.motion, pair, &self.remarks) }
     }
 
     fn member(member: &SuiteMember, in_suite: bool) -> Self {
@@ -78,6 +81,7 @@ impl Listed {
             pair: member.pair.clone().filter(|_| in_suite),
             study_component: in_suite.then_some(member.study_component),
             remarks: member.remarks.clone(),
+            given: member.given,
         }
     }
 
@@ -295,6 +299,7 @@ impl Listing {
                     pair: None,
                     study_component: None,
                     remarks: record.remarks,
+                    given: record.given,
                 }))
             }
         }

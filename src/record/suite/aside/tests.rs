@@ -148,3 +148,49 @@ fn names_that_break_a_line_or_compute_are_refused() {
         assert!(is_text || error.starts_with(place), "{error}");
     }
 }
+
+/// A download has a folder for each event. Entered, records have its name
+/// before theirs, and stay distinct and in order.
+#[test]
+fn folders_are_entered_where_it_is_asked_for() {
+    let folder = Folder::new("recursive");
+    for within in ["2", "10", "10/old", ".hidden"] {
+        fs::create_dir_all(folder.0.join(within)).unwrap();
+    }
+    for (name, text) in [
+        ("top.AT2", at2("0")),
+        ("2/a.AT2", at2("0")),
+        ("2/a-UP.AT2", at2("UP")),
+        ("2/b.AT2", at2("90")),
+        ("10/a.AT2", at2("0")),
+        ("10/old/a.AT2", at2("0")),
+        ("10/notes.txt", "read me\n".to_owned()),
+        (".hidden/c.AT2", at2("0")),
+    ] {
+        folder.write(name, &text);
+    }
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(&folder.0, folder.0.join("back")).unwrap();
+    let flat = folder.suite().unwrap();
+    assert_eq!(flat.members().len(), 1);
+    assert_eq!(flat.members()[0].accelerogram.name(), "top");
+    let options = ReadOptions { recursive: true, ..ReadOptions::default() };
+    let suite = Suite::read(&folder.0, &options).unwrap();
+    let members = suite.members().iter();
+    let found: Vec<(&str, &str)> =
+        members.map(|m| (m.accelerogram.name(), m.file.as_str())).collect();
+    let expected = [
+        ("10/a", "10/a.AT2"),
+        ("10/old/a", "10/old/a.AT2"),
+        ("2/a", "2/a.AT2"),
+        ("2/b", "2/b.AT2"),
+        ("top", "top.AT2"),
+    ];
+    assert_eq!(found, expected);
+    let aside = suite.set_aside().to_string();
+    let files = "1 vertical (first: 2/a-UP.AT2), 1 in no known format \
+                 (first: 10/notes.txt)";
+    assert!(aside.starts_with(files), "{aside}");
+    #[cfg(unix)]
+    assert!(aside.ends_with("1 folder that is not entered (first: back)"));
+}

@@ -175,6 +175,9 @@ pub fn visit_zip<K, E: From<SuiteError>>(
     }
     let (base, names) = contents(names);
     let unpacked = |name: &str| {
+        if name.split('/').any(|part| part == "..") {
+            return Err(RecordError::outside(&format!("{shown}/{name}")));
+        }
         let limit = if name == SEARCH_RESULTS { index_limit } else { left };
         let mut bytes = Vec::new();
         let path = format!("{base}{name}");
@@ -226,7 +229,8 @@ fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
 }
 
 /// The folder of an archive that PEER's search results lie in, if any, and
-/// the files in it, by name; hidden files and folders are left out.
+/// the files in it, by name; hidden files and folders are left out, and a
+/// part `..` hides nothing.
 fn contents(names: Vec<String>) -> (String, Vec<String>) {
     let base = names
         .iter()
@@ -234,7 +238,8 @@ fn contents(names: Vec<String>) -> (String, Vec<String>) {
         .unwrap_or("")
         .to_owned();
     let hidden = |name: &str| {
-        name.split('/').any(|part| part.starts_with('.') || part == "__MACOSX")
+        let hides = |part: &str| part.starts_with('.') && part != "..";
+        name.split('/').any(|part| hides(part) || part == "__MACOSX")
     };
     let mut inside: Vec<String> = names
         .iter()

@@ -20,6 +20,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("afad", |bytes| format(Format::Afad, bytes)),
     ("any", any),
     ("at2", |bytes| format(Format::At2, bytes)),
+    ("bri", |bytes| format(Format::Bri, bytes)),
     ("case", case),
     ("column", |bytes| format(Format::Column, bytes)),
     ("cosmos", |bytes| format(Format::Cosmos, bytes)),

@@ -11,6 +11,7 @@ use std::path::Path;
 
 mod afad;
 mod at2;
+mod bri;
 mod codes;
 mod column;
 mod cosmos;
@@ -57,6 +58,8 @@ use text::{Text, excerpt};
 pub enum Format {
     /// PEER's AT2, every generation.
     At2,
+    /// BRI (Japan), `.ac`.
+    Bri,
     /// One value a line, without a header.
     Column,
     /// A name, number of samples and interval, samples: eqsig, EMOD3D,
@@ -85,12 +88,13 @@ pub enum Format {
 const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
 
 /// Formats by name, for messages.
-const FORMATS: &str = "afad, at2, cosmos, esm, geonet, knet, resorce, smc, counted (count and interval, samples), csv (time, acceleration), column";
+const FORMATS: &str = "afad, at2, bri, cosmos, esm, geonet, knet, resorce, smc, counted (count and interval, samples), csv (time, acceleration), column";
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::At2 => "at2",
+            Self::Bri => "bri",
             Self::Column => "column",
             Self::Counted => "counted",
             Self::Csv => "csv",
@@ -336,6 +340,7 @@ fn read_text(
         Format::Resorce => vec![resorce::read(&text)?],
         Format::At2 => vec![at2::read(&text)?],
         Format::Cosmos => cosmos::read(&text)?,
+        Format::Bri => bri::read(&text)?,
         Format::Counted => vec![counted::read(&text)?],
         Format::Column => vec![column::read(&text)?],
         Format::Csv => vec![csv::read(&text)?],
@@ -350,7 +355,7 @@ fn read_text(
 /// The format by content; formats that name themselves come first.
 fn format_of(text: &Text<'_>) -> Option<Format> {
     type Recognises = fn(&Text<'_>) -> bool;
-    let formats: [(Recognises, Format); 11] = [
+    let formats: [(Recognises, Format); 12] = [
         (smc::recognises, Format::Smc),
         (knet::recognises, Format::Knet),
         (esm::recognises, Format::Esm),
@@ -359,6 +364,7 @@ fn format_of(text: &Text<'_>) -> Option<Format> {
         (resorce::recognises, Format::Resorce),
         (at2::recognises, Format::At2),
         (cosmos::recognises, Format::Cosmos),
+        (bri::recognises, Format::Bri),
         (counted::recognises, Format::Counted),
         (column::recognises, Format::Column),
         (csv::recognises, Format::Csv),

@@ -129,12 +129,12 @@ fn none(found: &[Passed]) {
 
 /// Formats that state their number of samples.
 const COUNTED: &[&str] = &[
-    "afad", "at2", "cosmos", "counted", "esm", "geonet", "knet", "resorce",
-    "smc",
+    "afad", "at2", "bri", "cosmos", "counted", "esm", "geonet", "knet",
+    "resorce", "smc",
 ];
 /// Formats of fixed width, or whose seeds are; one AT2 is free text.
 const FIXED: &[&str] =
-    &["afad", "at2", "cosmos", "geonet", "knet", "resorce", "smc"];
+    &["afad", "at2", "bri", "cosmos", "geonet", "knet", "resorce", "smc"];
 const FREE: &[&str] = &["column", "csv"];
 
 /// Lines with their ends.

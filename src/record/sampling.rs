@@ -336,7 +336,7 @@ fn constant(
     // dt is at least each slope from an upper end to a later lower end, and
     // at most each from a lower end to a later upper end.
     let (mut rise, mut fall) = (Steepest::from(0.0), Steepest::default());
-    for index in 0..times_s.len() {
+    for (index, &found_s) in times_s.iter().enumerate() {
         let (low, high) = ends(index);
         let (least, most) = (rise.slope, -fall.slope);
         rise.add(index, high, low);
@@ -355,7 +355,6 @@ fn constant(
             let allowed = allowed(index);
             let expected_s =
                 (start + bounds.0 - allowed, start + bounds.1 + allowed);
-            let found_s = times_s[index];
             return Err(Uneven::Step { index, found_s, expected_s });
         }
     }

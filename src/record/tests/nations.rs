@@ -164,3 +164,69 @@ fn geonet_volumes_are_read_and_checked_against_their_header() {
     let units = geonet(false).replace("of 1.00", "of 2.00");
     assert!(refusal(&units).contains("readings in 1.00 mm/s/s"));
 }
+
+/// Two horizontal channels of one place and a vertical one, as BRI writes
+/// them; the numbers are invented.
+fn bri() -> String {
+    let channel = |label: &str, peak: f64| {
+        let line = format!(
+            "{label:<10}{peak:>10.3}{:>10}{:>10.3}  3.00e-2\n",
+            3, 0.013
+        );
+        let sample = |i: i32| {
+            let value = if i == 2 { peak } else { 0.077 - f64::from(i) };
+            let end = if i % 8 == 7 { "\n" } else { "" };
+            format!("{value:>10.3}{end}")
+        };
+        let samples: String = (0..10).map(sample).collect();
+        format!("{line}{samples}\n")
+    };
+    format!(
+        "1900/01/15 20:06:08   3 100    10 ABC: Nowhere\n{}{}{}",
+        channel("063-GL", -71.403),
+        channel("153-GL", 63.24),
+        channel("UP-GL", 36.391)
+    )
+}
+
+#[test]
+fn bri_channels_are_read_and_checked_against_their_peaks() {
+    let text = bri().replace('\n', "\r\n");
+    let records = read_all("a.ac", text.as_bytes(), &options(None)).unwrap();
+    let names: Vec<_> =
+        records.iter().map(|r| r.accelerogram.name()).collect();
+    assert_eq!(names, ["a:063-GL", "a:153-GL", "a:UP-GL"]);
+    let directions: Vec<_> = records.iter().map(|r| r.direction).collect();
+    use Direction::{Horizontal, Vertical};
+    assert_eq!(directions, [Horizontal, Horizontal, Vertical]);
+    for record in &records {
+        assert_eq!(record.format, Format::Bri);
+        assert_eq!(record.unit, AccelerationUnit::CentimetrePerSecondSquared);
+        assert_eq!(record.accelerogram.dt_s(), 0.01);
+        assert_eq!(record.accelerogram.samples_g().len(), 10);
+        let site = Some("1900/01/15 20:06:08 ABC GL");
+        assert_eq!(record.site.as_deref(), site);
+    }
+    assert_eq!(records[0].accelerogram.pga_g(), 71.403 / 980.665);
+    let text = bri();
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let without = |k: usize| [&lines[..k], &lines[k + 1..]].concat().concat();
+    refused_with(&[
+        (
+            text.replace("-71.403      ", "-70.403      "),
+            "test:2: largest abs",
+        ),
+        (
+            text.replace("    10 ABC", "    11 ABC"),
+            "test:4: 10 samples: expected",
+        ),
+        (
+            text.replace("  3 100", "  4 100"),
+            "test:10: the file ends: expected",
+        ),
+        (text.replace("  3 100", "  2 100"), "test:8: \"UP-GL"),
+        (without(3), "test:4:"),
+        (without(4), "test:5: \"0.077    -0.923"),
+        (lines[..9].concat(), "test:9: 8 samples: expected 10"),
+    ]);
+}

@@ -222,3 +222,80 @@ fn a_record_of_a_table_has_a_name_that_a_sample_can_hold() {
         assert!(error.contains("in column record: expected"), "{error}");
     }
 }
+
+/// A zip may hold names that lead out of it: their files are set aside.
+#[test]
+fn a_file_named_as_outside_its_zip_is_reported() {
+    let folder = folder("aside-outside", &[]);
+    let file = fs::File::create(folder.join("s.zip")).unwrap();
+    let mut zip = zip::ZipWriter::new(file);
+    for name in ["a.AT2", "../b.AT2", "in/../../c.AT2", ".hidden/d.AT2"] {
+        let options = zip::write::SimpleFileOptions::default();
+        zip.start_file(name, options).unwrap();
+        zip.write_all(AT2.as_bytes()).unwrap();
+    }
+    zip.finish().unwrap();
+    let found = json(&folder, "records s.zip");
+    assert_eq!(found["records"].as_array().unwrap().len(), 1);
+    assert_eq!(found["set_aside"][0]["file"], "s.zip/../b.AT2");
+    assert_eq!(found["set_aside"].as_array().unwrap().len(), 2);
+    assert_eq!(found["set_aside"][1]["code"], "outside");
+    let error = failure(&folder, "records s.zip --strict");
+    let expected = "rocking: --strict: set aside: 2 named as outside the \
+                    archive (first: ../b.AT2)";
+    assert!(error.starts_with(expected), "{error}");
+}
+
+/// Downloads of several events are folders in a folder.
+#[test]
+fn folders_in_a_folder_are_entered_by_an_option() {
+    let folder = folder("aside-recursive", &[]);
+    for (name, text) in [
+        ("s/2011/x.AT2", AT2.replace("Station, 0", "Station, UP")),
+        ("s/2010/x.AT2", AT2.to_owned()),
+        ("s/2011/b/x.AT2", AT2.to_owned()),
+    ] {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    let found = json(&folder, &format!("{IDA} --suite s --recursive --json"));
+    assert_eq!(found["set_aside"]["codes"][0]["first"], "2011/x.AT2");
+    let table = fs::read_to_string(folder.join("ida.csv")).unwrap();
+    let names = table.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let mut names: Vec<_> =
+        names.map(|line| line.split(',').next().unwrap()).collect();
+    names.dedup();
+    assert_eq!(names, ["2010/x", "2011/b/x"]);
+}
+
+/// `--dt` and `--units` serve the files that state none, and a note says
+/// how many these are.
+#[test]
+fn what_is_given_serves_the_files_that_state_none() {
+    let folder = folder("aside-given", &[]);
+    fs::create_dir(folder.join("s")).unwrap();
+    fs::write(folder.join("s/a.AT2"), AT2).unwrap();
+    fs::write(folder.join("s/b.txt"), "0.1\n0.2\n-0.3\n0.1\n").unwrap();
+    let command = "records s --dt 0.02 --units m/s2 --json";
+    let (status, out, notes) = run(&folder, command);
+    assert_eq!(status, 0, "{notes}");
+    let found: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["records"][0]["units"], "g");
+    assert_eq!(found["records"][1]["units"], "m/s2");
+    assert_eq!(found["records"][1]["dt_s"], 0.02);
+    assert_eq!(
+        notes,
+        "rocking: --dt: taken for 1 of 2 records, whose files state no \
+         interval\nrocking: --units: taken for 1 of 2 records, whose files \
+         state no unit\n"
+    );
+    // The same of several files.
+    let files = command.replace("records s", "records s/a.AT2 s/b.txt");
+    let (status, _, same) = run(&folder, &files);
+    assert_eq!((status, same), (0, notes));
+    fs::remove_file(folder.join("s/b.txt")).unwrap();
+    let error = failure(&folder, command);
+    let expected = "rocking: s/a.AT2: unit m/s2 was given: expected g";
+    assert!(error.contains(expected), "{error}");
+}

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Format, Given, ReadOptions, RecordError, Remark, Remarked, SetAside,
-    Suite, SuiteMember,
+    self, Fault, Format, Given, ReadOptions, RecordError, Remark, Remarked,
+    SetAside, Suite, SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde::Serialize;
@@ -179,6 +179,8 @@ fn causes(refused: &[Finding]) -> String {
 struct Listing {
     records: Vec<Listed>,
     refused: Vec<Finding>,
+    /// Files that state another interval or unit than was given.
+    contradicted: Vec<RecordError>,
     set_aside: SetAside,
     suites: Vec<SuiteRow>,
     /// The files that were read.
@@ -196,6 +198,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.paths {
         listing.add(path, options);
     }
+    listing.refuse_unused();
     let processing = args.processing.processing()?;
     for listed in &mut listing.records {
         listed.motion = processing.apply(&listed.motion)?;
@@ -284,7 +287,7 @@ impl Listing {
         if record::is_index(&bytes) {
             return self.add_survey(path, options);
         }
-        match record::read_all(&file, &bytes, &options) {
+        match self.read(&file, &bytes, options) {
             Err(error) => self.refused.push(Finding::from(&error)),
             Ok(records) => {
                 let several = records.len() > 1;
@@ -303,6 +306,44 @@ impl Listing {
                 }))
             }
         }
+    }
+
+    /// Reads a file, which keeps the interval and the unit that it states.
+    fn read(
+        &mut self,
+        file: &str,
+        bytes: &[u8],
+        options: ReadOptions,
+    ) -> Result<Vec<record::Record>, RecordError> {
+        let error = match record::read_all(file, bytes, &options) {
+            Ok(records) => return Ok(records),
+            Err(error) => error,
+        };
+        let options = match error.fault() {
+            Fault::IntervalConflict { .. } => {
+                ReadOptions { dt_s: None, ..options }
+            }
+            Fault::UnitConflict { .. } => {
+                ReadOptions { unit: None, ..options }
+            }
+            _ => return Err(error),
+        };
+        self.contradicted.push(error);
+        self.read(file, bytes, options)
+    }
+
+    /// Refuses what was given if no file takes it and one contradicts it.
+    fn refuse_unused(&mut self) {
+        let given = |taken: fn(Given) -> bool| {
+            self.records.iter().any(|listed| taken(listed.given))
+        };
+        let (dt, unit) = (given(|g| g.dt), given(|g| g.unit));
+        let unused = |error: &&RecordError| match error.fault() {
+            Fault::IntervalConflict { .. } => !dt,
+            _ => !unit,
+        };
+        let unused = self.contradicted.iter().filter(unused);
+        self.refused.extend(unused.map(Finding::from));
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {

@@ -18,6 +18,7 @@ use rocking_common::suites::remarks::Remarks;
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]
+#[command(mut_arg("recursive", |arg| arg.hide(true)))]
 pub struct ExcitationArgs {
     /// A record file.
     #[arg(
@@ -156,7 +157,7 @@ impl ExcitationArgs {
             return Ok(Ground { initial_ratio: ratio, ..ground });
         }
         if let Some(path) = &self.record {
-            let options = self.reading.options(gravity_m_s2);
+            let options = self.reading.of_one(gravity_m_s2)?;
             let Record { accelerogram, remarks: read, .. } =
                 read_file(path, &options)?;
             let record = self.processing.processing()?.apply(&accelerogram)?;

@@ -11,20 +11,17 @@ use rocking_common::suites::remarks::Remarks;
 /// What record files do not state.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ReadArgs {
-    /// Sampling interval in s of record files that state none; those that
-    /// state one keep it.
+    /// Sampling interval in s of record files that state none.
     #[arg(long, value_name = "S")]
     dt: Option<f64>,
-    /// Unit of record files that state none (g, m/s2 or cm/s2); those that
-    /// state one keep it.
+    /// Unit of record files that state none: g, m/s2 or cm/s2.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     units: Option<AccelerationUnit>,
-    /// Enter the folders in a folder of records, such as one for each event;
-    /// their names go before the records'.
+    /// Enter the folders in a folder of records.
     #[arg(long)]
     recursive: bool,
-    /// Fail where anything about a record is suspicious, or anything in the
-    /// folder or zip is no record of the suite: `rocking records` lists what.
+    /// Fail where a record is suspicious, or a file is set aside: `rocking
+    /// records` lists what.
     #[arg(long)]
     strict: bool,
 }
@@ -40,6 +37,20 @@ impl ReadArgs {
     pub fn options(self, gravity_m_s2: f64) -> ReadOptions {
         let (dt_s, unit, recursive) = (self.dt, self.units, self.recursive);
         ReadOptions { dt_s, unit, gravity_m_s2, recursive }
+    }
+
+    /// As [`ReadArgs::options`], for one file.
+    ///
+    /// # Errors
+    /// [`Failure`] for a flag that is of folders.
+    pub fn of_one(self, gravity_m_s2: f64) -> Result<ReadOptions, Failure> {
+        match self.recursive {
+            false => Ok(self.options(gravity_m_s2)),
+            true => Err(Failure::input(
+                "--recursive is not used with one record: expected a suite"
+                    .to_owned(),
+            )),
+        }
     }
 
     /// The first flag given, to be refused where no record is read.

@@ -342,8 +342,16 @@ impl Listing {
             Fault::IntervalConflict { .. } => !dt,
             _ => !unit,
         };
-        let unused = self.contradicted.iter().filter(unused);
-        self.refused.extend(unused.map(Finding::from));
+        for error in self.contradicted.iter().filter(unused) {
+            let within = |listed: &Listed| {
+                let rest = listed.file.strip_prefix(error.file());
+                rest.is_some_and(|rest| {
+                    matches!(rest.get(..1), None | Some(":"))
+                })
+            };
+            self.records.retain(|listed| !within(listed));
+            self.refused.push(Finding::from(error));
+        }
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {

@@ -377,8 +377,9 @@ def read_record(
     """Reads one record file; its content tells the format.
 
     PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC,
-    AFAD, GeoNet. A file of several components is refused: `read_suite` takes
-    the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are
+    AFAD, GeoNet, BRI, and samples below a count and an interval (eqsig,
+    EMOD3D, RspMatch). A file of several components is refused: `read_suite`
+    takes the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are
     needed where the file states none, and refused where they contradict it.
     `attributes["remarks"]` says what reading found suspicious.
 

@@ -38,8 +38,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     Ok(Channel { unit, samples, remarks, ..Channel::default() })
 }
 
-/// Refuses a first line that is a count or an interval, or gravity before an
-/// interval: a factor that some programs write there.
+/// Refuses a first line that is a count or an interval, and a whole number or
+/// gravity before an interval: a factor that some programs write there.
 fn check_first(
     text: &Text<'_>,
     samples: &[f64],
@@ -53,9 +53,10 @@ fn check_first(
     let whole = line.trim().bytes().all(|b| b.is_ascii_digit() || b == b'+');
     let count = first == rest.len() as f64 && rest.len() > 1;
     let unlike = forms.first_differs() && first > 0.0;
-    let gravity = GRAVITY.iter().any(|g| (first - g).abs() <= 1e-3 * g)
+    let gravity = GRAVITY.iter().any(|g| (first - g).abs() <= 1e-3 * g);
+    let factor = (gravity || (whole && first > 0.0))
         && lines.next().is_some_and(|(_, line)| interval(line));
-    if !(count || gravity || (unlike && (whole || interval(line)))) {
+    if !(count || factor || (unlike && (whole || interval(line)))) {
         return Ok(());
     }
     let expected = "a sample, written as those on the lines below: a count, \

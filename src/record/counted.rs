@@ -109,7 +109,7 @@ pub(super) fn interval(text: &str) -> Option<f64> {
     let Reading::Finite(dt_s, form) = number::read(text.trim()) else {
         return None;
     };
-    if form.decimals.is_none() || !(1e-4..=0.5).contains(&dt_s) {
+    if form.decimals.is_none() || !(1e-4..=0.2).contains(&dt_s) {
         return None;
     }
     let whole = |x: f64, within: f64| (x - x.round()).abs() <= within * x;

@@ -191,8 +191,8 @@ const DETERMINED: f64 = 0.01;
 /// The constant step of `times_s`, each of which is written to within
 /// `resolution_s` of its index.
 ///
-/// Where times are held in single precision, they may also be off by its
-/// rounding, once or in each sum of the time before and the step. Of the steps
+/// Where times are held in single precision, each may also be the rounded sum
+/// of the one before and the step. Of the steps
 /// that all times allow, the one with the fewest decimals or the largest
 /// whole number of times a second is taken, if it is the only one of its kind;
 /// else their middle.
@@ -235,7 +235,7 @@ pub fn interval(
     }
     let slack =
         |i: usize| SLACK * mean + 4.0 * f64::EPSILON * times_s[i].abs();
-    let exact = match constant(times_s, slack) {
+    let exact = match constant(times_s, slack, |_| 0.0) {
         Ok(steps) => return steps.sampling(times_s),
         Err(fault) => fault,
     };
@@ -252,7 +252,7 @@ pub fn interval(
             },
         });
     }
-    let mut fault = match constant(times_s, written) {
+    let fault = match constant(times_s, written, |_| 0.0) {
         Ok(steps) => return steps.sampling(times_s),
         Err(fault) => fault,
     };
@@ -264,16 +264,19 @@ pub fn interval(
     if !(0..times_s.len()).all(is_single) {
         return Err(fault);
     }
-    // Rounded twice: the step, and its product with the index.
-    let once = |i: usize| written(i).max(2.0 * SINGLE * times_s[i].abs());
-    for steps in [constant(times_s, once), summed(times_s, written)] {
-        match steps {
-            Ok(steps) => return steps.sampling(times_s),
-            Err(other) if other.index() > fault.index() => fault = other,
-            Err(_) => (),
-        }
+    // Each sum is rounded, and so is the step that it adds.
+    let mut off = 0.0;
+    let drift = times_s.iter().map(|time| {
+        off += SINGLE * (time.abs() + mean);
+        off
+    });
+    let drift: Vec<f64> = drift.collect();
+    let rounded = |i: usize| written(i).max(SINGLE * times_s[i].abs());
+    match constant(times_s, rounded, |i| drift[i]) {
+        Ok(steps) => steps.sampling(times_s),
+        Err(other) if other.index() > fault.index() => Err(other),
+        Err(_) => Err(fault),
     }
-    Err(fault)
 }
 
 /// The least and the largest step in s that times allow.
@@ -322,11 +325,13 @@ impl Steps {
     }
 }
 
-/// The steps dt for which some t0 puts t0 + i dt within `allowed` of each
-/// time i.
+/// The steps dt for which some t0 puts t0 + i dt, where each sum of a time
+/// and the step may be off, within `allowed` of each time i; `drift` has how
+/// far the sums up to each may be off together.
 fn constant(
     times_s: &[f64],
     allowed: impl Fn(usize) -> f64,
+    drift: impl Fn(usize) -> f64,
 ) -> Result<Steps, Uneven> {
     let start = times_s[0];
     let ends = |i: usize| {
@@ -337,24 +342,20 @@ fn constant(
     // at most each from a lower end to a later upper end.
     let (mut rise, mut fall) = (Steepest::from(0.0), Steepest::default());
     for (index, &found_s) in times_s.iter().enumerate() {
-        let (low, high) = ends(index);
+        let ((low, high), off) = (ends(index), drift(index));
         let (least, most) = (rise.slope, -fall.slope);
-        rise.add(index, high, low);
-        fall.add(index, -low, -high);
+        rise.add(index, high - off, low - off);
+        fall.add(index, -low - off, -high - off);
         if !(rise.slope <= -fall.slope) {
-            let steps = |i: usize| (index - i) as f64;
-            let before = 0..index;
-            let bounds = before.fold(
-                (f64::NEG_INFINITY, f64::INFINITY),
-                |(from, to), i| {
-                    let (low, high) = ends(i);
-                    let low = low + steps(i) * least;
-                    (from.max(low), to.min(high + steps(i) * most))
-                },
-            );
-            let allowed = allowed(index);
-            let expected_s =
-                (start + bounds.0 - allowed, start + bounds.1 + allowed);
+            let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+            for i in 0..index {
+                let (steps, off) = ((index - i) as f64, off - drift(i));
+                let (low, high) = ends(i);
+                from = from.max(low + steps * least - off);
+                to = to.min(high + steps * most + off);
+            }
+            let within = allowed(index);
+            let expected_s = (start + from - within, start + to + within);
             return Err(Uneven::Step { index, found_s, expected_s });
         }
     }
@@ -403,34 +404,6 @@ impl Steepest {
         }
         self.hull.push((x, from));
     }
-}
-
-/// The steps dt that give each time from the one before, if the sum was
-/// rounded to single precision, and both were written to within `written`.
-fn summed(
-    times_s: &[f64],
-    written: impl Fn(usize) -> f64,
-) -> Result<Steps, Uneven> {
-    let (mut least_s, mut most_s) = (0.0_f64, f64::INFINITY);
-    for (pair, index) in times_s.windows(2).zip(1..) {
-        let &[before, found_s] = pair else { continue };
-        let step = found_s - before;
-        // The texts are rounded, the sum is, and the step that is added.
-        let single = |time: f64| SINGLE * time.abs();
-        let within = written(index - 1).max(single(before))
-            + written(index).max(single(found_s))
-            + single(found_s)
-            + single(step);
-        let (least, most) =
-            (least_s.max(step - within), most_s.min(step + within));
-        if !(least <= most && within < RESOLVED * most_s) {
-            let expected_s =
-                (before + least_s - within, before + most_s + within);
-            return Err(Uneven::Step { index, found_s, expected_s });
-        }
-        (least_s, most_s) = (least, most);
-    }
-    Ok(Steps { least_s, most_s })
 }
 
 #[cfg(test)]

@@ -161,21 +161,55 @@ proptest! {
         prop_assert!(shown.split(" to ").all(|one| one != time), "{}", text);
     }
 
+    /// A step that changes by 1 % or more is refused as soon as the change
+    /// adds up to more than the digits hide.
+    #[test]
+    fn a_changed_step_is_refused(
+        printing in printing(),
+        dt_s in recorder(),
+        n in 200..2000_usize,
+        change in 0.01..0.5_f64,
+        faster in prop::bool::ANY,
+    ) {
+        let places = match printing {
+            Decimals(places) => places,
+            Significant(digits) => digits - 2,
+            Single | SingleStep | SingleSum => 5,
+        };
+        let coarse = read(&format!("1e-{places}"));
+        prop_assume!(coarse < 0.2 * dt_s);
+        let change = if faster { 1.0 + change } else { 1.0 - 0.5 * change };
+        let k = n / 2;
+        let time = |i: usize| {
+            let steps = k.min(i) as f64 + i.saturating_sub(k) as f64 * change;
+            read(&format!("{:.places$}", steps * dt_s))
+        };
+        let times: Vec<f64> = (0..n).map(time).collect();
+        prop_assume!((change - 1.0).abs() * dt_s * (n - k) as f64 > 4.0 * coarse);
+        let error = found(&times).unwrap_err();
+        prop_assert!(error.index() > Some(1), "{}", error);
+        if !matches!(error, Uneven::Coarse { .. }) {
+            prop_assert!(error.index() > Some(k), "{}", error);
+        }
+    }
+
     /// The hulls find what all pairs of times say, at the same time.
     #[test]
     fn the_steps_are_those_of_all_pairs(
         offs in prop::collection::vec((-1.0..1.0_f64, 0.1..1.0_f64), 2..40),
         wide in 0.1..2.0_f64,
+        loose in 0.0..0.2_f64,
     ) {
         let times: Vec<f64> =
             (0..).zip(&offs).map(|(i, (off, _))| f64::from(i) + off).collect();
         let allowed = |i: usize| wide * offs[i].1;
+        let drift = |i: usize| loose * i as f64;
         let pairs = |n: usize| {
             let (mut least, mut most) = (0.0_f64, f64::INFINITY);
             for j in 0..n {
                 for i in 0..j {
                     let apart = times[j] - times[i];
-                    let room = allowed(i) + allowed(j);
+                    let room = allowed(i) + allowed(j) + drift(j) - drift(i);
                     let steps = (j - i) as f64;
                     least = least.max((apart - room) / steps);
                     most = most.min((apart + room) / steps);
@@ -187,7 +221,7 @@ proptest! {
             let (least, most) = pairs(*n);
             least > most
         });
-        match constant(&times, allowed) {
+        match constant(&times, allowed, drift) {
             Ok(Steps { least_s, most_s }) => {
                 prop_assert_eq!(fails, None);
                 let (least, most) = pairs(times.len());

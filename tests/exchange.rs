@@ -219,7 +219,7 @@ fn risk_reads_a_site_of_openquake_and_says_what_it_sets_aside() {
         0.10000,0.00000,-0.10000,1.522632E-01,0.000000E+00,0.000000E+00\n";
     fs::write(place.join("oq.csv"), text).unwrap();
     let risk = "risk --hazard oq.csv --median 0.4 --dispersion 0.5 --json";
-    refused(&place, risk, "oq.csv: found 2 such sites");
+    refused(&place, risk, "oq.csv: found 2 sites, such as");
     let site = format!("{risk} --site -0.1,0");
     let (code, out, said) = run(&place, &site);
     assert!(code == 0 && said.contains("oq.csv: 1 points"), "{said}");

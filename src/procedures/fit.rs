@@ -237,6 +237,8 @@ pub struct FragilityFit {
     pub n_limited: usize,
     /// Values left out because they equal the shift `min`.
     pub n_left_out: usize,
+    /// What is weak about the fit.
+    pub remarks: Vec<FitRemark>,
     /// How the distribution was fitted.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub method: FitMethod,
@@ -269,6 +271,49 @@ pub struct FragilityFit {
     pub bootstrap: Option<FitIntervals>,
     /// Probabilities with their band, where asked for.
     pub band: Option<Band>,
+}
+
+/// What is weak about a fit.
+///
+/// ```
+/// use rocking::procedures::{FitOptions, FitRemark, fit_sample};
+/// use rocking::statistics::CensoredSample;
+/// let values = [1.2, f64::INFINITY, f64::INFINITY];
+/// let limits = [None, Some(1.5), Some(2.0)];
+/// let sample = CensoredSample::try_new(&values, &limits)?;
+/// let found = fit_sample(&sample, &FitOptions::default())?;
+/// assert_eq!(found.remarks, [FitRemark::OneValue { censored: 2 }]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FitRemark {
+    /// All other values are censored.
+    OneValue {
+        /// How many.
+        censored: usize,
+    },
+}
+
+impl fmt::Display for FitRemark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::OneValue { censored } = self;
+        write!(
+            f,
+            "1 value, beside {censored} censored ones: median and dispersion \
+             rest on one observation"
+        )
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for FitRemark {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
 /// Ends of the likelihood interval of a shift.
@@ -496,12 +541,18 @@ pub fn fit_sample(
     // The empirical distribution is that of values with one limit.
     let ks_distance =
         (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));
+    let exact = sample.len() - sample.censored() - found.left_out;
+    let remarks = match exact {
+        1 => vec![FitRemark::OneValue { censored: sample.censored() }],
+        _ => Vec::new(),
+    };
     Ok(FragilityFit {
         n: sample.len(),
         n_kept: found.fit.n_kept,
         n_censored: sample.censored(),
         n_limited: sample.limited(),
         n_left_out: found.left_out,
+        remarks,
         method: options.method,
         fitted,
         shift_interval,

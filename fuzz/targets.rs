@@ -217,9 +217,9 @@ fn ida(bytes: &[u8]) -> Result<(), String> {
         assert_eq!(again.as_ref(), Ok(&table));
     }
     for im in Intensity::ALL {
-        let curves = table.curves(im).map_err(|(record, error)| {
-            format!("record {record}: {error}")
-        })?;
+        let curves = table
+            .curves(im)
+            .map_err(|(record, error)| format!("record {record}: {error}"))?;
         assert_eq!(curves.curves.len(), table.records().count());
     }
     Ok(())

@@ -77,7 +77,11 @@ impl Cells<'_> {
     /// # Errors
     /// [`FileError`] for a control character, and for a formula.
     pub fn name(&self, column: usize) -> Result<&str, FileError> {
-        result_name(&self.fields[column]).map_err(|error| self.error(error))
+        result_name(&self.fields[column]).map_err(|_| {
+            let expected = "a name without a control character, and without \
+                            =, +, - or @ at its start";
+            self.refuse(column, expected)
+        })
     }
 
     /// The value of a cell.
@@ -208,7 +212,10 @@ mod tests {
             ("intensity,record\n1,a\n", columns),
             ("intensity,record,exceeded,n\n1,a,1,2\n", columns),
             ("intensity,record,record,exceeded\n1,a,a,1\n", columns),
-            ("intensity,record,exceeded\n1,a\n", "t.csv:2: found 2 cells: expected 3"),
+            (
+                "intensity,record,exceeded\n1,a\n",
+                "t.csv:2: found 2 cells: expected 3",
+            ),
             (
                 "intensity,record,exceeded,schema\n1,a,1,7\n",
                 "t.csv:2: found `7` in column schema",

@@ -141,7 +141,9 @@ impl FromStr for Site {
             degrees.filter(|x: &f64| x.is_finite()).ok_or_else(refused)
         };
         match text.split_once(',') {
-            Some((lon, lat)) => Ok(Self::Degrees(degrees(lon)?, degrees(lat)?)),
+            Some((lon, lat)) => {
+                Ok(Self::Degrees(degrees(lon)?, degrees(lat)?))
+            }
             None if text.trim().is_empty() => Err(refused()),
             None => Ok(Self::Id(text.trim().to_owned())),
         }

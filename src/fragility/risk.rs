@@ -159,8 +159,11 @@ impl HazardCurve {
     /// outside them.
     #[must_use]
     pub fn frequency(&self, im: f64) -> Option<f64> {
-        let inside = |w: &&[(f64, f64)]| w[0].0 <= im && im <= w[1].0;
-        let pair = self.points.windows(2).find(inside)?;
+        let to = self.points.partition_point(|(x, _)| *x < im).max(1);
+        let pair = self.points.get(to - 1..=to)?;
+        if !(pair[0].0 <= im) {
+            return None;
+        }
         Some(Segment::of(pair).frequency(im))
     }
 
@@ -315,7 +318,11 @@ impl Segment {
 
     /// Integral of H dF between two scores, by Gauss and Legendre: 304 pieces
     /// at most, since no score lies beyond [`LAST_SCORE`].
-    fn quadrature(&self, fragility: &Lognormal, (from, to): (f64, f64)) -> f64 {
+    fn quadrature(
+        &self,
+        fragility: &Lognormal,
+        (from, to): (f64, f64),
+    ) -> f64 {
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
         let at = |z: f64| {
             let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));

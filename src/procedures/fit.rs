@@ -2,6 +2,7 @@
 
 mod intervals;
 mod precision;
+mod remark;
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,6 +11,7 @@ use thiserror::Error;
 
 pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
 pub use precision::Needed;
+pub use remark::FitRemark;
 
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
@@ -273,49 +275,6 @@ pub struct FragilityFit {
     pub band: Option<Band>,
 }
 
-/// What is weak about a fit.
-///
-/// ```
-/// use rocking::procedures::{FitOptions, FitRemark, fit_sample};
-/// use rocking::statistics::CensoredSample;
-/// let values = [1.2, f64::INFINITY, f64::INFINITY];
-/// let limits = [None, Some(1.5), Some(2.0)];
-/// let sample = CensoredSample::try_new(&values, &limits)?;
-/// let found = fit_sample(&sample, &FitOptions::default())?;
-/// assert_eq!(found.remarks, [FitRemark::OneValue { censored: 2 }]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FitRemark {
-    /// All other values are censored.
-    OneValue {
-        /// How many.
-        censored: usize,
-    },
-}
-
-impl fmt::Display for FitRemark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::OneValue { censored } = self;
-        write!(
-            f,
-            "1 value, beside {censored} censored ones: median and dispersion \
-             rest on one observation"
-        )
-    }
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for FitRemark {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
-    }
-}
-
 /// Ends of the likelihood interval of a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -541,18 +500,13 @@ pub fn fit_sample(
     // The empirical distribution is that of values with one limit.
     let ks_distance =
         (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));
-    let exact = sample.len() - sample.censored() - found.left_out;
-    let remarks = match exact {
-        1 => vec![FitRemark::OneValue { censored: sample.censored() }],
-        _ => Vec::new(),
-    };
     Ok(FragilityFit {
         n: sample.len(),
         n_kept: found.fit.n_kept,
         n_censored: sample.censored(),
         n_limited: sample.limited(),
         n_left_out: found.left_out,
-        remarks,
+        remarks: FitRemark::of(sample, found.left_out),
         method: options.method,
         fitted,
         shift_interval,

@@ -125,7 +125,11 @@ fn what_is_no_curve_is_refused_with_its_line() {
             none.clone(),
             "h.csv:2: found 1 cells",
         ),
-        ("pga_g,annual_frequency\n0.1,x\n".into(), none.clone(), "h.csv:2: found `x`"),
+        (
+            "pga_g,annual_frequency\n0.1,x\n".into(),
+            none.clone(),
+            "h.csv:2: found `x`",
+        ),
         (
             "pga_g,annual_frequency\n".into(),
             at(0.0),

@@ -94,7 +94,10 @@ fn a_steep_segment_is_integrated_in_parts() {
     ] {
         let law = Lognormal::try_new(shift, log_mean, beta).unwrap();
         let found = Segment::of(&[from, to]).integral(&law);
-        assert!((found / expected - 1.0).abs() < 1e-10, "{found:e} {expected}");
+        assert!(
+            (found / expected - 1.0).abs() < 1e-10,
+            "{found:e} {expected}"
+        );
     }
 }
 

@@ -137,8 +137,7 @@ impl<'a> Ground<'a> {
                 im: HazardMeasure::Of(im),
                 units_per_im_unit,
                 ..
-            }) if !matches!(im, IntensityMeasure::Column(_)) =>
-            {
+            }) if !matches!(im, IntensityMeasure::Column(_)) => {
                 (im.clone(), *units_per_im_unit)
             }
             Some(hazard) => {
@@ -293,10 +292,8 @@ impl<'a> Ground<'a> {
             let eta = analysis.restitution.velocity_ratio();
             let assumption = Assumption::Restitution(eta);
             let fitted = Self::fitted(&of(curves)?, shift);
-            let fitted = fitted.map_err(|source| AssessError::Alternative {
-                id: id.clone(),
-                assumption,
-                source,
+            let fitted = fitted.map_err(|source| {
+                AssessError::Alternative { id: id.clone(), assumption, source }
             })?;
             beside(assumption, self.point(fitted));
         }

@@ -6,6 +6,9 @@ use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 
+/// Records of all stripes, at most: each is an observation.
+const MOST_RECORDS: u64 = 1_000_000;
+
 /// The records run at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stripe {
@@ -62,7 +65,8 @@ pub struct CountsFit {
 ///
 /// # Errors
 /// [`FitError::Stripe`] for a stripe that counts more than its records, or
-/// lies not above the shift. Where the likelihood has no maximum:
+/// lies not above the shift, [`FitError::Records`] for more than 1,000,000
+/// records. Where the likelihood has no maximum:
 /// [`FitError::NoneExceeded`] and [`FitError::AllExceeded`] for counts of one
 /// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] where one
 /// intensity parts stripes without from stripes with exceedances only,
@@ -117,6 +121,10 @@ type Maximum = (Vec<Observation>, f64, (f64, f64, f64));
 fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
+    }
+    let records = stripes.iter().map(|stripe| u64::from(stripe.n)).sum();
+    if records > MOST_RECORDS {
+        return Err(FitError::Records(records));
     }
     let (mut known, mut places) = (Vec::new(), Vec::new());
     // The highest intensity that a record stood, the lowest one that a record

@@ -137,9 +137,7 @@ pub enum FitError {
         n: usize,
     },
     /// Nothing is known but that each value is above a limit.
-    #[error(
-        "all {0} values are censored: expected at least one that is not"
-    )]
+    #[error("all {0} values are censored: expected at least one that is not")]
     AllCensored(usize),
     /// All values are equal, to rounding.
     #[error("the logarithms do not vary: expected distinct values")]
@@ -180,6 +178,9 @@ pub enum FitError {
         /// Records run.
         n: u32,
     },
+    /// More records than memory and time are meant for.
+    #[error("{0} records in all stripes: expected at most 1000000")]
+    Records(u64),
     /// No stripe has an exceedance.
     #[error(
         "no record exceeded the level at any intensity: expected a stripe in which some did"

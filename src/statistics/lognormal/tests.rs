@@ -156,6 +156,9 @@ fn counts_that_tell_no_dispersion_are_refused() {
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 900 };
     let (least, more) = (stripe(1.5, 300), stripe(2.0, 301));
     assert!(fit_counts(&[least, more], 1.0).is_ok());
+    let many = |n| Stripe { im: 1.5, exceeded: 1, n };
+    let error = refused(&[many(999_999), many(2)]);
+    assert_eq!(error, FitError::Records(1_000_001));
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
     for wrong in [stripe(1.0, 3), stripe(2.0, 10), stripe(f64::NAN, 3)] {
         let error = refused(&[stripe(1.5, 3), wrong]);

@@ -78,8 +78,7 @@ pub struct Args {
 /// Where and for how long a hazard curve holds.
 #[derive(ClapArgs, Clone, Debug)]
 pub struct SiteArgs {
-    /// Longitude and latitude of the site, or its custom_site_id, in
-    /// OpenQuake's CSV of several.
+    /// Site in OpenQuake's CSV of several: its place or its custom_site_id.
     #[arg(long, value_name = "LON,LAT|ID", allow_hyphen_values = true)]
     site: Option<Site>,
     /// Years of probabilities, also of a curve's without its own [default: 50].

@@ -131,8 +131,10 @@ pub fn visit<K, E: From<SuiteError>>(
 /// Reads every record of the zip `archive`, which `shown` names in messages.
 ///
 /// All that is read from it may be six times its size and an index half of
-/// it (1 MiB and 85 KiB, if it is small), so that 1 MiB takes less than
-/// 64 MiB of memory, whoever packed it.
+/// it (1 MiB and 85 KiB, if it is small), and no two of its files may have
+/// bytes in common. Reading 1 MiB takes less than 64 MiB of memory and a
+/// command that reads it less than 256 MiB, whoever packed it
+/// (`tests/memory.rs`).
 ///
 /// # Errors
 /// As [`visit`].

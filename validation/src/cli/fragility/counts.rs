@@ -38,7 +38,8 @@ use rocking_exchange::read::{Cells, no_csv, reader, rows};
 )))]
 pub(super) struct Args {
     /// Table of counts, columns intensity,exceeded,n, or of outcomes,
-    /// columns intensity,record,event,exceeded; `-` is standard input.
+    /// columns intensity,record,exceeded and event where known; `-` is
+    /// standard input.
     #[arg(long, value_name = "FILE.csv")]
     counts: PathBuf,
     /// Shift IM_R, not negative.

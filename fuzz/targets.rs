@@ -3,14 +3,23 @@
 //! `cargo test --test gate readers`.
 
 use std::io::Cursor;
+use std::path::Path;
 
+use rocking::fragility::hazard::{Hazard, HazardOptions, Site};
+use rocking::intensity::Intensity;
 use rocking::record::{
     self, Format, ReadOptions, Record, RecordError, Suite, SuiteError,
     SuiteMember,
 };
+use rocking::statistics::Lognormal;
 use rocking::units::AccelerationUnit;
+use rocking_cli::cli::fragility::counts;
+use rocking_cli::cli::{blocks, floors};
 use rocking_common::suites::inputs;
+use rocking_exchange::ida::IdaTable;
+use rocking_exchange::sample::SampleFile;
 use rocking_proof::cases;
+use rocking_score::Answers;
 
 /// Accepts the bytes, or says why not.
 pub type Target = fn(&[u8]) -> Result<(), String>;
@@ -18,19 +27,26 @@ pub type Target = fn(&[u8]) -> Result<(), String>;
 /// Targets by name.
 pub const TARGETS: &[(&str, Target)] = &[
     ("afad", |bytes| format(Format::Afad, bytes)),
+    ("answers", answers),
     ("any", any),
     ("at2", |bytes| format(Format::At2, bytes)),
+    ("blocks", blocks),
     ("bri", |bytes| format(Format::Bri, bytes)),
     ("case", case),
     ("column", |bytes| format(Format::Column, bytes)),
     ("cosmos", |bytes| format(Format::Cosmos, bytes)),
     ("counted", |bytes| format(Format::Counted, bytes)),
+    ("counts", counts),
     ("csv", |bytes| format(Format::Csv, bytes)),
     ("esm", |bytes| format(Format::Esm, bytes)),
+    ("floors", floors),
     ("geonet", |bytes| format(Format::Geonet, bytes)),
+    ("hazard", hazard),
+    ("ida", ida),
     ("index", index),
     ("knet", |bytes| format(Format::Knet, bytes)),
     ("resorce", |bytes| format(Format::Resorce, bytes)),
+    ("sample", sample),
     ("smc", |bytes| format(Format::Smc, bytes)),
     ("zip", zip),
 ];
@@ -120,8 +136,100 @@ fn hold_suite(suite: Suite) -> Result<(), String> {
     Ok(())
 }
 
+fn text(bytes: &[u8]) -> Result<&str, String> {
+    std::str::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// Named in messages.
+fn file() -> &'static Path {
+    Path::new("x.csv")
+}
+
+fn hazard(bytes: &[u8]) -> Result<(), String> {
+    let text = text(bytes)?;
+    let site = text.contains("custom_site_id").then(|| Site::Id("S1".into()));
+    let options = HazardOptions { years: Some(50.0), site };
+    let found = Hazard::parse("x.csv", text, &options);
+    let curve = found.map_err(|error| error.to_string())?.curve;
+    let (im, most) = curve.points()[0];
+    for shift in [0.0, 0.5 * im, im] {
+        // The median is where the curve begins.
+        let law = Lognormal::try_new(shift, im.ln(), 0.5);
+        let law = law.map_err(|error| error.to_string())?;
+        let found = curve.annual_frequency(&law);
+        let (low, high) = (found.truncation_lower, found.truncation_upper);
+        assert!(low >= 0.0 && low <= high, "{low} {high}");
+        assert!(high <= most * (1.0 + 1e-9), "{high} {most}");
+        let parts = curve.contributions(&law);
+        assert_eq!(parts.len() + 1, curve.points().len());
+    }
+    Ok(())
+}
+
+fn blocks(bytes: &[u8]) -> Result<(), String> {
+    let rows = blocks::parse(bytes, file(), 9.81);
+    let rows = rows.map_err(|failure| failure.message)?;
+    assert!(!rows.is_empty());
+    for row in rows {
+        let alpha = row.block.slenderness_rad();
+        assert!(alpha > 0.0 && alpha < std::f64::consts::FRAC_PI_2);
+        assert!(row.friction.is_none_or(|mu| mu > 0.0 && mu.is_finite()));
+    }
+    Ok(())
+}
+
+fn floors(bytes: &[u8]) -> Result<(), String> {
+    let found = floors::parse(bytes, file());
+    let found = found.map_err(|failure| failure.message)?;
+    assert!(!found.is_empty());
+    Ok(())
+}
+
+fn counts(bytes: &[u8]) -> Result<(), String> {
+    let found = counts::parse(bytes, file());
+    let stripes = found.map_err(|error| error.to_string())?;
+    for stripe in stripes.stripes().iter() {
+        assert!(stripe.im.is_finite());
+    }
+    Ok(())
+}
+
+fn sample(bytes: &[u8]) -> Result<(), String> {
+    let file = SampleFile::parse(text(bytes)?, file());
+    let file = file.map_err(|error| error.to_string())?;
+    assert!(file.values().iter().all(|x| !x.is_nan()));
+    assert_eq!(file.clusters().records(), file.values().len());
+    let sample = file.censored().map_err(|error| error.to_string())?;
+    assert_eq!(sample.len(), file.values().len());
+    Ok(())
+}
+
+fn answers(bytes: &[u8]) -> Result<(), String> {
+    let read = |text: &str| Answers::parse(text, file());
+    let found = read(text(bytes)?).map_err(|error| error.to_string())?;
+    assert_eq!(read(&found.csv()), Ok(found));
+    Ok(())
+}
+
+fn ida(bytes: &[u8]) -> Result<(), String> {
+    let table = IdaTable::read(bytes, file());
+    let table = table.map_err(|error| error.to_string())?;
+    let again = IdaTable::read(table.csv().as_bytes(), file());
+    // A margin that is not known is not equal to itself.
+    if table.rows.iter().all(|row| !row.margin.is_nan()) {
+        assert_eq!(again.as_ref(), Ok(&table));
+    }
+    for im in Intensity::ALL {
+        let curves = table
+            .curves(im)
+            .map_err(|(record, error)| format!("record {record}: {error}"))?;
+        assert_eq!(curves.curves.len(), table.records().count());
+    }
+    Ok(())
+}
+
 fn case(bytes: &[u8]) -> Result<(), String> {
-    let text = std::str::from_utf8(bytes).map_err(|e| e.to_string())?;
+    let text = text(bytes)?;
     let found = cases::load_family("x", text);
     let cases = found.map_err(|error| error.to_string())?;
     assert!(!cases.is_empty());

@@ -1,4 +1,5 @@
-//! Names of choices, as files, commands and messages spell them.
+//! Names of choices, as files, commands and messages spell them; upper and
+//! lower case are the same.
 
 use thiserror::Error;
 
@@ -7,6 +8,7 @@ use thiserror::Error;
 /// ```
 /// use rocking::integrator::Model;
 /// let error = "both".parse::<Model>().unwrap_err();
+/// assert_eq!("Linearized".parse(), Ok(Model::Linearized));
 /// let words = "model \"both\": expected one of nonlinear, linearized";
 /// assert_eq!(error.to_string(), words);
 /// ```
@@ -22,14 +24,15 @@ pub struct UnknownName {
     pub expected: Vec<&'static str>,
 }
 
-/// The value among `all` that has this name.
+/// The value among `all` that has this name, in upper or lower case.
 pub(crate) fn find<T: Copy>(
     what: &'static str,
     found: &str,
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> Result<T, UnknownName> {
-    let named = all.iter().copied().find(|value| name(*value) == found);
+    let is_it = |value: &T| name(*value).eq_ignore_ascii_case(found);
+    let named = all.iter().copied().find(is_it);
     named.ok_or_else(|| UnknownName {
         what,
         found: found.to_owned(),

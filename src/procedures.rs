@@ -28,8 +28,8 @@ pub use counts::{
     CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
 };
 pub use fit::{
-    Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Sampled, Shift,
-    fit_levels, fit_sample,
+    Draws, FitOptions, FitRemark, FragilityFit, LevelFit, ProcedureError,
+    Sampled, Shift, fit_levels, fit_sample,
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use normality::{Normality, NormalityOptions, test_normality};

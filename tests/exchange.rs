@@ -219,7 +219,7 @@ fn risk_reads_a_site_of_openquake_and_says_what_it_sets_aside() {
         0.10000,0.00000,-0.10000,1.522632E-01,0.000000E+00,0.000000E+00\n";
     fs::write(place.join("oq.csv"), text).unwrap();
     let risk = "risk --hazard oq.csv --median 0.4 --dispersion 0.5 --json";
-    refused(&place, risk, "oq.csv: found 2 such sites");
+    refused(&place, risk, "oq.csv: found 2 sites, such as");
     let site = format!("{risk} --site -0.1,0");
     let (code, out, said) = run(&place, &site);
     assert!(code == 0 && said.contains("oq.csv: 1 points"), "{said}");
@@ -227,6 +227,44 @@ fn risk_reads_a_site_of_openquake_and_says_what_it_sets_aside() {
     assert_eq!((&out["im"], &out["points"]), (&"pga".into(), &2.into()));
     let remark = out["remarks"][0].as_str().unwrap();
     assert!(remark.starts_with("1 points at the end"), "{remark}");
+}
+
+/// AvgSA and ids of sites, as OpenQuake 3.26 writes them.
+#[test]
+fn risk_under_average_accelerations_at_a_site_with_an_id() {
+    let place = folder("openquake-ids");
+    let text = "#,,,,,\"generated_by='OpenQuake engine 3.26.2', \
+        kind='mean', investigation_time=50.0, imt='AvgSA'\"\n\
+        custom_site_id,lon,lat,depth,poe-1.00000e-01,poe-4.00000e-01\n\
+        S0,23.70000,37.90000,0.00000,4.0E-01,5.0E-02\n\
+        S1,23.80000,37.90000,0.00000,3.0E-01,4.0E-02\n";
+    fs::write(place.join("oq.csv"), text).unwrap();
+    let sample = |im: &str| {
+        let values = "1.2\n1.5\n1.9\n2.2\n";
+        let text = format!("# Sample of {im} at EDP inf, median crossing\n");
+        fs::write(place.join("s.txt"), text + values).unwrap();
+    };
+    sample("AvgSA(0.5, 1 s) (g)");
+    let risk = "risk --hazard oq.csv --bootstrap 20 --sample s.txt --json";
+    let at = |site| run(&place, &format!("{risk} --site {site}"));
+    let (code, out, said) = at("S1");
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("does not state its periods"), "{said}");
+    assert_eq!(out, at("23.8,37.9").1);
+    assert_ne!(out, at("S0").1);
+    let out: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(out["im"], "avgsa");
+    // A tenth of a degree of longitude at this latitude.
+    let near = format!("{risk} --site 23.81,37.9");
+    refused(
+        &place,
+        &near,
+        "found no site 23.81,37.9 among 2: the nearest one is \
+         23.80000,37.90000 (S1), 0.877 km away",
+    );
+    sample("PGA/(g tan alpha)");
+    let other = format!("{risk} --site S1");
+    refused(&place, &other, "a hazard curve of avgsa: expected the same");
 }
 
 #[test]

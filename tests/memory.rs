@@ -1,10 +1,12 @@
 //! What reading takes in memory: no more than 64 MiB for 1 MiB of anything,
-//! packed or not.
+//! packed or not; and what any command takes for 1 MiB of anything that it
+//! reads: 256 MiB, the program itself and its threads included.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Cursor, Write as _};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use peak_alloc::PeakAlloc;
 use rocking::record::{Processing, Profile, ReadOptions, Suite};
@@ -252,6 +254,7 @@ fn profiles_hold_no_samples() {
 /// One test: two at a time would count each other's memory.
 #[test]
 fn a_megabyte_takes_no_more_than_sixty_four() {
+    no_command_takes_more_than_its_share();
     a_packed_megabyte_takes_no_more_either();
     profiles_hold_no_samples();
     let mut most: BTreeMap<&str, (usize, String)> = BTreeMap::new();
@@ -275,4 +278,155 @@ fn a_megabyte_takes_no_more_than_sixty_four() {
     }
     assert_eq!(most.len(), targets::TARGETS.len());
     assert!(most.values().all(|(used, _)| *used <= 64 * MIB));
+}
+
+/// Files of 1 MiB by name, each for the commands that read a file behind
+/// these options; without an option for all.
+fn bombs() -> Vec<(&'static str, &'static [&'static str], Vec<u8>)> {
+    const BLOCKS: &[&str] = &["--objects", "--blocks"];
+    const HAZARD: &[&str] = &["--hazard"];
+    const COUNTS: &[&str] = &["--counts"];
+    let goes_on =
+        |seed: &str, fill: &str| filled(seed.as_bytes(), fill.as_bytes(), MIB);
+    let columns: String = (0..1000).map(|i| format!(",c{i}")).collect();
+    let commas = ",".repeat(1000);
+    let rows: String = (0..1000).map(|i| format!("r{i}{commas}\n")).collect();
+    let columns = format!("record{columns}\n{rows}");
+    vec![
+        ("line", &[], goes_on("", "1,")),
+        ("rows", &[], goes_on("", "1\n")),
+        ("quotes", &[], goes_on("", "\"")),
+        ("comments", &[], goes_on("", "# x\n")),
+        ("empty", &[], goes_on("", "\n")),
+        ("deep.json", &[], goes_on("", "[")),
+        ("keys.json", &["diff"], goes_on("", "{\"a\":")),
+        ("blocks", BLOCKS, goes_on("alpha,p\n", ",\n")),
+        ("floors", &["--floors"], goes_on("name,period_s\n", ",\n")),
+        ("counts", COUNTS, goes_on("intensity,exceeded,n\n", "1,1,2\n")),
+        ("many", COUNTS, goes_on("intensity,exceeded,n\n", "1,1,1000000\n")),
+        ("out", COUNTS, goes_on("intensity,record,exceeded\n", "1,a,1\n")),
+        ("hazard", HAZARD, goes_on("pga_g,annual_frequency\n", "1,1\n")),
+        ("oq", HAZARD, goes_on("#imt='PGA'\nlon,lat,poe-1\n", "1,1,1\n")),
+        ("answers", &["score"], goes_on("scene,quantity,value\n", ",,\n")),
+        ("columns", &["--attributes", "--suite"], columns.into()),
+        ("ida", &["--ida"], goes_on(IDA_HEAD, IDA_ROW)),
+    ]
+}
+
+const IDA_HEAD: &str = "record,alpha_rad,p_rad_s,pga_g,pgv_m_s,intensity_pga,intensity_pgv,edp,outcome,margin,remarks,event,eta,model,overturn,by,gravity_m_s2,processing,software\n";
+const IDA_ROW: &str =
+    "A,1,1,1,1,1,1,0,rocked,1,,,1,nonlinear,alpha,record-scaling,1,,\n";
+
+/// Commands and what each reads in place of FILE.
+const COMMANDS: [&str; 24] = [
+    "assess --objects FILE --out out",
+    "assess --objects objects.csv --floors FILE --out out",
+    "assess --objects objects.csv --suite FILE --out out",
+    "capacities --ida FILE --at 1",
+    "compare --a FILE --b FILE",
+    "diff FILE FILE",
+    "fragility choose --sample FILE --bootstrap 2 --shift 1",
+    "fragility counts --counts FILE --bootstrap 2",
+    "fragility export --surrogate ordinary --format csv --blocks FILE --out -",
+    "fragility fit --sample FILE",
+    "ida --alpha 0.2 --p 2 --suite FILE --step-im 9 --out -",
+    "lilliefors --sample FILE --shift min",
+    "rank --at 1 --ida FILE --suite folder",
+    "rank --at 1 --ida small.csv --suite folder --attributes FILE",
+    "records FILE --units g --dt 0.01",
+    "respond --record FILE --units g --dt 0.01 --alpha 0.2 --p 2",
+    "risk --median 0.4 --dispersion 0.5 --years 50 --hazard FILE",
+    "sample --sample FILE",
+    "score FILE",
+    "stripes --levels 1 --ida FILE",
+    "study --ordinary FILE --pulse FILE --out out",
+    "suite export --suite FILE --out out",
+    "sweep plan --suite FILE --blocks objects.csv --out out",
+    "sweep plan --suite folder --blocks FILE --out out",
+];
+
+/// Commands that read no file from outside.
+const OTHERS: [&str; 5] =
+    ["accept", "completions", "man", "speed", "validate"];
+
+/// What reads a whole suite of equal records.
+const OF_SUITES: [&str; 4] = ["ida", "records", "suite", "sweep"];
+
+/// Address space of a command in KiB.
+const MOST_KIB: usize = 256 << 10;
+
+fn no_command_takes_more_than_its_share() {
+    let program = env!("CARGO_BIN_EXE_rocking");
+    let help = Command::new(program).arg("--help").output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let named = help.lines().filter_map(|line| line.strip_prefix("  "));
+    let named = named.filter(|line| line.starts_with(char::is_alphabetic));
+    for name in named.filter_map(|line| line.split_whitespace().next()) {
+        let covered = COMMANDS.iter().any(|line| line.starts_with(name));
+        assert!(covered || OTHERS.contains(&name), "{name}: no bomb");
+    }
+    let place = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        fs::write(place.path().join(name), bytes).unwrap();
+    };
+    let bombs = bombs();
+    for (name, _, bytes) in &bombs {
+        assert!(bytes.len() <= MIB, "{name}");
+        write(name, bytes);
+    }
+    write("objects.csv", b"alpha,p\n0.2,2\n");
+    write("small.csv", [IDA_HEAD, IDA_ROW].concat().as_bytes());
+    let record = "ACCELERATION TIME SERIES IN UNITS OF G\n\
+                  NPTS= 200, DT= .01 SEC\n"
+        .to_owned()
+        + &" .01 -.02 .03 -.04 .05\n".repeat(40);
+    fs::create_dir(place.path().join("folder")).unwrap();
+    let method = SimpleFileOptions::default().compression_level(Some(1));
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for k in 0..600 {
+        let name = format!("r{k}.AT2");
+        zip.start_file(&*name, method).unwrap();
+        zip.write_all(record.as_bytes()).unwrap();
+        write(&format!("folder/{name}"), record.as_bytes());
+    }
+    write("equal.zip", &zip.finish().unwrap().into_inner());
+    let mut runs = Vec::new();
+    for command in COMMANDS {
+        for (file, behind, _) in &bombs {
+            let reads =
+                |name: &&str| command.contains(&format!("{name} FILE"));
+            if behind.is_empty() || behind.iter().any(reads) {
+                runs.push(command.replace("FILE", file));
+            }
+        }
+        let is_of_suites = OF_SUITES.iter().any(|c| command.starts_with(c));
+        if is_of_suites && command.contains("FILE --") {
+            runs.push(command.replace("FILE", "equal.zip"));
+            runs.push(command.replace("FILE", "folder"));
+        }
+    }
+    let limited = format!("ulimit -v {MOST_KIB}; exec \"$0\" \"$@\"");
+    let run = |arguments: &String| {
+        let out = Command::new("sh")
+            .args(["-c", &limited, program])
+            .args(arguments.split_whitespace())
+            .current_dir(place.path())
+            .envs([("RAYON_NUM_THREADS", "2"), ("MALLOC_ARENA_MAX", "1")])
+            .stdout(Stdio::null())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        let is_told = !said.contains("allocation") && !said.contains("panic");
+        let status = out.status.code();
+        assert!(
+            is_told && status.is_some_and(|code| code <= 2),
+            "{arguments}: {status:?}\n{said}"
+        );
+    };
+    let half = runs.len().div_ceil(2);
+    std::thread::scope(|scope| {
+        for part in runs.chunks(half) {
+            scope.spawn(|| part.iter().for_each(run));
+        }
+    });
 }

@@ -216,12 +216,95 @@ fn counts_agree_with_statsmodels() {
             "intensity,record,event,exceeded,schema\n1,a,X,0,1\n1,b,,0,1\n",
             "wrong.csv:3: found `` in column event: expected the earthquake",
         ),
-        ("intensity,exceeded,n\n1,0,2\n2,2,2\n", "tell no dispersion"),
+        (
+            "intensity,exceeded,n\n1,0,2\n2,2,2\n",
+            "every stripe up to 1 has no exceedance and every one from 2 on",
+        ),
+        (
+            "intensity,exceeded,n\n0.1,0,20\n0.2,0,20\n0.4,5,20\n",
+            "wrong.csv: the stripe at 0.4 alone has both",
+        ),
+        (
+            "intensity,exceeded,n\n0.1,0,20\n0.2,0,20\n",
+            "no record exceeded the level at any intensity",
+        ),
+        (
+            "intensity,exceeded,n\n0.1,20,20\n0.2,20,20\n",
+            "every record exceeded the level at every intensity",
+        ),
+        (
+            "intensity,exceeded,n\n0.1,5,20\n0.2,4,20\n0.4,2,20\n",
+            "do not rise with the intensity",
+        ),
+        (
+            "intensity,record\n0.1,a\n",
+            "expected `intensity,record,exceeded`, and where known `event`",
+        ),
+        (
+            "intensity,record,exceeded\n0.1,=1+1,0\n",
+            "wrong.csv:2: found `=1+1` in column record: expected a name",
+        ),
+        (
+            "intensity,record,exceeded\n0.1,a\u{7},0\n",
+            "in column record: expected a name without a control character",
+        ),
+        (
+            "intensity,exceeded,n\n0.1,5,\"20\n",
+            "wrong.csv: a cell that begins with a quote on line 2 has no",
+        ),
     ] {
         fs::write(place.join("wrong.csv"), rows).unwrap();
         let said = refused(&place, "fragility counts --counts wrong.csv");
         assert!(said.contains(words), "{said}");
     }
+}
+
+/// Without the earthquakes and the schema number, and in another order.
+#[test]
+fn outcomes_need_three_columns() {
+    let place = folder("ranking-outcomes", &[]);
+    let rows = [(1, 0), (2, 0), (3, 1), (4, 0), (5, 1), (6, 1)];
+    let table = |head: &str, row: &dyn Fn((i32, i32)) -> String| {
+        let rows = rows.map(row).concat();
+        fs::write(place.join("o.csv"), format!("{head}\n{rows}")).unwrap();
+        json(&place, "fragility counts --counts o.csv --bootstrap 20")
+    };
+    let long = table("intensity,record,event,exceeded,schema", &|(im, k)| {
+        format!("{im},r{im},,{k},1\n")
+    });
+    let short = table("record,exceeded,intensity", &|(im, k)| {
+        format!("r{im},{k},{im}\n")
+    });
+    assert_eq!(long, short);
+}
+
+#[test]
+fn names_of_choices_are_read_in_any_case() {
+    let place = suite("ranking-case");
+    let rank = "rank --ida ida.csv --suite suite.csv --at 1 --bootstrap 20";
+    let one = text(&place, &format!("{rank} --im pga --im sa:1"));
+    assert_eq!(one, text(&place, &format!("{rank} --im PGA --im SA:1")));
+    let stripes = "stripes --ida ida.csv --levels 2";
+    let one = text(&place, &format!("{stripes} --im pgv"));
+    assert_eq!(one, text(&place, &format!("{stripes} --im PGV")));
+}
+
+#[test]
+fn a_sample_that_makes_no_fit_or_a_weak_one_is_told() {
+    let place = folder("ranking-weak", &[]);
+    let write = |text: &str| fs::write(place.join("s.txt"), text).unwrap();
+    write(">3\n>4\n>5\n");
+    let said = refused(&place, "fragility fit --sample s.txt");
+    assert!(said.contains("all 3 values are censored: expected"), "{said}");
+    write("2\n>3\n>2.5\n>1.5\n");
+    let fit = json(&place, "fragility fit --sample s.txt");
+    let remark = fit["remarks"][0].as_str().unwrap();
+    assert!(remark.contains("rest on one observation"), "{remark}");
+    let shown = text(&place, "fragility fit --sample s.txt");
+    assert!(shown.contains("rest on one observation"), "{shown}");
+    write("2\n3\n>2.5\n");
+    let fit = json(&place, "fragility fit --sample s.txt");
+    assert_eq!(fit["remarks"].as_array().unwrap().len(), 0);
 }
 
 #[test]

@@ -2,9 +2,11 @@
 //! changed line by line and byte by byte; and the corpus itself, replayed.
 
 use std::fs;
+use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{self, ReadOptions, Remark};
+use rocking::streams::{Streams, below};
 use rocking::units::AccelerationUnit;
 
 #[path = "../fuzz/targets.rs"]
@@ -41,6 +43,45 @@ fn the_corpus_gets_the_verdict_in_its_names() {
     }
     let folders = fs::read_dir(corpus()).unwrap().count();
     assert_eq!(folders, targets::TARGETS.len());
+}
+
+/// The promises of `fuzz/targets.rs` hold for changed files, too.
+#[test]
+fn changed_files_of_the_corpus_are_read_or_refused() {
+    // What a table of numbers is made of, and what it is not.
+    const PIECES: [&[u8]; 16] = [
+        b",", b"\n", b"\"", b"-", b"0", b"9", b".", b"e308", b"inf", b"nan",
+        b"#", b">", b"\x00", b"\xff", b"1e-320", b"\r",
+    ];
+    for (target, _) in targets::TARGETS {
+        for (name, bytes) in files(&corpus().join(target)) {
+            // Long records are changed by the tests below.
+            if bytes.len() > 4096 {
+                continue;
+            }
+            let mut stream = Streams::new(target, 0).stream(0);
+            for _ in 0..60 {
+                let mut changed = bytes.clone();
+                for _ in 0..=below(&mut stream, 3) {
+                    let from = below(&mut stream, changed.len() + 1);
+                    let room = changed.len() - from;
+                    let cut = below(&mut stream, 1 + room.min(8));
+                    let piece = PIECES[below(&mut stream, PIECES.len())];
+                    let again = changed[from..][..cut].to_vec();
+                    let with = match below(&mut stream, 3) {
+                        0 => Vec::new(),
+                        1 => [&again[..], piece, &again].concat(),
+                        _ => piece.to_vec(),
+                    };
+                    changed.splice(from..from + cut, with);
+                }
+                // A promise that is broken panics.
+                let done = catch_unwind(|| targets::run(target, &changed));
+                let text = String::from_utf8_lossy(&changed);
+                assert!(done.is_ok(), "{target}/{name}:\n{text}");
+            }
+        }
+    }
 }
 
 /// Channels of a file in g and whether its last line is remarked on, or

@@ -23,6 +23,9 @@ pub struct Column {
     /// a missing one), `level` (a number that many rows share, never
     /// missing), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
+    /// Whether a table that is read may lack it: `?` behind what its cells
+    /// are.
+    pub is_optional: bool,
     /// Unit; `1` for a number without one, `own` for that of the sample or
     /// the fragility, empty for other cells.
     pub unit: &'static str,
@@ -90,7 +93,8 @@ impl Layout {
             } else if table == name {
                 layout.columns.push(Column {
                     name: column,
-                    cells,
+                    cells: cells.trim_end_matches('?'),
+                    is_optional: cells.ends_with('?'),
                     unit,
                     meaning,
                 });
@@ -105,20 +109,52 @@ impl Layout {
         self.columns.iter().map(|column| column.name).chain(schema)
     }
 
-    /// Whether a header line has these columns, with a schema number or,
-    /// where people wrote the table, without.
+    /// Places of the columns, and of the schema number behind them, in a
+    /// header line of any order: none for a column that may be missing.
     ///
     /// ```
     /// use rocking_exchange::columns::OUTCOMES;
-    /// let own = ["intensity", "record", "event", "exceeded"];
-    /// assert!(OUTCOMES.has(own));
-    /// assert!(OUTCOMES.has(own.into_iter().chain(["schema"])));
-    /// assert!(!OUTCOMES.has(["record", "intensity", "event", "exceeded"]));
+    /// let own = ["record", "exceeded", "intensity"];
+    /// let places = OUTCOMES.places(own);
+    /// // Neither the earthquake nor the schema number.
+    /// assert_eq!(places, Ok(vec![Some(2), Some(0), None, Some(1), None]));
+    /// assert!(OUTCOMES.places(["record", "intensity"]).is_err());
     /// ```
-    pub fn has<'a>(&self, header: impl IntoIterator<Item = &'a str>) -> bool {
+    ///
+    /// # Errors
+    /// What was found and what was expected.
+    pub fn places<'a>(
+        &self,
+        header: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Vec<Option<usize>>, String> {
         let header: Vec<&str> = header.into_iter().collect();
-        let all: Vec<&str> = self.names().collect();
-        header == all || header == all[..self.columns.len()]
+        let place = |name: &str| header.iter().position(|own| *own == name);
+        let own = self.columns.iter().map(|column| column.name);
+        let schema = self.is_written.then(|| place(SCHEMA_COLUMN)).flatten();
+        let places: Vec<Option<usize>> =
+            own.map(place).chain([schema]).collect();
+        let missing = self
+            .columns
+            .iter()
+            .zip(&places)
+            .any(|(column, place)| place.is_none() && !column.is_optional);
+        // A name that is not known, or that comes again, has no place.
+        if missing || places.iter().flatten().count() != header.len() {
+            let names = |optional: bool| {
+                let own = self.columns.iter();
+                let own = own.filter(|column| column.is_optional == optional);
+                own.map(|column| column.name).collect::<Vec<_>>().join(",")
+            };
+            let mut expected = format!("`{}`", names(false));
+            if self.columns.iter().any(|column| column.is_optional) {
+                expected += &format!(", and where known `{}`", names(true));
+            }
+            let found: String = header.join(",").chars().take(200).collect();
+            return Err(format!(
+                "found columns `{found}`: expected {expected}"
+            ));
+        }
+        Ok(places)
     }
 
     /// Whether a row's cell behind the table's own says this schema, or none.

@@ -8,11 +8,10 @@ use rocking::capacity::{CapacityError, ResponseCurve};
 use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
 use rocking::integrator::{Model, Outcome, Overturning};
 use rocking::intensity::Intensity;
-use rocking::record::result_name;
 use rocking::statistics::Clusters;
 
 use crate::columns::IDA;
-use crate::read::{Cells, FileError, rows};
+use crate::read::{Cells, FileError, reader, rows};
 use crate::table::Table;
 
 /// Place of the first column of a [`Setting`].
@@ -233,7 +232,7 @@ impl IdaTable {
     /// # Errors
     /// [`FileError`] with file and line.
     pub fn read(from: impl Read, path: &Path) -> Result<Self, FileError> {
-        let mut reader = csv::Reader::from_reader(from);
+        let mut reader = reader(from, csv::Trim::None, None);
         let mut first: Option<(csv::StringRecord, Setting)> = None;
         let mut found: Vec<Row> = Vec::new();
         let mut seen = BTreeSet::new();
@@ -395,11 +394,7 @@ impl Setting {
 impl Row {
     fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
         let fields = &cells.fields;
-        let name = result_name(&fields[0]);
-        let name = name.map_err(|_| cells.refuse(0, "a name of a record"))?;
-        let event = result_name(&fields[EVENT]);
-        let event =
-            event.map_err(|_| cells.refuse(EVENT, "a name, or nothing"))?;
+        let (name, event) = (cells.name(0)?, cells.name(EVENT)?);
         let not_negative = |column| {
             let expected = "a number, not negative, or inf";
             cells.parsed(column, |x: &f64| *x >= 0.0, expected)

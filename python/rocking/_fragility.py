@@ -217,15 +217,15 @@ class Hazard:
     """A hazard curve, as its file has it.
 
     `years` are those of probabilities of exceedance, where the file does not
-    say them, and `site` is the longitude and latitude in degrees, where it
-    has several.
+    say them, and `site` is the longitude and latitude in degrees, or the
+    `custom_site_id`, where it has several.
     """
 
     place: str
     """The file, for errors."""
     text: str
     years: float | None = None
-    site: tuple[float, float] | None = None
+    site: tuple[float, float] | str | None = None
 
     def __post_init__(self) -> None:
         # What is refused is refused here.
@@ -263,7 +263,7 @@ def read_hazard(
     path: str | os.PathLike[str],
     *,
     years: float | None = None,
-    site: tuple[float, float] | None = None,
+    site: tuple[float, float] | str | None = None,
 ) -> Hazard:
     """Reads a hazard curve: OpenQuake's CSV, or a CSV of two columns.
 

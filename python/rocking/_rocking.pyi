@@ -14,7 +14,9 @@ Law = tuple[float, float, float]
 Sample = tuple[_Floats, Sequence[float | None], Sequence[str]]
 Member = tuple[Given, dict[str, str]]
 _Read = tuple[str, _Floats, float, dict[str, str]]
-Written = tuple[str, str, float | None, tuple[float, float] | None]
+Written = tuple[
+    str, str, float | None, tuple[float, float] | str | None
+]
 _Progress = Callable[[int, int], object] | None
 
 class Physics(TypedDict):

@@ -1,7 +1,9 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking::fragility::hazard::{Hazard, HazardOptions};
+use rocking::fragility::hazard::{
+    Hazard, HazardMeasure, HazardOptions, Site,
+};
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::{
     Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
@@ -107,12 +109,23 @@ pub fn exchange(
     Ok((texts.main, texts.beside))
 }
 
-/// A hazard curve as it is written: the place, its text, the years of its
-/// probabilities, and the longitude and latitude of the site.
-pub type Written = (String, String, Option<f64>, Option<(f64, f64)>);
+/// Longitude and latitude in degrees of a site, or its id.
+#[derive(FromPyObject)]
+pub enum GivenSite {
+    Degrees((f64, f64)),
+    Id(String),
+}
 
-pub fn read((place, text, years, site_deg): &Written) -> PyResult<Hazard> {
-    let options = HazardOptions { years: *years, site_deg: *site_deg };
+/// A hazard curve as it is written: the place, its text, the years of its
+/// probabilities, and the site.
+pub type Written = (String, String, Option<f64>, Option<GivenSite>);
+
+pub fn read((place, text, years, site): &Written) -> PyResult<Hazard> {
+    let site = site.as_ref().map(|site| match site {
+        GivenSite::Degrees((lon, lat)) => Site::Degrees(*lon, *lat),
+        GivenSite::Id(id) => Site::Id(id.clone()),
+    });
+    let options = HazardOptions { years: *years, site };
     Hazard::parse(place, text, &options).map_err(refuse)
 }
 
@@ -125,7 +138,7 @@ type Found = (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
 pub fn hazard(written: Written) -> PyResult<Found> {
     let found = read(&written)?;
     let remarks = found.remarks.iter().map(ToString::to_string).collect();
-    let im = found.im.as_ref().map(ToString::to_string);
+    let im = found.im.name();
     Ok((found.curve.points().to_vec(), im, found.unit(), remarks))
 }
 
@@ -187,8 +200,8 @@ pub fn risk(
         };
         let factor = block.factor(gravity)?;
         let own = block.fragility(gravity)?;
-        if hazard.im.as_ref() != Some(&own.im) {
-            let found = hazard.im.as_ref().map(ToString::to_string);
+        if hazard.im == HazardMeasure::Own || !hazard.im.is_of(&own.im) {
+            let found = hazard.im.name();
             return Err(refuse(format!(
                 "{name}: a fragility in {}, a hazard curve in {}: expected \
                  the same measure",

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use rocking_exchange::FileError;
+use rocking_exchange::read::{no_csv, reader};
 use rocking_exchange::table::Table;
 
 use crate::reference::{Value, reference};
@@ -28,12 +29,10 @@ impl Answers {
     /// [`FileError`] for other columns, a scene or quantity that is not in
     /// the data set or stands twice, and a value of another kind.
     pub fn parse(text: &str, path: &Path) -> Result<Self, FileError> {
-        let mut csv = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
+        let mut csv = reader(text.as_bytes(), csv::Trim::All, None);
         let refuse =
             |line, message: String| FileError::new(path, line, message);
-        let no_csv = |e: csv::Error| FileError::new(path, None, e);
+        let no_csv = |e| no_csv(path, e);
         let header = csv.headers().map_err(no_csv)?;
         if !header.iter().eq(COLUMNS) {
             let found = header.iter().collect::<Vec<_>>().join(",");

@@ -1,12 +1,14 @@
 //! Hazard curves as files: the project's own CSV, and OpenQuake's.
 
 use std::fmt;
+use std::str::FromStr;
 
-use libm::log1p;
+use libm::{asin, cos, hypot, log1p, sin, sqrt};
 use thiserror::Error;
 
 use super::risk::{HazardCurve, HazardError};
-use crate::intensity::IntensityMeasure;
+use crate::intensity::{Intensity, IntensityMeasure};
+use crate::stop;
 
 /// The first columns of the project's own table: name, and measure with the
 /// number of its column's units in a g or a m/s.
@@ -20,8 +22,14 @@ const COLUMNS: [(&str, Option<(IntensityMeasure, f64)>); 4] = [
 /// The second columns: annual frequencies, or probabilities in some years.
 const SECOND: [&str; 2] = ["annual_frequency", "probability_of_exceedance"];
 
+/// Columns of a site in OpenQuake's CSV; the first two are always there.
+const SITE: [&str; 4] = ["lon", "lat", "depth", "custom_site_id"];
+
 /// Sites of OpenQuake are written with five decimals of a degree.
 const SAME_SITE_DEG: f64 = 0.6e-5;
+
+/// Mean radius of the Earth in km.
+const EARTH_KM: f64 = 6371.0;
 
 /// A hazard curve of a file: its points, and what its intensities are.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,9 +37,8 @@ const SAME_SITE_DEG: f64 = 0.6e-5;
 pub struct Hazard {
     /// The points with a frequency that is known and positive.
     pub curve: HazardCurve,
-    /// The intensity measure; none where the file says `intensity`, which is
-    /// that of the fragility in its own unit.
-    pub im: Option<IntensityMeasure>,
+    /// The intensity measure.
+    pub im: HazardMeasure,
     /// Number of the curve's units in one unit of the measure (g or m/s):
     /// 100 for a curve in cm/s.
     pub units_per_im_unit: f64,
@@ -39,7 +46,120 @@ pub struct Hazard {
     pub remarks: Vec<HazardRemark>,
 }
 
-/// Points of a hazard curve that were set aside.
+/// What the intensities of a hazard curve are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HazardMeasure {
+    /// Those of the fragility, in its own unit: the file says `intensity`.
+    Own,
+    /// A measure.
+    Of(IntensityMeasure),
+    /// Geometric mean of spectral accelerations at periods that the file does
+    /// not state: `AvgSA` of OpenQuake.
+    AverageSa,
+}
+
+impl HazardMeasure {
+    /// Whether a fragility in this measure may stand under the curve.
+    ///
+    /// ```
+    /// use rocking::fragility::hazard::HazardMeasure;
+    /// use rocking::intensity::IntensityMeasure;
+    /// let mean = IntensityMeasure::AverageSa(vec![0.5, 1.0]);
+    /// assert!(HazardMeasure::AverageSa.is_of(&mean));
+    /// assert!(!HazardMeasure::AverageSa.is_of(&IntensityMeasure::Pga));
+    /// assert!(HazardMeasure::Own.is_of(&mean));
+    /// ```
+    #[must_use]
+    pub fn is_of(&self, im: &IntensityMeasure) -> bool {
+        match self {
+            Self::Own => true,
+            Self::Of(own) => own == im,
+            Self::AverageSa => matches!(im, IntensityMeasure::AverageSa(_)),
+        }
+    }
+
+    /// The dimensionless measure, where it is the axis of an IDA curve.
+    #[must_use]
+    pub fn dimensionless(&self) -> Option<Intensity> {
+        match self {
+            Self::Of(im) => im.dimensionless(),
+            Self::Own | Self::AverageSa => None,
+        }
+    }
+
+    /// The name of the measure; none for that of the fragility.
+    #[must_use]
+    pub fn name(&self) -> Option<String> {
+        match self {
+            Self::Own => None,
+            Self::Of(im) => Some(im.to_string()),
+            Self::AverageSa => Some("avgsa".to_owned()),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for HazardMeasure {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        self.name().serialize(to)
+    }
+}
+
+/// A site of a hazard curve's file.
+///
+/// ```
+/// use rocking::fragility::hazard::Site;
+/// assert_eq!("23.8,37.9".parse(), Ok(Site::Degrees(23.8, 37.9)));
+/// assert_eq!("7zzzzzzz".parse(), Ok(Site::Id("7zzzzzzz".to_owned())));
+/// assert!("23.8,north".parse::<Site>().is_err());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Site {
+    /// Longitude and latitude in degrees.
+    Degrees(f64, f64),
+    /// Its `custom_site_id`.
+    Id(String),
+}
+
+/// A text that names no site.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error(
+    "found `{0}`: expected longitude,latitude in degrees, or the id of a site"
+)]
+pub struct SiteError(String);
+
+impl FromStr for Site {
+    type Err = SiteError;
+
+    fn from_str(text: &str) -> Result<Self, SiteError> {
+        let refused = || SiteError(text.to_owned());
+        let degrees = |text: &str| {
+            let degrees = text.trim().parse().ok();
+            degrees.filter(|x: &f64| x.is_finite()).ok_or_else(refused)
+        };
+        match text.split_once(',') {
+            Some((lon, lat)) => {
+                Ok(Self::Degrees(degrees(lon)?, degrees(lat)?))
+            }
+            None if text.trim().is_empty() => Err(refused()),
+            None => Ok(Self::Id(text.trim().to_owned())),
+        }
+    }
+}
+
+impl fmt::Display for Site {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Degrees(lon, lat) => write!(f, "{lon},{lat}"),
+            Self::Id(id) => f.write_str(id),
+        }
+    }
+}
+
+/// What was set aside of a hazard curve, or taken for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HazardRemark {
@@ -48,6 +168,8 @@ pub enum HazardRemark {
     /// So many points at the start have a probability of 1, which bounds no
     /// frequency.
     Certain(usize),
+    /// The periods of AvgSA are not stated.
+    Periods,
 }
 
 impl fmt::Display for HazardRemark {
@@ -62,6 +184,10 @@ impl fmt::Display for HazardRemark {
                 f,
                 "{n} points at the start of the hazard curve have \
                  probability 1, which tells no frequency, and are set aside"
+            ),
+            Self::Periods => f.write_str(
+                "the hazard curve is in AvgSA and does not state its \
+                 periods: they are taken to be those of the fragility",
             ),
         }
     }
@@ -78,14 +204,13 @@ impl serde::Serialize for HazardRemark {
 }
 
 /// What a hazard curve's file may leave open.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct HazardOptions {
     /// Years of the probabilities of exceedance, where the file does not say
     /// them.
     pub years: Option<f64>,
-    /// Longitude and latitude in degrees of the site, where the file has
-    /// several.
-    pub site_deg: Option<(f64, f64)>,
+    /// The site, where the file has several.
+    pub site: Option<Site>,
 }
 
 /// A file that is no hazard curve: file, line, what was found and what was
@@ -121,7 +246,8 @@ pub enum HazardFault {
 
 const HEADER: &str = "pga_g, pgv_m_s, pgv_cm_s or intensity, and \
     annual_frequency or probability_of_exceedance; or \
-    lon,lat,depth,poe-LEVEL,.. of OpenQuake";
+    lon, lat, poe-LEVEL,.. and where wanted depth and custom_site_id of \
+    OpenQuake";
 
 /// A point as it is written: line, intensity, and frequency or probability.
 type Written = (usize, f64, f64);
@@ -131,9 +257,10 @@ impl Hazard {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match &self.im {
-            None => "that of the fragility",
-            Some(_) if self.units_per_im_unit != 1.0 => "cm/s",
-            Some(im) => im.unit(),
+            HazardMeasure::Own => "that of the fragility",
+            HazardMeasure::Of(_) if self.units_per_im_unit != 1.0 => "cm/s",
+            HazardMeasure::Of(im) => im.unit(),
+            HazardMeasure::AverageSa => "g",
         }
     }
 
@@ -142,9 +269,10 @@ impl Hazard {
     /// The project's own CSV has two columns: `pga_g`, `pgv_m_s`, `pgv_cm_s`
     /// or `intensity` (the unit of the fragility), and `annual_frequency` in
     /// 1/year or `probability_of_exceedance` P in T years. A hazard curve of
-    /// OpenQuake has `lon,lat,depth,poe-LEVEL,..` behind a comment with
-    /// `investigation_time=T` and `imt='PGA'`, `'PGV'` (levels in cm/s) or
-    /// `'SA(1.0)'`. A probability makes the frequency -ln(1 - P)/T of a
+    /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, where
+    /// OpenQuake writes them, `depth` and `custom_site_id`, behind a comment
+    /// with `investigation_time=T` and `imt='PGA'`, `'PGV'` (levels in cm/s),
+    /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency -ln(1 - P)/T of a
     /// Poisson process. `file` is named in errors.
     ///
     /// Points of frequency 0 at the end and of probability 1 at the start
@@ -185,6 +313,9 @@ fn fault(
     (line.into(), HazardFault::Found { found, expected })
 }
 
+/// A row of the table: line and cells.
+type Row<'a> = (usize, Vec<&'a str>);
+
 fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
@@ -192,26 +323,26 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     let header = lines.by_ref().find(|(_, line)| {
         let is_comment = line.starts_with('#');
         if is_comment {
-            comments = comments.clone() + line + "\n";
+            comments.push_str(line);
+            comments.push('\n');
         }
         !is_comment && !line.trim().is_empty()
     });
     let (at, header) = header.unwrap_or((1, ""));
     let columns = cells(header);
-    let mut rows = Vec::new();
-    for (line, row) in lines {
-        if row.starts_with('#') || row.trim().is_empty() {
-            continue;
-        }
-        let row = cells(row);
-        if row.len() != columns.len() {
-            let found = format!("{} cells", row.len());
-            return Err(fault(line, found, "one a column"));
-        }
-        rows.push((line, row));
-    }
-    if columns.starts_with(&["lon", "lat", "depth"]) {
-        return openquake(&comments, (at, &columns), &rows, options);
+    let rows = lines
+        .filter(|(_, row)| !(row.starts_with('#') || row.trim().is_empty()))
+        .map(|(line, row)| {
+            stop::point();
+            let row = cells(row);
+            if row.len() != columns.len() {
+                let found = format!("{} cells", row.len());
+                return Err(fault(line, found, "one a column"));
+            }
+            Ok((line, row))
+        });
+    if ["lon", "lat"].iter().all(|name| columns.contains(name)) {
+        return openquake(&comments, (at, &columns), rows, options);
     }
     let own = match columns[..] {
         [first, second] => COLUMNS
@@ -221,75 +352,164 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
         _ => None,
     };
     let Some((_, measure)) = own else {
-        return Err(fault(at, format!("columns `{header}`"), HEADER));
+        let found = format!("columns `{}`", beginning(header));
+        return Err(fault(at, found, HEADER));
     };
-    if options.site_deg.is_some() {
+    if options.site.is_some() {
         let found = "a curve of no site";
         return Err(fault(at, found, "no site asked for (--site)"));
     }
     let mut points = Vec::new();
-    for (line, row) in &rows {
-        points.push((*line, number(*line, row[0])?, number(*line, row[1])?));
+    for row in rows {
+        let (line, row) = row?;
+        points.push((line, number(line, row[0])?, number(line, row[1])?));
     }
     let years = match columns[1] == SECOND[1] {
         true => Some(options.years),
         false => None,
     };
-    made(points, years, measure)
+    let (im, per_unit) = match measure {
+        Some((im, per_unit)) => (HazardMeasure::Of(im), per_unit),
+        None => (HazardMeasure::Own, 1.0),
+    };
+    made(points, years, (im, per_unit))
 }
 
 /// A curve of OpenQuake: a row a site, a column a level.
-fn openquake(
+fn openquake<'a>(
     comments: &str,
     (at, columns): (usize, &[&str]),
-    rows: &[(usize, Vec<&str>)],
+    rows: impl Iterator<Item = Result<Row<'a>, Faulty>>,
     options: &HazardOptions,
 ) -> Result<Hazard, Faulty> {
     let imt = said(comments, "imt=");
-    let expected = "imt='PGA', 'PGV' or 'SA(T)' in the first comment";
+    let expected = "imt='PGA', 'PGV', 'SA(T)' or 'AvgSA' in the first comment";
     let imt = imt.ok_or_else(|| fault(1, "no imt", expected))?;
     let period = |name: &str| {
         let text = name.strip_prefix("SA(")?.strip_suffix(')')?;
         text.parse().ok().filter(|t: &f64| *t > 0.0 && t.is_finite())
     };
+    let of = HazardMeasure::Of;
     let measure = match imt {
-        "PGA" => (IntensityMeasure::Pga, 1.0),
-        "PGV" => (IntensityMeasure::Pgv, 100.0),
+        "PGA" => (of(IntensityMeasure::Pga), 1.0),
+        "PGV" => (of(IntensityMeasure::Pgv), 100.0),
+        "AvgSA" => (HazardMeasure::AverageSa, 1.0),
         name => match period(name) {
-            Some(period_s) => (IntensityMeasure::Sa(period_s), 1.0),
-            None => return Err(fault(1, format!("imt '{name}'"), expected)),
+            Some(period_s) => (of(IntensityMeasure::Sa(period_s)), 1.0),
+            None => {
+                let found = format!("imt '{}'", beginning(name));
+                return Err(fault(1, found, expected));
+            }
         },
     };
     let years = match said(comments, "investigation_time=") {
         Some(text) => Some(number(1, text)?),
         None => options.years,
     };
-    let levels = columns[3..].iter().map(|name| {
-        let found = || format!("column `{name}`");
-        let level = name.strip_prefix("poe-");
-        level.ok_or_else(|| fault(at, found(), HEADER))
-    });
-    let levels: Vec<&str> = levels.collect::<Result<_, _>>()?;
-    let mut found = Vec::new();
-    for (line, row) in rows {
-        let site = (number(*line, row[0])?, number(*line, row[1])?);
-        let here = options.site_deg.is_none_or(|(lon, lat)| {
-            (site.0 - lon).abs() <= SAME_SITE_DEG
-                && (site.1 - lat).abs() <= SAME_SITE_DEG
-        });
-        if here {
-            found.push((*line, row));
+    let mut levels = Vec::new();
+    for (place, name) in columns.iter().enumerate() {
+        match name.strip_prefix("poe-") {
+            Some(level) => levels.push((place, number(at, level)?)),
+            None if SITE.contains(name)
+                && !columns[..place].contains(name) => {}
+            None => {
+                let found = format!("column `{}`", beginning(name));
+                return Err(fault(at, found, HEADER));
+            }
         }
     }
-    let [(line, row)] = found[..] else {
-        let found = format!("{} such sites of {}", found.len(), rows.len());
-        return Err(fault(None, found, "one (--site LON,LAT)"));
-    };
+    let (line, row) = site(columns, rows, options.site.as_ref())?;
     let mut points = Vec::new();
-    for (level, cell) in levels.iter().zip(&row[3..]) {
-        points.push((line, number(at, level)?, number(line, cell)?));
+    for (place, level) in levels {
+        points.push((line, level, number(line, row[place])?));
     }
-    made(points, Some(years), Some(measure))
+    made(points, Some(years), measure)
+}
+
+/// Sites that a message names, at most.
+const MOST_NAMED: usize = 5;
+
+/// The row of a site, or the only one.
+fn site<'a>(
+    columns: &[&str],
+    rows: impl Iterator<Item = Result<Row<'a>, Faulty>>,
+    wanted: Option<&Site>,
+) -> Result<Row<'a>, Faulty> {
+    let place = |name: &str| columns.iter().position(|own| *own == name);
+    let [lon, lat] = [SITE[0], SITE[1]].map(|own| place(own).unwrap_or(0));
+    let id_at = place(SITE[3]);
+    let name = |(_, row): &Row<'_>| {
+        let degrees = format!("{},{}", row[lon], row[lat]);
+        let id = id_at.map(|at| format!(" ({})", beginning(row[at])));
+        beginning(&degrees).to_owned() + &id.unwrap_or_default()
+    };
+    let (mut all, mut found, mut named) = (0, Vec::new(), Vec::new());
+    let mut nearest: Option<(f64, String)> = None;
+    for row in rows {
+        let row = row?;
+        let own = (number(row.0, row.1[lon])?, number(row.0, row.1[lat])?);
+        all += 1;
+        let is_it = match wanted {
+            None => true,
+            Some(Site::Id(id)) => id_at.is_some_and(|at| row.1[at] == id),
+            Some(Site::Degrees(lon, lat)) => {
+                let away_km = distance_km(own, (*lon, *lat));
+                if nearest.as_ref().is_none_or(|(km, _)| away_km < *km) {
+                    nearest = Some((away_km, name(&row)));
+                }
+                away_deg(own.0, *lon) <= SAME_SITE_DEG
+                    && (own.1 - lat).abs() <= SAME_SITE_DEG
+            }
+        };
+        if named.len() < MOST_NAMED && (is_it || found.is_empty()) {
+            named.push((is_it, name(&row)));
+        }
+        if is_it && found.len() < 2 {
+            found.push(row);
+        }
+    }
+    if found.len() == 1
+        && let Some(row) = found.pop()
+    {
+        return Ok(row);
+    }
+    let one = "one site (--site LON,LAT or --site ID)";
+    named.retain(|(is_it, _)| *is_it || found.is_empty());
+    let names: Vec<String> = named.into_iter().map(|(_, name)| name).collect();
+    let names = names.join(", ");
+    let found = match (wanted, nearest) {
+        _ if all == 0 => "no site".to_owned(),
+        (None, _) => format!("{all} sites, such as {names}"),
+        (Some(site), _) if !found.is_empty() => {
+            format!("several sites {site}: {names}")
+        }
+        (Some(site), Some((km, nearest))) => format!(
+            "no site {site} among {all}: the nearest one is {nearest}, \
+             {km:.3} km away"
+        ),
+        (Some(site), None) if id_at.is_none() => {
+            format!("no site {site}, and no column {}", SITE[3])
+        }
+        (Some(site), None) => {
+            format!("no site {site} among {all}, such as {names}")
+        }
+    };
+    Err(fault(None, found, one))
+}
+
+/// Difference of two longitudes in degrees, the short way round.
+fn away_deg(a: f64, b: f64) -> f64 {
+    let away = (a - b).abs() % 360.0;
+    away.min(360.0 - away)
+}
+
+/// Distance in km of two places (longitude, latitude) in degrees on a sphere,
+/// by the haversine formula.
+fn distance_km(a: (f64, f64), b: (f64, f64)) -> f64 {
+    let half = |degrees: f64| sin(0.5 * degrees.to_radians());
+    let across = sqrt(cos(a.1.to_radians()) * cos(b.1.to_radians()));
+    let chord = hypot(half(a.1 - b.1), across * half(a.0 - b.0));
+    2.0 * EARTH_KM * asin(chord.min(1.0))
 }
 
 /// The curve through points; `years` are there for probabilities, and say
@@ -297,9 +517,12 @@ fn openquake(
 fn made(
     mut points: Vec<Written>,
     years: Option<Option<f64>>,
-    measure: Option<(IntensityMeasure, f64)>,
+    (im, units_per_im_unit): (HazardMeasure, f64),
 ) -> Result<Hazard, Faulty> {
     let mut remarks = Vec::new();
+    if im == HazardMeasure::AverageSa {
+        remarks.push(HazardRemark::Periods);
+    }
     let mut certain = 0;
     if let Some(years) = years {
         let found = "probabilities of exceedance";
@@ -335,7 +558,8 @@ fn made(
     let curve = HazardCurve::try_new(&pairs).map_err(|mut error| {
         let line = match &mut error {
             HazardError::Intensity { number, .. }
-            | HazardError::Frequency { number, .. } => {
+            | HazardError::Frequency { number, .. }
+            | HazardError::Range { number, .. } => {
                 let line = points.get(*number - 1).map(|(line, ..)| *line);
                 *number += certain;
                 line
@@ -344,10 +568,6 @@ fn made(
         };
         (line, error.into())
     })?;
-    let (im, units_per_im_unit) = match measure {
-        Some((im, per_unit)) => (Some(im), per_unit),
-        None => (None, 1.0),
-    };
     Ok(Hazard { curve, im, units_per_im_unit, remarks })
 }
 
@@ -355,9 +575,14 @@ fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(str::trim).collect()
 }
 
+/// As much of a text as a message has room for.
+fn beginning(text: &str) -> &str {
+    text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
+}
+
 fn number(line: usize, text: &str) -> Result<f64, Faulty> {
-    let found = || text.chars().take(40).collect::<String>();
-    text.parse().map_err(|_| fault(line, format!("`{}`", found()), "a number"))
+    let found = || format!("`{}`", beginning(text));
+    text.parse().map_err(|_| fault(line, found(), "a number"))
 }
 
 /// The value behind `name` in a comment of OpenQuake, without its quotes.

@@ -5,6 +5,11 @@ use libm::{exp, log};
 use thiserror::Error;
 
 use crate::statistics::{Lognormal, normal};
+use crate::stop;
+
+/// Intensities and annual frequencies that a curve may have, least and most:
+/// the ratio of any two of them is a finite number.
+pub const RANGE: (f64, f64) = (1e-150, 1e150);
 
 /// Why a hazard curve was refused. Points are numbered from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -37,13 +42,29 @@ pub enum HazardError {
         /// The frequency before, or infinity.
         before: f64,
     },
+    /// No hazard analysis gives such a number, and its ratio to another one
+    /// may be no finite number.
+    #[error(
+        "{what} {found:e} of point {number}: expected a number from {:e} to {:e}",
+        RANGE.0,
+        RANGE.1
+    )]
+    Range {
+        /// Intensity, or annual frequency.
+        what: &'static str,
+        /// The point.
+        number: usize,
+        /// The number.
+        found: f64,
+    },
 }
 
 /// A hazard curve H(x): how often a year intensity x is exceeded, by points
 /// between which it is a power of x.
 ///
 /// Intensities x in one unit, positive and rising; annual frequencies H in
-/// 1/year, positive and not rising. H is unknown outside the points.
+/// 1/year, positive and not rising; all within [`RANGE`]. H is unknown outside
+/// the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HazardCurve {
     points: Vec<(f64, f64)>,
@@ -98,7 +119,8 @@ impl HazardCurve {
     ///
     /// # Errors
     /// [`HazardError`] for fewer than two points, intensities that do not
-    /// rise from above 0, and frequencies that rise or are not positive.
+    /// rise from above 0, frequencies that rise or are not positive, and
+    /// numbers outside [`RANGE`].
     pub fn try_new(points: &[(f64, f64)]) -> Result<Self, HazardError> {
         if points.len() < 2 {
             return Err(HazardError::Points(points.len()));
@@ -115,6 +137,13 @@ impl HazardCurve {
                 let (found, before) = (frequency, last.1);
                 return Err(HazardError::Frequency { number, found, before });
             }
+            for (what, found) in
+                [("intensity", im), ("annual frequency", frequency)]
+            {
+                if !(found >= RANGE.0 && found <= RANGE.1) {
+                    return Err(HazardError::Range { what, number, found });
+                }
+            }
             last = (im, frequency);
         }
         Ok(Self { points: points.to_vec() })
@@ -130,8 +159,11 @@ impl HazardCurve {
     /// outside them.
     #[must_use]
     pub fn frequency(&self, im: f64) -> Option<f64> {
-        let inside = |w: &&[(f64, f64)]| w[0].0 <= im && im <= w[1].0;
-        let pair = self.points.windows(2).find(inside)?;
+        let to = self.points.partition_point(|(x, _)| *x < im).max(1);
+        let pair = self.points.get(to - 1..=to)?;
+        if !(pair[0].0 <= im) {
+            return None;
+        }
         Some(Segment::of(pair).frequency(im))
     }
 
@@ -208,7 +240,7 @@ impl HazardCurve {
 /// Part of a hazard curve between two points: ln H falls by k with ln x.
 struct Segment {
     from: (f64, f64),
-    to: f64,
+    to: (f64, f64),
     k: f64,
 }
 
@@ -218,8 +250,12 @@ const LAST_SCORE: f64 = 38.0;
 /// Fall of ln H with the score up to which the closed form keeps 13 digits.
 const STEEPEST: f64 = 8.0;
 
-/// Longest piece of the quadrature, in scores; shorter where H falls fast.
+/// Longest piece of the quadrature, in scores.
 const PIECE: f64 = 0.25;
+
+/// Largest fall of ln H over a piece; a segment that falls faster with the
+/// score is cut into parts of this fall.
+const FALL: f64 = 2.5;
 
 /// Nodes and weights of Gauss and Legendre with 8 points on (-1, 1), the
 /// positive ones (Abramowitz and Stegun, Table 25.4).
@@ -234,7 +270,7 @@ impl Segment {
     fn of(pair: &[(f64, f64)]) -> Self {
         let (from, to) = (pair[0], pair[1]);
         let k = log(from.1 / to.1) / log(to.0 / from.0);
-        Self { from, to: to.0, k }
+        Self { from, to, k }
     }
 
     fn frequency(&self, im: f64) -> f64 {
@@ -243,9 +279,9 @@ impl Segment {
 
     /// Integral of H dF over the segment.
     fn integral(&self, fragility: &Lognormal) -> f64 {
+        stop::point();
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
-        let from = fragility.score(self.from.0).max(-LAST_SCORE);
-        let to = fragility.score(self.to).min(LAST_SCORE);
+        let (from, to) = scores(fragility, self.from.0, self.to.0);
         if !(to > from) {
             return 0.0;
         }
@@ -260,12 +296,41 @@ impl Segment {
             };
             return at_median * exp(0.5 * drop * drop) * inside;
         }
+        if drop * PIECE <= FALL {
+            return self.quadrature(fragility, (from, to));
+        }
+        // Within RANGE, ln H falls by 691 at most: 277 parts.
+        let parts = (log(self.from.1 / self.to.1) / FALL).ceil();
+        let (ratio, mut low) = (self.to.0 / self.from.0, self.from.0);
+        let mut sum = 0.0;
+        for part in 1..=parts as u32 {
+            let share = f64::from(part) / parts;
+            let high = (self.from.0 * exp(share * log(ratio))).min(self.to.0);
+            let high = if share < 1.0 { high } else { self.to.0 };
+            let (from, to) = scores(fragility, low, high);
+            if to > from {
+                sum += self.quadrature(fragility, (from, to));
+            }
+            low = high;
+        }
+        sum
+    }
+
+    /// Integral of H dF between two scores, by Gauss and Legendre: 304 pieces
+    /// at most, since no score lies beyond [`LAST_SCORE`].
+    fn quadrature(
+        &self,
+        fragility: &Lognormal,
+        (from, to): (f64, f64),
+    ) -> f64 {
+        let (shift, beta) = (fragility.shift(), fragility.dispersion());
         let at = |z: f64| {
             let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));
-            self.frequency(shift + excess) * normal::pdf(z)
+            // The rounding of a steep segment's ends leads beyond them.
+            let frequency = self.frequency(shift + excess);
+            frequency.clamp(self.to.1, self.from.1) * normal::pdf(z)
         };
-        let steepness = (0.1 * drop).max(1.0);
-        let pieces = ((to - from) * steepness / PIECE).ceil();
+        let pieces = ((to - from) / PIECE).ceil();
         let half = 0.5 * (to - from) / pieces;
         let piece = |k: u32| {
             let middle = from + half * (2.0 * f64::from(k) + 1.0);
@@ -276,6 +341,12 @@ impl Segment {
         };
         half * (0..pieces as u32).fold(0.0, |sum, k| sum + piece(k))
     }
+}
+
+/// Scores of two intensities, none beyond [`LAST_SCORE`].
+fn scores(fragility: &Lognormal, from: f64, to: f64) -> (f64, f64) {
+    let (from, to) = (fragility.score(from), fragility.score(to));
+    (from.max(-LAST_SCORE), to.min(LAST_SCORE))
 }
 
 #[cfg(test)]

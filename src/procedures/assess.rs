@@ -27,6 +27,9 @@ use crate::statistics::{Clusters, Lognormal};
 /// Coefficients of restitution beside the object's own.
 const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
 
+/// The fewest records that an assessment takes.
+const LEAST_RECORDS: usize = 3;
+
 /// A free-standing object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
@@ -306,8 +309,14 @@ pub struct Together {
 #[non_exhaustive]
 pub enum AssessError {
     /// There is nothing to assess.
-    #[error("no {0}: expected at least one")]
-    Nothing(&'static str),
+    #[error("no object: expected at least one")]
+    NoObject,
+    /// Too few records to tell how they scatter.
+    #[error(
+        "{0} records: expected at least {LEAST_RECORDS}, which tell how \
+         intensities of damage scatter"
+    )]
+    Records(usize),
     /// A limit is a part of the slenderness.
     #[error("{id}: limit_ratio {found}: expected a number between 0 and 1")]
     Limit {
@@ -338,6 +347,16 @@ pub enum AssessError {
     Fit {
         /// The object.
         id: String,
+        /// Why.
+        source: ProcedureError,
+    },
+    /// An object's capacities make no fit under another assumption.
+    #[error("{id}, {assumption}: {source}")]
+    Alternative {
+        /// The object.
+        id: String,
+        /// The assumption.
+        assumption: Assumption,
         /// Why.
         source: ProcedureError,
     },
@@ -419,7 +438,7 @@ pub enum AssessError {
 /// ```
 ///
 /// # Errors
-/// [`AssessError`] for no object, no record, a limit outside (0, 1), a hazard
+/// [`AssessError`] for no object, fewer than three records, a limit outside (0, 1), a hazard
 /// curve in another unit, and an object that makes no fit, such as one that
 /// fewer than two records damage.
 pub fn assess(
@@ -429,7 +448,7 @@ pub fn assess(
     options: &AssessOptions<'_>,
 ) -> Result<Assessment, AssessError> {
     if objects.is_empty() {
-        return Err(AssessError::Nothing("object"));
+        return Err(AssessError::NoObject);
     }
     let ground = Ground::of(objects, records, clusters, options)?;
     let mut analyses = Vec::new();

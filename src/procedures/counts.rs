@@ -1,5 +1,6 @@
 //! Fragilities fitted to counts of stripes.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use super::fit::Sampled;
@@ -224,9 +225,11 @@ impl Outcome {
         of: impl Fn(usize) -> u32,
     ) -> Vec<Stripe> {
         let mut stripes: Vec<Stripe> = Vec::new();
+        let mut places: BTreeMap<u64, usize> = BTreeMap::new();
         for outcome in outcomes {
-            let place = stripes.iter().position(|s| s.im == outcome.im);
-            let place = place.unwrap_or_else(|| {
+            // Of 0 and -0 the same.
+            let key = (outcome.im + 0.0).to_bits();
+            let place = *places.entry(key).or_insert_with(|| {
                 stripes.push(Stripe { im: outcome.im, exceeded: 0, n: 0 });
                 stripes.len() - 1
             });

@@ -2,6 +2,7 @@
 
 mod intervals;
 mod precision;
+mod remark;
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,6 +11,7 @@ use thiserror::Error;
 
 pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
 pub use precision::Needed;
+pub use remark::FitRemark;
 
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
@@ -237,6 +239,8 @@ pub struct FragilityFit {
     pub n_limited: usize,
     /// Values left out because they equal the shift `min`.
     pub n_left_out: usize,
+    /// What is weak about the fit.
+    pub remarks: Vec<FitRemark>,
     /// How the distribution was fitted.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub method: FitMethod,
@@ -502,6 +506,7 @@ pub fn fit_sample(
         n_censored: sample.censored(),
         n_limited: sample.limited(),
         n_left_out: found.left_out,
+        remarks: FitRemark::of(sample, found.left_out),
         method: options.method,
         fitted,
         shift_interval,

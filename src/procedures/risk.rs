@@ -4,8 +4,7 @@
 use libm::expm1;
 use thiserror::Error;
 
-use crate::fragility::hazard::{Hazard, HazardRemark};
-use crate::intensity::IntensityMeasure;
+use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
 use crate::procedures::{Draws, fit::Sampled};
 use crate::statistics::{Clusters, Lognormal};
 use crate::stop;
@@ -18,9 +17,8 @@ const LEVEL: f64 = 0.95;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Risk {
-    /// The hazard curve's intensity measure; none where it is in the
-    /// fragility's own.
-    pub im: Option<IntensityMeasure>,
+    /// The hazard curve's intensity measure.
+    pub im: HazardMeasure,
     /// Unit of the intensities here, of medians and of shifts.
     pub unit: &'static str,
     /// Number of points of the hazard curve.

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::codes::coded;
 use super::{Accelerogram, Given, SuiteMember};
 use crate::accelerogram::mean;
+use crate::stop;
 
 pub use profile::{Motion, Profile};
 
@@ -154,15 +155,18 @@ coded! {
         /// The two components of a pair differ in length or interval.
         #[error("{0} differs in length or interval: components not aligned?")]
         UnequalComponents(String) = "unequal-components",
-        /// Another record with the same motion.
+        /// Other records with the same motion.
         #[error(
-            "correlation {correlation:.3} with {other} about the peaks: the same recording?"
+            "correlation {correlation:.3} with {other} about the peaks{}: the same recording?",
+            and_others(*more)
         )]
         Duplicate {
-            /// Name of the other record.
+            /// Name of the first other record.
             other: String,
-            /// Absolute correlation coefficient.
+            /// Absolute correlation coefficient with it.
             correlation: f64,
+            /// How many more others there are.
+            more: usize,
         } = "duplicate",
     }
 }
@@ -172,6 +176,14 @@ impl Remark {
     pub(super) fn of_times(dt_s: f64, off_s: f64) -> Option<Self> {
         let near = off_s <= TIMES_OFF * dt_s;
         (!near).then_some(Self::Times { dt_s, off_s })
+    }
+}
+
+fn and_others(more: usize) -> String {
+    match more {
+        0 => String::new(),
+        1 => ", and the like with 1 other".to_owned(),
+        more => format!(", and the like with {more} others"),
     }
 }
 
@@ -291,14 +303,24 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
     longest
 }
 
-/// Records that look like one recording: for each, the indices and the
-/// absolute correlation.
+/// The other records that look like one recording with a record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Duplicates {
+    /// Index of the first of them.
+    pub first: usize,
+    /// Absolute correlation with it.
+    pub correlation: f64,
+    /// How many there are.
+    pub count: usize,
+}
+
+/// For each record, the others that look like one recording with it, if any.
 ///
 /// Compared are pairs of equal interval, aligned at their peaks: 32 samples
 /// on each side, and where these are alike, up to 512; scale, sign and mean
 /// do not matter.
 #[must_use]
-pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
+pub fn duplicates(records: &[&Profile]) -> Vec<Option<Duplicates>> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {
         let (first, second) = (records[i], records[j]);
@@ -306,17 +328,33 @@ pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
             return None;
         }
         let correlation = correlation(first, second);
-        (correlation > SAME_RECORDING).then_some((i, j, correlation))
+        (correlation > SAME_RECORDING).then_some(correlation)
+    };
+    let mut found: Vec<Option<Duplicates>> = vec![None; records.len()];
+    let mut note = |of: usize, by: usize, correlation| {
+        let own = found[of].get_or_insert(Duplicates {
+            first: by,
+            correlation,
+            count: 0,
+        });
+        own.count += 1;
+        if by < own.first {
+            (own.first, own.correlation) = (by, correlation);
+        }
     };
     // Some records against all later ones, so that these are read once.
-    let mut found = Vec::new();
     for from in (0..records.len()).step_by(TILE) {
         let to = records.len().min(from + TILE);
         for j in from + 1..records.len() {
-            found.extend((from..to.min(j)).filter_map(|i| alike(i, j)));
+            stop::point();
+            for i in from..to.min(j) {
+                if let Some(correlation) = alike(i, j) {
+                    note(i, j, correlation);
+                    note(j, i, correlation);
+                }
+            }
         }
     }
-    found.sort_by_key(|(i, j, _): &(usize, usize, f64)| (*i, *j));
     found
 }
 
@@ -345,10 +383,11 @@ pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
         }
     }
     let profiles: Vec<_> = records.iter().map(|one| &*one.profile).collect();
-    for (i, j, correlation) in duplicates(&profiles) {
-        for (of, by) in [(i, j), (j, i)] {
-            let other = profiles[by].name.clone();
-            found[of].push(Remark::Duplicate { other, correlation });
+    for (own, others) in found.iter_mut().zip(duplicates(&profiles)) {
+        if let Some(Duplicates { first, correlation, count }) = others {
+            let other = profiles[first].name.clone();
+            let more = count - 1;
+            own.push(Remark::Duplicate { other, correlation, more });
         }
     }
     found

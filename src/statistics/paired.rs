@@ -37,6 +37,9 @@ pub enum PairedError {
     /// Too few usable pairs for the procedure.
     #[error("{0} usable pairs: expected at least 2")]
     TooFew(usize),
+    /// Too many usable pairs: their number squared would fill the memory.
+    #[error("{0} usable pairs: expected at most {most}", most = location::MOST)]
+    TooMany(usize),
     /// A margin is a share.
     #[error("margin {0}: expected a positive number, such as 0.05 for 5 %")]
     Margin(f64),

@@ -277,3 +277,13 @@ fn a_rigid_building_changes_nothing() {
     near("rigid", capacity("rigid") / capacity("ground"), 1.0, 0.1);
     assert!(capacity("roof") < 0.9 * capacity("ground"));
 }
+
+#[test]
+fn two_records_are_too_few() {
+    let place = scene("assess-two");
+    for k in 2..8 {
+        fs::remove_file(place.join(format!("suite/r{k}.at2"))).unwrap();
+    }
+    let words = "assess --objects objects.csv --suite suite --out out";
+    refused_with(&place, words, "2 records: expected at least 3");
+}

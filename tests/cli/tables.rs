@@ -36,7 +36,7 @@ fn page() -> String {
             table.name, table.about
         )
         .unwrap();
-        for Column { name, cells, unit, meaning } in &table.columns {
+        for Column { name, cells, unit, meaning, .. } in &table.columns {
             let meaning = meaning.replace('|', "\\|");
             writeln!(text, "| `{name}` | {cells} | {unit} | {meaning} |")
                 .unwrap();

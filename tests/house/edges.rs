@@ -11,7 +11,7 @@ const CORE: Edges = "
     capacity names statistics
     excitation accelerogram names number
     floor accelerogram intensity
-    fragility intensity statistics
+    fragility intensity statistics stop
     ida accelerogram block capacity excitation integrator names number
     integrator accelerogram block excitation names number stop
     intensity accelerogram names stop units

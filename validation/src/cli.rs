@@ -117,14 +117,16 @@ enum Command {
     Validate(validate::Args),
 }
 
-/// The same command, which reads `-1` behind an option as its value.
-fn reading_negatives(command: clap::Command) -> clap::Command {
+/// The same command, which reads `-1` behind an option as its value, and the
+/// names of choices in upper or lower case.
+fn reading_values(command: clap::Command) -> clap::Command {
     let read = |arg: clap::Arg| {
         let takes_values = arg.get_action().takes_values();
         let reads = takes_values && !arg.is_allow_hyphen_values_set();
+        let arg = arg.ignore_case(takes_values);
         if reads { arg.allow_negative_numbers(true) } else { arg }
     };
-    command.mut_args(read).mut_subcommands(reading_negatives)
+    command.mut_args(read).mut_subcommands(reading_values)
 }
 
 /// The same command, whose `--help` fits a screen: one paragraph an argument,
@@ -179,7 +181,7 @@ fn abort_is_a_refusal() {
 
 /// The whole command line.
 fn command() -> clap::Command {
-    reading_negatives(Cli::command())
+    reading_values(Cli::command())
 }
 
 /// Parses the arguments, runs the command and gives the exit status.

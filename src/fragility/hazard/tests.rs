@@ -15,12 +15,12 @@ const OPENQUAKE: &str = "\
 
 #[test]
 fn a_curve_of_openquake_gives_the_frequencies_of_its_site() {
-    let site_deg = Some((0.0, 0.0));
-    let options = HazardOptions { site_deg, ..HazardOptions::default() };
+    let site = Some(Site::Degrees(0.0, 0.0));
+    let options = HazardOptions { site, ..HazardOptions::default() };
     let hazard = parse(OPENQUAKE, &options).unwrap();
     assert_eq!(
         (hazard.im.clone(), hazard.unit()),
-        (Some(IntensityMeasure::Pga), "g")
+        (HazardMeasure::Of(IntensityMeasure::Pga), "g")
     );
     // -log1p(-P) by Python.
     let expected = [
@@ -37,24 +37,48 @@ fn a_curve_of_openquake_gives_the_frequencies_of_its_site() {
     let fifty = parse(&fifty, &options).unwrap();
     assert_eq!(
         (fifty.im.clone(), fifty.unit()),
-        (Some(IntensityMeasure::Pgv), "cm/s")
+        (HazardMeasure::Of(IntensityMeasure::Pgv), "cm/s")
     );
     let ratio = hazard.curve.points()[0].1 / fifty.curve.points()[0].1;
     assert!((ratio - 50.0).abs() < 1e-12);
     let one = OPENQUAKE.replace("'PGA'", "'SA(0.3)'");
     assert_eq!(
         parse(&one, &options).unwrap().im,
-        Some(IntensityMeasure::Sa(0.3))
+        HazardMeasure::Of(IntensityMeasure::Sa(0.3))
     );
 }
 
 #[test]
 fn what_is_no_curve_is_refused_with_its_line() {
-    let none = HazardOptions::default();
-    let at = |lon| HazardOptions { site_deg: Some((lon, 0.0)), ..none };
+    let of = |site| HazardOptions { site, years: None };
+    let none = of(None);
+    let at = |lon| of(Some(Site::Degrees(lon, 0.0)));
     for (text, options, expected) in [
-        (OPENQUAKE.to_owned(), none, "h.csv: found 2 such sites of 2"),
-        (OPENQUAKE.to_owned(), at(7.0), "h.csv: found 0 such sites of 2"),
+        (
+            OPENQUAKE.to_owned(),
+            none.clone(),
+            "h.csv: found 2 sites, such as 0.00000,0.00000, 0.10000,0.00000: \
+             expected one site",
+        ),
+        // A degree of the equator is 111.195 km.
+        (
+            OPENQUAKE.to_owned(),
+            at(1.1),
+            "h.csv: found no site 1.1,0 among 2: the nearest one is \
+             0.10000,0.00000, 111.195 km away",
+        ),
+        (
+            OPENQUAKE.to_owned(),
+            of(Some(Site::Id("x".into()))),
+            "h.csv: found no site x, and no column custom_site_id",
+        ),
+        (OPENQUAKE.replace("depth", "lon"), at(0.0), "found column `lon`"),
+        (OPENQUAKE.replace("depth", "lat"), at(0.0), "found column `lat`"),
+        (
+            OPENQUAKE.replace("'PGA'", "'AvgSA(2.0)'"),
+            at(0.0),
+            "h.csv:1: found imt 'AvgSA(2.0)'",
+        ),
         (
             OPENQUAKE.to_owned(),
             at(0.1),
@@ -98,10 +122,14 @@ fn what_is_no_curve_is_refused_with_its_line() {
         ),
         (
             "pga_g,annual_frequency\n0.1\n".into(),
-            none,
+            none.clone(),
             "h.csv:2: found 1 cells",
         ),
-        ("pga_g,annual_frequency\n0.1,x\n".into(), none, "h.csv:2: found `x`"),
+        (
+            "pga_g,annual_frequency\n0.1,x\n".into(),
+            none.clone(),
+            "h.csv:2: found `x`",
+        ),
         (
             "pga_g,annual_frequency\n".into(),
             at(0.0),
@@ -109,14 +137,21 @@ fn what_is_no_curve_is_refused_with_its_line() {
         ),
         (
             "im,annual_frequency\n0.1,1\n".into(),
-            none,
+            none.clone(),
             "h.csv:1: found columns",
         ),
-        ("".into(), none, "h.csv:1: found columns"),
+        ("".into(), none.clone(), "h.csv:1: found columns"),
+        // No analysis of hazard tells such a frequency.
+        (
+            "pga_g,annual_frequency\n0.1,1\n1,5e-324\n".into(),
+            none.clone(),
+            "h.csv:3: annual frequency 5e-324 of point 2: expected a number \
+             from 1e-150 to 1e150",
+        ),
         // A zero within the curve is no end of it.
         (
             "pga_g,annual_frequency\n0.1,1\n1,0\n2,1\n".into(),
-            none,
+            none.clone(),
             "h.csv:3: annual",
         ),
     ] {
@@ -125,11 +160,57 @@ fn what_is_no_curve_is_refused_with_its_line() {
     }
 }
 
+/// As `openquake/calculators/export/hazard.py` of 3.26 writes where the site
+/// model has such ids: the ids first, and two soils at one place.
+const WITH_IDS: &str = "\
+    #,,,,,\"generated_by='OpenQuake engine 3.26.2', kind='mean', \
+    investigation_time=50.0, imt='AvgSA'\"\n\
+    custom_site_id,lon,lat,depth,poe-1.00000e-01,poe-4.00000e-01\n\
+    0:CD,15.20000,37.50000,0.00000,4.0E-01,5.0E-02\n\
+    0:BC,15.20000,37.50000,0.00000,3.0E-01,4.0E-02\n\
+    1:BC,179.99999,-10.00000,0.00000,2.0E-01,3.0E-02\n";
+
+#[test]
+fn columns_of_openquake_are_found_by_name_and_sites_by_id() {
+    let of = |site: &str| {
+        let site = Some(site.parse().unwrap());
+        parse(WITH_IDS, &HazardOptions { site, years: None })
+    };
+    let hazard = of("0:BC").unwrap();
+    let (im, frequency) = hazard.curve.points()[0];
+    assert_eq!(im, 0.1);
+    // -log1p(-0.3)/50 by Python.
+    assert!((frequency / 0.007_133_498_878_774_648 - 1.0).abs() < 1e-14);
+    // OpenQuake does not write the periods of AvgSA.
+    assert_eq!(hazard.unit(), "g");
+    assert_eq!(hazard.im, HazardMeasure::AverageSa);
+    assert_eq!(hazard.remarks, [HazardRemark::Periods]);
+    // The date line parts no site from itself.
+    let points = |site| of(site).map(|hazard| hazard.curve.points().to_vec());
+    assert_eq!(points("1:BC"), points("-180.00001,-10"));
+    let two = of("15.2,37.5").unwrap_err();
+    let words = "found several sites 15.2,37.5: 15.20000,37.50000 (0:CD), \
+                 15.20000,37.50000 (0:BC): expected one site";
+    assert!(two.contains(words), "{two}");
+    let none = of("BC").unwrap_err();
+    assert!(none.contains("found no site BC among 3, such as"), "{none}");
+    assert!(none.contains("(0:CD)"), "{none}");
+}
+
+/// In a time that is not their number squared.
+#[test]
+fn many_comments_are_read() {
+    let text = "# a comment\n".repeat(400_000)
+        + "pga_g,annual_frequency\n0.1,0.01\n1,0.001\n";
+    let hazard = parse(&text, &HazardOptions::default()).unwrap();
+    assert_eq!(hazard.curve.points().len(), 2);
+}
+
 #[test]
 fn what_tells_no_frequency_at_the_ends_is_set_aside_and_counted() {
     let text = "intensity,probability_of_exceedance\n\
         0.1,1\n0.2,0.5\n0.4,0.1\n0.8,0\n1.6,0\n";
-    let options = HazardOptions { years: Some(50.0), site_deg: None };
+    let options = HazardOptions { years: Some(50.0), site: None };
     let hazard = parse(text, &options).unwrap();
     assert_eq!(
         hazard.remarks,
@@ -140,7 +221,7 @@ fn what_tells_no_frequency_at_the_ends_is_set_aside_and_counted() {
     let error = parse(&text.replace("0.4,", "0.1,"), &options).unwrap_err();
     assert!(error.starts_with("h.csv:4: intensity 0.1 of point 3"), "{error}");
     for years in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let options = HazardOptions { years: Some(years), site_deg: None };
+        let options = HazardOptions { years: Some(years), site: None };
         assert!(parse(text, &options).is_err());
     }
 }

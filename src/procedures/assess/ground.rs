@@ -5,13 +5,13 @@ use statrs::statistics::Statistics as _;
 
 use super::{
     Alternative, AssessError, AssessOptions, Assessed, Assumption, Damage,
-    NamedFloor, Object, RecordCapacity, Together,
+    LEAST_RECORDS, NamedFloor, Object, RecordCapacity, Together,
 };
 use crate::block::Restitution;
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::excitation::NormalisedRecord;
 use crate::floor::Floor;
-use crate::fragility::hazard::Hazard;
+use crate::fragility::hazard::{Hazard, HazardMeasure};
 use crate::ida::{
     Analysis, Batch, IdaCurve, IdaError, Overturned, REFINEMENT,
     ResolutionCounts, Resurrections, curves,
@@ -128,18 +128,22 @@ impl<'a> Ground<'a> {
         clusters: &'a Clusters,
         options: &AssessOptions<'a>,
     ) -> Result<Self, AssessError> {
-        if records.is_empty() {
-            return Err(AssessError::Nothing("record"));
+        if records.len() < LEAST_RECORDS {
+            return Err(AssessError::Records(records.len()));
         }
         let (im, unit) = match options.hazard {
             None => (IntensityMeasure::Pga, 1.0),
-            Some(Hazard { im: Some(im), units_per_im_unit, .. })
-                if !matches!(im, IntensityMeasure::Column(_)) =>
-            {
+            Some(Hazard {
+                im: HazardMeasure::Of(im),
+                units_per_im_unit,
+                ..
+            }) if !matches!(im, IntensityMeasure::Column(_)) => {
                 (im.clone(), *units_per_im_unit)
             }
             Some(hazard) => {
-                return Err(AssessError::Measure(hazard.unit().to_owned()));
+                let name = hazard.im.name();
+                let found = name.unwrap_or_else(|| hazard.unit().to_owned());
+                return Err(AssessError::Measure(found));
             }
         };
         let mut periods: Vec<f64> = Vec::new();
@@ -286,8 +290,12 @@ impl<'a> Ground<'a> {
         };
         for (curves, analysis) in made.iter().zip(analyses).skip(1) {
             let eta = analysis.restitution.velocity_ratio();
-            let fitted = Self::fitted(&of(curves)?, shift).map_err(refused)?;
-            beside(Assumption::Restitution(eta), self.point(fitted));
+            let assumption = Assumption::Restitution(eta);
+            let fitted = Self::fitted(&of(curves)?, shift);
+            let fitted = fitted.map_err(|source| {
+                AssessError::Alternative { id: id.clone(), assumption, source }
+            })?;
+            beside(assumption, self.point(fitted));
         }
         if shift > 0.0 {
             let fitted = Self::fitted(&intervals, 0.0).map_err(refused)?;
@@ -301,10 +309,12 @@ impl<'a> Ground<'a> {
         if analyses[0].resurrections.is_some() {
             let last = own.fitted.quantile(LAST);
             let stripes = resurrected(&made[0], threshold, last);
-            let fitted = fit_counts_alone(&stripes, shift)
-                .map_err(ProcedureError::from)
-                .map_err(refused)?;
-            beside(Assumption::Resurrections, self.point(fitted));
+            let assumption = Assumption::Resurrections;
+            let fitted = fit_counts_alone(&stripes, shift).map_err(|e| {
+                let (id, source) = (id.clone(), e.into());
+                AssessError::Alternative { id, assumption, source }
+            })?;
+            beside(assumption, self.point(fitted));
         }
         if let Some(surface) = object.surface
             && self.counts_overturning_in_pga(object)

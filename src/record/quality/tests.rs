@@ -68,7 +68,6 @@ fn a_recording_is_known_again_by_its_shape() {
         Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
     };
     // More than are compared together: the scale of each is its own.
-    let pair = |(i, j, _): &(usize, usize, f64)| (*i, *j);
     let many = (0..40).map(|k| match k {
         37 => motion(77, -0.2, 9.0),
         35 => motion(3, 0.1, 9.7),
@@ -76,6 +75,27 @@ fn a_recording_is_known_again_by_its_shape() {
     });
     let profiles: Vec<_> = many.map(|record| Profile::of(&record)).collect();
     let found = duplicates(&profiles.iter().collect::<Vec<_>>());
-    let pairs: Vec<_> = found.iter().map(pair).collect();
-    assert_eq!(pairs, [(0, 37), (1, 35)]);
+    let others: Vec<(usize, usize, usize)> = (0..)
+        .zip(&found)
+        .filter_map(|(i, of)| of.map(|of| (i, of.first, of.count)))
+        .collect();
+    assert_eq!(others, [(0, 37, 1), (1, 35, 1), (35, 1, 1), (37, 0, 1)]);
+}
+
+/// A remark names one record, however many are alike: their number squared
+/// would fill the memory.
+#[test]
+fn many_copies_of_a_record_have_a_remark_each() {
+    let copy = |k: usize| {
+        Accelerogram::try_new(&format!("r{k:03}"), 0.01, clean()).unwrap()
+    };
+    let all: Vec<_> = (0..600).map(copy).collect();
+    let all: Vec<_> =
+        all.iter().map(|record| Remarked::of(record, None, &[])).collect();
+    let found = remarks_together(&all);
+    assert!(found.iter().all(|remarks| remarks.len() == 1));
+    let words = |k: usize| found[k][0].to_string();
+    assert!(words(0).contains("with r001 about"), "{}", words(0));
+    assert!(words(7).contains("with r000 about"), "{}", words(7));
+    assert!(words(599).contains("the like with 598 others"), "{}", words(599));
 }

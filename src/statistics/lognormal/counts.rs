@@ -6,6 +6,9 @@ use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 
+/// Records of all stripes, at most: each is an observation.
+const MOST_RECORDS: u64 = 1_000_000;
+
 /// The records run at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stripe {
@@ -62,9 +65,12 @@ pub struct CountsFit {
 ///
 /// # Errors
 /// [`FitError::Stripe`] for a stripe that counts more than its records, or
-/// lies not above the shift, [`FitError::Parted`] where one intensity parts
-/// stripes without from stripes with exceedances only, so that the
-/// likelihood has no maximum.
+/// lies not above the shift, [`FitError::Records`] for more than 1,000,000
+/// records. Where the likelihood has no maximum:
+/// [`FitError::NoneExceeded`] and [`FitError::AllExceeded`] for counts of one
+/// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] where one
+/// intensity parts stripes without from stripes with exceedances only,
+/// [`FitError::NotRising`] for shares that do not rise with the intensity.
 pub fn fit_counts(
     stripes: &[Stripe],
     shift: f64,
@@ -116,8 +122,15 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }
+    let records = stripes.iter().map(|stripe| u64::from(stripe.n)).sum();
+    if records > MOST_RECORDS {
+        return Err(FitError::Records(records));
+    }
     let (mut known, mut places) = (Vec::new(), Vec::new());
-    let (mut last_below, mut first_above) = (f64::NEG_INFINITY, f64::INFINITY);
+    // The highest intensity that a record stood, the lowest one that a record
+    // exceeded the level at.
+    let mut last_below = (f64::NEG_INFINITY, f64::NAN);
+    let mut first_above = (f64::INFINITY, f64::NAN);
     let mut coefficients = 0.0;
     for (i, &Stripe { im, exceeded, n }) in stripes.iter().enumerate() {
         let known_im = im > shift && im.is_finite();
@@ -131,23 +144,55 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
         known.extend(std::iter::repeat_n(failed, k));
         let stands = Interval(y, f64::INFINITY);
         known.extend(std::iter::repeat_n(stands, stood));
-        if k > 0 {
-            first_above = first_above.min(y);
+        if k > 0 && y < first_above.0 {
+            first_above = (y, im);
         }
-        if stood > 0 {
-            last_below = last_below.max(y);
+        if stood > 0 && y > last_below.0 {
+            last_below = (y, im);
         }
         places.push(y);
         coefficients += ln_choose(n, exceeded);
     }
-    if !(last_below > first_above) {
-        return Err(FitError::Parted);
+    let (below, above) = (last_below.1, first_above.1);
+    if above.is_nan() {
+        return Err(FitError::NoneExceeded);
+    }
+    if below.is_nan() {
+        return Err(FitError::AllExceeded);
+    }
+    if last_below.0 == first_above.0 {
+        return Err(FitError::OneMixedStripe { im: below });
+    }
+    if !(last_below.0 > first_above.0) {
+        return Err(FitError::Parted { below, above });
+    }
+    if !rises(stripes, &places) {
+        return Err(FitError::NotRising);
     }
     let lowest = places.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (centre, spread) = (0.5 * (lowest + highest), highest - lowest);
     let found = maximise(&known, centre, spread)?;
     Ok((known, coefficients, found))
+}
+
+/// Whether the likelihood rises with 1/dispersion from 0, where all stripes
+/// have one probability: since it is concave, it has a maximum there or
+/// nowhere.
+fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
+    let sum = |of: &dyn Fn(&Stripe) -> f64| {
+        stripes.iter().fold(0.0, |sum, stripe| sum + of(stripe))
+    };
+    let share = sum(&|s| s.exceeded.into()) / sum(&|s| s.n.into());
+    let (mut rise, mut size) = (0.0, 0.0);
+    for (stripe, place) in stripes.iter().zip(places) {
+        let excess = f64::from(stripe.exceeded) - share * f64::from(stripe.n);
+        let part = excess * (place - places[0]);
+        rise += part;
+        size += part.abs();
+    }
+    // Rounding raises equal shares by less.
+    rise > 1e-12 * size
 }
 
 /// ln of the number of ways to choose k of n: a sum of logarithms.

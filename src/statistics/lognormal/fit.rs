@@ -136,9 +136,22 @@ pub enum FitError {
         /// Size of the sample.
         n: usize,
     },
+    /// Nothing is known but that each value is above a limit.
+    #[error("all {0} values are censored: expected at least one that is not")]
+    AllCensored(usize),
     /// All values are equal, to rounding.
     #[error("the logarithms do not vary: expected distinct values")]
     Degenerate,
+    /// One number may be every value.
+    #[error(
+        "all {n} values, censored ones included, may be {value}: expected values that tell a dispersion"
+    )]
+    OneValue {
+        /// The number.
+        value: f64,
+        /// Number of values.
+        n: usize,
+    },
     /// An interval holds its value.
     #[error(
         "interval {number}, from {low} to {high}: expected low <= high, above the shift"
@@ -165,11 +178,42 @@ pub enum FitError {
         /// Records run.
         n: u32,
     },
+    /// More records than memory and time are meant for.
+    #[error("{0} records in all stripes: expected at most 1000000")]
+    Records(u64),
+    /// No stripe has an exceedance.
+    #[error(
+        "no record exceeded the level at any intensity: expected a stripe in which some did"
+    )]
+    NoneExceeded,
+    /// No stripe has a record without exceedance.
+    #[error(
+        "every record exceeded the level at every intensity: expected a stripe in which some did not"
+    )]
+    AllExceeded,
+    /// One stripe has records of both kinds, and parts the others.
+    #[error(
+        "the stripe at {im} alone has both records that exceeded the level and records that did not: expected another such stripe, without which the counts tell no dispersion"
+    )]
+    OneMixedStripe {
+        /// Its intensity.
+        im: f64,
+    },
     /// One intensity parts all stripes without from all with exceedance.
     #[error(
-        "every stripe up to some intensity has no exceedance and every one from there on only exceedances: the counts tell no dispersion"
+        "every stripe up to {below} has no exceedance and every one from {above} on only exceedances: expected stripes with both, without which the counts tell no dispersion"
     )]
-    Parted,
+    Parted {
+        /// The highest intensity without exceedance.
+        below: f64,
+        /// The lowest intensity with exceedances.
+        above: f64,
+    },
+    /// The shares of exceedance call for no rising fragility.
+    #[error(
+        "the shares of records that exceeded the level do not rise with the intensity: expected more exceedances at higher intensities"
+    )]
+    NotRising,
     /// The likelihood rises up to the sample's smallest value.
     #[error(
         "the likelihood has no maximum over the shift below the smallest value"
@@ -221,6 +265,9 @@ pub fn fit(
 ) -> Result<LognormalFit, FitError> {
     let y = shifted_finite(sample, shift)?;
     let (n, censored) = (sample.len(), sample.censored());
+    if y.is_empty() {
+        return Err(FitError::AllCensored(n));
+    }
     let complete = || match censored {
         0 => Ok(y.as_slice()),
         _ => Err(FitError::Infinite { censored, n }),
@@ -344,10 +391,14 @@ pub fn fit_intervals(
     if n_kept < 2 {
         return Err(FitError::TooFew(n_kept));
     }
+    if lowest_high == f64::INFINITY {
+        return Err(FitError::AllCensored(n_kept));
+    }
     // A point in or at the end of all of them would be a maximum with no
     // dispersion.
     if highest_low <= lowest_high {
-        return Err(FitError::Degenerate);
+        let value = lowest_high;
+        return Err(FitError::OneValue { value, n: n_kept });
     }
     let spread = (sum_of_squares(&middles) / n_kept as f64).sqrt();
     let (log_mean, dispersion, value) =

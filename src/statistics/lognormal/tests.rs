@@ -1,5 +1,5 @@
 use super::*;
-use crate::statistics::QuantileType;
+use crate::statistics::{CensoredSample, QuantileType};
 
 /// The sample of `fixtures/oracles/lognormal.py`.
 const X: [f64; 22] = [
@@ -137,16 +137,51 @@ fn counts_agree_with_statsmodels_and_mpmath() {
 fn counts_that_tell_no_dispersion_are_refused() {
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
     let refused = |stripes: &[Stripe]| fit_counts(stripes, 1.0).unwrap_err();
-    assert_eq!(refused(&[stripe(1.5, 0), stripe(2.0, 9)]), FitError::Parted);
-    assert_eq!(refused(&[stripe(1.5, 3)]), FitError::Parted);
-    assert_eq!(refused(&[]), FitError::Parted);
-    // More exceed where less shakes.
-    let falling = refused(&[stripe(1.5, 5), stripe(2.0, 2)]);
-    assert!(matches!(falling, FitError::NotConverged(_)), "{falling}");
+    let parted = FitError::Parted { below: 1.5, above: 2.0 };
+    assert_eq!(refused(&[stripe(1.5, 0), stripe(2.0, 9)]), parted);
+    let one = FitError::OneMixedStripe { im: 1.5 };
+    assert_eq!(refused(&[stripe(1.5, 3)]), one);
+    assert_eq!(refused(&[stripe(1.2, 0), stripe(1.5, 3)]), one);
+    assert_eq!(refused(&[stripe(1.5, 3), stripe(2.0, 9)]), one);
+    assert_eq!(refused(&[stripe(1.5, 0); 3]), FitError::NoneExceeded);
+    assert_eq!(refused(&[stripe(1.5, 9); 3]), FitError::AllExceeded);
+    assert_eq!(refused(&[]), FitError::NoneExceeded);
+    // More exceed where less shakes, and as many everywhere: also where all
+    // do at one intensity and none at a higher one.
+    for falling in [(5, 2), (3, 3), (9, 0), (1, 1)] {
+        let stripes = [stripe(1.5, falling.0), stripe(2.0, falling.1)];
+        assert_eq!(refused(&stripes), FitError::NotRising, "{falling:?}");
+    }
+    // What rises least has a fit.
+    let stripe = |im, exceeded| Stripe { im, exceeded, n: 900 };
+    let (least, more) = (stripe(1.5, 300), stripe(2.0, 301));
+    assert!(fit_counts(&[least, more], 1.0).is_ok());
+    let many = |n| Stripe { im: 1.5, exceeded: 1, n };
+    let error = refused(&[many(999_999), many(2)]);
+    assert_eq!(error, FitError::Records(1_000_001));
+    let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
     for wrong in [stripe(1.0, 3), stripe(2.0, 10), stripe(f64::NAN, 3)] {
         let error = refused(&[stripe(1.5, 3), wrong]);
         assert!(matches!(error, FitError::Stripe { number: 2, .. }));
     }
+}
+
+#[test]
+fn what_is_all_censored_is_refused_as_such() {
+    let inf = f64::INFINITY;
+    let limits = [Some(3.0), Some(4.0), Some(5.0)];
+    let sample = CensoredSample::try_new(&[inf; 3], &limits).unwrap();
+    let unlimited = CensoredSample::try_new(&[inf; 3], &[]).unwrap();
+    for method in FitMethod::all(QuantileType::default()) {
+        let refused = |s: &CensoredSample| s.fit(0.0, method).unwrap_err();
+        assert_eq!(refused(&sample), FitError::AllCensored(3), "{method}");
+        assert_eq!(refused(&unlimited), FitError::AllCensored(3), "{method}");
+    }
+    // Values that may all be one, the censored ones too.
+    let limits = [None, Some(3.0), None];
+    let sample = CensoredSample::try_new(&[4.0, inf, 4.0], &limits).unwrap();
+    let error = sample.fit(0.0, FitMethod::MaximumLikelihood).unwrap_err();
+    assert_eq!(error, FitError::OneValue { value: 4.0, n: 3 });
 }
 
 #[test]

@@ -106,6 +106,10 @@ pub fn sign_equivalence(
     Ok(SignEquivalence { margin, p_lower, p_upper, p_value })
 }
 
+/// Ratios of Hodges and Lehmann's estimate, at most: their pairwise means
+/// are held together.
+pub(super) const MOST: usize = 3000;
+
 /// The median of pairwise means of ln ratio, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -128,11 +132,15 @@ pub struct HodgesLehmann {
 /// ratios, by the normal approximation beyond.
 ///
 /// # Errors
-/// [`PairedError::TooFew`] for fewer than 2 ratios.
+/// [`PairedError::TooFew`] for fewer than 2 ratios, [`PairedError::TooMany`]
+/// for more than 3000.
 pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
     let n = ratios.len();
     if n < 2 {
         return Err(PairedError::TooFew(n));
+    }
+    if n > MOST {
+        return Err(PairedError::TooMany(n));
     }
     let logs: Vec<f64> = ratios.iter().map(|r| log(*r)).collect();
     let mut walsh = Vec::with_capacity(n * (n + 1) / 2);

@@ -40,6 +40,8 @@ fn bad_pairs_and_margins_are_refused() {
     assert_eq!(equivalence(&[1.0, 1.0], 0.1), Err(PairedError::Degenerate));
     assert_eq!(equivalence(&[1.0], 0.1), Err(PairedError::TooFew(1)));
     assert_eq!(hodges_lehmann(&[1.0]), Err(PairedError::TooFew(1)));
+    let many = vec![1.0; 1 << 20];
+    assert_eq!(hodges_lehmann(&many), Err(PairedError::TooMany(1 << 20)));
     // Few ratios reach no 95 %: the smallest and the largest hold the centre
     // unless all lie on one side of it.
     let level = |n| hodges_lehmann(&[1.0, 1.1, 1.2, 0.9, 1.3, 0.8][..n]);

@@ -1,10 +1,12 @@
 //! The table of blocks: CSV, one row a block, the same for all commands.
 
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use rocking::block::{Block, Restitution};
 use rocking_exchange::Id;
+use rocking_exchange::read::{no_csv, reader};
 use serde::Deserialize;
 
 use crate::failure::{At as _, Failure};
@@ -71,16 +73,26 @@ impl Row {
 /// [`Failure`] with the line for another column, a cell of another form, a
 /// block out of range, a name that comes again, and no row at all.
 pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
+    parse(input::open(path)?, path, gravity_m_s2)
+}
+
+/// Reads the text of such a table; `path` is its name in messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(
+    from: impl Read,
+    path: &Path,
+    gravity_m_s2: f64,
+) -> Result<Vec<Row>, Failure> {
     let place = path.display();
-    let file = input::open(path)?;
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-    let header = reader.headers().at(&place)?.clone();
+    let mut reader = reader(from, csv::Trim::All, None);
+    let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut rows: Vec<Row> = Vec::new();
     let mut ids = BTreeMap::new();
     for record in reader.records() {
-        let record = record.at(&place)?;
+        let record = record.map_err(|e| no_csv(path, e))?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));

@@ -1,10 +1,12 @@
 //! The table of floors: CSV, one row a floor of a building.
 
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::Path;
 
 use rocking::floor::Floor;
 use rocking_exchange::Id;
+use rocking_exchange::read::{no_csv, reader};
 use serde::Deserialize;
 
 use super::blocks::Row;
@@ -31,14 +33,23 @@ struct Cells {
 /// [`Failure`] with the line for another column, a cell of another form, a
 /// floor out of range, a name that comes again, and no row at all.
 pub fn read(path: &Path) -> Result<BTreeMap<Id, Floor>, Failure> {
+    parse(input::open(path)?, path)
+}
+
+/// Reads the text of such a table; `path` is its name in messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(
+    from: impl Read,
+    path: &Path,
+) -> Result<BTreeMap<Id, Floor>, Failure> {
     let place = path.display();
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_reader(input::open(path)?);
-    let header = reader.headers().at(&place)?.clone();
+    let mut reader = reader(from, csv::Trim::All, None);
+    let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
     let mut floors = BTreeMap::new();
     for record in reader.records() {
-        let record = record.at(&place)?;
+        let record = record.map_err(|e| no_csv(path, e))?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
@@ -158,6 +169,10 @@ mod tests {
                 "floors.csv:2: damping ratio NaN",
             ),
             (&*format!("{head}\n,1,0.05,1\n"), "floors.csv:2: "),
+            (
+                &*format!("{head}\na,1,0.05,\"1\n"),
+                "floors.csv: a cell that begins with a quote on line 2 has",
+            ),
             (
                 &*format!("{head}\na,1,0.05,1\na,1,0.05,1\n"),
                 "floors.csv:3: floor a",

@@ -1,7 +1,7 @@
 //! `rocking fragility`: lognormal fragilities, one subcommand a source.
 
 mod choose;
-mod counts;
+pub mod counts;
 pub(super) mod export;
 pub(super) mod fit;
 pub mod source;

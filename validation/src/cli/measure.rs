@@ -10,10 +10,11 @@ use rocking::intensity::{AtUplift, IntensityMeasure, Measures, Settings};
 use rocking::procedures::ranking::Candidate;
 use rocking::record::{SetAside, SuiteMember};
 use rocking_exchange::ida::IdaTable;
+use rocking_exchange::read::{no_csv, reader};
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use crate::failure::{At as _, Failure};
+use crate::failure::Failure;
 use crate::input;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
@@ -130,7 +131,7 @@ impl GroundArgs {
             })?;
             let measures = Measures::of(&member.accelerogram, &settings)?;
             let mut attributes = member.attributes_by_name();
-            attributes.extend(own.get(name).into_iter().flatten().cloned());
+            attributes.extend(own.of(name));
             Ok(Unscaled { name: name.to_owned(), measures, attributes })
         });
         let records = measured.collect::<Result<Vec<_>, Failure>>()?;
@@ -228,33 +229,42 @@ impl Ground {
     }
 }
 
-/// Attributes by record.
-type Attributes = BTreeMap<String, Vec<(String, String)>>;
+/// A table of attributes by record.
+#[derive(Default)]
+struct Attributes {
+    header: csv::StringRecord,
+    rows: BTreeMap<String, csv::StringRecord>,
+}
+
+impl Attributes {
+    /// Names and cells of a record.
+    fn of(&self, record: &str) -> impl Iterator<Item = (String, String)> {
+        let row = self.rows.get(record).into_iter();
+        let cells = row.flat_map(|row| self.header.iter().zip(row));
+        cells.map(|(name, cell)| (name.to_owned(), cell.to_owned()))
+    }
+}
 
 fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
     let place = path.display();
-    let file = input::open(path)?;
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-    let header = reader.headers().at(&place)?.clone();
+    let mut reader = reader(input::open(path)?, csv::Trim::All, None);
+    let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
     let Some(key) = header.iter().position(|name| name == "record") else {
         return Err(Failure::input(format!(
             "{place}:1: found columns `{}`: expected one named `record`",
             header.iter().collect::<Vec<_>>().join(",")
         )));
     };
-    let mut all = Attributes::new();
+    let mut rows = BTreeMap::new();
     for row in reader.records() {
-        let row = row.at(&place)?;
+        let row = row.map_err(|e| no_csv(path, e))?;
         let line = row.position().map_or(0, csv::Position::line);
-        let cells = header.iter().zip(&row);
-        let cells = cells.map(|(name, cell)| (name.into(), cell.into()));
-        if all.insert(row[key].to_owned(), cells.collect()).is_some() {
+        let record = row[key].to_owned();
+        if rows.insert(record.clone(), row).is_some() {
             return Err(Failure::input(format!(
-                "{place}:{line}: record {} comes again: expected it once",
-                &row[key]
+                "{place}:{line}: record {record} comes again: expected it once"
             )));
         }
     }
-    Ok(all)
+    Ok(Attributes { header, rows })
 }

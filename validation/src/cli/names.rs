@@ -21,7 +21,8 @@ pub fn named<T: Copy + Send + Sync + 'static, const N: usize>(
         if help.is_empty() { name } else { name.help(help) }
     });
     PossibleValuesParser::new(names).try_map(move |found| {
-        let value = values.into_iter().find(|value| name(*value) == found);
+        let is_it = |value: &T| name(*value).eq_ignore_ascii_case(&found);
+        let value = values.into_iter().find(is_it);
         value.ok_or("expected one of the names")
     })
 }

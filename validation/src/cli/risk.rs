@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::fragility::hazard::{Hazard, HazardOptions};
+use rocking::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking::procedures::{Exposed, FitOptions, Shift, risk};
 use rocking::statistics::{Lognormal, QuantileType};
 
@@ -76,16 +76,11 @@ pub struct Args {
 }
 
 /// Where and for how long a hazard curve holds.
-#[derive(ClapArgs, Clone, Copy, Debug)]
+#[derive(ClapArgs, Clone, Debug)]
 pub struct SiteArgs {
-    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
-    #[arg(
-        long,
-        value_name = "LON,LAT",
-        value_parser = site,
-        allow_hyphen_values = true
-    )]
-    site: Option<(f64, f64)>,
+    /// Site in OpenQuake's CSV of several: its place or its custom_site_id.
+    #[arg(long, value_name = "LON,LAT|ID", allow_hyphen_values = true)]
+    site: Option<Site>,
     /// Years of probabilities, also of a curve's without its own [default: 50].
     #[arg(long, value_name = "T")]
     years: Option<f64>,
@@ -97,7 +92,7 @@ const YEARS: f64 = 50.0;
 impl SiteArgs {
     /// Years of the probabilities that are printed.
     #[must_use]
-    pub fn years(self) -> f64 {
+    pub fn years(&self) -> f64 {
         self.years.unwrap_or(YEARS)
     }
 
@@ -106,23 +101,17 @@ impl SiteArgs {
     ///
     /// # Errors
     /// [`Failure`] with file and line.
-    pub fn read(self, path: &Path) -> Result<Hazard, Failure> {
+    pub fn read(&self, path: &Path) -> Result<Hazard, Failure> {
         let place = path.display().to_string();
         let text = input::text(path)?;
-        let options = HazardOptions { years: self.years, site_deg: self.site };
+        let site = self.site.clone();
+        let options = HazardOptions { years: self.years, site };
         let hazard = Hazard::parse(&place, &text, &options)?;
         for remark in &hazard.remarks {
             note(&format!("{place}: {remark}"));
         }
         Ok(hazard)
     }
-}
-
-fn site(text: &str) -> Result<(f64, f64), String> {
-    let degrees = text.split_once(',').and_then(|(lon, lat)| {
-        Some((lon.trim().parse().ok()?, lat.trim().parse().ok()?))
-    });
-    degrees.ok_or_else(|| "expected longitude,latitude in degrees".into())
 }
 
 /// What the fragilities come from.
@@ -230,7 +219,7 @@ fn of_source(
     let mut all = Vec::new();
     for options in &fits {
         let unit = hazard.units_per_im_unit;
-        let own = source.against(hazard.im.as_ref(), options)?;
+        let own = source.against(&hazard.im, options)?;
         for (name, (law, sampled)) in own {
             let fitted = law.scaled(unit)?;
             let name = name.map_or(String::new(), |name| name + ", ");

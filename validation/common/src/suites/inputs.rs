@@ -131,8 +131,10 @@ pub fn visit<K, E: From<SuiteError>>(
 /// Reads every record of the zip `archive`, which `shown` names in messages.
 ///
 /// All that is read from it may be six times its size and an index half of
-/// it (1 MiB and 85 KiB, if it is small), so that 1 MiB takes less than
-/// 64 MiB of memory, whoever packed it.
+/// it (1 MiB and 85 KiB, if it is small), and no two of its files may have
+/// bytes in common. Reading 1 MiB takes less than 64 MiB of memory and a
+/// command that reads it less than 256 MiB, whoever packed it
+/// (`tests/memory.rs`).
 ///
 /// # Errors
 /// As [`visit`].
@@ -164,6 +166,13 @@ pub fn visit_zip<K, E: From<SuiteError>>(
         None => Vec::new(),
     };
     let mut archive = ZipArchive::new(archive).map_err(refuse)?;
+    if let Some((one, other)) = shared(&mut archive) {
+        let reason = format!(
+            "files {one} and {other} of the archive share their bytes: \
+             expected each file once"
+        );
+        return Err(unreadable(reason).into());
+    }
     let mut names = Vec::new();
     for name in archive.file_names() {
         names.push(name.map_err(refuse)?.into_owned());
@@ -189,6 +198,28 @@ pub fn visit_zip<K, E: From<SuiteError>>(
         })
     };
     Survey::of_files(shown, &names, options, unpacked, keep)
+}
+
+/// Two files of an archive that have bytes of it in common: by such, a small
+/// archive holds any number of records.
+fn shared(
+    archive: &mut ZipArchive<impl Read + Seek>,
+) -> Option<(String, String)> {
+    let mut parts = Vec::new();
+    for index in 0..archive.len() {
+        // One that cannot be found is refused where it is read.
+        let Ok(file) = archive.by_index_raw(index) else { continue };
+        let Some(data) = file.data_start() else { continue };
+        let end = data.saturating_add(file.compressed_size());
+        parts.push((file.header_start(), end, index));
+    }
+    parts.sort_unstable();
+    let overlap = parts.windows(2).find(|pair| pair[1].0 < pair[0].1)?;
+    let name = |index| {
+        let name = archive.name_for_index(index).and_then(Result::ok);
+        name.map_or(String::new(), |name| name.escape_debug().to_string())
+    };
+    Some((name(overlap[0].2), name(overlap[1].2)))
 }
 
 /// Names in the central directory of an archive, from its `start` on, that
@@ -289,6 +320,36 @@ mod tests {
     use std::fs;
 
     use super::*;
+
+    #[test]
+    fn files_of_a_zip_that_share_their_bytes_are_refused() {
+        use std::io::{Cursor, Write as _};
+        let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let stored = zip::write::SimpleFileOptions::default()
+            .compression_method(zip::CompressionMethod::Stored);
+        for name in ["a.txt", "b.txt"] {
+            zip.start_file(name, stored).unwrap();
+            zip.write_all(b"0\n0.1\n-0.2\n").unwrap();
+        }
+        let mut bytes = zip.finish().unwrap().into_inner();
+        let unit = Some(rocking::units::AccelerationUnit::Gravity);
+        let read =
+            ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
+        let visit = |bytes: &[u8]| {
+            let keep = Ok::<_, SuiteError>;
+            let found = visit_zip("x.zip", Cursor::new(bytes), &read, keep);
+            found.map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(visit(&bytes), Ok(()));
+        // The second file's place, 42 bytes behind its entry's signature.
+        let entries = bytes.windows(4).enumerate();
+        let mut entries = entries.filter(|(_, b)| *b == b"PK\x01\x02");
+        let (second, _) = entries.nth(1).unwrap();
+        bytes[second + 42..second + 46].fill(0);
+        let error = visit(&bytes).unwrap_err();
+        assert!(error.contains("files a.txt and b.txt"), "{error}");
+        assert!(error.contains("share their bytes"), "{error}");
+    }
 
     #[test]
     fn a_record_that_changed_between_two_readings_is_refused() {

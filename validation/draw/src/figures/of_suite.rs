@@ -2,7 +2,7 @@
 //! which is asked for its values at the intensities that are drawn.
 
 use rocking::capacity::ResponseCurve;
-use rocking::fragility::hazard::Hazard;
+use rocking::fragility::hazard::{Hazard, HazardMeasure};
 use rocking::intensity::IntensityMeasure as M;
 use rocking::procedures::{Exposed, StripeResponses};
 
@@ -202,10 +202,11 @@ pub fn risk_svg(hazard: &Hazard, all: &[Exposed]) -> String {
 /// The intensity of a hazard curve with its unit, as an axis label.
 fn intensity(hazard: &Hazard) -> String {
     match &hazard.im {
-        None => "intensity, unit of the fragility".to_owned(),
-        Some(im @ (M::Pga | M::Pgv)) => {
+        HazardMeasure::Own => "intensity, unit of the fragility".to_owned(),
+        HazardMeasure::Of(im @ (M::Pga | M::Pgv)) => {
             format!("{} ({})", im.to_string().to_uppercase(), hazard.unit())
         }
-        Some(other) => markup::escape(&other.words()),
+        HazardMeasure::Of(other) => markup::escape(&other.words()),
+        HazardMeasure::AverageSa => format!("AvgSA ({})", hazard.unit()),
     }
 }

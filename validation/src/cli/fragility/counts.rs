@@ -2,6 +2,7 @@
 //! each intensity.
 
 use std::borrow::Cow;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
@@ -21,7 +22,7 @@ use rocking_common::files::Outputs;
 use rocking_draw::figures::of_suite::fragilities_svg;
 use rocking_exchange::FileError;
 use rocking_exchange::columns::{COUNTS, OUTCOMES};
-use rocking_exchange::read::{Cells, rows};
+use rocking_exchange::read::{Cells, no_csv, reader, rows};
 
 /// Fits a lognormal fragility to counts: how many of n records exceeded a
 /// level, or overturned, at each intensity.
@@ -37,7 +38,8 @@ use rocking_exchange::read::{Cells, rows};
 )))]
 pub(super) struct Args {
     /// Table of counts, columns intensity,exceeded,n, or of outcomes,
-    /// columns intensity,record,event,exceeded; `-` is standard input.
+    /// columns intensity,record,exceeded and event where known; `-` is
+    /// standard input.
     #[arg(long, value_name = "FILE.csv")]
     counts: PathBuf,
     /// Shift IM_R, not negative.
@@ -72,7 +74,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// What a table says of stripes.
 #[derive(Debug)]
-pub(super) enum Counted {
+pub enum Counted {
     /// Counts alone.
     Stripes(Vec<Stripe>),
     /// What became of each record.
@@ -122,7 +124,8 @@ impl Counted {
     }
 
     /// The counts.
-    pub(super) fn stripes(&self) -> Cow<'_, [Stripe]> {
+    #[must_use]
+    pub fn stripes(&self) -> Cow<'_, [Stripe]> {
         match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),
             Self::Records(all, _) => Outcome::stripes(all, |_| 1).into(),
@@ -131,12 +134,21 @@ impl Counted {
 }
 
 /// Reads a table of counts, or of outcomes.
+///
+/// # Errors
+/// [`Failure`] for a file that cannot be read, and as [`parse`].
 pub(super) fn read(path: &Path) -> Result<Counted, Failure> {
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(input::open(path)?);
-    let head = reader.headers().map_err(|e| FileError::new(path, None, e))?;
+    Ok(parse(input::open(path)?, path)?)
+}
+
+/// Reads the text of a table of counts, or of outcomes; `path` is its name in
+/// messages.
+///
+/// # Errors
+/// [`FileError`] with the line for another column and a cell of another form.
+pub fn parse(from: impl Read, path: &Path) -> Result<Counted, FileError> {
+    let mut reader = reader(from, csv::Trim::All, Some(b'#'));
+    let head = reader.headers().map_err(|e| no_csv(path, e))?;
     if head.iter().any(|column| column == "record") {
         return outcomes(path, &mut reader);
     }
@@ -155,26 +167,26 @@ pub(super) fn read(path: &Path) -> Result<Counted, Failure> {
 }
 
 /// Reads a table of outcomes.
-fn outcomes<R: std::io::Read>(
+fn outcomes<R: Read>(
     path: &Path,
     reader: &mut csv::Reader<R>,
-) -> Result<Counted, Failure> {
+) -> Result<Counted, FileError> {
     let mut events: IndexMap<String, String> = IndexMap::new();
     let mut all = Vec::new();
     for cells in rows(&OUTCOMES, reader, path)? {
         let cells = cells?;
-        let (record, event) = (&cells.fields[1], &cells.fields[2]);
+        let (record, event) = (cells.name(1)?, cells.name(2)?);
         let first = events.first().map_or(event, |(_, first)| first.as_str());
         if first.is_empty() != event.is_empty() {
             let expected = "the earthquake of every record, or of none";
-            return Err(cells.refuse(2, expected).into());
+            return Err(cells.refuse(2, expected));
         }
         let entry = events.entry(record.to_owned());
         let place = entry.index();
         let own = entry.or_insert_with(|| event.to_owned());
         if own.as_str() != event {
             let expected = format!("{own}, as before");
-            return Err(cells.refuse(2, expected).into());
+            return Err(cells.refuse(2, expected));
         }
         let one = |count: &u32| *count <= 1;
         all.push(Outcome {

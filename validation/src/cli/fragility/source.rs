@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::Block;
 use rocking::capacity::InversionRule;
+use rocking::fragility::hazard::HazardMeasure;
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::procedures::{
@@ -383,18 +384,19 @@ impl Source {
         self.samples.keys().cloned().collect()
     }
 
-    /// The fragilities in the unit of a measure; without a measure in that of
-    /// their values. Where there are several, they have names.
+    /// The fragilities in the unit of a hazard curve's measure; where that is
+    /// their own, in that of their values. Where there are several, they have
+    /// names.
     ///
     /// # Errors
     /// [`Failure`] for values that make no fit, or are of another measure,
     /// and for a block where the unit is that of the values.
     pub fn against(
         &self,
-        im: Option<&IntensityMeasure>,
+        im: &HazardMeasure,
         options: &FitOptions,
     ) -> Result<Vec<(Option<String>, Law)>, Failure> {
-        if im.is_none()
+        if *im == HazardMeasure::Own
             && let Some(row) = self.rows.first()
         {
             return Err(Failure::input(format!(
@@ -404,16 +406,15 @@ impl Source {
                 row.place
             )));
         }
-        let is_own = im.is_none_or(|im| im.dimensionless().is_none())
-            && self.rows.is_empty();
+        let is_own = im.dimensionless().is_none() && self.rows.is_empty();
         let own = self.samples.values().chain(&self.levels);
         for level in own {
-            if let Some(im) = im
-                && level.im()? != im
+            if let Some(im_name) = im.name()
+                && !im.is_of(level.im()?)
             {
                 return Err(Failure::input(format!(
-                    "{}: a sample of {}, a hazard curve of {im}: expected \
-                     the same measure",
+                    "{}: a sample of {}, a hazard curve of {im_name}: \
+                     expected the same measure",
                     level.place,
                     level.im()?.words(),
                 )));

@@ -1,0 +1,122 @@
+//! CSV whose last quoted cell has its closing quote.
+
+use std::io::{self, Read};
+
+/// Where in a line of CSV a byte is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// At the start of a line.
+    Line,
+    /// At the start of a cell.
+    Cell,
+    /// In a cell without quotes, or behind a closing quote.
+    Plain,
+    /// In a quoted cell.
+    Quoted,
+    /// Behind a quote in a quoted cell: it closes the cell, or is doubled.
+    Quote,
+    /// In a comment.
+    Comment,
+}
+
+/// The byte order mark, which the crate leaves out.
+const MARK: [u8; 3] = *b"\xef\xbb\xbf";
+
+/// Bytes of CSV, with an error at their end where a quoted cell is still
+/// open: the reader of the crate `csv` takes what is there for the cell.
+pub struct Closed<R> {
+    from: R,
+    comment: Option<u8>,
+    place: Place,
+    /// Bytes of a byte order mark that were passed.
+    mark: usize,
+    /// Line from 1.
+    line: u64,
+    /// Line on which the last quoted cell begins.
+    opened: u64,
+}
+
+impl<R> Closed<R> {
+    /// The bytes of `from`, whose lines that begin with `comment` are none of
+    /// the table.
+    pub fn new(from: R, comment: Option<u8>) -> Self {
+        let place = Place::Line;
+        Self { from, comment, place, mark: 0, line: 1, opened: 1 }
+    }
+
+    fn pass(&mut self, byte: u8) {
+        use Place::{Cell, Comment, Line, Plain, Quote, Quoted};
+        if MARK.get(self.mark) == Some(&byte) {
+            self.mark += 1;
+            return;
+        }
+        self.mark = MARK.len();
+        self.place = match (self.place, byte) {
+            (Quoted, b'"') => Quote,
+            (Quoted, _) | (Quote, b'"') => Quoted,
+            (Line, byte) if Some(byte) == self.comment => Comment,
+            (Comment, byte) if byte != b'\n' => Comment,
+            (_, b'\n' | b'\r') => Line,
+            (_, b',') => Cell,
+            (Line | Cell, b'"') => {
+                self.opened = self.line;
+                Quoted
+            }
+            _ => Plain,
+        };
+        self.line += u64::from(byte == b'\n');
+    }
+}
+
+impl<R: Read> Read for Closed<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.from.read(into)?;
+        if count == 0 && !into.is_empty() && self.place == Place::Quoted {
+            let message = format!(
+                "a cell that begins with a quote on line {} has no closing \
+                 quote",
+                self.opened
+            );
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        into[..count].iter().for_each(|byte| self.pass(*byte));
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a file ends within a quoted cell, as the crate `csv` has it:
+    /// a line behind it is then part of that cell.
+    fn swallows(text: &str) -> bool {
+        let probe = format!("{text}\nprobe\n");
+        let mut reader = csv::ReaderBuilder::new();
+        reader.has_headers(false).flexible(true).comment(Some(b'#'));
+        let mut reader = reader.from_reader(probe.as_bytes());
+        let last = reader.records().last().unwrap().unwrap();
+        last.iter().collect::<Vec<_>>() != ["probe"]
+    }
+
+    #[test]
+    fn an_open_quote_is_known_as_the_crate_csv_knows_it() {
+        // All texts of these bytes up to a length.
+        let mut all = vec![String::new()];
+        let mut longest = all.clone();
+        for _ in 0..4 {
+            let longer = |text: &String| {
+                ['"', ',', '\n', '\r', '#', 'a'].map(|c| format!("{text}{c}"))
+            };
+            longest = longest.iter().flat_map(longer).collect();
+            all.extend(longest.iter().cloned());
+        }
+        let marked = all.iter().map(|text| format!("\u{feff}{text}"));
+        let marked: Vec<String> = marked.collect();
+        for text in all.into_iter().chain(marked) {
+            let mut closed = Closed::new(text.as_bytes(), Some(b'#'));
+            let read = io::read_to_string(&mut closed);
+            assert_eq!(read.is_err(), swallows(&text), "{text:?}");
+        }
+    }
+}

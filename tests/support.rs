@@ -88,7 +88,7 @@ pub fn refused_for(folder: &Path, arguments: &str, names: &[&str]) {
 }
 
 /// All files below a folder with their content, hidden ones too.
-fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+pub fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -5,15 +5,11 @@ pub mod assess;
 mod validate;
 
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use clap::{
     Arg, ArgAction, CommandFactory as _, FromArgMatches as _, Parser,
     Subcommand,
 };
-use signal_hook::consts::SIGABRT;
-use signal_hook::flag::register_conditional_shutdown;
 
 use crate::failure::Failure;
 use crate::terminal::note;
@@ -169,14 +165,6 @@ fn grouped(command: clap::Command) -> clap::Command {
     ))
 }
 
-/// Lets the program end with status 2 where it would abort: what aborts it is
-/// an allocation that fails, after the runtime has said so.
-fn abort_is_a_refusal() {
-    let always = Arc::new(AtomicBool::new(true));
-    // Where no handler can be set, the status is that of an abort.
-    let _ = register_conditional_shutdown(SIGABRT, 2, always);
-}
-
 /// The whole command line.
 fn command() -> clap::Command {
     reading_negatives(Cli::command())
@@ -185,7 +173,6 @@ fn command() -> clap::Command {
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
-    abort_is_a_refusal();
     let matches = grouped(on_a_screen(command())).get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
@@ -195,7 +182,9 @@ pub fn run() -> ExitCode {
         Command::Assess(args) => assess::run(&args),
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
-        Command::Records(args) => records::run(&args),
+        Command::Records(args) => {
+            with_threads(None, || records::run(&args)).flatten()
+        }
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => completions::run(&args, command()),

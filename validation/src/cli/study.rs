@@ -15,7 +15,7 @@ use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{At as _, Failure};
 use crate::terminal::{COMMIT, logged, note, print, say};
-use rocking_common::files::{Folder, is_interrupted};
+use rocking_common::files::{Folder, Mixed, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 use rocking_report::evidence::{NOT_RUN, Proof};
@@ -199,7 +199,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let lab = args.out.join(LAB).is_file();
     let files = output::files(&study, proof.as_ref(), &signatures, lab)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
-    folder.write(&files, output::PAGE)?;
+    folder.write(&files, &output::LAST)?;
     if args.json {
         print(&study.findings.text())
     } else {
@@ -245,10 +245,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
 fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     let name = out.display();
     if is_interrupted(out) {
-        return Err(Failure::input(format!(
-            "{name}: files of two runs: expected a folder that `rocking \
-             study` wrote to its end"
-        )));
+        return Err(Failure::input(format!("{name}: {}", Mixed::Interrupted)));
     }
     match stale::stale(out, files)? {
         None => say(&format!(

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rocking::stop;
+
 use super::content::Content;
 use super::plan::Planned;
 use super::tile;
@@ -45,6 +47,7 @@ fn as_csv(
     output: &mut Output,
 ) -> Result<(), Failure> {
     for tile in 0..planned.plan.tiles.len() {
+        stop::point();
         let text = tile::body(planned, content, tile)?;
         // The header stands once.
         output.add(if tile == 0 { &text } else { body(&text) })?;
@@ -92,6 +95,7 @@ fn as_parquet(
     let mut writer = Writer::begin(output, &table, &by)?;
     let mut row = csv::StringRecord::new();
     for tile in 0..plan.tiles.len() {
+        stop::point();
         let body = tile::body(planned, content, tile)?;
         let mut reader = csv::Reader::from_reader(body.as_bytes());
         while reader.read_record(&mut row)? {

@@ -17,7 +17,7 @@ const SAMPLE: &str = "# intensities\n1.05\n1.12 # first\n1.2\n1.21\n\n1.3\n\
     2.9\n3.1\n3.8\n4.5\n7.5\n";
 
 /// A folder with the sample and these files.
-fn with(name: &str, files: &[(&str, &str)]) -> PathBuf {
+fn with(name: &str, files: &[(&str, &str)]) -> crate::support::Place {
     let own = [("sample.txt", SAMPLE)];
     folder(&format!("samples-{name}"), &[&own, files].concat())
 }

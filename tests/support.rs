@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde_json::Value;
+use tempfile::{Builder, TempDir};
 
 use super::compare::near;
 
@@ -104,12 +106,29 @@ pub fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     found
 }
 
-/// A fresh folder with the given files.
-pub fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder =
-        Path::new(env!("CARGO_TARGET_TMPDIR")).join("gate").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
+/// A folder of a test's own, which is removed with the test: two runs of the
+/// tests at once do not see each other.
+pub struct Place(TempDir);
+
+impl Deref for Place {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        self.0.path()
+    }
+}
+
+impl AsRef<Path> for Place {
+    fn as_ref(&self) -> &Path {
+        self
+    }
+}
+
+/// A fresh folder with the given files, whose name begins so.
+pub fn folder(name: &str, files: &[(&str, &str)]) -> Place {
+    let root = env!("CARGO_TARGET_TMPDIR");
+    let folder = Builder::new().prefix(name).tempdir_in(root);
+    let folder = Place(folder.unwrap());
     for (file, text) in files {
         let path = folder.join(file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

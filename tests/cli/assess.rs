@@ -19,7 +19,7 @@ const OBJECTS: &str = "id,width_m,height_m,eta,friction,limit_ratio\n\
                        case,0.6,2,,,0.5\n";
 
 /// A folder with three objects, a hazard curve and eight motions.
-fn scene(name: &str) -> std::path::PathBuf {
+fn scene(name: &str) -> crate::support::Place {
     let place =
         folder(name, &[("objects.csv", OBJECTS), ("hazard.csv", HAZARD)]);
     fs::create_dir(place.join("suite")).unwrap();

@@ -106,7 +106,7 @@ pub fn sides(
     name: &str,
     findings: &[(&str, &str)],
     cases: &[(&str, &str)],
-) -> PathBuf {
+) -> crate::support::Place {
     let changed = |text: &str, changes: &[(&str, &str)]| {
         changes.iter().fold(text.to_owned(), |text, (from, to)| {
             assert!(text.contains(from), "{from}");

@@ -21,7 +21,7 @@ fn shell(place: &Path, line: &str) -> (i32, String) {
 }
 
 /// A folder with a suite of three records, a block's IDA and a sample.
-fn prepared(name: &str) -> std::path::PathBuf {
+fn prepared(name: &str) -> crate::support::Place {
     let place = folder(name, &[]);
     fs::create_dir(place.join("suite")).unwrap();
     for rhythm in [7.0, 9.0, 11.0] {

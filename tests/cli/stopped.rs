@@ -12,7 +12,7 @@ use super::support::{answer, at2, folder, motion, rocking, run, tree};
 const STEP: Duration = Duration::from_millis(20);
 
 /// A folder with three motions, and a block.
-fn scene(name: &str) -> std::path::PathBuf {
+fn scene(name: &str) -> crate::support::Place {
     let records = [7.0, 9.0, 11.0].map(|rhythm| {
         let samples = motion(rhythm);
         (format!("s/r{rhythm}.at2"), at2("0.02", samples.len(), &samples))
@@ -49,11 +49,11 @@ fn begun(place: &Path, arguments: &str) -> Child {
 
 /// Work that takes minutes, by the command.
 const LONG: [&str; 5] = [
-    "ida --alpha 0.1 --p 3 --suite s --step-g 1e-7 --out o.csv",
-    "assess --alpha 0.1 --p 3 --suite s --bootstrap 100000000 --out page",
+    "ida --alpha 0.1 --p 3 --suite s --step-g 2e-6 --certify --out o.csv",
+    "assess --alpha 0.1 --p 3 --suite s --bootstrap 1000000 --out page",
     "study --out report",
     "study --ordinary s --pulse s --out report",
-    "fragility fit --ida ida.csv --at 1 --bootstrap 100000000 --plot o.svg",
+    "fragility fit --ida ida.csv --at 1 --bootstrap 1000000 --plot o.svg",
 ];
 
 #[test]
@@ -107,7 +107,8 @@ fn a_signal_that_was_ignored_stays_so() {
 #[test]
 fn after_a_kill_the_same_command_works_at_once() {
     let place = scene("killed");
-    let short = "assess --alpha 0.1 --p 3 --suite s --bootstrap 100 --out page";
+    let short =
+        "assess --alpha 0.1 --p 3 --suite s --bootstrap 100 --out page";
     let mut child = begun(&place, LONG[1]);
     child.kill().unwrap();
     child.wait().unwrap();

@@ -12,7 +12,7 @@ use clap::{
 };
 
 use crate::failure::Failure;
-use crate::terminal::note;
+use crate::terminal::{SOFTWARE, note};
 use crate::threads::with_threads;
 
 pub mod blocks;
@@ -70,20 +70,18 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("Develop", &["accept", "completions", "man"]),
 ];
 
-const VERSION: &str = concat!(
-    env!("CARGO_PKG_VERSION"),
-    " (commit ",
-    env!("ROCKING_COMMIT"),
-    ")"
-);
-
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
-#[command(name = "rocking", version = VERSION, max_term_width = 100)]
+#[command(name = "rocking", version = version(), max_term_width = 100)]
 #[command(disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
+}
+
+/// What `--version` prints behind the name.
+fn version() -> &'static str {
+    SOFTWARE.strip_prefix("rocking ").unwrap_or(SOFTWARE)
 }
 
 #[derive(Subcommand)]

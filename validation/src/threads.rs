@@ -29,27 +29,23 @@ const STOPPING: &[i32] = &[
 static SIGNALS: LazyLock<Signals> = LazyLock::new(Signals::handled);
 
 struct Signals {
-    /// The stop that the first one requests.
+    /// The stop that they request.
     stop: Stop,
     /// Whether no work is under way that heeds it.
     idle: Arc<AtomicBool>,
 }
 
 impl Signals {
-    /// The first signal stops the work. A second one, and one while no work
-    /// heeds it, ends the program at once, as it does by default. A signal
-    /// that the program was started to ignore, by `nohup` or behind `&`,
-    /// stays ignored.
+    /// A signal stops the work; while no work heeds it, it ends the program
+    /// at once, as it does by default. A second one does no more: `timeout`
+    /// sends two. One that the program was started to ignore, by `nohup` or
+    /// behind `&`, stays ignored.
     fn handled() -> Self {
         let stopped = Arc::new(AtomicBool::new(false));
         let idle = Arc::new(AtomicBool::new(true));
         for &signal in STOPPING.iter().filter(|s| !is_ignored(**s)) {
             // Where no handler can be set, it does what it does by default.
             let _ = register_conditional_default(signal, Arc::clone(&idle))
-                .and_then(|_| {
-                    let again = Arc::clone(&stopped);
-                    register_conditional_default(signal, again)
-                })
                 .and_then(|_| register(signal, Arc::clone(&stopped)));
         }
         Self { stop: Stop::from(stopped), idle }

@@ -21,7 +21,7 @@ use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
-use crate::terminal::{COMMIT, SOFTWARE, note, print, say};
+use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
 use rocking_common::files::{Folder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
@@ -185,7 +185,7 @@ impl Args {
             false => format!("The motions are those of {}.", suite.source),
         };
         let mut provenance = vec![
-            ("Program", format!("{SOFTWARE}, commit {COMMIT}")),
+            ("Program", SOFTWARE.to_owned()),
             ("Records", format!("{}, {}", suite.source, suite.clusters)),
             ("SHA-256 of the records", suite.sha256()),
         ];

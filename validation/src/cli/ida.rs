@@ -254,9 +254,8 @@ impl Work<'_> {
         let Self { args, analysis, bar, .. } = self;
         let way = args.way.way()?;
         let only = std::slice::from_ref(*analysis);
-        let curves =
-            logged(bar, || way.curves(records, only, &|| bar.inc(1)))
-                .map_err(curve_refused)?;
+        let curves = logged(bar, || way.curves(records, only, &|| bar.inc(1)))
+            .map_err(curve_refused)?;
         let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
         let pivot = args
             .forces

@@ -132,7 +132,7 @@ struct StatusArgs {
 }
 
 /// Puts the tiles together in the plan's order; refuses a tile that is
-/// missing, of another plan, or damaged.
+/// missing, of another plan or another build of the program, or damaged.
 #[derive(clap::Args)]
 struct MergeArgs {
     /// Folder of the plan.
@@ -316,7 +316,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
     let done = |tile: usize| {
         note(&format!("tile {tile} of {total} done"));
     };
-    let run = || sweep::run(&planned, (task, of), &done);
+    let run = || sweep::run(&planned, SOFTWARE, (task, of), &done);
     until(args.threads.threads, run)?.transpose()?;
     let left = sweep::left(&planned, (task, of));
     if left.is_empty() {

@@ -16,8 +16,8 @@ use rocking_common::table::body;
 /// same for any number of tasks.
 ///
 /// # Errors
-/// [`Failure`] for a tile that is missing, of another plan, or
-/// damaged; and for Parquet where the program was built without it.
+/// [`Failure`] for a tile that is missing, of another plan or another build,
+/// or damaged; and for Parquet where the program was built without it.
 /// `out` is then as it was.
 pub fn merge(
     planned: &Planned,
@@ -91,7 +91,9 @@ fn as_parquet(
     ];
     let table =
         Table { columns: &columns, notes: &notes, group_rows: GROUP_ROWS };
+    // As the format has it: NAME version VERSION (build HASH).
     let by = plan.software.replacen(' ', " version ", 1);
+    let by = by.replacen("(commit ", "(build ", 1);
     let mut writer = Writer::begin(output, &table, &by)?;
     let mut row = csv::StringRecord::new();
     for tile in 0..plan.tiles.len() {

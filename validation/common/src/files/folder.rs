@@ -100,8 +100,7 @@ impl Folder {
             .map_err(|error| said(error, &folder.path))?;
         let lock = part.join(LOCK);
         // From here on it is removed where anything fails.
-        let (_, lock) =
-            folder.part.insert((part, system::create(&lock)?));
+        let (_, lock) = folder.part.insert((part, system::create(&lock)?));
         system::lock(lock)?;
         // Tells that its owner had the lock.
         system::add(lock, b"locked\n")?;
@@ -166,8 +165,7 @@ impl Folder {
         files: &BTreeMap<String, Vec<u8>>,
         last: &[&str],
     ) -> Result<(), WriteError> {
-        let earlier =
-            self.mark(files).map_err(WriteError::at(&self.path))?;
+        let earlier = self.mark(files).map_err(WriteError::at(&self.path))?;
         self.moving = true;
         let unfinished = |path: &Path| {
             let (path, folder) = (path.to_owned(), self.path.display());
@@ -217,10 +215,7 @@ impl Folder {
 
     /// Sets the mark, which lists all files that this run and earlier ones
     /// may have put into place; gives those of earlier ones.
-    fn mark(
-        &self,
-        files: &BTreeMap<String, Vec<u8>>,
-    ) -> io::Result<Earlier> {
+    fn mark(&self, files: &BTreeMap<String, Vec<u8>>) -> io::Result<Earlier> {
         let own = self.part.as_ref().map(|(part, _)| part.as_path());
         let mut earlier = Earlier::of(&self.path, own)?;
         // Where there is no manifest, nothing is known.

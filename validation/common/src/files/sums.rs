@@ -37,9 +37,7 @@ pub enum Mixed {
     )]
     Interrupted,
     /// A file of the manifest is missing or is another.
-    #[error(
-        "{name}: {found}: expected the file of the run that wrote {SUMS}"
-    )]
+    #[error("{name}: {found}: expected the file of the run that wrote {SUMS}")]
     File {
         /// Its path below the folder.
         name: String,

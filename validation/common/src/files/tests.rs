@@ -179,7 +179,8 @@ fn holds(out: &Path, text: &str) -> bool {
     let mut found = BTreeMap::new();
     for inner in ["", "data"].into_iter().filter(|i| out.join(i).is_dir()) {
         for name in names(&out.join(inner)) {
-            let name = if inner.is_empty() { name } else { format!("data/{name}") };
+            let name =
+                if inner.is_empty() { name } else { format!("data/{name}") };
             if !name.starts_with('.') && out.join(&name).is_file() {
                 found.insert(name.clone(), fs::read(out.join(name)).unwrap());
             }
@@ -233,8 +234,7 @@ fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
         for (after, call) in calls.iter().enumerate() {
             for ongoing in [false, true] {
                 let (root, out) = prepared();
-                let fault =
-                    Fault { call: None, after, ongoing, code: ENOSPC };
+                let fault = Fault { call: None, after, ongoing, code: ENOSPC };
                 let (done, _) =
                     faults::with(Some(fault), || write(&out, "new", new));
                 let at = format!("{call}, call {after}, new: {new}");
@@ -286,8 +286,7 @@ fn an_error_at_any_call_leaves_the_old_file() {
         let root = folder();
         let path = root.path().join("a.csv");
         fs::write(&path, "old").unwrap();
-        let fault =
-            Fault { call: None, after, ongoing: false, code: ENOSPC };
+        let fault = Fault { call: None, after, ongoing: false, code: ENOSPC };
         let (done, _) =
             faults::with(Some(fault), || write_atomically(&path, "new"));
         let error = done.unwrap_err().to_string();
@@ -301,8 +300,18 @@ fn an_error_at_any_call_leaves_the_old_file() {
 #[test]
 fn no_call_escapes_the_faults() {
     let changing = [
-        "create", "write", "rename", "remove", "copy", "lock()", "set_len",
-        "sync_", "set_perm", "tempdir_in", "tempfile_in", "persist(",
+        "create",
+        "write",
+        "rename",
+        "remove",
+        "copy",
+        "lock()",
+        "set_len",
+        "sync_",
+        "set_perm",
+        "tempdir_in",
+        "tempfile_in",
+        "persist(",
     ];
     for (name, text) in [
         ("folder.rs", include_str!("folder.rs")),
@@ -311,7 +320,9 @@ fn no_call_escapes_the_faults() {
         ("files.rs", include_str!("../files.rs")),
     ] {
         let is_code = |line: &&str| {
-            !["//", "use ", "Sink::Stream", "device"].iter().any(|no| line.contains(no))
+            !["//", "use ", "Sink::Stream", "device"]
+                .iter()
+                .any(|no| line.contains(no))
         };
         let code = text.lines().filter(is_code);
         for line in code.filter(|line| !line.contains("system::")) {
@@ -464,7 +475,9 @@ fn a_manifest_names_what_is_not_as_it_says() {
         assert!(error.contains(words), "{error}");
     };
     fs::write(out.join("data/a.csv"), "y").unwrap();
-    said("data/a.csv: SHA-256 a1fce4363854ff888cff4b8e7875d600c2682390412a8cf");
+    said(
+        "data/a.csv: SHA-256 a1fce4363854ff888cff4b8e7875d600c2682390412a8cf",
+    );
     fs::remove_file(out.join("data/a.csv")).unwrap();
     said("data/a.csv: No such file");
     let sum = "0".repeat(64);

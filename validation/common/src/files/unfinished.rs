@@ -95,11 +95,11 @@ pub(super) fn remove_left_behind(folder: &Path) {
 pub(super) fn state(path: &Path) -> Option<Lock> {
     let found = fs::metadata(path).ok()?;
     let lock = if found.is_dir() { path.join(LOCK) } else { path.to_owned() };
-    let had_lock = found.is_dir()
-        && fs::metadata(&lock).is_ok_and(|lock| lock.len() > 0);
-    let old = found.modified().is_ok_and(|then| {
-        then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND)
-    });
+    let had_lock =
+        found.is_dir() && fs::metadata(&lock).is_ok_and(|lock| lock.len() > 0);
+    let old = found
+        .modified()
+        .is_ok_and(|then| then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND));
     Some(match system::tried(&lock) {
         Ok(Lock::Free) if !(had_lock || old) => Lock::Unknown,
         Ok(lock) => lock,
@@ -133,7 +133,6 @@ pub(super) fn unfinished(folder: &Path) -> Vec<PathBuf> {
 
 /// Whether it is the name of something unfinished.
 pub(super) fn is_unfinished(name: &OsStr) -> bool {
-    name.to_str().is_some_and(|name| {
-        name.starts_with(PART.0) && name.ends_with(PART.1)
-    })
+    name.to_str()
+        .is_some_and(|name| name.starts_with(PART.0) && name.ends_with(PART.1))
 }

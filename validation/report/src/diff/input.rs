@@ -50,7 +50,8 @@ impl Results {
             return Ok(results);
         }
         let is_known = is_whole(path).with_context(|| shown.to_string())?;
-        let is_report = path.join(PAGE).exists() && path.join(FINDINGS).exists();
+        let is_report =
+            path.join(PAGE).exists() && path.join(FINDINGS).exists();
         if is_report && !is_known {
             bail!(
                 "{shown}: no {SUMS}, so that its files may be of two runs: \

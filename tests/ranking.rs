@@ -6,7 +6,6 @@
 //! value with `fixtures/oracles`.
 
 use std::fs;
-use std::path::PathBuf;
 
 use libm::{exp, log, sin, tan};
 use serde_json::Value;

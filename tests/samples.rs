@@ -3,8 +3,6 @@
 //! The declared cases prove the numbers; here one value of each command shows
 //! that the command asks for what it prints.
 
-use std::path::PathBuf;
-
 use rocking::statistics::normal;
 use serde_json::Value;
 

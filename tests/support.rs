@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde_json::Value;
-use tempfile::{Builder, TempDir};
+use tempfile::TempDir;
 
 use super::compare::near;
 
@@ -108,13 +108,16 @@ pub fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 
 /// A folder of a test's own, which is removed with the test: two runs of the
 /// tests at once do not see each other.
-pub struct Place(TempDir);
+pub struct Place {
+    path: PathBuf,
+    _root: TempDir,
+}
 
 impl Deref for Place {
     type Target = Path;
 
     fn deref(&self) -> &Path {
-        self.0.path()
+        &self.path
     }
 }
 
@@ -124,11 +127,12 @@ impl AsRef<Path> for Place {
     }
 }
 
-/// A fresh folder with the given files, whose name begins so.
+/// A fresh folder of this name with the given files.
 pub fn folder(name: &str, files: &[(&str, &str)]) -> Place {
     let root = env!("CARGO_TARGET_TMPDIR");
-    let folder = Builder::new().prefix(name).tempdir_in(root);
-    let folder = Place(folder.unwrap());
+    let root = TempDir::new_in(root).unwrap();
+    let folder = Place { path: root.path().join(name), _root: root };
+    fs::create_dir(&folder).unwrap();
     for (file, text) in files {
         let path = folder.join(file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

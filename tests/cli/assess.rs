@@ -131,7 +131,7 @@ fn frequencies_are_those_of_another_quadrature() {
 fn numbers_are_those_of_separate_commands() {
     let place = scene("assess-apart");
     let found = assessed(&place);
-    let place = place.as_path();
+    let place: &Path = &place;
     for (id, size, eta, at) in [
         ("stele", "--width-m 0.35 --height-m 1.4", "0.92", "inf"),
         ("vase", "--width-m 0.2 --height-m 0.8", "0.9", "inf"),
@@ -222,7 +222,7 @@ fn objects_together_are_counted_record_by_record() {
 #[test]
 fn what_is_no_assessment_is_refused() {
     let place = scene("assess-refused");
-    let place = place.as_path();
+    let place: &Path = &place;
     let write = |name: &str, text: &str| {
         fs::write(place.join(name), text).unwrap();
     };
@@ -250,7 +250,7 @@ fn what_is_no_assessment_is_refused() {
 #[test]
 fn a_rigid_building_changes_nothing() {
     let place = scene("assess-floor");
-    let place = place.as_path();
+    let place: &Path = &place;
     let write = |name: &str, text: &str| {
         fs::write(place.join(name), text).unwrap();
     };

@@ -1,7 +1,7 @@
 //! Drawings of results over a suite.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::support::{answer, at2, folder, motion, refused};
 

@@ -8,7 +8,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::{answer, failure, folder, json};
 
-fn fixture(name: &str) -> crate::support::Place {
+fn fixture(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)
 }
 

@@ -184,6 +184,9 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         let place = args.out.display();
         let place = format_args!("no folder of a report at {place}");
         std::fs::read_dir(&args.out).at(place)?;
+        if is_interrupted(&args.out) {
+            return Err(Mixed::Interrupted).at(args.out.display());
+        }
     }
     let folder = match args.check {
         true => None,
@@ -244,9 +247,6 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
 /// Fails where the report in `out` is not these files.
 fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     let name = out.display();
-    if is_interrupted(out) {
-        return Err(Failure::input(format!("{name}: {}", Mixed::Interrupted)));
-    }
     match stale::stale(out, files)? {
         None => say(&format!(
             "{name}: all {} files of the report are up to date\n",

@@ -74,7 +74,9 @@ pub(super) fn folder_in(
     folder: &Path,
 ) -> io::Result<PathBuf> {
     begin("mkdir")?;
-    Ok(builder.tempdir_in(folder)?.keep())
+    let made = builder.tempdir_in(folder)?.keep();
+    // As `folder` is spelt, which the library makes absolute.
+    Ok(folder.join(made.file_name().unwrap_or_default()))
 }
 
 /// A new file in `folder`, which is removed unless it is put into place.

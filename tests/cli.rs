@@ -21,6 +21,9 @@ mod means;
 mod order;
 #[path = "cli/plots.rs"]
 mod plots;
+#[cfg(unix)]
+#[path = "cli/stopped.rs"]
+mod stopped;
 #[path = "cli/sweep.rs"]
 mod sweep;
 #[path = "cli/tables.rs"]

@@ -22,7 +22,7 @@ const HAZARD: &str =
     "pga_g,annual_frequency\n0.05,0.1\n0.2,0.01\n0.6,0.0008\n2,0.00001\n";
 
 /// A fresh folder with a sample and a hazard curve.
-fn folder(name: &str) -> PathBuf {
+fn folder(name: &str) -> crate::support::Place {
     let files = [("capacities.txt", SAMPLE), ("hazard.csv", HAZARD)];
     support::folder(&format!("exchange-{name}"), &files)
 }

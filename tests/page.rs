@@ -201,18 +201,19 @@ fn what_is_cut_off_paper_is_missed() {
                 text-align: right\">beyond the edge</p>\
                 <details><summary>s</summary><p>folded away</p></details>";
     let style = "@page { size: A4 } body { overflow: hidden; width: 30rem }";
-    let page = small("paper", style, body);
-    let Some(printed) = Printed::of(&binary, &page) else { return };
+    let page = small(style, body);
+    let Some(printed) = Printed::of(&binary, page.path()) else {
+        return;
+    };
     assert!(printed.has("On paper."));
     assert!(!printed.has("beyond the edge"));
     assert!(!printed.has("folded away"));
 }
 
 /// A page with `body`, sound but for what is in it.
-fn small(name: &str, style: &str, body: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page");
-    fs::create_dir_all(&folder).expect("folder");
-    let page = folder.join(format!("{name}.html"));
+fn small(style: &str, body: &str) -> tempfile::NamedTempFile {
+    let html = tempfile::Builder::new().suffix(".html").tempfile();
+    let page = html.expect("page");
     let text = format!(
         "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width\">\
@@ -236,9 +237,9 @@ fn a_sound_page_has_no_problem() {
                 <svg width=\"200\" height=\"100\"><title>Lines</title>\
                 <path d=\"M0 0L50 50\"/><path d=\"M0 0L90 50\"/>\
                 <path d=\"M0 9L50 50\"/></svg>";
-    let page = small("sound", "svg { max-width: 100% }", body);
+    let page = small("svg { max-width: 100% }", body);
     for scheme in SCHEMES {
-        let found = problems(&mut browser, &page, 360, scheme);
+        let found = problems(&mut browser, page.path(), 360, scheme);
         assert!(found.is_empty(), "{scheme}: {found:?}");
     }
 }
@@ -312,14 +313,14 @@ fn every_defect_is_reported() {
             "keyboard",
         ),
     ] {
-        let page = small(name, style, body);
-        let found = problems(&mut browser, &page, 360, "light");
+        let page = small(style, body);
+        let found = problems(&mut browser, page.path(), 360, "light");
         let is_reported = found.iter().any(|problem| problem.contains(words));
         assert!(is_reported, "{name}: {words:?} is not in {found:?}");
     }
     // What is readable in the light may not be in the dark.
-    let page = small("night", "footer { color: #333 }", "<h2>x</h2>");
-    assert!(problems(&mut browser, &page, 360, "light").is_empty());
-    let found = problems(&mut browser, &page, 360, "dark");
+    let page = small("footer { color: #333 }", "<h2>x</h2>");
+    assert!(problems(&mut browser, page.path(), 360, "light").is_empty());
+    let found = problems(&mut browser, page.path(), 360, "dark");
     assert!(found.iter().any(|p| p.contains("contrast")), "{found:?}");
 }

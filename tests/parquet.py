@@ -86,7 +86,8 @@ def compare(folder, table):
     assert about["rocking.table"] == table, about
     assert len(about["rocking.plan_sha256"]) == 64, about
     version = about["rocking.software"].split()[1]
-    assert file.metadata.created_by == f"rocking version {version}"
+    by = file.metadata.created_by
+    assert by.startswith(f"rocking version {version} (build "), by
     settings = json.loads(about["rocking.settings"])
     assert settings["levels"] == {"step_im": 0.02}, settings
     assert str(folder).encode() not in path.read_bytes()

@@ -6,7 +6,6 @@
 //! value with `fixtures/oracles`.
 
 use std::fs;
-use std::path::PathBuf;
 
 use libm::{exp, log, sin, tan};
 use serde_json::Value;
@@ -16,7 +15,7 @@ use super::support::{answer as text, close, folder, json, refused};
 
 /// Six records of a few cycles each, their index with magnitude and
 /// distance, and the table of their IDA.
-fn suite(name: &str) -> PathBuf {
+fn suite(name: &str) -> crate::support::Place {
     let place = folder(name, &[]);
     let mut index = String::from("file,units,dt_s,mw,rrup_km\n");
     for k in 0..6 {

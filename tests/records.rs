@@ -112,7 +112,7 @@ const AT2: &str = "PEER NGA STRONG MOTION DATABASE RECORD\n\
     \x20  .1000000E+00   .2000000E+00  -.3000000E+00   .1000000E+00\n";
 
 /// A fresh folder with the given files.
-fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
+fn folder(name: &str, files: &[(&str, &[u8])]) -> crate::support::Place {
     let folder = support::folder(&format!("records-{name}"), &[]);
     for (file, bytes) in files {
         std::fs::write(folder.join(file), bytes).unwrap();

@@ -3,8 +3,6 @@
 //! The declared cases prove the numbers; here one value of each command shows
 //! that the command asks for what it prints.
 
-use std::path::PathBuf;
-
 use rocking::statistics::normal;
 use serde_json::Value;
 
@@ -17,7 +15,7 @@ const SAMPLE: &str = "# intensities\n1.05\n1.12 # first\n1.2\n1.21\n\n1.3\n\
     2.9\n3.1\n3.8\n4.5\n7.5\n";
 
 /// A folder with the sample and these files.
-fn with(name: &str, files: &[(&str, &str)]) -> PathBuf {
+fn with(name: &str, files: &[(&str, &str)]) -> crate::support::Place {
     let own = [("sample.txt", SAMPLE)];
     folder(&format!("samples-{name}"), &[&own, files].concat())
 }

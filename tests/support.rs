@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde_json::Value;
+use tempfile::TempDir;
 
 use super::compare::near;
 
@@ -88,7 +90,7 @@ pub fn refused_for(folder: &Path, arguments: &str, names: &[&str]) {
 }
 
 /// All files below a folder with their content, hidden ones too.
-fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+pub fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -104,12 +106,33 @@ fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     found
 }
 
-/// A fresh folder with the given files.
-pub fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder =
-        Path::new(env!("CARGO_TARGET_TMPDIR")).join("gate").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
+/// A folder of a test's own, which is removed with the test: two runs of the
+/// tests at once do not see each other.
+pub struct Place {
+    path: PathBuf,
+    _root: TempDir,
+}
+
+impl Deref for Place {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl AsRef<Path> for Place {
+    fn as_ref(&self) -> &Path {
+        self
+    }
+}
+
+/// A fresh folder of this name with the given files.
+pub fn folder(name: &str, files: &[(&str, &str)]) -> Place {
+    let root = env!("CARGO_TARGET_TMPDIR");
+    let root = TempDir::new_in(root).unwrap();
+    let folder = Place { path: root.path().join(name), _root: root };
+    fs::create_dir(&folder).unwrap();
     for (file, text) in files {
         let path = folder.join(file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -2,7 +2,8 @@
 //! for reports that are issued.
 
 use std::fs;
-use std::process::Command;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
 
 /// What the program is built from, beside this package's folder.
 const SOURCES: [&str; 10] = [
@@ -24,8 +25,36 @@ fn git(arguments: &[&str]) -> Option<String> {
     output.status.success().then(|| text.trim().to_owned())
 }
 
-/// The commit, and whether files differ from it; none where the sources are
-/// no repository of their own.
+/// A hash of what differs from the commit: changes, and files that it does
+/// not have.
+fn changes() -> Option<String> {
+    let named = |head: &[&str]| {
+        let sources = SOURCES.map(|path| path.trim_start_matches("../"));
+        let line = [&["-C", ".."], head, &["--"], &sources].concat();
+        let output = Command::new("git").args(line).output().ok()?;
+        output.status.success().then_some(output.stdout)
+    };
+    let mut all = named(&["diff", "HEAD", "--binary"])?;
+    let others = named(&["ls-files", "--others", "--exclude-standard"])?;
+    for name in String::from_utf8(others).ok()?.lines() {
+        all.extend(name.bytes());
+        all.extend(fs::read(format!("../{name}")).unwrap_or_default());
+    }
+    let mut hash = Command::new("git")
+        .args(["hash-object", "--stdin"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .ok()?;
+    hash.stdin.take()?.write_all(&all).ok()?;
+    let output = hash.wait_with_output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    Some(text.get(..12)?.to_owned())
+}
+
+/// The commit, and a hash of what differs from it, so that two builds of
+/// other sources have other names; none where the sources are no repository
+/// of their own.
 fn commit() -> Option<String> {
     if !git(&["-C", "..", "rev-parse", "--show-prefix"])?.is_empty() {
         return None;
@@ -34,7 +63,7 @@ fn commit() -> Option<String> {
     let status = [&["status", "--porcelain", "--"][..], &SOURCES].concat();
     Some(match git(&status)?.is_empty() {
         true => commit,
-        false => commit + " with changes",
+        false => format!("{commit} with changes {}", changes()?),
     })
 }
 

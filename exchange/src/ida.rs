@@ -44,7 +44,7 @@ pub struct Setting {
     pub gravity_m_s2: f64,
     /// What was done to the records.
     pub processing: String,
-    /// Program and version.
+    /// Program, version and commit.
     pub software: String,
 }
 

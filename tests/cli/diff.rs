@@ -1,7 +1,8 @@
 //! `rocking diff` on small made-up results.
 
 use std::fs;
-use std::path::PathBuf;
+
+use rocking_common::files::{SUMS, sums};
 
 use super::support::{folder, json, refused_for, run};
 
@@ -106,7 +107,7 @@ pub fn sides(
     name: &str,
     findings: &[(&str, &str)],
     cases: &[(&str, &str)],
-) -> PathBuf {
+) -> crate::support::Place {
     let changed = |text: &str, changes: &[(&str, &str)]| {
         changes.iter().fold(text.to_owned(), |text, (from, to)| {
             assert!(text.contains(from), "{from}");
@@ -354,4 +355,38 @@ fn without_names_the_committed_report_and_the_last_study() {
     assert!(out.contains("2.31 to 2.6, +13 %"), "{out}");
     fs::write(&new, FINDINGS).unwrap();
     assert_eq!(run(&place, "diff").0, 0);
+}
+
+/// A report is compared only if its files are of one run.
+#[test]
+fn a_report_of_two_runs_is_refused() {
+    let place = folder(
+        "diff-mixed",
+        &[
+            ("old/data/findings.json", FINDINGS),
+            ("old/index.html", "<!DOCTYPE html>"),
+            ("new/data/findings.json", FINDINGS),
+        ],
+    );
+    let diff = "diff old new";
+    refused_for(&place, diff, &["old: no SHA256SUMS, so that its files may"]);
+    let names = ["data/findings.json", "index.html"];
+    let file = |name: &str| {
+        (name.to_owned(), fs::read(place.join("old").join(name)).unwrap())
+    };
+    let manifest = sums(&names.into_iter().map(file).collect());
+    fs::write(place.join("old").join(SUMS), manifest).unwrap();
+    assert_eq!(run(&place, diff).0, 0);
+    let changed = FINDINGS.replace("2.31", "2.32");
+    fs::write(place.join("old/data/findings.json"), changed).unwrap();
+    let words = "data/findings.json: SHA-256 ";
+    refused_for(&place, diff, &["old: ", words, "of the run that wrote"]);
+    fs::write(place.join("old/data/findings.json"), FINDINGS).unwrap();
+    assert_eq!(run(&place, diff).0, 0);
+    // A run that ended while it put files into place.
+    let part = place.join("old/.rocking-killed.part");
+    fs::create_dir(&part).unwrap();
+    fs::write(part.join("moving"), "").unwrap();
+    refused_for(&place, diff, &["old: files of two runs"]);
+    refused_for(&place, "study --out old --check", &["files of two runs"]);
 }

@@ -1,7 +1,7 @@
 //! Drawings of results over a suite.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::support::{answer, at2, folder, motion, refused};
 
@@ -9,7 +9,7 @@ const HAZARD: &str =
     "pga_g,annual_frequency\n0.05,0.1\n0.2,0.01\n0.6,0.0008\n2,0.00001\n";
 
 /// A folder with a sample of five values and a hazard curve.
-fn prepared(name: &str) -> PathBuf {
+fn prepared(name: &str) -> crate::support::Place {
     let sample = "1.4\n1.8\n2.2\n2.9\n3.7\n";
     let files = [("sample.txt", sample), ("hazard.csv", HAZARD)];
     folder(&format!("plots-{name}"), &files)

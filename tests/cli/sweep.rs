@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
@@ -12,7 +12,7 @@ use super::support::{
 };
 
 /// A folder with a plan of `blocks` blocks in as many tiles.
-fn planned(name: &str, blocks: usize) -> PathBuf {
+fn planned(name: &str, blocks: usize) -> crate::support::Place {
     let mut table = String::from("alpha,p\n");
     for k in 0..blocks {
         writeln!(table, "{},3", 0.05 + 0.4 * k as f64 / blocks as f64)

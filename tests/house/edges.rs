@@ -113,7 +113,7 @@ const PROOF: Edges = "
 const REPORT: Edges = "
     answers evidence page quantity recorded timings verdicts
     credibility evidence recorded words
-    diff answers verdicts
+    diff answers output verdicts
     evidence
     findings page quantity verdicts
     head

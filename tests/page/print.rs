@@ -1,7 +1,6 @@
 //! The committed page on paper: Chromium prints it, pdftotext reads it back.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// The text of a PDF, as it is and without white space: a cell may break
@@ -15,10 +14,9 @@ pub struct Printed {
 impl Printed {
     /// Prints a page; none where a tool is missing.
     pub fn of(browser: &Path, page: &Path) -> Option<Self> {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("print");
-        fs::create_dir_all(&folder).expect("folder");
-        let pdf: PathBuf = folder.join("page.pdf");
-        let profile = folder.join("profile");
+        let folder = tempfile::tempdir().expect("folder");
+        let pdf = folder.path().join("page.pdf");
+        let profile = folder.path().join("profile");
         let printed = Command::new(browser)
             .args([
                 "--headless",

@@ -10,7 +10,7 @@ use super::{AT2, answer, failure, folder, json, run};
 const IDA: &str = "ida --alpha 0.1 --p 3 --step-g 0.05 --out ida.csv";
 
 /// A pair, a vertical, and what two networks deliver in formats of their own.
-fn mixed(name: &str) -> std::path::PathBuf {
+fn mixed(name: &str) -> crate::support::Place {
     let component = |c: &str| AT2.replace("Station, 0", c).into_bytes();
     let (a, b, up) =
         (component("Station, 0"), component("Station, 90"), component("UP"));

@@ -71,7 +71,7 @@ fn cycle(scale: f64) -> String {
 }
 
 /// A folder with a pair, `suite.csv`, `one.txt` and `other.txt`.
-fn pair(name: &str) -> std::path::PathBuf {
+fn pair(name: &str) -> crate::support::Place {
     let (one, other) = (cycle(0.2), cycle(0.1));
     let index = "file,units,dt_s,pair\n\
                  one.txt,g,0.01,a\nother.txt,g,0.01,a\n";

@@ -5,18 +5,14 @@ pub mod assess;
 mod validate;
 
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use clap::{
     Arg, ArgAction, CommandFactory as _, FromArgMatches as _, Parser,
     Subcommand,
 };
-use signal_hook::consts::SIGABRT;
-use signal_hook::flag::register_conditional_shutdown;
 
 use crate::failure::Failure;
-use crate::terminal::note;
+use crate::terminal::{SOFTWARE, note};
 use crate::threads::with_threads;
 
 pub mod blocks;
@@ -74,20 +70,18 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("Develop", &["accept", "completions", "man"]),
 ];
 
-const VERSION: &str = concat!(
-    env!("CARGO_PKG_VERSION"),
-    " (commit ",
-    env!("ROCKING_COMMIT"),
-    ")"
-);
-
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
-#[command(name = "rocking", version = VERSION, max_term_width = 100)]
+#[command(name = "rocking", version = version(), max_term_width = 100)]
 #[command(disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
+}
+
+/// What `--version` prints behind the name.
+fn version() -> &'static str {
+    SOFTWARE.strip_prefix("rocking ").unwrap_or(SOFTWARE)
 }
 
 #[derive(Subcommand)]
@@ -171,14 +165,6 @@ fn grouped(command: clap::Command) -> clap::Command {
     ))
 }
 
-/// Lets the program end with status 2 where it would abort: what aborts it is
-/// an allocation that fails, after the runtime has said so.
-fn abort_is_a_refusal() {
-    let always = Arc::new(AtomicBool::new(true));
-    // Where no handler can be set, the status is that of an abort.
-    let _ = register_conditional_shutdown(SIGABRT, 2, always);
-}
-
 /// The whole command line.
 fn command() -> clap::Command {
     reading_values(Cli::command())
@@ -187,7 +173,6 @@ fn command() -> clap::Command {
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
-    abort_is_a_refusal();
     let matches = grouped(on_a_screen(command())).get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
@@ -197,7 +182,9 @@ pub fn run() -> ExitCode {
         Command::Assess(args) => assess::run(&args),
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
-        Command::Records(args) => records::run(&args),
+        Command::Records(args) => {
+            with_threads(None, || records::run(&args)).flatten()
+        }
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => completions::run(&args, command()),

@@ -9,8 +9,15 @@ use crate::failure::Failure;
 use rocking_common::files::standard_output;
 use rocking_common::words::printable;
 
-/// Name and version of the program, for results.
-pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
+/// Name, version and commit of the program, for results that are not
+/// committed.
+pub const SOFTWARE: &str = concat!(
+    "rocking ",
+    env!("CARGO_PKG_VERSION"),
+    " (commit ",
+    env!("ROCKING_COMMIT"),
+    ")"
+);
 
 /// The commit of the sources; `unknown` outside a repository.
 pub const COMMIT: &str = env!("ROCKING_COMMIT");

@@ -203,6 +203,7 @@ impl Sampled {
     #[must_use]
     pub fn band(&self, fitted: &Lognormal, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
+            stop::point();
             let at = |fit: &Option<Lognormal>| {
                 fit.map_or(f64::NAN, |fit| fit.cdf(intensity))
             };

@@ -9,11 +9,14 @@ use tempfile::{NamedTempFile, SpooledTempFile};
 
 pub use folder::{Folder, is_interrupted};
 pub use standard::standard_output;
+pub use sums::{Mixed, SUMS, is_whole, sums};
 pub use unfinished::WriteError;
 use unfinished::{builder, folder_of, remove_left_behind, said};
 
 mod folder;
 mod standard;
+mod sums;
+mod system;
 mod unfinished;
 
 /// Bytes of an unfinished output that are held in memory, at most.
@@ -172,7 +175,7 @@ impl Write for Output {
     fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
         match &mut self.sink {
             Sink::Standard(part) | Sink::Stream(_, part) => part.write(piece),
-            Sink::File { part, .. } => part.write(piece),
+            Sink::File { part, .. } => system::add(part.as_file(), piece),
         }
     }
 
@@ -210,13 +213,12 @@ impl Sink {
         };
         let folder = folder_of(&target);
         remove_left_behind(folder);
-        let part = builder()
-            .tempfile_in(folder)
+        let part = system::file_in(&builder(), folder)
             .map_err(|error| said(error, folder))?;
         // Other runs leave alone what is locked.
-        part.as_file().lock()?;
+        system::lock(part.as_file())?;
         if let Ok(found) = fs::metadata(&target) {
-            part.as_file().set_permissions(found.permissions())?;
+            system::set_permissions(part.as_file(), found.permissions())?;
         }
         Ok(Self::File { target, part })
     }
@@ -238,8 +240,8 @@ impl Sink {
                 io::copy(&mut part, &mut device).map(drop)
             }
             Self::File { target, part } => {
-                part.as_file().sync_all()?;
-                let (error, mut part) = match part.persist(&target) {
+                system::sync(part.as_file())?;
+                let (error, mut part) = match system::persist(part, &target) {
                     Ok(_) => return Ok(()),
                     Err(unfinished) => (unfinished.error, unfinished.file),
                 };
@@ -252,7 +254,7 @@ impl Sink {
                     options.write(true).truncate(true).open(&target)?;
                 part.rewind()?;
                 io::copy(&mut part, &mut file)?;
-                file.sync_all()
+                system::sync(&file)
             }
         }
     }

@@ -15,6 +15,7 @@ use crate::quantity::{rule_text, value_text};
 use crate::recorded;
 use crate::scored;
 use crate::timings::Timings;
+use rocking_common::files::{SUMS, sums};
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use rocking_common::suites::inputs::sha256_hex;
@@ -26,8 +27,11 @@ use rocking_study::{Study, questions};
 /// Files of a report by name; folders in a name are parted by `/`.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// The page: where it is, all other files are.
+/// The page of a report.
 pub const PAGE: &str = "index.html";
+
+/// The files that are put into place last: where they are, all others are.
+pub const LAST: [&str; 2] = [PAGE, SUMS];
 
 /// Results of the declared cases, which `rocking validate` writes.
 pub(super) const CASES: [&str; 2] =
@@ -90,7 +94,7 @@ fn laid_out(files: Files) -> Files {
 }
 
 /// The report's files: `index.html`, numbers in `data/`, drawings in
-/// `figures/`. The page shows `proof`, the results of the declared cases,
+/// `figures/`, and the manifest of all of them. The page shows `proof`, the results of the declared cases,
 /// if they were handed in. It links [`lab::LAB`](crate::lab::LAB) where that
 /// lies beside it.
 ///
@@ -136,8 +140,10 @@ pub fn files(
         titles.insert(table.name.clone(), table.title.clone());
     }
     input.files = list(&files, proof, &titles);
-    files.insert("index.html".into(), page::page(&input).into_bytes());
-    Ok(laid_out(files))
+    files.insert(PAGE.into(), page::page(&input).into_bytes());
+    let mut files = laid_out(files);
+    files.insert(SUMS.into(), sums(&files));
+    Ok(files)
 }
 
 /// Adds a file, whose name no other file may have.

@@ -9,7 +9,8 @@ use std::path::Path;
 use anyhow::Context as _;
 
 use crate::diff::{Results, compare};
-use crate::output::{CASES, FINDINGS, Files};
+use crate::output::{CASES, FINDINGS, Files, LAST};
+use rocking_common::files::SUMS;
 use rocking_common::table::cells;
 
 /// What differs between the report in `out` and `files`; `None` if nothing
@@ -37,7 +38,7 @@ pub fn stale(out: &Path, files: &Files) -> anyhow::Result<Option<String>> {
         if name.ends_with(".csv") {
             let rows = rows(&text(&old), &text(new));
             let _ = writeln!(words, "{name}: {rows}");
-        } else if name != FINDINGS {
+        } else if name != FINDINGS && name != SUMS {
             drawn.push(name.as_str());
         }
     }
@@ -132,7 +133,7 @@ fn names(out: &Path) -> anyhow::Result<BTreeSet<String>> {
             let entry = entry.with_context(failed)?;
             let name = entry.file_name().to_string_lossy().into_owned();
             if folder.is_empty() {
-                if name == "index.html" {
+                if LAST.contains(&&*name) {
                     names.insert(name);
                 }
             } else {

@@ -184,7 +184,7 @@ fn at_root() -> Result<(), Failure> {
 /// Puts files into the repository, and lists them.
 fn write(changed: &Files) -> Result<(), Failure> {
     let Some((last, _)) = changed.last_key_value() else { return Ok(()) };
-    Folder::open(Path::new("."))?.write(changed, last)?;
+    Folder::open(Path::new("."))?.write(changed, &[last])?;
     let list: Vec<&str> = changed.keys().map(String::as_str).collect();
     let list = list.join("\n  ");
     say(&format!("{} files changed:\n  {list}\n", changed.len()))

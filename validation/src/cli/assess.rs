@@ -21,9 +21,9 @@ use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ThreadsArg};
 use crate::failure::Failure;
 use crate::input;
-use crate::terminal::{COMMIT, SOFTWARE, note, print, say};
+use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
-use rocking_common::files::Folder;
+use rocking_common::files::{Folder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::{StudySuite, inputs::sha256_hex};
 
@@ -96,19 +96,24 @@ pub struct Args {
 /// # Errors
 /// [`Failure`] for input that is refused, or a folder that is not empty.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    // All of it: a signal that stops it finds the threads that heed it.
+    args.threads.run(|| in_threads(args))?
+}
+
+fn in_threads(args: &Args) -> Result<(), Failure> {
     let mut objects = args.objects()?;
     if args.suite.is_none() {
         rocking_assessment::set_surfaces(&mut objects)?;
     }
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
-    let suite = args.threads.run(|| args.suite())??;
+    let suite = args.suite()?;
     let folder = Folder::open_new(&args.out)?;
-    let found =
-        args.threads.run(|| args.found(&objects, &suite, &hazard))??;
+    let found = args.found(&objects, &suite, &hazard)?;
     let about = args.about(&suite)?;
-    let files = rocking_assessment::files(&found, &about)?;
-    folder.write(&files, PAGE)?;
+    let mut files = rocking_assessment::files(&found, &about)?;
+    files.insert(SUMS.into(), sums(&files));
+    folder.write(&files, &[PAGE, SUMS])?;
     if args.json {
         return print(&rocking_assessment::json(&found, &about)?);
     }
@@ -180,7 +185,7 @@ impl Args {
             false => format!("The motions are those of {}.", suite.source),
         };
         let mut provenance = vec![
-            ("Program", format!("{SOFTWARE}, commit {COMMIT}")),
+            ("Program", SOFTWARE.to_owned()),
             ("Records", format!("{}, {}", suite.source, suite.clusters)),
             ("SHA-256 of the records", suite.sha256()),
         ];

@@ -138,6 +138,11 @@ enum Component {
 /// # Errors
 /// [`Failure`] for bad input; no file is written then.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    // All of it: a signal that stops it finds the threads that heed it.
+    args.threads.run(|| in_threads(args))?
+}
+
+fn in_threads(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
@@ -249,14 +254,12 @@ impl Work<'_> {
         let Self { args, analysis, bar, .. } = self;
         let way = args.way.way()?;
         let only = std::slice::from_ref(*analysis);
-        let curves = logged(bar, || {
-            args.threads.run(|| way.curves(records, only, &|| bar.inc(1)))
-        })?
-        .map_err(curve_refused)?;
+        let curves = logged(bar, || way.curves(records, only, &|| bar.inc(1)))
+            .map_err(curve_refused)?;
         let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
         let pivot = args
-            .threads
-            .run(|| args.forces.pivot(records, &table, analysis))?
+            .forces
+            .pivot(records, &table, analysis)
             .map_err(curve_refused)?;
         let known = |record: &str| {
             let event = self.events.get(record).copied().unwrap_or_default();

@@ -13,7 +13,6 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
-use crate::threads::with_threads;
 use measures::{MeasureArgs, Measured};
 use rocking_common::files::Outputs;
 use rocking_common::suites::remarks::Remarks;
@@ -213,8 +212,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     {
         return Ok(());
     }
-    let measured =
-        with_threads(None, || args.measures.run(records, args.gravity))??;
+    let measured = args.measures.run(records, args.gravity)?;
     let mut remarks: Vec<Finding> =
         records.iter().flat_map(Finding::remarks).collect();
     if let Some(measured) = &measured

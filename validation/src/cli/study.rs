@@ -15,7 +15,7 @@ use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{At as _, Failure};
 use crate::terminal::{COMMIT, logged, note, print, say};
-use rocking_common::files::{Folder, is_interrupted};
+use rocking_common::files::{Folder, Mixed, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 use rocking_report::evidence::{NOT_RUN, Proof};
@@ -184,6 +184,9 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         let place = args.out.display();
         let place = format_args!("no folder of a report at {place}");
         std::fs::read_dir(&args.out).at(place)?;
+        if is_interrupted(&args.out) {
+            return Err(Mixed::Interrupted).at(args.out.display());
+        }
     }
     let folder = match args.check {
         true => None,
@@ -199,7 +202,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let lab = args.out.join(LAB).is_file();
     let files = output::files(&study, proof.as_ref(), &signatures, lab)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
-    folder.write(&files, output::PAGE)?;
+    folder.write(&files, &output::LAST)?;
     if args.json {
         print(&study.findings.text())
     } else {
@@ -244,12 +247,6 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
 /// Fails where the report in `out` is not these files.
 fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     let name = out.display();
-    if is_interrupted(out) {
-        return Err(Failure::input(format!(
-            "{name}: files of two runs: expected a folder that `rocking \
-             study` wrote to its end"
-        )));
-    }
     match stale::stale(out, files)? {
         None => say(&format!(
             "{name}: all {} files of the report are up to date\n",

@@ -107,6 +107,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let folder = Folder::open_new(&args.out)?;
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
-    folder.write(&files.into_iter().collect(), &last)?;
+    folder.write(&files.into_iter().collect(), &[&last])?;
     say(&text(&shown)?)
 }

@@ -2,16 +2,12 @@
 
 use std::env;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use clap::Subcommand;
 use rocking::intensity::Intensity;
 use rocking::record::{Processing, Profile, Suite};
-use rocking::stop::Stop;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Serialize;
-use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::fragility::export::FileArgs;
 use super::reading::ReadArgs;
@@ -20,7 +16,7 @@ use super::{blocks, names};
 use crate::failure::Failure;
 use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use crate::terminal::{SOFTWARE, note, print, say};
-use crate::threads::until;
+use crate::threads::{until, with_threads};
 use rocking_common::suites::inputs::profiles;
 use rocking_common::suites::remarks::Remarks;
 
@@ -136,7 +132,7 @@ struct StatusArgs {
 }
 
 /// Puts the tiles together in the plan's order; refuses a tile that is
-/// missing, of another plan, or damaged.
+/// missing, of another plan or another build of the program, or damaged.
 #[derive(clap::Args)]
 struct MergeArgs {
     /// Folder of the plan.
@@ -210,10 +206,10 @@ struct Standing {
 /// [`Failure`] for bad input, and for tiles that are left.
 pub fn run(args: &Args) -> Result<(), Failure> {
     match &args.action {
-        Action::Plan(args) => plan(args),
+        Action::Plan(args) => with_threads(None, || plan(args)).flatten(),
         Action::Run(args) => run_task(args),
         Action::Status(args) => status(args),
-        Action::Merge(args) => merge(args),
+        Action::Merge(args) => with_threads(None, || merge(args)).flatten(),
         Action::Export(args) => export(args),
         Action::Slurm(args) => slurm(args),
     }
@@ -316,16 +312,12 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         )));
     }
     let planned = Planned::read(&args.dir)?;
-    let flag = Arc::new(AtomicBool::new(false));
-    for signal in [SIGTERM, SIGINT] {
-        signal_hook::flag::register(signal, Arc::clone(&flag))?;
-    }
     let total = planned.plan.tiles.len();
     let done = |tile: usize| {
         note(&format!("tile {tile} of {total} done"));
     };
-    let run = || sweep::run(&planned, (task, of), &done);
-    until(&Stop::from(flag), args.threads.threads, run)?.transpose()?;
+    let run = || sweep::run(&planned, SOFTWARE, (task, of), &done);
+    until(args.threads.threads, run)?.transpose()?;
     let left = sweep::left(&planned, (task, of));
     if left.is_empty() {
         return say(&format!("task {task} of {of}: all its tiles are done\n"));

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rocking::stop;
+
 use super::content::Content;
 use super::plan::Planned;
 use super::tile;
@@ -14,8 +16,8 @@ use rocking_common::table::body;
 /// same for any number of tasks.
 ///
 /// # Errors
-/// [`Failure`] for a tile that is missing, of another plan, or
-/// damaged; and for Parquet where the program was built without it.
+/// [`Failure`] for a tile that is missing, of another plan or another build,
+/// or damaged; and for Parquet where the program was built without it.
 /// `out` is then as it was.
 pub fn merge(
     planned: &Planned,
@@ -45,6 +47,7 @@ fn as_csv(
     output: &mut Output,
 ) -> Result<(), Failure> {
     for tile in 0..planned.plan.tiles.len() {
+        stop::point();
         let text = tile::body(planned, content, tile)?;
         // The header stands once.
         output.add(if tile == 0 { &text } else { body(&text) })?;
@@ -88,10 +91,13 @@ fn as_parquet(
     ];
     let table =
         Table { columns: &columns, notes: &notes, group_rows: GROUP_ROWS };
+    // As the format has it: NAME version VERSION (build HASH).
     let by = plan.software.replacen(' ', " version ", 1);
+    let by = by.replacen("(commit ", "(build ", 1);
     let mut writer = Writer::begin(output, &table, &by)?;
     let mut row = csv::StringRecord::new();
     for tile in 0..plan.tiles.len() {
+        stop::point();
         let body = tile::body(planned, content, tile)?;
         let mut reader = csv::Reader::from_reader(body.as_bytes());
         while reader.read_record(&mut row)? {

@@ -1,6 +1,5 @@
 //! The plan of a sweep: blocks, records, settings, tiles.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -21,8 +20,10 @@ use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::{BLOCK_SAMPLES, reread, sha256_hex};
 
+mod check;
+
 /// Version of the plan's shape.
-const SCHEMA: u32 = 4;
+const SCHEMA: u32 = 5;
 
 /// Replicates of the bootstrap, and intensity measures: PGA and PGV.
 const REPLICATES: usize = 400;
@@ -31,15 +32,12 @@ const INTENSITIES: usize = 2;
 /// Name of the suite in the plan's folder.
 const SUITE: &str = "suite";
 
-/// Analyses of a plan at most: ten million core-hours and more.
-const MOST_ANALYSES: f64 = 1e12;
-
 /// Everything that a task must know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     schema: u32,
-    /// Program that made the plan.
+    /// Program that made the plan, with its commit; it makes the tiles, too.
     pub software: String,
     /// Levels of a curve.
     pub levels: Levels,
@@ -156,24 +154,14 @@ impl Plan {
     /// Writes a plan and packs the suite into its folder.
     ///
     /// # Errors
-    /// [`Failure`] for a block that comes again, where the folder has another
-    /// plan already, for more than 1e12 analyses, and where a record cannot
-    /// be packed or a file cannot be written.
+    /// [`Failure`] for a block or a demand that comes again, where the folder
+    /// has another plan already, for more than 1e12 analyses, and where a
+    /// record cannot be packed or a file cannot be written.
     pub fn write(
         wanted: &Wanted<'_>,
         folder: &Path,
         software: &str,
     ) -> Result<Planned, Failure> {
-        let mut ids = BTreeMap::new();
-        for one in wanted.blocks {
-            if let Some(first) = ids.insert(one.cells(), &one.id) {
-                return Err(Failure::input(format!(
-                    "{} is the same block as {first}: expected each block, by \
-                     its parameters and eta, once",
-                    one.id
-                )));
-            }
-        }
         let members: Vec<_> = wanted.suite.study_components().collect();
         let profiles: Vec<&Profile> =
             members.iter().map(|member| &member.accelerogram).collect();
@@ -188,14 +176,23 @@ impl Plan {
             })
             .collect::<Result<_, Failure>>()?;
         let tiles = cost::tiles(&costs, 60.0 * wanted.tile_minutes);
-        let analyses = tiles.iter().map(|tile| tile.analyses as f64);
-        let analyses = analyses.fold(0.0, |sum, x| sum + x);
-        if !(analyses <= MOST_ANALYSES) {
-            return Err(Failure::input(format!(
-                "about {analyses:e} analyses: expected at most \
-                 {MOST_ANALYSES:e}; a larger step of the levels makes fewer"
-            )));
-        }
+        let events: Option<Vec<String>> =
+            members.iter().map(|member| member.event.clone()).collect();
+        let mut plan = Self {
+            schema: SCHEMA,
+            software: software.into(),
+            levels: wanted.levels,
+            demands: wanted.demands.clone(),
+            replicates: REPLICATES,
+            rows: wanted.rows,
+            blocks: wanted.blocks.to_vec(),
+            records: Vec::with_capacity(members.len()),
+            events: events.unwrap_or_default(),
+            tiles,
+        };
+        // Refused before the records are packed.
+        plan.check_settings().map_err(Failure::input)?;
+        plan.check_blocks().map_err(Failure::input)?;
         let path = folder.join("plan.json");
         let there = fs::read_to_string(&path).ok();
         let write = |path: &Path, text: &str| match there {
@@ -211,32 +208,17 @@ impl Plan {
         let event = members.iter().any(|member| member.event.is_some());
         let own = own.map(|(name, _)| &**name).chain(event.then_some("event"));
         let mut packing = export::Packing::new(SUITE, own);
-        let mut records = Vec::with_capacity(members.len());
         let (place, read, none) =
             (wanted.place, wanted.read, Processing::default());
         reread(place, read, &none, &members, |motion, member| {
             let row = export::member_of(motion, member);
             let (path, text) = packing.add(&row)?;
             let sum = sha256_hex(text.as_bytes());
-            records.push((motion.name().to_owned(), sum));
+            plan.records.push((motion.name().to_owned(), sum));
             Ok::<_, Failure>(write(&path, &text)?)
         })?;
         let (index, text) = packing.finish();
         write(&index, &text)?;
-        let events: Option<Vec<String>> =
-            members.iter().map(|member| member.event.clone()).collect();
-        let plan = Self {
-            schema: SCHEMA,
-            software: software.into(),
-            levels: wanted.levels,
-            demands: wanted.demands.clone(),
-            replicates: REPLICATES,
-            rows: wanted.rows,
-            blocks: wanted.blocks.to_vec(),
-            records,
-            events: events.unwrap_or_default(),
-            tiles,
-        };
         let text = plan.text();
         if there.is_some_and(|there| there != text) {
             return Err(Failure::input(format!(
@@ -247,6 +229,17 @@ impl Plan {
         }
         write_atomically(&path, &text)?;
         Planned::read(folder)
+    }
+
+    /// The plan of a text, if its parts fit each other and a task can work on
+    /// them.
+    fn parse(text: &str) -> Result<Self, String> {
+        let plan: Self =
+            serde_json::from_str(text).map_err(|e| e.to_string())?;
+        plan.check_settings()?;
+        plan.check_blocks()?;
+        plan.check_records()?;
+        Ok(plan)
     }
 
     /// The records by earthquake, where the suite says it.
@@ -283,7 +276,7 @@ impl Plan {
         .to_string()
     }
 
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
@@ -344,18 +337,7 @@ impl Planned {
                 path.display()
             ))
         };
-        let plan: Plan =
-            serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
-        if plan.schema != SCHEMA {
-            return Err(refused(format!("schema {}", plan.schema)));
-        }
-        let tiled: usize = plan.tiles.iter().map(|tile| tile.blocks).sum();
-        if plan.blocks.is_empty() || tiled != plan.blocks.len() {
-            return Err(refused(format!(
-                "{} blocks, while the tiles hold {tiled}",
-                plan.blocks.len()
-            )));
-        }
+        let plan = Plan::parse(&text).map_err(refused)?;
         Ok(Self {
             hash: sha256_hex(text.as_bytes()),
             folder: folder.into(),

@@ -24,19 +24,22 @@ named! {
         Done = "done",
         /// Not there.
         Missing = "missing",
-        /// Of another plan.
-        Foreign = "of another plan",
+        /// Of another plan, or by another build of the program.
+        Foreign = "of another plan or another build of the program",
         /// Its bytes do not have the sum that it states.
         Damaged = "damaged: its sum is another",
     }
 }
 
 /// The last line of a tile's file.
-fn footer(hash: &str, tile: usize, body: &str) -> String {
-    format!(
-        "# plan {hash} tile {tile} sha256 {}\n",
-        sha256_hex(body.as_bytes())
-    )
+fn footer(planned: &Planned, tile: usize, body: &str) -> String {
+    let (of, sum) = (source(planned), sha256_hex(body.as_bytes()));
+    format!("{of} tile {tile} sha256 {sum}\n")
+}
+
+/// How it begins: the plan, and the program that made plan and tile.
+fn source(planned: &Planned) -> String {
+    format!("# plan {} by {}", planned.hash, planned.plan.software)
 }
 
 /// The text of a tile's file without the last line, or how the file stands.
@@ -55,10 +58,10 @@ fn read(
         return Err(State::Damaged);
     };
     let (body, last) = text.split_at(at);
-    if last == footer(&planned.hash, tile, body) {
+    if last == footer(planned, tile, body) {
         return Ok(body.to_owned());
     }
-    let of_plan = last.starts_with(&format!("# plan {} ", planned.hash));
+    let of_plan = last.starts_with(&format!("{} ", source(planned)));
     let has_plan = last.starts_with("# plan ");
     Err(if has_plan && !of_plan { State::Foreign } else { State::Damaged })
 }
@@ -92,18 +95,30 @@ pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
     own.filter(|tile| state(planned, *tile) != State::Done).collect()
 }
 
-/// Runs the tiles of task `task` of `of` that are not done; `done` receives
-/// each tile that was finished. A tile that is stopped leaves no file.
+/// Runs the tiles of task `task` of `of` that are not done, by the program
+/// `software`; `done` receives each tile that was finished. A tile that is
+/// stopped leaves no file.
 ///
 /// # Errors
-/// [`Failure`] for a record that is another than planned, an analysis
-/// that cannot be done, and a tile that cannot be written.
+/// [`Failure`] for a plan of another build of the program, a record that is
+/// another than planned, an analysis that cannot be done, and a tile that
+/// cannot be written.
 pub fn run(
     planned: &Planned,
+    software: &str,
     task_of: (usize, usize),
     done: &(dyn Fn(usize) + Sync),
 ) -> Result<(), Failure> {
     let plan = &planned.plan;
+    if plan.software != software {
+        return Err(Failure::input(format!(
+            "{}: a plan of {}: expected one of this program, {software}, or \
+             a run by the program that planned: tiles of two builds may \
+             differ",
+            planned.folder.display(),
+            plan.software
+        )));
+    }
     let left = left(planned, task_of);
     if left.is_empty() {
         return Ok(());
@@ -133,7 +148,7 @@ pub fn run(
         }
         for content in Content::kept(plan) {
             let body = text(plan, content, &all);
-            let text = footer(&planned.hash, tile, &body);
+            let text = footer(planned, tile, &body);
             write_atomically(&planned.tile_path(content, tile), body + &text)?;
         }
         done(tile);

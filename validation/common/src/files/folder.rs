@@ -1,42 +1,60 @@
 //! A folder as an output.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::TempDir;
+use rocking::record::sha256_hex;
 
+use super::sums::{SUMS, listed, sums};
+use super::system::{self, Lock};
 use super::unfinished::{
-    LOCK, WriteError, builder, folder_of, remove_left_behind, said, unfinished,
+    LOCK, MOVING, WriteError, builder, folder_of, is_unfinished, moving,
+    remove_left_behind, said, state,
 };
-
-/// Mark in an unfinished folder whose files are being put into place.
-const MOVING: &str = "moving";
 
 /// A folder to write files into, opened and found writable: all files or
 /// none; other files in it stay.
 ///
 /// The files are made in an unfinished folder within it, so that it may be
-/// the root of a file system or a link. A run that is killed while they are
-/// put into place leaves a folder without the last of them
-/// ([`is_interrupted`]).
+/// the root of a file system or a link. Before the first of them is put into
+/// place, a mark is set ([`is_interrupted`]), which goes when all are in
+/// place: whatever ends the run between, the mark stays. The next run
+/// replaces the files, and removes those of earlier runs that it does not
+/// write, as far as a manifest or a mark lists them and nobody changed them.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
     /// The unfinished folder and its lock, as long as there is one.
-    pub(super) part: Option<(TempDir, File)>,
+    part: Option<(PathBuf, File)>,
     /// Whether the folder was made here and holds nothing yet.
     made: bool,
+    /// Whether the folder must hold nothing else.
+    new: bool,
+    /// Whether files are being put into place.
+    moving: bool,
 }
 
 impl Drop for Folder {
-    /// Leaves nothing unfinished, and no folder that was made for nothing.
+    /// Leaves nothing unfinished but what is marked, and no folder that was
+    /// made for nothing.
     fn drop(&mut self) {
-        drop(self.part.take());
+        let part = self.part.take();
+        if self.moving {
+            // The mark stays; without its lock it tells that its run ended,
+            // where there are no locks, too.
+            let lock = part.map(|(part, _)| part.join(LOCK));
+            let _ = lock.map(|lock| system::remove_file(&lock));
+            return;
+        }
+        if let Some((part, _)) = part {
+            // What stays is removed by the next run.
+            let _ = system::remove_dir_all(&part);
+        }
         if self.made {
             // It stays where it holds anything.
-            let _ = fs::remove_dir(&self.path);
+            let _ = system::remove_dir(&self.path);
         }
     }
 }
@@ -45,51 +63,77 @@ impl Folder {
     /// Opens the folder `path`, and makes it where there is none.
     ///
     /// # Errors
-    /// [`WriteError`] naming the folder.
+    /// [`WriteError`] naming the folder; also where another run is putting
+    /// files into place there.
     pub fn open(path: &Path) -> Result<Self, WriteError> {
-        let attempt = || {
-            let made = !path.try_exists()?;
-            fs::create_dir_all(path)?;
-            remove_left_behind(path);
-            let mut builder = builder();
-            #[cfg(unix)]
-            {
-                use std::os::unix::fs::PermissionsExt as _;
-                builder.permissions(fs::Permissions::from_mode(0o777));
-            }
-            let part = builder.tempdir_in(path).map_err(|e| said(e, path))?;
-            let lock = File::create(part.path().join(LOCK))?;
-            lock.lock()?;
-            let path = path.to_owned();
-            Ok(Self { path, part: Some((part, lock)), made })
-        };
-        attempt().map_err(WriteError::at(path))
+        Self::opened(path, false).map_err(WriteError::at(path))
     }
 
-    /// As [`Folder::open`], for a folder that is not there or is empty.
+    /// As [`Folder::open`], for a folder that is not there or is empty but
+    /// for what an earlier run left unfinished.
     ///
     /// # Errors
     /// As [`Folder::open`], and for a folder that holds anything.
     pub fn open_new(path: &Path) -> Result<Self, WriteError> {
-        remove_left_behind(path);
-        let holds = fs::read_dir(path).is_ok_and(|e| e.count() > 0);
-        if holds {
-            let source = io::ErrorKind::DirectoryNotEmpty.into();
-            return Err(WriteError { path: path.to_owned(), source });
-        }
-        Self::open(path)
+        Self::opened(path, true).map_err(WriteError::at(path))
     }
 
-    /// Writes `files`, by their paths below the folder; the one named `last`
-    /// tells that all are there, and comes last.
+    fn opened(path: &Path, new: bool) -> io::Result<Self> {
+        let made = !path.try_exists()?;
+        system::create_dir_all(path)?;
+        let (part, moving) = (None, false);
+        let path = path.to_owned();
+        let mut folder = Self { path, part, made, new, moving };
+        remove_left_behind(&folder.path);
+        let earlier = Earlier::of(&folder.path, None)?;
+        if new {
+            earlier.remove_but(&folder.path, &BTreeMap::new())?;
+            folder.refuse_used(None)?;
+        }
+        let mut builder = builder();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            builder.permissions(fs::Permissions::from_mode(0o777));
+        }
+        let part = system::folder_in(&builder, &folder.path)
+            .map_err(|error| said(error, &folder.path))?;
+        let lock = part.join(LOCK);
+        // From here on it is removed where anything fails.
+        let (_, lock) = folder.part.insert((part, system::create(&lock)?));
+        system::lock(lock)?;
+        // Tells that its owner had the lock.
+        system::add(lock, b"locked\n")?;
+        Ok(folder)
+    }
+
+    /// Refuses a folder that holds anything but unfinished parts of runs that
+    /// have ended, and `own`.
+    fn refuse_used(&self, own: Option<&Path>) -> io::Result<()> {
+        for entry in fs::read_dir(&self.path)? {
+            let entry = entry?;
+            if !is_unfinished(&entry.file_name()) {
+                return Err(io::ErrorKind::DirectoryNotEmpty.into());
+            }
+            let path = entry.path();
+            if Some(&*path) != own && state(&path) == Some(Lock::Held) {
+                return Err(busy(&path));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes `files`, by their paths below the folder. Those named `last`
+    /// tell that all are there: they go first and come last, in this order.
     ///
     /// # Errors
     /// [`WriteError`] naming the file. Before all files are complete, nothing
-    /// in the folder changes.
+    /// in the folder changes; where they cannot all be put into place, the
+    /// folder is marked ([`is_interrupted`]).
     pub fn write(
-        self,
+        mut self,
         files: &BTreeMap<String, Vec<u8>>,
-        last: &str,
+        last: &[&str],
     ) -> Result<(), WriteError> {
         self.fill(files)?;
         self.put(files, last)
@@ -97,60 +141,182 @@ impl Folder {
 
     /// A place in the unfinished folder.
     fn unfinished(&self, name: &str) -> PathBuf {
-        let part = self.part.as_ref().map(|(part, _)| part.path());
+        let part = self.part.as_ref().map(|(part, _)| part.as_path());
         part.unwrap_or(&self.path).join(name)
     }
 
-    /// Makes all files in the unfinished folder.
-    pub(super) fn fill(
+    /// Makes all files in the unfinished folder, below `files`.
+    fn fill(
         &self,
         files: &BTreeMap<String, Vec<u8>>,
     ) -> Result<(), WriteError> {
         for (name, content) in files {
-            let path = self.unfinished(name);
-            let write = || {
-                fs::create_dir_all(folder_of(&path))?;
-                let mut file = File::create(&path)?;
-                file.write_all(content)?;
-                file.sync_all()
-            };
-            write().map_err(WriteError::at(&self.path.join(name)))?;
+            let path = self.unfinished(FILES).join(name);
+            system::create_dir_all(folder_of(&path))
+                .and_then(|()| system::write(&path, content))
+                .map_err(WriteError::at(&self.path.join(name)))?;
         }
         Ok(())
     }
 
     /// Puts all files into place.
-    pub(super) fn put(
-        &self,
+    fn put(
+        &mut self,
         files: &BTreeMap<String, Vec<u8>>,
-        last: &str,
+        last: &[&str],
     ) -> Result<(), WriteError> {
-        let mark = || File::create(self.unfinished(MOVING))?.sync_all();
-        mark().map_err(WriteError::at(&self.path))?;
-        let end = self.path.join(last);
-        match fs::remove_file(&end) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                return Err(WriteError::at(&end)(error));
+        let earlier = self.mark(files).map_err(WriteError::at(&self.path))?;
+        self.moving = true;
+        let unfinished = |path: &Path| {
+            let (path, folder) = (path.to_owned(), self.path.display());
+            let again = format!(
+                "{folder} is unfinished: the same command, run again, \
+                 completes it"
+            );
+            move |error: io::Error| WriteError {
+                path,
+                source: io::Error::new(
+                    error.kind(),
+                    format!("{error}; {again}"),
+                ),
             }
-            _ => {}
-        }
-        let others = files.keys().filter(|name| *name != last);
-        for name in others.chain(files.keys().filter(|name| *name == last)) {
+        };
+        for name in last {
             let path = self.path.join(name);
-            let rename = || {
-                fs::create_dir_all(folder_of(&path))?;
-                fs::rename(self.unfinished(name), &path)
-            };
-            rename().map_err(WriteError::at(&path))?;
+            system::remove_file(&path).map_err(unfinished(&path))?;
+        }
+        earlier
+            .remove_but(&self.path, files)
+            .map_err(unfinished(&self.path))?;
+        let is_last = |name: &&str| last.contains(name);
+        let names = files.keys().map(String::as_str);
+        let others = names.filter(|name| !is_last(name));
+        let ends = last.iter().filter(|name| files.contains_key(**name));
+        for name in others.chain(ends.copied()) {
+            let path = self.path.join(name);
+            system::create_dir_all(folder_of(&path))
+                .and_then(|()| {
+                    let from = self.unfinished(FILES).join(name);
+                    system::rename(&from, &path)
+                })
+                .map_err(unfinished(&path))?;
+        }
+        // Marks of earlier runs go before its own.
+        for part in &earlier.parts {
+            system::remove_file(&part.join(MOVING))
+                .and_then(|()| system::remove_dir_all(part))
+                .map_err(unfinished(part))?;
+        }
+        let mark = self.unfinished(MOVING);
+        system::remove_file(&mark).map_err(unfinished(&self.path))?;
+        self.moving = false;
+        Ok(())
+    }
+
+    /// Sets the mark, which lists all files that this run and earlier ones
+    /// may have put into place; gives those of earlier ones.
+    fn mark(&self, files: &BTreeMap<String, Vec<u8>>) -> io::Result<Earlier> {
+        let own = self.part.as_ref().map(|(part, _)| part.as_path());
+        let mut earlier = Earlier::of(&self.path, own)?;
+        // Where there is no manifest, nothing is known.
+        let manifest = fs::read_to_string(self.path.join(SUMS));
+        earlier.text += &manifest.unwrap_or_default();
+        let mut text = sums(files);
+        text.extend(earlier.text.as_bytes());
+        let (made, mark) =
+            (self.unfinished("marking"), self.unfinished(MOVING));
+        system::write(&made, &text)?;
+        system::rename(&made, &mark)?;
+        // Two runs that mark the folder at once see each other.
+        let attempt = || {
+            Earlier::of(&self.path, own)?;
+            if self.new { self.refuse_used(own) } else { Ok(()) }
+        };
+        match attempt() {
+            Ok(()) => Ok(earlier),
+            Err(error) => {
+                // Where it stays, the folder is refused until a run ends.
+                let _ = system::remove_file(&mark);
+                Err(error)
+            }
+        }
+    }
+}
+
+/// Where files are made in an unfinished folder.
+const FILES: &str = "files";
+
+/// What earlier runs put into a folder.
+struct Earlier {
+    /// Sums of their files.
+    text: String,
+    /// Unfinished folders with marks, whose runs have ended.
+    parts: Vec<PathBuf>,
+}
+
+impl Earlier {
+    /// By the marks in `folder`, but for that of the run whose unfinished
+    /// folder is `own`; refuses a folder into which another run is putting
+    /// files.
+    fn of(folder: &Path, own: Option<&Path>) -> io::Result<Self> {
+        let (mut text, mut parts) = (String::new(), Vec::new());
+        for part in moving(folder).filter(|part| Some(&**part) != own) {
+            match state(&part) {
+                // Its run has just ended.
+                None => continue,
+                Some(Lock::Free) => {}
+                Some(_) => return Err(busy(&part)),
+            }
+            text += &fs::read_to_string(part.join(MOVING))?;
+            parts.push(part);
+        }
+        Ok(Self { text, parts })
+    }
+
+    /// Removes the files of earlier runs that are as those runs wrote them,
+    /// but for the names in `files`, and the folders that this empties.
+    fn remove_but(
+        &self,
+        folder: &Path,
+        files: &BTreeMap<String, Vec<u8>>,
+    ) -> io::Result<()> {
+        let mut emptied = BTreeSet::new();
+        for (sum, name) in listed(&self.text) {
+            if files.contains_key(name) {
+                continue;
+            }
+            let path = folder.join(name);
+            let own = fs::read(&path).is_ok_and(|c| sha256_hex(&c) == sum);
+            if own {
+                system::remove_file(&path)?;
+            }
+            let parents = Path::new(name).ancestors().skip(1);
+            let inner = parents.filter(|inner| *inner != Path::new(""));
+            emptied.extend(inner.map(|inner| folder.join(inner)));
+        }
+        // Inner ones first. One that holds anything stays.
+        for path in emptied.iter().rev() {
+            let _ = system::remove_dir(path);
         }
         Ok(())
     }
 }
 
-/// Whether a run was killed while it put files into place in `folder`, so
-/// that they are not of one run.
+/// The error where another run is at work.
+fn busy(part: &Path) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::ResourceBusy,
+        format!(
+            "another run writes there: expected to be the only one; where \
+             none runs, remove {}",
+            part.join(LOCK).display()
+        ),
+    )
+}
+
+/// Whether a run ended, or is at work, while it put files into place in
+/// `folder`, so that they are not of one run.
 #[must_use]
 pub fn is_interrupted(folder: &Path) -> bool {
-    let moving = |path: &PathBuf| path.join(MOVING).exists();
-    unfinished(folder).iter().any(moving)
+    moving(folder).next().is_some()
 }

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use tempfile::TempDir;
 
+use super::system::faults::{self, Fault};
+use super::unfinished::{LOCK, MOVING};
 use super::*;
 
 /// A folder that is removed with the test.
@@ -131,26 +133,36 @@ fn two_outputs_do_not_go_to_one_place() {
     }
 }
 
+/// What tells that all files of [`files`] are there.
+const LAST: [&str; 2] = ["index.html", SUMS];
+
+/// The files of a run with their manifest; each run has one of its own.
 fn files(text: &str) -> BTreeMap<String, Vec<u8>> {
-    let names = ["index.html", "data/a.csv", "data/b.csv"];
+    let own = format!("data/of-{text}.csv");
+    let names = ["index.html", "data/a.csv", "data/b.csv", &own];
     let file = |name: &str| (name.to_owned(), text.as_bytes().to_vec());
-    names.into_iter().map(file).collect()
+    let mut files: BTreeMap<_, _> = names.into_iter().map(file).collect();
+    let manifest = sums(&files);
+    files.insert(SUMS.to_owned(), manifest);
+    files
 }
 
 #[test]
 fn a_folder_gets_all_files_and_keeps_others() {
     let root = folder();
     let out = root.path().join("report");
-    Folder::open(&out).unwrap().write(&files("x"), "index.html").unwrap();
+    Folder::open(&out).unwrap().write(&files("x"), &LAST).unwrap();
     fs::write(out.join("data/mine.csv"), "z").unwrap();
-    Folder::open(&out).unwrap().write(&files("y"), "index.html").unwrap();
+    Folder::open(&out).unwrap().write(&files("y"), &LAST).unwrap();
     let there = |name: &str| fs::read(out.join(name)).unwrap();
     assert_eq!(there("data/a.csv"), b"y");
     assert_eq!(there("index.html"), b"y");
     assert_eq!(there("data/mine.csv"), b"z");
     assert_eq!(names(root.path()), ["report"]);
-    assert_eq!(names(&out), ["data", "index.html"]);
+    assert_eq!(names(&out), [SUMS, "data", "index.html"]);
+    assert!(is_whole(&out).unwrap());
     assert!(Folder::open_new(&out).is_err());
+    assert_eq!(there("data/b.csv"), b"y");
     assert!(Folder::open_new(&root.path().join("new")).is_ok());
     let nothing = root.path().join("nothing");
     drop(Folder::open(&nothing).unwrap());
@@ -162,36 +174,328 @@ fn a_folder_gets_all_files_and_keeps_others() {
     assert_eq!(fs::read(&blocked).unwrap(), b"mine");
 }
 
-/// A run that is killed while it puts files into place: no page, and the
-/// folder tells; the next run cleans it.
+/// The folder holds the files of one run, but for a user's own.
+fn holds(out: &Path, text: &str) -> bool {
+    let mut found = BTreeMap::new();
+    for inner in ["", "data"].into_iter().filter(|i| out.join(i).is_dir()) {
+        for name in names(&out.join(inner)) {
+            let name =
+                if inner.is_empty() { name } else { format!("data/{name}") };
+            if !name.starts_with('.') && out.join(&name).is_file() {
+                found.insert(name.clone(), fs::read(out.join(name)).unwrap());
+            }
+        }
+    }
+    let mine = found.remove("data/mine.csv");
+    assert!(mine.is_none_or(|mine| mine == b"z"));
+    found == files(text)
+}
+
+/// No parts and no marks.
+fn is_clean(folder: &Path) -> bool {
+    names(folder).iter().all(|name| !name.starts_with('.'))
+}
+
+/// Makes what is unfinished look old.
+fn aged(out: &Path) {
+    let long_ago = std::time::SystemTime::UNIX_EPOCH;
+    for name in names(out).iter().filter(|name| name.starts_with('.')) {
+        File::open(out.join(name)).unwrap().set_modified(long_ago).unwrap();
+    }
+}
+
+const ENOSPC: i32 = 28;
+
+/// Whichever call of the file system fails, with or without those after it,
+/// the folder is that of the old run or of the new one, or is refused, and
+/// the same command then works at once.
 #[test]
-fn an_interrupted_folder_tells() {
+fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
+    let write = |out: &Path, text: &str, new: bool| {
+        let open = if new { Folder::open_new } else { Folder::open };
+        open(out)?.write(&files(text), &LAST)
+    };
+    let mut marked = 0;
+    for new in [false, true] {
+        let prepared = || {
+            let root = folder();
+            let out = root.path().join("report");
+            if !new {
+                write(&out, "old", false).unwrap();
+                fs::write(out.join("data/mine.csv"), "z").unwrap();
+            }
+            (root, out)
+        };
+        let (_root, out) = prepared();
+        let (done, calls) = faults::with(None, || write(&out, "new", new));
+        done.unwrap();
+        assert!(holds(&out, "new") && is_clean(&out));
+        assert!(calls.len() > 30, "{calls:?}");
+        for (after, call) in calls.iter().enumerate() {
+            for ongoing in [false, true] {
+                let (root, out) = prepared();
+                let fault = Fault { call: None, after, ongoing, code: ENOSPC };
+                let (done, _) =
+                    faults::with(Some(fault), || write(&out, "new", new));
+                let at = format!("{call}, call {after}, new: {new}");
+                let empty = !out.exists() || {
+                    let own = |name: &String| !name.starts_with('.');
+                    !names(&out).iter().any(own)
+                };
+                match is_whole(&out) {
+                    Err(Mixed::Interrupted) => marked += 1,
+                    Ok(true) if done.is_ok() => {
+                        assert!(holds(&out, "new"), "{at}");
+                    }
+                    Ok(true) => assert!(
+                        holds(&out, "new") || holds(&out, "old"),
+                        "{at}"
+                    ),
+                    Ok(false) => assert!(new && empty, "{at}"),
+                    Err(mixed) => panic!("{at}: {mixed}"),
+                }
+                // Another run: not the same files.
+                let again = write(&out, "next", new);
+                if new && done.is_ok() {
+                    again.unwrap_err();
+                    assert!(holds(&out, "new"), "{at}");
+                    continue;
+                }
+                again.unwrap_or_else(|error| panic!("{at}: {error}"));
+                assert!(holds(&out, "next") && is_whole(&out).unwrap());
+                // A part that was never locked stays for ten seconds.
+                aged(&out);
+                drop(Folder::open(&out));
+                assert!(is_clean(&out), "{at}: {:?}", names(&out));
+                assert!(is_clean(root.path()));
+            }
+        }
+    }
+    assert!(marked > 20, "{marked}");
+}
+
+/// Whichever call fails, a file is the old one or the new one.
+#[test]
+fn an_error_at_any_call_leaves_the_old_file() {
+    let (_, calls) = faults::with(None, || {
+        let root = folder();
+        write_atomically(&root.path().join("a.csv"), "new").unwrap();
+    });
+    assert!(calls.len() > 4, "{calls:?}");
+    for after in 0..calls.len() {
+        let root = folder();
+        let path = root.path().join("a.csv");
+        fs::write(&path, "old").unwrap();
+        let fault = Fault { call: None, after, ongoing: false, code: ENOSPC };
+        let (done, _) =
+            faults::with(Some(fault), || write_atomically(&path, "new"));
+        let error = done.unwrap_err().to_string();
+        assert!(error.starts_with("cannot write "), "{error}");
+        assert_eq!(fs::read(&path).unwrap(), b"old", "{}", calls[after]);
+        assert_eq!(names(root.path()), ["a.csv"]);
+    }
+}
+
+/// Only one file calls the file system to change anything.
+#[test]
+fn no_call_escapes_the_faults() {
+    let changing = [
+        "create",
+        "write",
+        "rename",
+        "remove",
+        "copy",
+        "lock()",
+        "set_len",
+        "sync_",
+        "set_perm",
+        "tempdir_in",
+        "tempfile_in",
+        "persist(",
+    ];
+    for (name, text) in [
+        ("folder.rs", include_str!("folder.rs")),
+        ("sums.rs", include_str!("sums.rs")),
+        ("unfinished.rs", include_str!("unfinished.rs")),
+        ("files.rs", include_str!("../files.rs")),
+    ] {
+        let is_code = |line: &&str| {
+            !["//", "use ", "Sink::Stream", "device"]
+                .iter()
+                .any(|no| line.contains(no))
+        };
+        let code = text.lines().filter(is_code);
+        for line in code.filter(|line| !line.contains("system::")) {
+            let calls = ["fs::", "File::", "builder", "part."];
+            let any = calls.iter().any(|call| line.contains(call))
+                && changing.iter().any(|call| line.contains(call));
+            assert!(!any, "{name}: {line}");
+        }
+    }
+}
+
+/// Cluster file systems often have no locks.
+#[test]
+fn without_locks_files_and_folders_are_written_all_the_same() {
+    for code in [38, 95, 37] {
+        let none =
+            Some(Fault { call: Some("lock"), after: 0, ongoing: true, code });
+        let root = folder();
+        let (path, out) = (root.path().join("a.csv"), root.path().join("o"));
+        let (done, calls) = faults::with(none, || {
+            write_atomically(&path, "new")?;
+            Folder::open(&out)?.write(&files("one"), &LAST)?;
+            Folder::open(&out)?.write(&files("new"), &LAST)
+        });
+        done.unwrap();
+        assert!(calls.contains(&"lock".to_owned()));
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert!(holds(&out, "new") && is_whole(&out).unwrap());
+        // What may be somebody's stays, and is named.
+        let part = killed(&out, "killed");
+        let (done, _) = faults::with(none, || Folder::open(&out));
+        let error = done.unwrap_err().to_string();
+        assert!(error.contains(&*part.to_string_lossy()), "{error}");
+        assert!(part.exists());
+        assert!(error.contains("/lock"), "{error}");
+        fs::remove_file(part.join(LOCK)).unwrap();
+        // A run that fails tells so itself.
+        let rename =
+            Fault { call: Some("rename"), after: 2, ongoing: false, code: 5 };
+        let (done, _) = faults::with(Some(rename), || {
+            Folder::open(&out)?.write(&files("failed"), &LAST)
+        });
+        let error = done.unwrap_err().to_string();
+        assert!(error.contains("is unfinished: the same"), "{error}");
+        assert!(is_interrupted(&out));
+        let (done, _) = faults::with(none, || {
+            Folder::open(&out)?.write(&files("next"), &LAST)
+        });
+        done.unwrap();
+        assert!(holds(&out, "next") && is_whole(&out).unwrap());
+    }
+    // Another error of a lock is one.
+    let broken =
+        Some(Fault { call: Some("lock"), after: 0, ongoing: true, code: 5 });
+    let root = folder();
+    let (done, _) = faults::with(broken, || Folder::open(root.path()));
+    assert!(done.is_err());
+}
+
+/// What a run leaves that is killed while it puts the files of `text` into
+/// place, half of them done.
+fn killed(out: &Path, text: &str) -> PathBuf {
+    let part = out.join(format!(".rocking-{text}.part"));
+    fs::create_dir_all(part.join("files/data")).unwrap();
+    fs::write(part.join(LOCK), "locked\n").unwrap();
+    let _ = fs::remove_file(out.join("index.html"));
+    let mut mark = sums(&files(text));
+    mark.extend(fs::read(out.join(SUMS)).unwrap_or_default());
+    let _ = fs::remove_file(out.join(SUMS));
+    fs::create_dir_all(out.join("data")).unwrap();
+    for (name, content) in &files(text) {
+        let done = name < &"data/b.csv".to_owned() && name != SUMS;
+        let place = if done { out } else { &part.join("files") };
+        fs::write(place.join(name), content).unwrap();
+    }
+    fs::write(part.join(MOVING), mark).unwrap();
+    part
+}
+
+/// A run that is killed while it puts files into place: no page, and the
+/// folder tells; the next run cleans it, at once, but not before it is done.
+#[test]
+fn a_killed_run_is_no_hindrance() {
+    for new in [false, true] {
+        let root = folder();
+        let out = root.path();
+        let open = if new { Folder::open_new } else { Folder::open };
+        if !new {
+            Folder::open(out).unwrap().write(&files("old"), &LAST).unwrap();
+        }
+        // One that was killed at its work, before any file, and one later.
+        let early = out.join(".rocking-early.part");
+        fs::create_dir_all(&early).unwrap();
+        fs::write(early.join(LOCK), "locked\n").unwrap();
+        killed(out, "killed");
+        assert!(matches!(is_whole(out), Err(Mixed::Interrupted)));
+        let run = open(out).unwrap();
+        assert!(!early.exists());
+        assert!(is_interrupted(out), "until the next run is done");
+        drop(run);
+        assert!(is_interrupted(out));
+        open(out).unwrap().write(&files("next"), &LAST).unwrap();
+        assert!(holds(out, "next") && is_whole(out).unwrap());
+        assert!(is_clean(out), "{:?}", names(out));
+    }
+    // A run that just made its folder has not locked it yet.
+    let root = folder();
+    let fresh = root.path().join(".rocking-fresh.part");
+    fs::create_dir(&fresh).unwrap();
+    drop(Folder::open_new(root.path()).unwrap());
+    assert!(fresh.exists(), "somebody may just have made it");
+    aged(root.path());
+    drop(Folder::open_new(root.path()).unwrap());
+    assert!(!fresh.exists());
+}
+
+#[test]
+fn two_runs_do_not_write_into_one_folder_at_once() {
     let root = folder();
     let out = root.path();
-    Folder::open(out).unwrap().write(&files("old"), "index.html").unwrap();
-    let mut run = Folder::open(out).unwrap();
-    run.fill(&files("new")).unwrap();
-    fs::create_dir(out.join("data/b.csv.d")).unwrap();
-    // The second rename fails, as a full disk or a signal would end it.
-    fs::remove_file(out.join("data/b.csv")).unwrap();
-    fs::create_dir_all(out.join("data/b.csv/full")).unwrap();
-    assert!(run.put(&files("new"), "index.html").is_err());
-    assert!(!out.join("index.html").exists());
-    assert!(is_interrupted(out));
-    let (part, lock) = run.part.take().unwrap();
-    let part = part.keep();
-    remove_left_behind(out);
-    assert!(part.exists(), "somebody may just have made it");
-    let long_ago = std::time::SystemTime::UNIX_EPOCH;
-    File::open(&part).unwrap().set_modified(long_ago).unwrap();
-    remove_left_behind(out);
-    assert!(part.exists(), "its owner holds the lock");
-    drop(lock);
-    // A process that another test starts holds the lock until it runs.
-    let is_gone = || {
-        remove_left_behind(out);
-        std::thread::sleep(std::time::Duration::from_millis(10));
-        !part.exists()
+    let first = Folder::open_new(out).unwrap();
+    let error = Folder::open_new(out).unwrap_err().to_string();
+    assert!(error.contains("another run"), "{error}");
+    // One that may replace files waits with its files until it puts them.
+    let second = Folder::open(out).unwrap();
+    let part = names(out).remove(0);
+    fs::write(out.join(&part).join(MOVING), "").unwrap();
+    assert!(Folder::open(out).is_err());
+    fs::remove_file(out.join(&part).join(MOVING)).unwrap();
+    second.write(&files("second"), &LAST).unwrap();
+    let error = first.write(&files("first"), &LAST).unwrap_err().to_string();
+    assert!(error.contains("not empty"), "{error}");
+    assert!(holds(out, "second") && is_whole(out).unwrap() && is_clean(out));
+}
+
+#[test]
+fn a_manifest_names_what_is_not_as_it_says() {
+    let root = folder();
+    let out = root.path();
+    assert!(!is_whole(out).unwrap());
+    Folder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
+    // As coreutils read it.
+    let sha256sum = std::process::Command::new("sha256sum")
+        .args(["--check", "--strict", "--quiet", SUMS])
+        .current_dir(out)
+        .status();
+    assert!(sha256sum.is_ok_and(|status| status.success()));
+    let said = |words: &str| {
+        let error = is_whole(out).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
     };
-    assert!((0..500).any(|_| is_gone()));
+    fs::write(out.join("data/a.csv"), "y").unwrap();
+    said(
+        "data/a.csv: SHA-256 a1fce4363854ff888cff4b8e7875d600c2682390412a8cf",
+    );
+    fs::remove_file(out.join("data/a.csv")).unwrap();
+    said("data/a.csv: No such file");
+    let sum = "0".repeat(64);
+    for line in [
+        format!("{sum}  ../secret"),
+        format!("{sum}  /etc/passwd"),
+        format!("{sum} a"),
+        format!("{sum}  "),
+        "0  a".to_owned(),
+    ] {
+        fs::write(out.join(SUMS), &line).unwrap();
+        said(&format!("{SUMS}:1: found {line:?}"));
+    }
+    // A file that a user changed is nobody's to remove.
+    Folder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
+    fs::write(out.join("data/of-x.csv"), "mine").unwrap();
+    Folder::open(out).unwrap().write(&files("y"), &LAST).unwrap();
+    assert_eq!(fs::read(out.join("data/of-x.csv")).unwrap(), b"mine");
+    fs::remove_file(out.join("data/of-x.csv")).unwrap();
+    assert!(holds(out, "y"));
 }

@@ -1,6 +1,7 @@
 //! Unfinished files and folders, and why there are none.
 
-use std::fs::{self, File, TryLockError};
+use std::ffi::OsStr;
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -8,14 +9,19 @@ use std::time::Duration;
 use tempfile::Builder;
 use thiserror::Error;
 
+use super::system::{self, Lock};
+
 /// How the names of unfinished files and folders begin and end.
 pub(super) const PART: (&str, &str) = (".rocking-", ".part");
 
 /// Locks an unfinished folder for its owner.
 pub(super) const LOCK: &str = "lock";
 
-/// Age from which something unfinished and not locked is somebody's left
-/// behind, not just about to be locked.
+/// Mark in an unfinished folder whose files are being put into place.
+pub(super) const MOVING: &str = "moving";
+
+/// Age from which something unfinished, never locked, was left behind and is
+/// not just about to be locked.
 pub(super) const LEFT_BEHIND: Duration = Duration::from_secs(10);
 
 /// A file that could not be written.
@@ -69,41 +75,64 @@ pub(super) fn said(error: io::Error, folder: &Path) -> io::Error {
     }
 }
 
-/// Removes what killed runs left in `folder`; what cannot be removed stays.
+/// Removes what runs that have ended left in `folder`, but for marked
+/// folders, whose files are in place; what cannot be removed stays.
 pub(super) fn remove_left_behind(folder: &Path) {
     for path in unfinished(folder) {
-        let is_folder = path.is_dir();
-        let lock = if is_folder { path.join(LOCK) } else { path.clone() };
-        let old =
-            fs::metadata(&path).and_then(|found| found.modified()).is_ok_and(
-                |then| then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND),
-            );
-        let free = match File::open(&lock).map(|lock| lock.try_lock()) {
-            Ok(Ok(())) => true,
-            Ok(Err(TryLockError::WouldBlock | TryLockError::Error(_))) => {
-                false
-            }
-            Err(_) => is_folder,
-        };
-        if old && free {
-            let _ = match is_folder {
-                true => fs::remove_dir_all(&path),
-                false => fs::remove_file(&path),
-            };
+        if state(&path) != Some(Lock::Free) || path.join(MOVING).exists() {
+            continue;
         }
+        let _ = match path.is_dir() {
+            true => system::remove_dir_all(&path),
+            false => system::remove_file(&path),
+        };
     }
+}
+
+/// Whether a run is at work on something unfinished: its lock is free where
+/// none is, and unknown where somebody may just be about to lock it. None
+/// where it is gone.
+pub(super) fn state(path: &Path) -> Option<Lock> {
+    let found = fs::metadata(path).ok()?;
+    let lock = if found.is_dir() { path.join(LOCK) } else { path.to_owned() };
+    let had_lock =
+        found.is_dir() && fs::metadata(&lock).is_ok_and(|lock| lock.len() > 0);
+    let old = found
+        .modified()
+        .is_ok_and(|then| then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND));
+    Some(match system::tried(&lock) {
+        Ok(Lock::Free) if !(had_lock || old) => Lock::Unknown,
+        Ok(lock) => lock,
+        // One that is marked had a lock before; the run of another may be
+        // about to make it.
+        Err(error)
+            if error.kind() == io::ErrorKind::NotFound
+                && (old || path.join(MOVING).exists()) =>
+        {
+            Lock::Free
+        }
+        Err(_) => Lock::Unknown,
+    })
+}
+
+/// Unfinished folders in `folder` whose files are being put into place, or
+/// were when their run ended.
+pub(super) fn moving(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let parts = unfinished(folder).into_iter();
+    parts.filter(|part| part.join(MOVING).exists())
 }
 
 /// Unfinished files and folders in `folder`.
 pub(super) fn unfinished(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let ours = |name: &std::ffi::OsStr| {
-        name.to_str().is_some_and(|name| {
-            name.starts_with(PART.0) && name.ends_with(PART.1)
-        })
-    };
     entries
-        .filter(|entry| ours(&entry.file_name()))
+        .filter(|entry| is_unfinished(&entry.file_name()))
         .map(|entry| entry.path())
         .collect()
+}
+
+/// Whether it is the name of something unfinished.
+pub(super) fn is_unfinished(name: &OsStr) -> bool {
+    name.to_str()
+        .is_some_and(|name| name.starts_with(PART.0) && name.ends_with(PART.1))
 }

@@ -130,8 +130,7 @@ impl<'a> Packing<'a> {
     /// For a record whose name no file can have.
     pub fn add(&mut self, row: &Row<'_>) -> anyhow::Result<(PathBuf, String)> {
         let motion = row.motion;
-        let fits = |c: char| !c.is_control() && !"/\\".contains(c);
-        if motion.name().is_empty() || !motion.name().chars().all(fits) {
+        if !is_file_name(motion.name()) {
             bail!(
                 "record {:?}: expected a name that a file can have",
                 motion.name()
@@ -165,6 +164,13 @@ impl<'a> Packing<'a> {
         let path = PathBuf::from(format!("{}.csv", self.name));
         (path, self.index.finish())
     }
+}
+
+/// Whether a record's name is one that a file can have.
+#[must_use]
+pub fn is_file_name(name: &str) -> bool {
+    let fits = |c: char| !c.is_control() && !"/\\".contains(c);
+    !name.is_empty() && name.chars().all(fits)
 }
 
 /// A record as AT2, five numbers of 25 characters a line: 17 digits, which

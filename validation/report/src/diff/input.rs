@@ -7,12 +7,13 @@ use anyhow::{Context as _, bail};
 use serde::Deserialize;
 use serde_json::Value;
 
-use rocking_common::files::is_interrupted;
+use rocking_common::files::{SUMS, is_whole};
 use rocking_common::findings::Findings;
 use rocking_proof::verdict::snapshot;
 
 use super::item::Item;
 use super::{cases, findings};
+use crate::output::{FINDINGS, PAGE};
 
 /// Names of the files that can be compared.
 pub(super) const NAMES: [&str; 2] = ["findings.json", "validation.json"];
@@ -48,10 +49,13 @@ impl Results {
             results.add(path)?;
             return Ok(results);
         }
-        if is_interrupted(path) {
+        let is_known = is_whole(path).with_context(|| shown.to_string())?;
+        let is_report =
+            path.join(PAGE).exists() && path.join(FINDINGS).exists();
+        if is_report && !is_known {
             bail!(
-                "{shown}: files of two runs: expected a folder that was \
-                 written to its end"
+                "{shown}: no {SUMS}, so that its files may be of two runs: \
+                 expected the one that `rocking study` writes beside its page"
             );
         }
         for name in NAMES {

@@ -1,0 +1,105 @@
+//! The manifest of a folder: the SHA-256 of each file that one run wrote, as
+//! `sha256sum` writes and checks it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::{Component, Path};
+
+use rocking::record::sha256_hex;
+use thiserror::Error;
+
+use super::unfinished::moving;
+
+/// Name of the manifest.
+pub const SUMS: &str = "SHA256SUMS";
+
+/// The manifest of these files, by their paths below the folder.
+#[must_use]
+pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
+    let mut text = String::new();
+    for (name, content) in files {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}  {name}", sha256_hex(content));
+    }
+    text.into_bytes()
+}
+
+/// Why the files of a folder are not those of one run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Mixed {
+    /// A run ended while it put files into place.
+    #[error(
+        "files of two runs: expected a folder that was written to its end; \
+         the command that wrote it completes it"
+    )]
+    Interrupted,
+    /// A file of the manifest is missing or is another.
+    #[error("{name}: {found}: expected the file of the run that wrote {SUMS}")]
+    File {
+        /// Its path below the folder.
+        name: String,
+        /// What is there.
+        found: String,
+    },
+    /// A line of the manifest is none.
+    #[error(
+        "{SUMS}:{line}: found {found:?}: expected a SHA-256, two spaces and \
+         the path of a file in the folder"
+    )]
+    Line {
+        /// Line, from 1.
+        line: usize,
+        /// Its text.
+        found: String,
+    },
+    /// The manifest cannot be read.
+    #[error("{SUMS}: {0}")]
+    Unread(#[from] io::Error),
+}
+
+/// Whether a manifest says that the files of `folder` are of one run; false
+/// where there is no manifest.
+///
+/// # Errors
+/// [`Mixed`] for a folder that a run left unfinished, for a file that is not
+/// as the manifest says, and for a manifest that cannot be read.
+pub fn is_whole(folder: &Path) -> Result<bool, Mixed> {
+    if moving(folder).next().is_some() {
+        return Err(Mixed::Interrupted);
+    }
+    let text = match fs::read_to_string(folder.join(SUMS)) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Ok(false);
+        }
+        read => read?,
+    };
+    for (k, line) in text.lines().enumerate() {
+        let Some((expected, name)) = parsed(line) else {
+            return Err(Mixed::Line { line: k + 1, found: line.to_owned() });
+        };
+        let found = match fs::read(folder.join(name)) {
+            Err(error) => error.to_string(),
+            Ok(content) if sha256_hex(&content) == expected => continue,
+            Ok(content) => format!("SHA-256 {}", sha256_hex(&content)),
+        };
+        return Err(Mixed::File { name: name.to_owned(), found });
+    }
+    Ok(true)
+}
+
+/// The sums of a text and their paths; other lines are none.
+pub(super) fn listed(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.lines().filter_map(parsed)
+}
+
+/// The sum and the path of a line: one that stays below the folder.
+fn parsed(line: &str) -> Option<(&str, &str)> {
+    let (sum, name) = line.split_once("  ")?;
+    let is_sum = sum.len() == 64 && sum.bytes().all(|b| b.is_ascii_hexdigit());
+    let mut parts = Path::new(name).components();
+    let stays = parts.all(|part| matches!(part, Component::Normal(_)));
+    (is_sum && stays && !name.is_empty()).then_some((sum, name))
+}

@@ -1,0 +1,200 @@
+//! The calls of the file system that write outputs. Only this file makes
+//! them, so that a test can make any one of them fail.
+
+use std::fs::{self, File, Permissions, TryLockError};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use rustix::io::Errno;
+use tempfile::{Builder, NamedTempFile, PersistError};
+
+/// Whether another process holds the lock of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lock {
+    /// None does.
+    Free,
+    /// One does.
+    Held,
+    /// The file system has no locks, or the file cannot be opened.
+    Unknown,
+}
+
+pub(super) fn create_dir_all(path: &Path) -> io::Result<()> {
+    begin("create_dir_all")?;
+    fs::create_dir_all(path)
+}
+
+/// A new file with these bytes, which have reached the disk.
+pub(super) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    begin("create")?;
+    let mut file = File::create(path)?;
+    begin("write")?;
+    file.write_all(content)?;
+    sync(&file)
+}
+
+/// Writes to an open file.
+pub(super) fn add(mut file: &File, content: &[u8]) -> io::Result<usize> {
+    begin("write")?;
+    file.write(content)
+}
+
+pub(super) fn sync(file: &File) -> io::Result<()> {
+    begin("sync")?;
+    file.sync_all()
+}
+
+pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    begin("rename")?;
+    fs::rename(from, to)
+}
+
+/// Removes a file, where there is one.
+pub(super) fn remove_file(path: &Path) -> io::Result<()> {
+    match begin("remove_file").and_then(|()| fs::remove_file(path)) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        done => done,
+    }
+}
+
+/// Removes an empty folder.
+pub(super) fn remove_dir(path: &Path) -> io::Result<()> {
+    begin("remove_dir")?;
+    fs::remove_dir(path)
+}
+
+pub(super) fn remove_dir_all(path: &Path) -> io::Result<()> {
+    begin("remove_dir_all")?;
+    fs::remove_dir_all(path)
+}
+
+/// A new folder below `folder`, which nothing removes.
+pub(super) fn folder_in(
+    builder: &Builder<'_, '_>,
+    folder: &Path,
+) -> io::Result<PathBuf> {
+    begin("mkdir")?;
+    let made = builder.tempdir_in(folder)?.keep();
+    // As `folder` is spelt, which the library makes absolute.
+    Ok(folder.join(made.file_name().unwrap_or_default()))
+}
+
+/// A new file in `folder`, which is removed unless it is put into place.
+pub(super) fn file_in(
+    builder: &Builder<'_, '_>,
+    folder: &Path,
+) -> io::Result<NamedTempFile> {
+    begin("create")?;
+    builder.tempfile_in(folder)
+}
+
+pub(super) fn persist(
+    part: NamedTempFile,
+    target: &Path,
+) -> Result<File, PersistError> {
+    match begin("rename") {
+        Ok(()) => part.persist(target),
+        Err(error) => Err(PersistError { error, file: part }),
+    }
+}
+
+pub(super) fn set_permissions(file: &File, to: Permissions) -> io::Result<()> {
+    begin("chmod")?;
+    file.set_permissions(to)
+}
+
+/// A new file for a lock.
+pub(super) fn create(path: &Path) -> io::Result<File> {
+    begin("create")?;
+    File::create(path)
+}
+
+/// Locks a file, so that other runs leave it alone. Where the file system
+/// has no locks, work goes on without one.
+pub(super) fn lock(file: &File) -> io::Result<()> {
+    match begin("lock").and_then(|()| file.lock()) {
+        Err(error) if has_no_locks(&error) => Ok(()),
+        done => done,
+    }
+}
+
+/// The lock of a file, which is free again where it was.
+pub(super) fn tried(path: &Path) -> io::Result<Lock> {
+    let file = File::open(path)?;
+    Ok(match begin("lock").map(|()| file.try_lock()) {
+        Ok(Ok(())) => Lock::Free,
+        Ok(Err(TryLockError::WouldBlock)) => Lock::Held,
+        Ok(Err(TryLockError::Error(_))) | Err(_) => Lock::Unknown,
+    })
+}
+
+/// Whether an error of a lock says that the file system has none: Lustre
+/// without `flock`, NFS without its daemon, some in user space.
+fn has_no_locks(error: &io::Error) -> bool {
+    const NONE: [Errno; 3] = [Errno::NOSYS, Errno::OPNOTSUPP, Errno::NOLCK];
+    let code = error.raw_os_error();
+    error.kind() == io::ErrorKind::Unsupported
+        || NONE.iter().any(|none| code == Some(none.raw_os_error()))
+}
+
+/// Stands before each call; a test makes it fail.
+#[cfg(not(test))]
+fn begin(_: &str) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+use faults::begin;
+
+/// Errors of calls, for tests.
+#[cfg(test)]
+pub(super) mod faults {
+    use std::cell::{Cell, RefCell};
+    use std::io;
+
+    /// Which calls fail, and how.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Fault {
+        /// Their name; any where there is none.
+        pub call: Option<&'static str>,
+        /// How many such calls are made before.
+        pub after: usize,
+        /// Whether those after it fail, too.
+        pub ongoing: bool,
+        /// What the system says.
+        pub code: i32,
+    }
+
+    thread_local! {
+        static FAULT: Cell<Option<Fault>> = const { Cell::new(None) };
+        static CALLS: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
+    }
+
+    /// Does `work` with a fault; also gives the calls that were made.
+    pub fn with<T>(
+        fault: Option<Fault>,
+        work: impl FnOnce() -> T,
+    ) -> (T, Vec<String>) {
+        FAULT.set(fault);
+        CALLS.take();
+        let done = work();
+        FAULT.set(None);
+        (done, CALLS.take())
+    }
+
+    pub(super) fn begin(call: &str) -> io::Result<()> {
+        CALLS.with_borrow_mut(|calls| calls.push(call.to_owned()));
+        let Some(fault) = FAULT.get() else { return Ok(()) };
+        if fault.call.is_some_and(|named| named != call) {
+            return Ok(());
+        }
+        if fault.after > 0 {
+            FAULT.set(Some(Fault { after: fault.after - 1, ..fault }));
+            return Ok(());
+        }
+        if !fault.ongoing {
+            FAULT.set(None);
+        }
+        Err(io::Error::from_raw_os_error(fault.code))
+    }
+}

@@ -1,0 +1,131 @@
+//! What a plan is held to, when it is made and whenever it is read: its
+//! folder is shared, and input like any other.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rocking_common::suites::export;
+
+use super::{Levels, Plan, SCHEMA};
+
+/// Replicates of the bootstrap at most.
+const MOST_REPLICATES: usize = 1_000_000;
+
+/// Analyses of a plan at most: ten million core-hours and more.
+const MOST_ANALYSES: f64 = 1e12;
+
+impl Plan {
+    /// Refuses another form, and settings out of range.
+    pub(super) fn check_settings(&self) -> Result<(), String> {
+        let refuse = |words: String| Err(words);
+        if self.schema != SCHEMA {
+            return refuse(format!(
+                "schema {}: expected {SCHEMA}",
+                self.schema
+            ));
+        }
+        let step = match self.levels {
+            Levels::StepIm(step) | Levels::StepPgaG(step) => step,
+        };
+        if !(step > 0.0 && step.is_finite()) {
+            return refuse(format!("step {step}: expected a positive number"));
+        }
+        if !(2..=MOST_REPLICATES).contains(&self.replicates) {
+            return refuse(format!(
+                "{} replicates: expected 2 to {MOST_REPLICATES}",
+                self.replicates
+            ));
+        }
+        if self.demands.is_empty() {
+            return refuse("no demands: expected one or more".into());
+        }
+        let mut seen = BTreeSet::new();
+        for demand in &self.demands {
+            if !(*demand > 0.0 && *demand <= 1.0) {
+                return refuse(format!(
+                    "demand {demand}: expected a number above 0, at most 1"
+                ));
+            }
+            if !seen.insert(demand.to_string()) {
+                return refuse(format!(
+                    "demand {demand} comes again: expected each once"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses blocks that are none or the same, and tiles that do not hold
+    /// each block once.
+    pub(super) fn check_blocks(&self) -> Result<(), String> {
+        let (mut ids, mut same) = (BTreeSet::new(), BTreeMap::new());
+        for given in &self.blocks {
+            let id = &given.id;
+            self.analysis(given)
+                .map_err(|e| format!("{id}: {}", e.message))?;
+            if !ids.insert(id) {
+                return Err(format!(
+                    "two blocks are {id}: expected a name of its own"
+                ));
+            }
+            if let Some(first) = same.insert(given.cells(), id) {
+                return Err(format!(
+                    "{id} is the same block as {first}: expected each block, \
+                     by its parameters and eta, once"
+                ));
+            }
+        }
+        let tiled = self.tiles.iter().try_fold(0_usize, |sum, tile| {
+            sum.checked_add(tile.blocks).filter(|_| tile.blocks > 0)
+        });
+        if self.blocks.is_empty() || tiled != Some(self.blocks.len()) {
+            return Err(format!(
+                "{} tiles of {} blocks: expected tiles of one block or more \
+                 that hold each block once",
+                self.tiles.len(),
+                self.blocks.len()
+            ));
+        }
+        let analyses = self.tiles.iter().map(|tile| tile.analyses as f64);
+        let analyses = analyses.fold(0.0, |sum, x| sum + x);
+        if !(analyses <= MOST_ANALYSES) {
+            return Err(format!(
+                "about {analyses:e} analyses: expected at most \
+                 {MOST_ANALYSES:e}; a larger step of the levels makes fewer"
+            ));
+        }
+        match self.tiles.iter().find(|tile| !(tile.core_s >= 0.0)) {
+            None => Ok(()),
+            Some(tile) => Err(format!(
+                "a tile of {} s: expected a number, not negative",
+                tile.core_s
+            )),
+        }
+    }
+
+    /// Refuses records without a hash or a name for a file, and earthquakes
+    /// that are not those of the records.
+    pub(super) fn check_records(&self) -> Result<(), String> {
+        let count = self.records.len();
+        if count == 0 || ![0, count].contains(&self.events.len()) {
+            return Err(format!(
+                "{count} records of {} earthquakes: expected records, and the \
+                 earthquake of each or of none",
+                self.events.len()
+            ));
+        }
+        let mut names = BTreeSet::new();
+        for (name, hash) in &self.records {
+            let hex = |c: u8| matches!(c, b'0'..=b'9' | b'a'..=b'f');
+            let fits = export::is_file_name(name)
+                && hash.len() == 64
+                && hash.bytes().all(hex);
+            if !fits || !names.insert(name) {
+                return Err(format!(
+                    "record {name:?}, {hash:?}: expected a name of its own \
+                     that a file can have, and a SHA-256"
+                ));
+            }
+        }
+        Ok(())
+    }
+}

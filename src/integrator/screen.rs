@@ -258,8 +258,7 @@ mod tests {
         let (tau, last, coefficients) = (0.01, 1e-9, 5.0);
         let (u, w, size, last) = (0.0, 0.0, 0.0, Some(last));
         let step = Flown { tau, curvature: 1.0, u, w, size, last };
-        for flight in [0.1, 1.0, 5.0, 25.0] {
-            let steps = (flight / tau) as usize;
+        for steps in [1, 10, 100, 500, 2500] {
             let mut screen = Screen::<f64>::at_rest();
             let [mut by_u, mut by_w] = [0.0; 2];
             for _ in 0..steps {
@@ -268,8 +267,10 @@ mod tests {
                 by_u += tau * by_w + 1e-9 * tau / coefficients;
                 by_w += 1e-9 * tau / coefficients;
             }
-            let ratio = by_u / screen.uu.sqrt();
-            assert!(ratio < 1.0 && ratio > 0.01, "{flight}: {ratio}");
+            for (error, variance) in [(by_u, screen.uu), (by_w, screen.ww)] {
+                let ratio = error / variance.sqrt();
+                assert!(ratio < 1.0 && ratio > 0.01, "{steps}: {ratio}");
+            }
         }
     }
 

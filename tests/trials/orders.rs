@@ -23,12 +23,11 @@ pub struct Held {
 
 impl Held {
     /// All levels of the blocks up to the first overturning of the free
-    /// order.
+    /// order, at each fixed one.
     pub fn of(
-        order: Order,
         blocks: &[Block],
         records: &[NormalisedRecord],
-    ) -> Self {
+    ) -> Vec<(Order, Self)> {
         let eta = Restitution::constant(0.92).unwrap();
         let run = |order| {
             let of = |block: &Block| Analysis {
@@ -37,13 +36,17 @@ impl Held {
             };
             let analyses: Vec<_> = blocks.iter().map(of).collect();
             let found = curves(records, &analyses, &Batch::default());
-            found.unwrap().into_iter().flatten()
+            found.unwrap().into_iter().flatten().collect::<Vec<_>>()
         };
-        let mut held = Self::default();
-        for (fixed, free) in run(Some(order)).zip(run(None)) {
-            held.take(&fixed, &free);
-        }
-        held
+        let free = run(None);
+        let at = |order: Order| {
+            let mut held = Self::default();
+            for (fixed, free) in run(Some(order)).iter().zip(&free) {
+                held.take(fixed, free);
+            }
+            (order, held)
+        };
+        Order::ALL.into_iter().map(at).collect()
     }
 
     fn take(&mut self, fixed: &IdaCurve, free: &IdaCurve) {

@@ -83,7 +83,8 @@ pub struct Analysis {
     /// Levels above the first overturning are looked at up to here.
     pub resurrections: Option<Resurrections>,
     /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
-    /// as each step needs for double precision.
+    /// as each step needs for double precision. What a fixed order leaves is
+    /// part of the estimate by which analyses are flagged.
     pub order: Option<Order>,
     /// Whether analyses that double precision cannot resolve run again in
     /// the arithmetic that resolves them (see
@@ -252,7 +253,8 @@ pub fn demand_at(
 
 /// Friction and normal force that the pivot needs at one intensity.
 ///
-/// It integrates the whole record; [`demand_at`] gives the outcome.
+/// It integrates the whole record, at a free order; [`demand_at`] gives the
+/// outcome.
 ///
 /// # Errors
 /// As [`demand_at`].

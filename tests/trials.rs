@@ -9,6 +9,7 @@ use std::path::Path;
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
+use rocking::integrator::Order;
 use rocking::record::{Processing, ReadOptions};
 use rocking_common::paper::BLOCKS;
 use rocking_common::paper::SuiteKind;
@@ -16,11 +17,14 @@ use rocking_common::suites::StudySuite;
 use rocking_proof::cases::WrongModel;
 use rocking_proof::trials::{Judgement, Reading, Stratum, findings, trial};
 
+#[path = "trials/orders.rs"]
+mod orders;
 #[path = "trials/suites.rs"]
 mod suites;
 #[path = "trials/words.rs"]
 mod words;
 
+use orders::Held;
 use suites::{Count, Survey};
 
 /// Scenes that are looked at where the environment chooses none.
@@ -157,5 +161,19 @@ fn no_analysis_of_a_suite_is_another_without_a_flag() {
         assert!(3 * clear <= flagged, "{clear} of {flagged}");
         assert_eq!(found.of_count(Count::WrongAndNotFlagged), 0);
         assert_eq!(found.of_count(Count::MissedAndWrong), 0);
+    }
+}
+
+/// A row of a fixed order without a flag is that of a free order.
+#[test]
+fn what_a_fixed_order_leaves_is_flagged() {
+    let (suites, _) = surveyed();
+    for (kind, records) in suites {
+        for (order, held) in Held::of(&BLOCKS, &records) {
+            println!("{kind}, order {order}: {held:?}");
+            assert_eq!(held.off_without_flag, 0);
+            assert!(held.flagged < held.analyses);
+            assert!(held.off > 0 || order > Order::Four);
+        }
     }
 }

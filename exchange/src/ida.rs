@@ -6,7 +6,7 @@ use std::path::Path;
 
 use rocking::capacity::{CapacityError, ResponseCurve};
 use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
-use rocking::integrator::{Model, Outcome, Overturning};
+use rocking::integrator::{Model, Order, Outcome, Overturning};
 use rocking::intensity::Intensity;
 use rocking::statistics::Clusters;
 
@@ -36,6 +36,10 @@ pub struct Setting {
     pub eta: f64,
     /// Equation of motion.
     pub model: Model,
+    /// Order of the Taylor polynomial, if it was fixed. A table of a fixed
+    /// order is written, to be compared with others, and not read: its errors
+    /// are those of the order, not of chance, so no statistics are made of it.
+    pub order: Option<Order>,
     /// Overturning criterion.
     pub overturn: Overturning,
     /// How intensity is reached.
@@ -152,6 +156,7 @@ impl IdaTable {
             p_rad_s,
             eta: analysis.restitution.velocity_ratio(),
             model: analysis.model,
+            order: analysis.order,
             overturn: analysis.overturning,
             by: analysis.adjust,
             gravity_m_s2,
@@ -199,6 +204,7 @@ impl IdaTable {
         let setting = [
             s.eta.to_string(),
             s.model.to_string(),
+            s.order.map_or(String::new(), |order| order.to_string()),
             s.overturn.to_string(),
             s.by.to_string(),
             s.gravity_m_s2.to_string(),
@@ -358,15 +364,21 @@ impl Setting {
     fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
         let of = "one that this program writes";
         let share = |x: &f64| (0.0..=1.0).contains(x);
+        if !cells.fields[SETTING + 2].is_empty() {
+            let expected = "an empty cell: the order of a table that is read \
+                            is free, as `rocking ida` has it without --order";
+            return Err(cells.refuse(SETTING + 2, expected));
+        }
         Ok(Self {
             p_rad_s: positive(cells, 2)?,
             eta: cells.parsed(SETTING, share, "a number from 0 to 1")?,
             model: cells.parsed(SETTING + 1, |_| true, of)?,
-            overturn: cells.parsed(SETTING + 2, |_| true, of)?,
-            by: cells.parsed(SETTING + 3, |_| true, of)?,
-            gravity_m_s2: positive(cells, SETTING + 4)?,
-            processing: cells.fields[SETTING + 5].to_owned(),
-            software: cells.fields[SETTING + 6].to_owned(),
+            order: None,
+            overturn: cells.parsed(SETTING + 3, |_| true, of)?,
+            by: cells.parsed(SETTING + 4, |_| true, of)?,
+            gravity_m_s2: positive(cells, SETTING + 5)?,
+            processing: cells.fields[SETTING + 6].to_owned(),
+            software: cells.fields[SETTING + 7].to_owned(),
         })
     }
 
@@ -377,7 +389,7 @@ impl Setting {
         first: &csv::StringRecord,
     ) -> Result<(), FileError> {
         let alpha = (self.by == Adjust::RecordScaling).then_some(1);
-        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..19);
+        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..20);
         match shared.find(|&column| cells.fields[column] != first[column]) {
             None => Ok(()),
             Some(column) => Err(cells.error(format_args!(

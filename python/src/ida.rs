@@ -284,6 +284,7 @@ impl IdaTable {
         out.set_item("p_rad_s", setting.p_rad_s)?;
         out.set_item("eta", setting.eta)?;
         out.set_item("model", setting.model.name())?;
+        out.set_item("order", setting.order.map(|order| order.name()))?;
         out.set_item("overturn", setting.overturn.name())?;
         out.set_item("by", setting.by.name())?;
         out.set_item("gravity_m_s2", setting.gravity_m_s2)?;

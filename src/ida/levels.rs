@@ -171,13 +171,12 @@ impl Level<'_> {
         self.point(&response.map_err(|error| self.refused(error))?)
     }
 
-    /// What the motion asks of the pivot, by a whole run.
+    /// What the motion asks of the pivot, by a whole run at a free order.
     pub fn forces(&self) -> Result<Forces, IdaError> {
-        let Self { scene, work_limit, order, .. } = *self;
+        let Self { scene, work_limit, .. } = *self;
         let observe =
             Observe { forces: true, work_limit, ..Observe::default() };
-        let solver = Solver { order, ..Solver::default() };
-        let response = solver.respond_once(&scene, &observe);
+        let response = Solver::default().respond_once(&scene, &observe);
         let response = response.map_err(|error| self.refused(error))?;
         Ok(response.forces.unwrap_or_else(|| Forces::at_rest(&scene)))
     }

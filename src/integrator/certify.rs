@@ -29,6 +29,10 @@ named!(Arithmetic, "arithmetic", {
     Octuple = "octuple",
 });
 
+/// Largest bound on the error of a peak ratio that counts as resolved. The
+/// rough estimate flags a peak from a standard deviation of a quarter of it.
+const PEAK_ERROR: f64 = 1e-6;
+
 /// How a fate is asked for. The default is that of the whole run, within the
 /// default limit of work, without a word on the way.
 ///
@@ -91,7 +95,8 @@ pub struct Certified {
     pub error: Option<f64>,
     /// The least clear decision of the run.
     pub least: Clearance,
-    /// False where a decision is not clear in the widest arithmetic.
+    /// False where a decision is not clear in the widest arithmetic, or the
+    /// error of the peak ratio of a block that stands may be above 1e-6.
     pub resolved: bool,
     /// False where other inputs that round to the same doubles may have
     /// another outcome: the fate is that of these doubles alone.
@@ -115,13 +120,16 @@ impl Certified {
         };
         let of = |c: Option<Certificate>| c.unwrap_or_default();
         let certificate = of(response.certificate);
+        let clear = response.assessment() == Assessment::Clear;
+        let error = response.error_estimate;
+        let close = error.is_some_and(|error| error <= PEAK_ERROR);
         let of_inputs = of(response.input_certificate);
         Self {
             outcome,
             margin: response.fate_margin,
-            error: response.error_estimate,
+            error,
             least: certificate.least(),
-            resolved: response.assessment() == Assessment::Clear,
+            resolved: clear && (close || outcome.is_overturned()),
             resolved_for_inputs: of_inputs.is_clear(),
             by,
             double: outcome,
@@ -136,8 +144,9 @@ impl Certified {
 }
 
 /// Resolves outcome and peak of a run: in double precision where every
-/// decision is clear of its error, else in double-double, else in octuple
-/// precision. Where a decision is not clear even then, the run is unresolved.
+/// decision is clear of its error and the error of the peak ratio of a block
+/// that stands is at most 1e-6, else in double-double, else in octuple
+/// precision. Where that does not hold even then, the run is unresolved.
 ///
 /// The result holds for the doubles given. `resolved_for_inputs` says whether
 /// it holds for all inputs that round to them. An end of observation is one
@@ -199,9 +208,14 @@ pub fn certify(
 #[cfg(test)]
 mod tests {
     use super::{Arithmetic, Certify, certify};
+    use crate::accelerogram::Accelerogram;
     use crate::block::{Block, Restitution};
-    use crate::excitation::{Excitation, Pulse, PulseKind};
-    use crate::integrator::{Outcome, Overturning, Scene, Side};
+    use crate::excitation::{
+        Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
+    };
+    use crate::integrator::{
+        Assessment, Observe, Outcome, Overturning, Scene, Side, Solver,
+    };
 
     /// Fate of the reference `hs-near-ulp-above` at another amplitude.
     fn fate(amplitude_m_s2: f64) -> super::Certified {
@@ -251,6 +265,29 @@ mod tests {
                     && !fate.wrong_in_double()
             );
         }
+    }
+
+    /// Every decision of ten seconds of rocking is clear in double precision,
+    /// but not the sixth digit of the peak.
+    #[test]
+    fn a_clear_run_whose_peak_has_too_large_an_error_is_run_again() {
+        let wave = |rate: f64, k: i32| libm::sin(rate * f64::from(k));
+        let samples = (0..1000).map(|k| wave(0.27, k) + wave(0.618 * 0.27, k));
+        let record = Accelerogram::try_new("waves", 0.01, samples.collect());
+        let record = NormalisedRecord::new(&record.unwrap());
+        let record = ScaledRecord::to_pga(&record, 0.11);
+        let block = Block::try_new(0.1, 6.0).unwrap();
+        let restitution = Restitution::constant(0.99).unwrap();
+        let excitation = Excitation::Record(record);
+        let scene = Scene::new(block, restitution, excitation);
+        let observe = Observe { accuracy: true, ..Observe::default() };
+        let double = Solver::default().respond(&scene, &observe).unwrap();
+        assert_eq!(double.assessment(), Assessment::Clear);
+        let error = double.error_estimate.unwrap();
+        assert!(error > super::PEAK_ERROR && error < 1e-4, "{error:e}");
+        let fate = certify(&scene, &Certify::default()).unwrap();
+        assert!(fate.resolved && fate.by == Arithmetic::DoubleDouble);
+        assert!(fate.error.unwrap() < 1e-15, "{fate:?}");
     }
 
     #[test]

@@ -35,6 +35,12 @@ pub(crate) enum Class {
     Fixed(Order),
 }
 
+/// Whether series of `len` coefficients keep that length, where others go on
+/// to `hard` coefficients: those of [`Class::Fixed`].
+pub(crate) const fn is_fixed(len: usize, hard: usize) -> bool {
+    len == hard && len < LONGEST
+}
+
 impl Class {
     /// The class of scenes of a model at steps of `length` (in 1/p), Eq. 1 at
     /// a fixed order if one is given.

@@ -102,6 +102,8 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     limit: WorkLimit,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
+    /// Series keep their length, whatever they leave.
+    fixed: bool,
     /// Rough certificate, where nothing but outcome and peak is asked for.
     screen: Option<Screen<N>>,
     /// Whether a run that is doubtful is made again.
@@ -177,6 +179,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             until_s: None,
             limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
+            fixed: false,
             screen: None,
             again: Again::No,
             barrier: None,
@@ -207,10 +210,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if asked { self.for_peak() } else { self }
     }
 
-    /// With a truncation allowed in a step, as a share of the velocity.
+    /// With a truncation allowed in a step, as a share of the velocity. If
+    /// it is infinite, the order is fixed.
     #[inline(always)]
     pub fn within(mut self, tolerance: f64) -> Self {
         self.tolerance = N::from_f64(tolerance);
+        self.fixed = tolerance == f64::INFINITY;
         self
     }
 

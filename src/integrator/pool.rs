@@ -146,7 +146,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if self.busy == 0 {
                 return self.tally;
             }
-            let sweep = Sweep::<LEN> {
+            let sweep = Sweep::<LEN, HARD> {
                 model,
                 groups: &mut groups,
                 waiting: &mut waiting,
@@ -337,13 +337,15 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 }
 
 /// One step of the groups in which something flies; true if any does.
-struct Sweep<'g, 'a, const LEN: usize> {
+struct Sweep<'g, 'a, const LEN: usize, const HARD: usize> {
     model: Model,
     groups: &'g mut [Group<'a>],
     waiting: &'g mut Waiting,
 }
 
-impl<const LEN: usize> WithSimd for Sweep<'_, '_, LEN> {
+impl<const LEN: usize, const HARD: usize> WithSimd
+    for Sweep<'_, '_, LEN, HARD>
+{
     type Output = bool;
 
     #[inline(always)]
@@ -358,7 +360,7 @@ impl<const LEN: usize> WithSimd for Sweep<'_, '_, LEN> {
     }
 }
 
-impl<const LEN: usize> Sweep<'_, '_, LEN> {
+impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
     #[inline(always)]
     fn step<V: Simd>(self, model: Model) -> bool {
         let mut moved = false;
@@ -366,7 +368,7 @@ impl<const LEN: usize> Sweep<'_, '_, LEN> {
         for (k, group) in self.groups.iter_mut().enumerate() {
             if !group.is_idle() {
                 moved = true;
-                let parked = group.step::<V, LEN>(model);
+                let parked = group.step::<V, LEN, HARD>(model);
                 (stopped[k], hard[k]) = (parked.lanes, parked.hard);
             }
         }

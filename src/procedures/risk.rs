@@ -237,3 +237,38 @@ fn interval(
         drawn_annual_frequencies: lows,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fragility::hazard::HazardOptions;
+
+    /// Draws whose damage is certain in motions stronger than every point of
+    /// the curve, and sure not to happen in weaker ones: all that is known is
+    /// that the frequency is between 0 and that of the last point.
+    #[test]
+    fn an_interval_reaches_from_bound_to_bound_of_the_truncation() {
+        let text = "pga_g,annual_frequency\n0.3,0.004\n0.9,0.0003\n";
+        let options = HazardOptions::default();
+        let hazard = Hazard::parse("h.csv", text, &options).unwrap();
+        let beyond = Lognormal::try_new(5.0, 0.0, 0.1).unwrap();
+        let sampled = Sampled {
+            draws: Draws { replicates: 40, seed: 0 },
+            clusters: Clusters::singletons(9),
+            fitted: vec![Some(beyond); 40],
+        };
+        let one = Exposed {
+            sampled: Some(sampled),
+            ..Exposed::known("block", beyond)
+        };
+        let found = risk(&hazard, &[one], 50.0).unwrap();
+        let found = found.fragilities[0].sampling.as_ref().unwrap();
+        let frequency =
+            [found.annual_frequency_low, found.annual_frequency_high];
+        assert_eq!(frequency, [0.0, 0.0003]);
+        assert_eq!(found.probability_low, 0.0);
+        // 1 - exp(-0.015).
+        let high = 0.014_888_060_396_937_339;
+        assert!((found.probability_high / high - 1.0).abs() < 1e-14);
+    }
+}

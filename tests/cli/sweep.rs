@@ -7,6 +7,8 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+
 use super::support::{
     answer, at2, folder, json, motion, refused_for, rocking,
 };
@@ -300,4 +302,54 @@ fn the_script_for_slurm_runs_nothing_but_the_sweep() {
     fs::rename(place.join(name), &line).unwrap();
     let script = rocking(&place, "sweep slurm").arg(&line).output().unwrap();
     assert_eq!(script.status.code(), Some(2));
+}
+
+/// The 95 % interval of a median in PGV is that of draws each of which has
+/// the least onset of its own records for a shift. The fit of a draw is made
+/// here: the mean of the logarithms.
+#[test]
+fn each_draw_of_a_sweep_has_the_shift_of_its_own_records() {
+    let place = planned("sweep-shift", 1);
+    run(&place);
+    let [fragilities, capacities] =
+        merged(&place).map(|bytes| String::from_utf8(bytes).unwrap());
+    let cells = |line: &str| -> Vec<String> {
+        line.split(',').map(str::to_owned).collect()
+    };
+    let number = |text: &String| text.parse::<f64>().unwrap();
+    let curves: Vec<Vec<String>> =
+        capacities.lines().skip(1).map(cells).collect();
+    let onsets: Vec<f64> = curves.iter().map(|c| number(&c[5])).collect();
+    let sample: Vec<f64> =
+        curves.iter().map(|c| number(&c[6]) * number(&c[5])).collect();
+    assert!(sample.iter().all(|x| x.is_finite()), "{sample:?}");
+    let least = |places: &[usize]| {
+        places.iter().map(|i| onsets[*i]).fold(f64::INFINITY, f64::min)
+    };
+    let median = |places: &[usize]| {
+        let shift = least(places);
+        let logs = places.iter().map(|i| libm::log(sample[*i] - shift));
+        shift + libm::exp(logs.sum::<f64>() / places.len() as f64)
+    };
+    let row = fragilities.lines().find(|line| line.contains(",pgv,1,"));
+    let row = cells(row.unwrap());
+    let all: Vec<usize> = (0..sample.len()).collect();
+    assert!((number(&row[9]) / median(&all) - 1.0).abs() < 1e-9, "{row:?}");
+    let plan = fs::read_to_string(place.join("plan/plan.json")).unwrap();
+    let plan: serde_json::Value = serde_json::from_str(&plan).unwrap();
+    let replicates = plan["replicates"].as_u64().unwrap() as usize;
+    let stream = format!("sweep/{}", row[1..4].join("/"));
+    let draws = Bootstrap::new(&stream, 0, sample.len(), replicates);
+    let medians = draws.map(|places| {
+        // One record again and again makes no fit.
+        let one = places.iter().all(|i| *i == places[0]);
+        if one { f64::NAN } else { median(places) }
+    });
+    let found = estimate(median(&all), &medians, 0.95).unwrap();
+    for (own, expected) in [(&row[11], found.low), (&row[12], found.high)] {
+        assert!((number(own) / expected - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    // The least onset of all in every draw gives another interval.
+    let drawn = draws.map(|places| least(places) > least(&all));
+    assert!(drawn.iter().any(|higher| *higher));
 }

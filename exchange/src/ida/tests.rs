@@ -6,13 +6,13 @@ use super::IdaTable;
 use crate::columns::IDA;
 
 const ROWS: [&str; 4] = [
-    "A,0.2,3,0.2,0.1,1,0.5,0,no-uplift,inf,,X,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.2,0.1,1,0.5,0,no-uplift,inf,,X,0.92,nonlinear,,alpha,\
      record-scaling,9.80665,none,x,1",
-    "A,0.2,3,0.3,0.2,1.5,0.75,0.4,rocked,0.6,,X,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.3,0.2,1.5,0.75,0.4,rocked,0.6,,X,0.92,nonlinear,,alpha,\
      record-scaling,9.80665,none,x,1",
-    "A,0.2,3,0.4,0.3,2,1,inf,overturned,0.1,,X,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.4,0.3,2,1,inf,overturned,0.1,,X,0.92,nonlinear,,alpha,\
      record-scaling,9.80665,none,x,1",
-    "B,0.2,3,0.2,0.1,1,0.6,0,no-uplift,inf,,X,0.92,nonlinear,alpha,\
+    "B,0.2,3,0.2,0.1,1,0.6,0,no-uplift,inf,,X,0.92,nonlinear,,alpha,\
      record-scaling,9.80665,none,x,1",
 ];
 
@@ -49,6 +49,7 @@ fn a_table_that_is_none_is_refused_with_its_line() {
         (changed("0.4,rocked", "inf,rocked"), "inf where overturned"),
         (changed("rocked", "fell"), "found `fell` in column outcome"),
         (changed(",0.6,,", ",x,,"), "found `x` in column margin"),
+        (changed("none,x", "none,y"), "software is y: expected x, as on"),
         (changed(",X,", ",,"), "the earthquake of every record, or of none"),
         (changed("x,1", "x,2"), "found `2` in column schema"),
     ];
@@ -57,6 +58,8 @@ fn a_table_that_is_none_is_refused_with_its_line() {
         assert!(refused.starts_with("a.csv:3: "), "{refused}");
         assert!(refused.contains(expected), "{refused}");
     }
+    let fixed = read(&[&ROWS[0].replace("ar,,al", "ar,6,al")]).unwrap_err();
+    assert!(fixed.contains("a.csv:2: found `6` in column order"), "{fixed}");
     let again = read(&[ROWS[0], ROWS[3], ROWS[1]]).unwrap_err();
     assert!(again.contains("a.csv:4: record A comes again"), "{again}");
     assert!(read(&[]).unwrap_err().contains("no analysis"));

@@ -153,7 +153,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let curvature = curvature(self.dynamics.model, drive, small);
             let size = self.dynamics.alpha + drive.f[0].abs();
             let (u, w) = (end_u, end_w);
-            let flown = Flown { tau, curvature, u, w, size };
+            let last = self.fixed.then_some(v[LEN - 1]);
+            let flown = Flown { tau, curvature, u, w, size, last };
             *screen = screen.fly(&flown);
         }
         if self.watched {

@@ -4,6 +4,7 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
+use crate::integrator::class::is_fixed;
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::pool::chatter::{Impacted, restoring};
@@ -278,8 +279,9 @@ impl Batch {
         };
         let curvature = curvature(model, &drive, small);
         let size = alpha + forcing[0].abs();
+        let last = is_fixed(LEN, HARD).then_some(v[LEN - 1]);
         let fly = |tau, (u, w), out: &mut Solved| {
-            let flown = Flown { tau, curvature, u, w, size };
+            let flown = Flown { tau, curvature, u, w, size, last };
             let there = screen.fly(&flown);
             there.uu.store(&mut out.uu);
             there.uw.store(&mut out.uw);

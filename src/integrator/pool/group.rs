@@ -1,6 +1,7 @@
 //! A group of lanes in flight, stepped together.
 
 use crate::integrator::Side;
+use crate::integrator::class::is_fixed;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::Forcing as _;
@@ -229,7 +230,10 @@ impl<'a> Group<'a> {
     /// One step, to the end of the sample, in every lane that is clear of
     /// events.
     #[inline(always)]
-    pub fn step<V: Simd, const LEN: usize>(&mut self, model: Model) -> Parked {
+    pub fn step<V: Simd, const LEN: usize, const HARD: usize>(
+        &mut self,
+        model: Model,
+    ) -> Parked {
         let ahead = V::gather(std::array::from_fn(|lane| {
             let sample = self.samples[lane].get(self.next[lane] as usize);
             sample.unwrap_or(&f64::NAN)
@@ -269,6 +273,7 @@ impl<'a> Group<'a> {
             u: end.0,
             w: end.1,
             size: V::load(&self.alpha) + forcing[0].abs(),
+            last: is_fixed(LEN, HARD).then_some(series.v[LEN - 1]),
         };
         let there = screen.fly(&flown);
         clear.select(there.uu, screen.uu).store(&mut self.uu);

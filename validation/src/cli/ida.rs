@@ -96,9 +96,13 @@ pub struct Args {
     /// beyond; without it such analyses are flagged `unresolved`.
     #[arg(long)]
     certify: bool,
-    /// Step Eq. 1 at this order of the Taylor polynomial, whatever it leaves
-    /// [default: as high as each step needs for double precision].
-    #[arg(long, value_parser = names::order(), conflicts_with = "certify")]
+    /// Order of the Taylor polynomial of Eq. 1, for a table that no command
+    /// reads [default: as high as each step needs for double precision].
+    #[arg(
+        long,
+        value_parser = names::order(),
+        conflicts_with_all = ["certify", "forces", "friction"]
+    )]
     order: Option<Order>,
     #[command(flatten)]
     threads: ThreadsArg,

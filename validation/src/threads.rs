@@ -1,17 +1,12 @@
 //! On how many threads a command works.
 
-use std::num::NonZeroUsize;
-
-use rocking::stop::{Stop, StopError};
+use rocking::stop::{MOST_THREADS_A_PROCESSOR, Stop, StopError, most_threads};
 
 use crate::failure::Failure;
 use crate::terminal::note;
 
-/// Threads beyond which more only cost.
-const MOST_THREADS_A_PROCESSOR: usize = 8;
-
-/// Runs `work` on `threads` threads (default: all processors). Caps the count
-/// at eight per processor, with a note.
+/// Runs `work` on `threads` threads (default: all processors), with a note
+/// where [`Stop::run`] starts fewer.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, or threads that cannot be started.
@@ -35,19 +30,17 @@ pub fn until<T: Send>(
     if threads == Some(0) {
         return Err(Failure::input("--threads 0: expected at least 1"));
     }
-    let processors =
-        std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let most = MOST_THREADS_A_PROCESSOR * processors;
+    let most = most_threads();
     if let Some(asked) = threads.filter(|asked| *asked > most) {
+        let processors = most / MOST_THREADS_A_PROCESSOR;
         note(&format!(
             "--threads {asked}: {most} are used, \
              {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
         ));
     }
-    let count = threads.unwrap_or(processors).min(most);
-    match stop.run(count, work) {
+    match stop.run(threads.unwrap_or(0), work) {
         Ok(result) => Ok(Some(result)),
         Err(StopError::Stopped) => Ok(None),
-        Err(error) => Err(Failure::input(format!("{count} {error}"))),
+        Err(error) => Err(Failure::input(error)),
     }
 }

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::codes::coded;
 use super::{Accelerogram, SuiteMember};
 use crate::accelerogram::mean;
+use crate::stop;
 
 pub use profile::{Motion, Profile};
 
@@ -288,6 +289,7 @@ pub fn duplicates(records: &[&Profile]) -> Vec<(usize, usize, f64)> {
     for from in (0..records.len()).step_by(TILE) {
         let to = records.len().min(from + TILE);
         for j in from + 1..records.len() {
+            stop::point();
             found.extend((from..to.min(j)).filter_map(|i| alike(i, j)));
         }
     }

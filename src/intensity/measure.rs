@@ -57,7 +57,7 @@ impl Intensity {
 
 /// An intensity measure of a record: its name is `pga`, `pgv`, `pgd`,
 /// `arias`, `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s, or
-/// `column:NAME`.
+/// `column:NAME`; capitals count as small letters, but for those of a column.
 ///
 /// ```
 /// use rocking::intensity::{IntensityMeasure, Measures, Settings};
@@ -72,6 +72,7 @@ impl Intensity {
 /// assert!((value * value / (one * four) - 1.0).abs() < 1e-15);
 /// assert_eq!(measure.unit(), "g");
 /// assert_eq!(measure.to_string(), "avgsa:1,4");
+/// assert_eq!("PGA".parse(), Ok(IntensityMeasure::Pga));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -117,21 +118,26 @@ impl FromStr for IntensityMeasure {
             let period = text.trim().parse::<f64>().ok();
             period.filter(|t| *t > 0.0 && t.is_finite())
         };
-        let found = match text.split_once(':') {
-            Some(("sa", t)) => period(t).map(Self::Sa),
-            Some(("avgsa", list)) => {
+        let (kind, rest) = match text.split_once(':') {
+            Some((kind, rest)) => (kind.to_ascii_lowercase(), Some(rest)),
+            None => (text.to_ascii_lowercase(), None),
+        };
+        let found = match (kind.as_str(), rest) {
+            ("sa", Some(t)) => period(t).map(Self::Sa),
+            ("avgsa", Some(list)) => {
                 let periods: Option<_> = list.split(',').map(period).collect();
                 periods.map(Self::AverageSa)
             }
-            Some(("column", name))
+            ("column", Some(name))
                 if !name.is_empty() && result_name(name).is_ok() =>
             {
                 Some(Self::Column(name.to_owned()))
             }
-            _ => {
-                let named = WORDS.iter().find(|(name, _)| *name == text);
+            (word, None) => {
+                let named = WORDS.iter().find(|(name, _)| *name == word);
                 named.map(|(_, measure)| measure.clone())
             }
+            _ => None,
         };
         found.ok_or_else(|| UnknownName {
             what: "intensity measure",

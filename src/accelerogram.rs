@@ -5,7 +5,7 @@ pub(crate) mod name;
 
 use thiserror::Error;
 
-pub use name::{NameError, result_name};
+pub use name::{NameError, SuiteNameError, result_name, suite_names};
 
 /// Mean of samples, summed in their order.
 pub(crate) fn mean(samples: &[f64]) -> f64 {

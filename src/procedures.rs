@@ -11,6 +11,7 @@ pub mod assess;
 pub mod capacities;
 pub mod choice;
 pub mod comparison;
+pub mod contrast;
 pub mod counts;
 pub mod fit;
 pub mod ida_summary;
@@ -23,7 +24,8 @@ pub mod summary;
 
 pub use assess::{AssessOptions, Assessment, Object, assess};
 pub use choice::{Choice, choose};
-pub use comparison::{Comparison, compare};
+pub use comparison::{Comparison, ComparisonError, compare};
+pub use contrast::{Contrast, ContrastError, contrast};
 pub use counts::{
     CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
 };

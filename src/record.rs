@@ -46,8 +46,10 @@ pub use suite::{
 
 use sha2::{Digest as _, Sha256};
 
+pub(crate) use crate::accelerogram::name::are_places;
 pub use crate::accelerogram::{
-    Accelerogram, AccelerogramError, NameError, result_name,
+    Accelerogram, AccelerogramError, NameError, SuiteNameError, result_name,
+    suite_names,
 };
 use crate::units::{self, AccelerationUnit};
 use text::{Text, excerpt};

@@ -8,11 +8,25 @@
 //! panic can stop no work.
 
 use std::cell::OnceCell;
+#[cfg(feature = "threads")]
+use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
+
+/// Threads a processor beyond which more only cost.
+#[cfg(feature = "threads")]
+pub const MOST_THREADS_A_PROCESSOR: usize = 8;
+
+/// The most threads that [`Stop::run`] starts on this machine.
+#[cfg(feature = "threads")]
+#[must_use]
+pub fn most_threads() -> usize {
+    let processors = std::thread::available_parallelism();
+    MOST_THREADS_A_PROCESSOR * processors.map_or(1, NonZeroUsize::get)
+}
 
 /// A stop that may be requested, from any thread and once for all.
 ///
@@ -37,8 +51,13 @@ pub enum StopError {
     #[error("the work was stopped")]
     Stopped,
     /// The threads could not be started.
-    #[error("threads cannot be started: {0}")]
-    Threads(String),
+    #[error("{threads} threads cannot be started: {reason}")]
+    Threads {
+        /// How many.
+        threads: usize,
+        /// What the system said.
+        reason: String,
+    },
 }
 
 /// What a stack is unwound with.
@@ -61,7 +80,8 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Does `work` on `threads` threads of its own (0: one a processor), which heed this stop.
+    /// Does `work` on `threads` threads of its own (0: one a processor; at most
+    /// [`most_threads`]), which heed this stop.
     ///
     /// Results have the same bits for any number of threads, and whether or
     /// not there is a stop to heed.
@@ -77,6 +97,10 @@ impl Stop {
     ) -> Result<T, StopError> {
         use std::panic::{AssertUnwindSafe, catch_unwind};
 
+        let threads = match threads {
+            0 => most_threads() / MOST_THREADS_A_PROCESSOR,
+            some => some.min(most_threads()),
+        };
         let own = self.clone();
         let heed = move |_| {
             // A new thread heeds nothing yet.
@@ -86,7 +110,10 @@ impl Stop {
             .num_threads(threads)
             .start_handler(heed)
             .build()
-            .map_err(|error| StopError::Threads(error.to_string()))?;
+            .map_err(|error| StopError::Threads {
+                threads,
+                reason: error.to_string(),
+            })?;
         // What was under way is dropped with the stack.
         let done = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
         done.map_err(|cause| match cause.is::<Stopped>() {

@@ -243,7 +243,12 @@ fn json_is_json_and_says_no_more_than_was_asked_for() {
     let other = "1.3\n1.4\n1.3\n2.4\n1.8\n1.15\n3.3\n1.4\n1.7\ninf\n";
     let place = folder(
         "json",
-        &[("s/a.at2", &text), ("a.txt", samples), ("b.txt", other)],
+        &[
+            ("s/a.at2", &text),
+            ("a.txt", samples),
+            ("b.txt", other),
+            ("named.txt", "1.3 # x\ninf # y\n2.4 # z\n"),
+        ],
     );
     let sine = "--pulse one-sine --omega-rad-s 12 --amplitude-m-s2";
     for scene in [
@@ -274,7 +279,8 @@ fn json_is_json_and_says_no_more_than_was_asked_for() {
         "lilliefors --sample a.txt --log",
         "lilliefors --critical-values --n 10 --replicates 500",
         "sample --sample b.txt --at 0.5,1",
-        "compare --a a.txt --b b.txt",
+        "compare --a named.txt --b named.txt",
+        "contrast --a a.txt --b b.txt --bootstrap 20",
     ] {
         let text = answer(&place, &format!("{arguments} --json"));
         let _: Value = serde_json::from_str(&text).unwrap();

@@ -189,6 +189,20 @@ fn ratios_are_compared_pair_by_pair() {
              1.06\ninf\n0\n1\n";
     let b = "1\n".repeat(12) + "0\ninf\n";
     let place = with("pairs", &[("a.txt", a), ("b.txt", &b)]);
+    let said = refused(&place, "compare --a a.txt --b b.txt");
+    assert!(said.contains("a.txt: 0 names of records for 14"), "{said}");
+    // The second file has the records in the opposite order.
+    let named = |text: &str, backwards: bool| {
+        let lines = text.lines().enumerate();
+        let lines = lines.map(|(i, value)| format!("{value} # r{i}\n"));
+        let mut lines: Vec<String> = lines.collect();
+        if backwards {
+            lines.reverse();
+        }
+        lines.concat()
+    };
+    let (a, b) = (named(a, false), named(&b, true));
+    let place = with("pairs-named", &[("a.txt", &a), ("b.txt", &b)]);
     let out = json(&place, "compare --a a.txt --b b.txt");
     let csv = include_str!("../fixtures/oracles/paired.csv");
     let expected = |key: &str| oracle(csv, &["a", key])[0];
@@ -205,6 +219,26 @@ fn ratios_are_compared_pair_by_pair() {
     ] {
         assert_eq!(out[key], count, "{key}");
     }
+}
+
+#[test]
+fn other_records_are_contrasted() {
+    let few = "1.1\n1.3\n1.4\n1.8\n";
+    let others = "2.2 # a # X\n2.6 # b # X\n2.8 # c # Y\n3.6 # d # Z\n";
+    let files = [("few.txt", few), ("others.txt", others)];
+    let place = with("contrast", &files);
+    let out = json(&place, "contrast --a few.txt --b others.txt");
+    close(&out["median_ratio"]["point"], 1.35 / 2.7, 1e-12);
+    assert_eq!(out["kolmogorov_smirnov"]["distance"], 1.0);
+    let reason = out["kolmogorov_smirnov"]["p_value"]["reason"].as_str();
+    assert!(reason.unwrap().contains("not independent"), "{out}");
+    let drawn = "4 records of 3 earthquakes; unit: earthquake";
+    assert_eq!(out["b"]["drawn"], drawn);
+    let out = json(&place, "contrast --a few.txt --b few.txt --bootstrap 99");
+    close(&out["kolmogorov_smirnov"]["p_value"], 1.0, 0.0);
+    let same = "contrast --a others.txt --b others.txt";
+    let said = refused(&place, same);
+    assert!(said.contains("record a is in both samples"), "{said}");
 }
 
 #[test]

@@ -140,6 +140,19 @@ fn every_long_work_ends_where_a_stop_is_requested() {
     assert!(goes_on.is_empty(), "not stopped: {goes_on:?}");
 }
 
+/// However many threads are asked for, no more are started than help.
+#[test]
+fn threads_are_capped() {
+    let processors = std::thread::available_parallelism().unwrap().get();
+    let stop = Stop::default();
+    for (threads, expected) in
+        [(0, processors), (3, 3), (100 * processors, 8 * processors)]
+    {
+        let found = stop.run(threads, rayon::current_num_threads).unwrap();
+        assert_eq!(found, expected, "{threads} threads");
+    }
+}
+
 /// A panic of the work stays what it is.
 #[test]
 fn what_fails_is_not_taken_for_stopped() {

@@ -87,6 +87,8 @@ pub struct IdaTable {
     pub setting: Setting,
     /// The rows, by record, then level.
     pub rows: Vec<Row>,
+    /// The first row of each record.
+    starts: Vec<usize>,
 }
 
 /// The response curves of a table against an intensity measure.
@@ -163,8 +165,9 @@ impl IdaTable {
             processing: processing.to_owned(),
             software: software.to_owned(),
         };
-        let mut rows = Vec::new();
+        let (mut rows, mut starts) = (Vec::new(), Vec::new());
         for curve in curves {
+            starts.push(rows.len());
             let (remarks, event) = known(&curve.record);
             let factor = curve.velocity_factor(p_rad_s);
             let mut row = |point: &IdaPoint, outcome| {
@@ -193,7 +196,7 @@ impl IdaTable {
                 row(&point, REFINED);
             }
         }
-        Self { setting, rows }
+        Self { setting, rows, starts }
     }
 
     /// The CSV text.
@@ -240,7 +243,7 @@ impl IdaTable {
     pub fn read(from: impl Read, path: &Path) -> Result<Self, FileError> {
         let mut reader = reader(from, csv::Trim::None, None);
         let mut first: Option<(csv::StringRecord, Setting)> = None;
-        let mut found: Vec<Row> = Vec::new();
+        let (mut found, mut begin): (Vec<Row>, _) = (Vec::new(), Vec::new());
         let mut seen = BTreeSet::new();
         for cells in rows(&IDA, &mut reader, path)? {
             let cells = cells?;
@@ -258,6 +261,10 @@ impl IdaTable {
                     row.record
                 )));
             }
+            match found.last() {
+                Some(before) if !starts => row.follows(before, &cells)?,
+                _ => begin.push(found.len()),
+            }
             let first = found.first().map_or(&row, |first| first);
             if first.event.is_empty() != row.event.is_empty() {
                 let expected = "the earthquake of every record, or of none";
@@ -268,21 +275,27 @@ impl IdaTable {
         let (_, setting) = first.ok_or_else(|| {
             FileError::new(path, None, "no analysis in the file")
         })?;
-        Ok(Self { setting, rows: found })
+        Ok(Self { setting, rows: found, starts: begin })
+    }
+
+    /// The rows of each record.
+    pub fn by_record(&self) -> impl Iterator<Item = &[Row]> {
+        let ends = self.starts.iter().skip(1).copied();
+        let ends = ends.chain([self.rows.len()]);
+        let ranges = self.starts.iter().zip(ends);
+        ranges.map(|(start, end)| &self.rows[*start..end])
     }
 
     /// The records, in the order of the table.
     pub fn records(&self) -> impl Iterator<Item = &str> {
-        let records = self.rows.chunk_by(|a, b| a.record == b.record);
-        records.map(|rows| rows[0].record.as_str())
+        self.by_record().map(|rows| rows[0].record.as_str())
     }
 
     /// The earthquakes of the records, in the order of the table; none where
     /// the table does not say them.
     #[must_use]
     pub fn events(&self) -> Option<Vec<&str>> {
-        let records = self.rows.chunk_by(|a, b| a.record == b.record);
-        let events = records.map(|rows| rows[0].event.as_str());
+        let events = self.by_record().map(|rows| rows[0].event.as_str());
         events.map(|event| Some(event).filter(|e| !e.is_empty())).collect()
     }
 
@@ -316,16 +329,15 @@ impl IdaTable {
             Intensity::Pgv => row.intensity_pgv,
         };
         let (mut curves, mut after_overturning) = (Vec::new(), 0);
-        for rows in self.rows.chunk_by(|a, b| a.record == b.record) {
+        for rows in self.by_record() {
             let end = rows.iter().position(|row| row.edp == f64::INFINITY);
             let standing = &rows[..end.unwrap_or(rows.len())];
             let vertices: Vec<(f64, f64)> =
                 standing.iter().map(|row| (im(row), row.edp)).collect();
-            let is_refined = |row: &Row| row.outcome == REFINED;
-            let refined = rows.iter().find(|row| is_refined(row));
+            let refined = rows.iter().find(|row| row.is_refined());
             let overturning = refined.or(end.map(|i| &rows[i])).map(im);
             after_overturning += end.map_or(0, |i| {
-                rows[i + 1..].iter().filter(|row| !is_refined(row)).count()
+                rows[i + 1..].iter().filter(|row| !row.is_refined()).count()
             });
             let record = rows[0].record.clone();
             match ResponseCurve::try_new(&vertices, overturning) {
@@ -404,6 +416,30 @@ impl Setting {
 }
 
 impl Row {
+    /// Whether it is the refined end of the bracket of a first overturning.
+    #[must_use]
+    pub fn is_refined(&self) -> bool {
+        self.outcome == REFINED
+    }
+
+    /// Refuses a row that is not the next one of the record of `before`:
+    /// levels rise, and a refined first overturning ends them.
+    fn follows(
+        &self,
+        before: &Self,
+        cells: &Cells<'_>,
+    ) -> Result<(), FileError> {
+        let rises = self.intensity_pga > before.intensity_pga;
+        if (rises || self.is_refined()) && !before.is_refined() {
+            return Ok(());
+        }
+        Err(cells.error(format_args!(
+            "record {}: intensity_pga {} after {}: expected rising levels, a \
+             refined overturning last; do two records share the name?",
+            self.record, self.intensity_pga, before.intensity_pga
+        )))
+    }
+
     fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
         let fields = &cells.fields;
         let (name, event) = (cells.name(0)?, cells.name(EVENT)?);

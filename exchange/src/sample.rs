@@ -3,7 +3,6 @@
 //! The comment behind a value is the name of its record, and a second one the
 //! earthquake: `1.8 # RSN6-180 # Imperial Valley-02`.
 
-use std::collections::BTreeMap;
 use std::fmt::{self, Display, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -213,77 +212,44 @@ impl SampleFile {
         Ok(text)
     }
 
-    /// The values of two files as pairs: by the names of their records where
-    /// both files name them all, otherwise by their lines. Tells whether it
-    /// was by name.
+    /// Refuses another file that says of itself that it is a sample of
+    /// something else.
     ///
     /// # Errors
-    /// [`FileError`] for a negative value, a name on one side only or
-    /// twice, and for files that say of themselves that they are samples of
-    /// different things.
-    pub fn pairs(
-        &self,
-        other: &Self,
-    ) -> Result<(Vec<f64>, Vec<f64>, bool), FileError> {
-        let (a, b) = (self.not_negative()?, other.not_negative()?);
-        if let (Some(expected), Some(found)) = (&self.of, &other.of)
-            && expected != found
-        {
-            return Err(other.error(
-                None,
-                format_args!(
+    /// [`FileError`] of the other file.
+    pub fn same_kind(&self, other: &Self) -> Result<(), FileError> {
+        match (&self.of, &other.of) {
+            (Some(expected), Some(found)) if expected != found => {
+                let message = format_args!(
                     "a sample of {found}: expected one of {expected}, as the \
                      other file"
-                ),
-            ));
-        }
-        let (Some(named), Some(others)) = (self.by_name()?, other.by_name()?)
-        else {
-            return Ok((a.to_vec(), b.to_vec(), false));
-        };
-        self.refuse_lone(&named, &others)?;
-        other.refuse_lone(&others, &named)?;
-        let names = self.names.iter().flatten();
-        let second = names.map(|name| b[others[name.as_str()]]).collect();
-        Ok((a.to_vec(), second, true))
-    }
-
-    /// Places of the values by the names behind them; `None` where a value
-    /// has no name.
-    fn by_name(&self) -> Result<Option<BTreeMap<&str, usize>>, FileError> {
-        let mut places = BTreeMap::new();
-        for (place, name) in self.names.iter().enumerate() {
-            let Some(name) = name else { return Ok(None) };
-            if places.insert(name.as_str(), place).is_some() {
-                return Err(self.name_error(name, place, "twice in the file"));
+                );
+                Err(other.error(None, message))
             }
+            _ => Ok(()),
         }
-        Ok(Some(places))
     }
 
-    /// Refuses a record that the other file has not.
-    fn refuse_lone(
+    /// Names of the records of the values; none where a value has no name.
+    #[must_use]
+    pub fn records(&self) -> Vec<&str> {
+        let names = self.names.iter().map(Option::as_deref);
+        names.collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// Earthquakes of the values; none where the file does not say them.
+    #[must_use]
+    pub fn events(&self) -> Vec<&str> {
+        let events = self.events.iter().map(Option::as_deref);
+        events.collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// A refusal of the file, or of the value at a place, from 0.
+    pub fn error(
         &self,
-        own: &BTreeMap<&str, usize>,
-        others: &BTreeMap<&str, usize>,
-    ) -> Result<(), FileError> {
-        match own.iter().find(|(name, _)| !others.contains_key(*name)) {
-            None => Ok(()),
-            Some((name, place)) => {
-                Err(self.name_error(name, *place, "not in the other file"))
-            }
-        }
-    }
-
-    fn name_error(&self, name: &str, place: usize, what: &str) -> FileError {
-        let message = format!(
-            "record {name} is {what}: expected each record once in both"
-        );
-        self.error(Some(place), message)
-    }
-
-    /// A refusal of the file, or of the value at a place.
-    fn error(&self, place: Option<usize>, message: impl Display) -> FileError {
+        place: Option<usize>,
+        message: impl Display,
+    ) -> FileError {
         let line = place.and_then(|place| self.lines.get(place).copied());
         FileError::new(&self.path, line, message)
     }
@@ -336,10 +302,10 @@ impl SampleFile {
     /// The values by earthquake, where the file says it.
     #[must_use]
     pub fn clusters(&self) -> Clusters {
-        let events: Option<Vec<&String>> =
-            self.events.iter().map(Option::as_ref).collect();
-        let records = || Clusters::singletons(self.values.len());
-        events.map_or_else(records, Clusters::from_labels)
+        match self.events().as_slice() {
+            [] => Clusters::singletons(self.values.len()),
+            events => Clusters::from_labels(events),
+        }
     }
 
     /// The values as a sample with censored values.
@@ -357,21 +323,6 @@ impl SampleFile {
     pub fn censored(&self) -> Result<CensoredSample, FileError> {
         CensoredSample::try_new(&self.values, &self.limits)
             .map_err(|e| self.refuse(e))
-    }
-
-    /// The values in the order of the lines, none negative.
-    fn not_negative(&self) -> Result<&[f64], FileError> {
-        self.extended()?;
-        match self.values.iter().position(|&x| x < 0.0) {
-            None => Ok(&self.values),
-            Some(i) => {
-                let found = self.values[i];
-                let message = format_args!(
-                    "found {found}: expected a number, not negative"
-                );
-                Err(self.error(Some(i), message))
-            }
-        }
     }
 
     fn refuse(&self, error: SampleError) -> FileError {
@@ -411,9 +362,10 @@ mod tests {
         let file = read("# c\n1.5 # a # X\n>2 # b # Y\n1 # c # X\n").unwrap();
         let clusters = file.clusters();
         assert_eq!((clusters.records(), clusters.count()), (3, 2));
-        assert!(file.by_name().unwrap().is_some());
-        let plain = read("1.5 # a\n2\n").unwrap().clusters();
-        assert!(plain.is_singletons());
+        assert_eq!(file.records(), ["a", "b", "c"]);
+        let plain = read("1.5 # a\n2\n").unwrap();
+        assert!(plain.clusters().is_singletons());
+        assert!(plain.records().is_empty());
         let Err(error) = read("1.5 # a # X\n2 # b\n") else { panic!() };
         let error = error.to_string();
         assert!(error.starts_with("s.txt:2: found `2 # b`"), "{error}");

@@ -18,7 +18,7 @@ a block and a motion      `respond`: what the block does
 many of both              `peak`, `spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
 capacities                `fit_fragility`, `choose`, `test_normality`,
-                          `summarise`, `compare`
+                          `summarise`, `compare`, `contrast`
 counts of stripes         `fit_stripes`
 a record                  `intensity_measures`, `rotd50`, `velocity_pulse`
 an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
@@ -38,7 +38,8 @@ has must be said (`units="g"`, `"m/s2"` or `"cm/s2"`) unless the file states
 it. The response (EDP) is the peak of |theta|/alpha, infinite where the block
 overturns. Input that is refused raises `ValueError`, a missing file
 `FileNotFoundError`. Every result is the same, to the last bit, as that of the
-command line `rocking`, for any number of threads.
+command line `rocking`, for any number of threads. What is suspicious about a
+record is in its `remarks`, and a `UserWarning`.
 """
 
 from ._analyses import Response, peak, respond, spectrum
@@ -69,6 +70,7 @@ from ._results import (
     Boxplot,
     Choice,
     Comparison,
+    Contrast,
     IdaSummary,
     LevelCapacities,
     LevelCrossings,
@@ -91,6 +93,7 @@ from ._statistics import (
     Sample,
     choose,
     compare,
+    contrast,
     fit_fragility,
     fit_stripes,
     summarise,
@@ -105,6 +108,7 @@ __all__ = [
     "Boxplot",
     "Choice",
     "Comparison",
+    "Contrast",
     "CountsFragility",
     "Floor",
     "Fragility",
@@ -138,6 +142,7 @@ __all__ = [
     "assess",
     "choose",
     "compare",
+    "contrast",
     "embedded_suite",
     "export",
     "fit_fragility",

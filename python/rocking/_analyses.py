@@ -22,6 +22,9 @@ from ._inputs import (
     floats,
     frozen,
     given,
+    number,
+    numbers,
+    pair_of,
 )
 from ._results import axes
 
@@ -33,10 +36,10 @@ def physics(eta: Eta, model: Model, overturn: Overturn) -> _rocking.Physics:
     if isinstance(eta, str):
         if eta != "housner":
             raise ValueError(f"eta {eta!r}: expected a number, or 'housner'")
-        number = None
+        constant = None
     else:
-        number = float(eta)
-    return {"eta": number, "model": model, "overturn": overturn}
+        constant = number(eta, "eta")
+    return {"eta": constant, "model": model, "overturn": overturn}
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,11 +158,11 @@ def respond(
         raise ValueError(f"{names}: expected at most one of im, pga_g, scale")
     by, level = asked[0] if asked else ("scale", 1.0)
     found = _rocking.respond(
-        (block.alpha, block.p),
+        pair_of(block),
         given(excitation),
         physics(eta, model, overturn),
         by,
-        float(level),
+        number(level, by),
         history_dt,
         certify,
     )
@@ -188,7 +191,7 @@ def peak(
         PGA/(g tan alpha) for `by="im"`, PGA in g for `by="pga_g"`, factors
         for `by="scale"`.
     threads : int
-        All processors unless given.
+        All processors unless given; at most eight a processor are started.
     progress : callable
         Called now and then with (done, total), in the calling thread.
 
@@ -217,9 +220,9 @@ def peak(
         if isinstance(excitations, (Record, Pulse))
         else list(excitations)
     )
-    all_levels = np.asarray(levels, dtype=np.float64)
+    all_levels = numbers(levels, "levels")
     found = _rocking.peak(
-        [(block.alpha, block.p) for block in all_blocks],
+        [pair_of(block) for block in all_blocks],
         [given(motion) for motion in motions],
         np.ravel(all_levels).tolist(),
         by,

@@ -12,7 +12,15 @@ from typing import Any
 from . import _rocking
 from ._fragility import Hazard
 from ._ida import _events
-from ._inputs import STANDARD_GRAVITY, Block, Record, embedded_suite, given
+from ._inputs import (
+    STANDARD_GRAVITY,
+    Block,
+    Record,
+    embedded_suite,
+    given,
+    number,
+    pair_of,
+)
 from ._outputs import replace
 from ._results import Bounds, Result
 from ._statistics import seed
@@ -55,7 +63,7 @@ class Object:
             floor = (on.name, on.period_s, on.damping, on.height_ratio)
         return {
             "id": self.id,
-            "block": (self.block.alpha, self.block.p),
+            "block": pair_of(self.block),
             "eta": self.eta,
             "friction": self.friction,
             "limit_ratio": self.limit_ratio,
@@ -212,11 +220,11 @@ def assess(
         embedded,
         None if hazard is None else hazard._written,
         {
-            "years": float(years),
+            "years": number(years, "years"),
             "certify": certify,
             "replicates": n_resamples,
             "seed": seed(rng),
-            "gravity": float(gravity),
+            "gravity": number(gravity, "gravity"),
         },
         threads,
     )

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from . import _rocking
-from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen
+from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen, pair_of
 from ._outputs import replace
 from ._results import Result
 from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit, seed
@@ -95,7 +95,7 @@ def surface_fragility(block: Block) -> SurfaceFragility:
     >>> round(found.suites["ordinary"].median_pga_g, 3)
     0.328
     """
-    found = _rocking.surface((block.alpha, block.p))
+    found = _rocking.surface(pair_of(block))
     return SurfaceFragility._of(found)
 
 
@@ -135,6 +135,10 @@ class BlockFragility:
     origin: str | None = None
     """Where the fragilities come from, in words."""
 
+    def __post_init__(self) -> None:
+        pair_of(self.block)
+        object.__setattr__(self, "im", _rocking.measure(self.im))
+
     def _wanted(self) -> _rocking.Wanted:
         fits = [self.fit] if isinstance(self.fit, Fit) else [*self.fit]
         names = [*self.limit_states]
@@ -147,7 +151,7 @@ class BlockFragility:
                 f"{len(fits)} limit states"
             )
         return {
-            "block": (self.block.alpha, self.block.p),
+            "block": pair_of(self.block),
             "limit_states": [
                 (name, fit.fitted._law, _source(fit))
                 for name, fit in zip(names, fits)

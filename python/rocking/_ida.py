@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -26,6 +26,9 @@ from ._inputs import (
     floats,
     frozen,
     given,
+    number,
+    numbers,
+    pair_of,
 )
 from ._outputs import replace
 from ._results import (
@@ -78,16 +81,21 @@ class Curves:
         raise NotImplementedError
 
     @property
+    def records(self) -> tuple[str, ...]:
+        """The names of the records."""
+        raise NotImplementedError
+
+    @property
     def events(self) -> tuple[str, ...]:
         """The earthquake of each record; empty where they are not known."""
         raise NotImplementedError
 
     def sample(self, edp: float, *, rule: Rule = "median") -> Sample:
         """Capacities at one EDP level with the limits of censored ones."""
-        levels = [float(edp)]
+        levels = [number(edp, "EDP level")]
         found = self._native.capacities(levels, rule)
-        values, limits = (frozen(table[0]) for table in found)
-        return Sample(values, limits, self.events)
+        values, limits = (table[0] for table in found)
+        return Sample(values, limits, self.events, self.records)
 
     def capacities(self, edp: ArrayLike, *, rule: Rule = "median") -> Floats:
         """Intensity at which each record reaches a response.
@@ -112,7 +120,7 @@ class Curves:
         >>> found.capacities([0.2, 0.5, np.inf]).shape
         (3, 1)
         """
-        levels = np.asarray(edp, dtype=np.float64)
+        levels = numbers(edp, "EDP levels")
         flat = np.ravel(levels).tolist()
         found = self._native.capacities(flat, rule)[0]
         return found.reshape(*levels.shape, found.shape[1])
@@ -135,7 +143,7 @@ class Curves:
         >>> found.demands([1.5, 2.5]).round(4).tolist()
         [[0.066], [inf]]
         """
-        levels = np.asarray(im, dtype=np.float64)
+        levels = numbers(im, "intensities")
         found = self._native.demands(np.ravel(levels).tolist())
         return found.reshape(*levels.shape, found.shape[1])
 
@@ -206,7 +214,11 @@ class Curves:
         """
         levels = floats(ims, "intensities").tolist()
         found = self._native.fit_stripes(
-            levels, float(edp), float(shift), n_resamples, seed(rng)
+            levels,
+            number(edp, "EDP level"),
+            number(shift, "shift"),
+            n_resamples,
+            seed(rng),
         )
         return CountsFragility._of(found)
 
@@ -223,6 +235,8 @@ class Ida(Curves):
     """
 
     _table: _rocking.IdaTable
+    _run: _rocking.Run | None = field(default=None, repr=False)
+    """What was asked for; None for a table that was read."""
 
     @cached_property
     def setting(self) -> dict[str, Any]:
@@ -241,9 +255,7 @@ class Ida(Curves):
     @cached_property
     def _curves(self) -> list[slice]:
         """Rows of each record."""
-        names = self._columns["record"]
-        ends = [i for i, name in enumerate(names) if name != names[i - 1]]
-        starts = ends or [0]
+        starts = self._table.starts()
         return [slice(a, b) for a, b in zip(starts, [*starts[1:], None])]
 
     @cached_property
@@ -297,7 +309,9 @@ class Ida(Curves):
         return hash(self._table.csv())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _unpickled, (self._table.csv(),)
+        run = self._run
+        whole = None if run is None else (*run, self._table.summary())
+        return _unpickled, (self._table.csv(), run, whole)
 
     def against(
         self, im: str, suite: Sequence[Record] | None = None
@@ -418,6 +432,11 @@ class ImCurves(Curves):
         _ = self._native
 
     @property
+    def records(self) -> tuple[str, ...]:
+        """The names of the records."""
+        return self.ida.records
+
+    @property
     def events(self) -> tuple[str, ...]:
         """The earthquake of each record; empty where they are not known."""
         return self.ida.events
@@ -444,8 +463,16 @@ def _events(records: Sequence[Record]) -> list[str]:
     return found
 
 
-def _unpickled(csv: str) -> Ida:
-    return Ida(_rocking.ida_of_csv(csv))
+def _codes(record: Record) -> str:
+    """The codes of the remarks, each once, as `rocking ida` writes them."""
+    codes = dict.fromkeys(text.partition(":")[0] for text in record.remarks)
+    return " ".join(codes)
+
+
+def _unpickled(
+    csv: str, run: _rocking.Run | None, whole: _rocking.WholeRun | None
+) -> Ida:
+    return Ida(_rocking.ida_of_csv(csv, whole), run)
 
 
 def read_ida(path: str | os.PathLike[str]) -> Ida:
@@ -482,6 +509,9 @@ def ida(
 ) -> Ida:
     """Raises the intensity of every record until the block overturns.
 
+    Results refer to records by their names; records of which none has a name
+    are numbered from 1.
+
     Parameters
     ----------
     step_g, step_im : float, at most one of them
@@ -499,7 +529,8 @@ def ida(
     gravity : float
         In m/s2, for velocities and for intensity measures.
     threads : int
-        All processors unless given. The result does not depend on it.
+        All processors unless given; at most eight a processor are started.
+        The result does not depend on it.
     progress : callable
         Called now and then with (curves done, curves), in the calling
         thread. What it raises ends the analysis; so does Ctrl-C.
@@ -524,19 +555,20 @@ def ida(
         "refine": refine,
         "by": by,
         "certify": certify,
-        "highest_im": float(highest_im),
+        "highest_im": number(highest_im, "highest_im"),
     }
+    run = pair_of(block), physics(eta, model, overturn), scan
+    events = _events(records) or [""] * len(records)
     found = _rocking.ida(
-        (block.alpha, block.p),
+        run[0],
         [given(record) for record in records],
-        _events(records),
-        physics(eta, model, overturn),
-        scan,
-        float(gravity),
+        [*zip(map(_codes, records), events)],
+        *run[1:],
+        number(gravity, "gravity"),
         threads,
         progress,
     )
-    return Ida(found)
+    return Ida(found, run)
 
 
 def rank_ims(

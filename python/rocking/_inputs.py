@@ -6,6 +6,7 @@ import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from types import MappingProxyType
 from typing import Any, Literal, overload
 
@@ -24,19 +25,45 @@ Units = Literal["g", "m/s2", "cm/s2"]
 Component = Literal["study", "both"]
 
 
-def floats(values: ArrayLike, what: str) -> Floats:
-    """One-dimensional doubles; without a copy where `values` are some."""
+def numbers(values: ArrayLike, what: str) -> Floats:
+    """Doubles of any shape; without a copy where `values` are some."""
     if np.ma.is_masked(values):
         # numpy would give what lies below the mask.
         raise ValueError(
             f"{what}: masked values, as in a gap of an ObsPy stream: expected "
             "none"
         )
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    if np.ndim(values) != 1:
-        found = np.ndim(values)
-        raise ValueError(f"{what} of {found} dimensions: expected 1")
-    return array
+    array = np.asarray(values)
+    # numpy would read text, count times, and drop imaginary parts.
+    is_real = array.dtype.kind in "fiu" or (
+        array.dtype.kind == "O"
+        and all(
+            isinstance(x, Real) and not isinstance(x, (bool, np.bool_))
+            for x in array.ravel()
+        )
+    )
+    if not is_real:
+        raise TypeError(f"{what} of {array.dtype}: expected real numbers")
+    return np.asarray(array, dtype=np.float64)
+
+
+def floats(values: ArrayLike, what: str) -> Floats:
+    """One-dimensional doubles; without a copy where `values` are some."""
+    array = numbers(values, what)
+    if array.ndim != 1:
+        raise ValueError(f"{what} of {array.ndim} dimensions: expected 1")
+    return np.ascontiguousarray(array)
+
+
+def number(value: Any, what: str) -> float:
+    """A real number."""
+    try:
+        array = numbers(value, what)
+    except TypeError:
+        array = np.empty(1)
+    if array.ndim != 0:
+        raise TypeError(f"{what} {value!r}: expected a number")
+    return float(array)
 
 
 def frozen(array: Floats) -> Floats:
@@ -92,8 +119,8 @@ class Block:
     p: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "alpha", float(self.alpha))
-        object.__setattr__(self, "p", float(self.p))
+        object.__setattr__(self, "alpha", number(self.alpha, "alpha"))
+        object.__setattr__(self, "p", number(self.p, "p"))
         _rocking.block(self.alpha, self.p)
 
     @classmethod
@@ -144,10 +171,10 @@ class Pulse:
     def __init__(self, kind: str, **parameters: float) -> None:
         if kind.startswith("ricker"):
             parameters = {"cycles": 4.0, **parameters}
-        numbers = {key: float(x) for key, x in parameters.items()}
-        _rocking.pulse(kind, numbers)
+        given = {key: number(x, key) for key, x in parameters.items()}
+        _rocking.pulse(kind, given)
         object.__setattr__(self, "kind", kind)
-        object.__setattr__(self, "parameters", tuple(numbers.items()))
+        object.__setattr__(self, "parameters", tuple(given.items()))
 
     @property
     def duration(self) -> float:
@@ -160,24 +187,28 @@ class Pulse:
         return _rocking.pulse(self.kind, dict(self.parameters))[1]
 
     def __repr__(self) -> str:
-        numbers = (f"{key}={value!r}" for key, value in self.parameters)
-        return f"Pulse({', '.join([repr(self.kind), *numbers])})"
+        known = (f"{key}={value!r}" for key, value in self.parameters)
+        return f"Pulse({', '.join([repr(self.kind), *known])})"
 
 
 @dataclass(frozen=True, init=False, eq=False)
 class Record(Frozen):
     """A record of ground acceleration, linear between its samples.
 
+    `remarks` says what is suspicious about the samples, as `rocking records`
+    does; a record of an array that has remarks warns of them.
+
     Parameters
     ----------
     acc : array_like
-        At least two samples.
+        At least two samples, real numbers.
     dt : float
         Sampling interval in s.
     units : str
         Unit of the samples: "g", "m/s2" or "cm/s2". There is no default.
     name : str
-        Name by which results refer to the record.
+        Name by which results refer to the record. Where no record of a suite
+        has one, results number them from 1; two of one name are refused.
     gravity : float
         Gravity in m/s2 by which samples of the latter two are divided.
     attributes : mapping of str to str
@@ -192,6 +223,9 @@ class Record(Frozen):
     dt: float
     acc_g: Floats = field(repr=False)
     attributes: Mapping[str, str] = field(repr=False)
+    remarks: tuple[str, ...] = field(repr=False)
+    """What is suspicious, such as `units: PGA 2.9e2 g, ...`: a code, and what
+    it means."""
 
     def __init__(
         self,
@@ -203,30 +237,60 @@ class Record(Frozen):
         gravity: float = STANDARD_GRAVITY,
         attributes: Mapping[str, str] | None = None,
     ) -> None:
-        samples = floats(acc, "samples")
-        acc_g = _rocking.samples(samples, dt, units, gravity, name)
-        self._set(name, acc_g, float(dt), dict(attributes or {}))
+        self._fill(acc, dt, units, name, gravity, attributes or {})
+        self._warn()
+
+    def _fill(
+        self,
+        acc: ArrayLike,
+        dt: float,
+        units: Units,
+        name: str,
+        gravity: float,
+        attributes: Mapping[str, str],
+    ) -> None:
+        samples, dt = floats(acc, "samples"), number(dt, "dt")
+        acc_g, remarks = _rocking.samples(samples, dt, units, gravity, name)
+        self._set(name, acc_g, dt, dict(attributes), remarks)
 
     def _set(
-        self, name: str, acc_g: Floats, dt: float, attributes: dict[str, str]
+        self,
+        name: str,
+        acc_g: Floats,
+        dt: float,
+        attributes: dict[str, str],
+        remarks: Sequence[str],
     ) -> None:
         object.__setattr__(self, "name", name)
         object.__setattr__(self, "dt", dt)
         object.__setattr__(self, "acc_g", frozen(acc_g))
         object.__setattr__(self, "attributes", MappingProxyType(attributes))
+        object.__setattr__(self, "remarks", tuple(remarks))
+
+    def _warn(self) -> None:
+        """Warns the caller of a public function of what is suspicious."""
+        if self.remarks:
+            text = f"record {self.name!r}: {'; '.join(self.remarks)}"
+            warnings.warn(text, stacklevel=3)
 
     @classmethod
     def _read(
-        cls, name: str, acc_g: Floats, dt: float, known: dict[str, str]
+        cls,
+        name: str,
+        acc_g: Floats,
+        dt: float,
+        known: dict[str, str],
+        remarks: Sequence[str],
     ) -> Record:
         """A record whose samples the core has read, in g."""
         record = cls.__new__(cls)
-        record._set(name, acc_g, dt, known)
+        record._set(name, acc_g, dt, known, remarks)
         return record
 
     def __reduce__(self) -> tuple[Any, ...]:
         known = dict(self.attributes)
-        return _unpickled, (self.name, self.acc_g, self.dt, known)
+        own = self.name, self.acc_g, self.dt, known, self.remarks
+        return _unpickled, own
 
     @classmethod
     def of(
@@ -242,7 +306,12 @@ class Record(Frozen):
         `trace` is an ObsPy `Trace` (`.data`, `.stats.delta`), an eqsig
         `AccSignal` (`.values`, `.dt`), or a pandas `Series` whose index is
         regular: numbers in s, or time steps. None of them says its unit, so
-        `units` must.
+        `units` must. A default label (ObsPy's `...`, eqsig's `m1`) is no name.
+
+        Refused are an index of whole numbers, as pandas numbers the rows of a
+        table (`Record(series, dt, units=...)` takes the samples alone), and a
+        trace whose `stats.calib` is not 1: ObsPy does not tell whether its
+        data were multiplied by it.
 
         >>> import pandas
         >>> series = pandas.Series([0.0, 1.0, 0.0], index=[0.0, 0.1, 0.2])
@@ -252,6 +321,14 @@ class Record(Frozen):
         known = getattr(trace, "name", None)
         if hasattr(trace, "stats") and hasattr(trace, "data"):
             known = getattr(trace, "id", known)
+            calib = getattr(trace.stats, "calib", 1.0)
+            if calib != 1.0:
+                raise ValueError(
+                    f"trace {known}: stats.calib is {calib}: expected 1; "
+                    "multiply the data by it, if they are counts, and set it "
+                    "to 1"
+                )
+            known = str(known or "").strip(".") and known
             acc, dt = trace.data, float(trace.stats.delta)
         elif (
             hasattr(trace, "values")
@@ -259,6 +336,7 @@ class Record(Frozen):
             and not hasattr(trace, "index")
         ):
             known = getattr(trace, "label", known)
+            known = None if known == "m1" else known
             acc, dt = trace.values, float(trace.dt)
         elif hasattr(trace, "index") and hasattr(trace, "to_numpy"):
             acc, dt = trace.to_numpy(), _interval(trace.index)
@@ -267,8 +345,12 @@ class Record(Frozen):
                 f"{type(trace).__name__}: expected an ObsPy Trace, an eqsig "
                 "AccSignal or a pandas Series; arrays go to Record"
             )
-        chosen = name if name is not None else str(known or "")
-        return cls(acc, dt, units=units, name=chosen, gravity=gravity)
+        own = "" if known is None else str(known)
+        record = cls.__new__(cls)
+        chosen = own if name is None else name
+        record._fill(acc, dt, units, chosen, gravity, {})
+        record._warn()
+        return record
 
     @property
     def duration(self) -> float:
@@ -287,37 +369,62 @@ class Record(Frozen):
 
 
 def _unpickled(
-    name: str, acc_g: Floats, dt: float, known: dict[str, str]
+    name: str,
+    acc_g: Floats,
+    dt: float,
+    known: dict[str, str],
+    remarks: tuple[str, ...],
 ) -> Record:
-    return Record._read(name, acc_g, dt, known)
+    return Record._read(name, acc_g, dt, known, remarks)
 
 
 def _interval(index: Any) -> float:
-    """Interval in s of a regular index."""
+    """Interval in s of a regular index: by least squares, as the shortest
+    decimal or whole number of samples a second that the times allow."""
     times = np.asarray(index)
+    resolution = 0.0
+    if len(times) < 2:
+        raise ValueError(f"index of {len(times)}: expected at least 2 times")
     if times.dtype.kind in "mM":
-        steps = times - times[0]
-        times = steps / np.timedelta64(1, "ns") * 1e-9
-    elif times.dtype.kind not in "fiu":
+        times = (times - times[0]) / np.timedelta64(1, "ns") * 1e-9
+        resolution = 1e-9
+    elif times.dtype.kind in "iu":
+        raise ValueError(
+            "index of whole numbers, as pandas numbers rows: expected times "
+            "in s, or time steps; Record(series, dt, units=...) takes the "
+            "samples alone"
+        )
+    elif times.dtype.kind != "f":
         raise ValueError(
             f"index of {times.dtype}: expected times in s, or time steps"
         )
-    if len(times) < 2:
-        raise ValueError(f"index of {len(times)}: expected at least 2 times")
-    dt = float(times[-1] - times[0]) / (len(times) - 1)
-    apart = np.abs(np.diff(times) - dt)
-    if not bool(np.all(apart <= 1e-6 * abs(dt))):
-        row = int(np.argmax(~(apart <= 1e-6 * abs(dt)))) + 1
+    times = times.astype(np.float64)
+    count = len(times)
+    place = np.arange(count) - 0.5 * (count - 1)
+    since = times - times[0]
+    dt = float(place @ since / (place @ place))
+    # Half a unit of single precision, in which times are often kept, but no
+    # more than 1 % of the step.
+    most = float(np.abs(times).max())
+    rounding = min(2.0**-24 * most, 0.01 * abs(dt)) + resolution
+    rounding += 2.0**-53 * most
+
+    def is_regular(step: float, allowed: float) -> bool:
+        left = since - place * step
+        return bool(np.all(np.abs(left - left.mean()) <= allowed))
+
+    if not is_regular(dt, rounding + 1e-6 * abs(dt)):
+        steps = np.diff(times)
+        middle = float(np.median(steps))
+        row = int(np.argmax(np.abs(steps - middle)))
         raise ValueError(
-            f"index: step {row} differs from the mean step of {dt} s: "
-            "expected a regular index"
+            f"index: step {row + 1} is {steps[row]:.9g} s, the median step "
+            f"{middle:.9g} s: expected a regular index"
         )
-    # The shortest decimal that gives these times.
-    for digits in range(1, 17):
-        short = float(f"{dt:.{digits}g}")
-        if abs(short - dt) <= 1e-12 * abs(dt):
-            return short
-    return dt
+    tries = [float(f"{dt:.{digits}g}") for digits in range(1, 10)]
+    if 0.0 < dt < 1.0:
+        tries.insert(6, 1.0 / round(1.0 / dt))
+    return next((step for step in tries if is_regular(step, rounding)), dt)
 
 
 @dataclass(frozen=True)
@@ -360,6 +467,7 @@ class Suite(Sequence[Record]):
                 "dt": record.dt,
                 "samples": len(record.acc_g),
                 "pga_g": record.pga_g,
+                "remarks": "; ".join(record.remarks),
                 **record.attributes,
             }
             for record in self.records
@@ -381,7 +489,7 @@ def read_record(
     EMOD3D, RspMatch). A file of several components is refused: `read_suite`
     takes the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are
     needed where the file states none, and refused where they contradict it.
-    `attributes["remarks"]` says what reading found suspicious.
+    What is suspicious is in `remarks`, and warned of.
 
     Raises
     ------
@@ -400,7 +508,9 @@ def read_record(
     >>> record.pga_g
     1.0
     """
-    return Record._read(*_rocking.read_record(path, dt, units, gravity))
+    record = Record._read(*_rocking.read_record(path, dt, units, gravity))
+    record._warn()
+    return record
 
 
 def read_suite(
@@ -415,10 +525,10 @@ def read_suite(
 
     Of each pair the component that the study uses, or with
     `component="both"` both. Columns of the index are the records'
-    `attributes`; `remarks` among them says what reading a file found
-    suspicious. What in a folder is no record of the suite, such as vertical
-    components and files in no known format, is set aside with a
-    `UserWarning` that counts it.
+    `attributes`. What is suspicious about a record is in its `remarks`; a
+    `UserWarning` counts such records. What in a folder is no record of the
+    suite, such as vertical components and files in no known format, is set
+    aside with a `UserWarning` that counts it.
 
     Raises
     ------
@@ -439,7 +549,16 @@ def read_suite(
     name, aside, records = _rocking.read_suite(path, dt, units, gravity, both)
     if aside:
         warnings.warn(f"suite {name}: set aside: {aside}", stacklevel=2)
-    return Suite(name, tuple(Record._read(*record) for record in records))
+    suite = Suite(name, tuple(Record._read(*record) for record in records))
+    remarked = [record for record in suite if record.remarks]
+    if remarked:
+        first = remarked[0]
+        warnings.warn(
+            f"suite {name}: remarks on {len(remarked)} of {len(suite)} "
+            f"records; {first.name}: {first.remarks[0]}",
+            stacklevel=2,
+        )
+    return suite
 
 
 def embedded_suite(
@@ -467,6 +586,16 @@ def _both(component: Component) -> bool:
             f"component {component!r}: expected one of study, both"
         )
     return component == "both"
+
+
+def pair_of(block: Block) -> tuple[float, float]:
+    """alpha and p, as the native half takes a block."""
+    if not isinstance(block, Block):
+        raise TypeError(
+            f"{type(block).__name__}: expected a Block; Block(alpha=..., "
+            "p=...) and Block.from_dimensions make one"
+        )
+    return block.alpha, block.p
 
 
 def given(excitation: Record | Pulse) -> Given:

@@ -390,6 +390,54 @@ class Comparison(Result):
 
 
 @dataclass(frozen=True)
+class ContrastedSample(Result):
+    """One sample of a contrast; `median` is None where censored values leave
+    it open."""
+
+    n: int
+    censored: int
+    median: float | None
+    drawn: str
+    """What the bootstrap draws."""
+
+
+@dataclass(frozen=True)
+class MedianRatio(Result):
+    """A ratio of medians with its bootstrap interval; an end is None where
+    draws leave it open."""
+
+    point: float
+    low: float | None
+    high: float | None
+    level: float
+    open: int
+    """Draws in which censored values leave the ratio open."""
+
+
+@dataclass(frozen=True)
+class Distance(Result):
+    """Kolmogorov and Smirnov's comparison of two samples."""
+
+    distance: float
+    up_to: float | None
+    """The least limit of a censored value, up to which they are compared."""
+    p_value: float | Reason
+
+
+@dataclass(frozen=True)
+class Contrast(Result):
+    """Two samples over different records: the ratio of their medians a/b, and
+    the distance of their distributions."""
+
+    a: ContrastedSample
+    b: ContrastedSample
+    median_ratio: MedianRatio | Reason
+    kolmogorov_smirnov: Distance
+    replicates: int
+    seed: int
+
+
+@dataclass(frozen=True)
 class Slope(Result):
     """Line of ln(capacity) on a property of the records, with a random
     intercept for each earthquake that has several."""

@@ -11,9 +11,11 @@ _Floats = NDArray[np.float64]
 Given = tuple[str, _Floats | None, float, dict[str, float]]
 _Block = tuple[float, float]
 Law = tuple[float, float, float]
-Sample = tuple[_Floats, Sequence[float | None], Sequence[str]]
+Sample = tuple[
+    _Floats, Sequence[float | None], Sequence[str], Sequence[str]
+]
 Member = tuple[Given, dict[str, str]]
-_Read = tuple[str, _Floats, float, dict[str, str]]
+_Read = tuple[str, _Floats, float, dict[str, str], list[str]]
 Written = tuple[
     str, str, float | None, tuple[float, float] | str | None
 ]
@@ -31,6 +33,9 @@ class Scan(TypedDict):
     by: str
     certify: bool
     highest_im: float
+
+Run = tuple[_Block, Physics, Scan]
+WholeRun = tuple[_Block, Physics, Scan, str]
 
 class Fit(TypedDict):
     shift: str
@@ -69,6 +74,7 @@ class AssessOptions(TypedDict):
 
 class IdaTable:
     def csv(self) -> str: ...
+    def starts(self) -> list[int]: ...
     def columns(self) -> dict[str, Any]: ...
     def setting(self) -> dict[str, Any]: ...
     def against(
@@ -120,7 +126,8 @@ def block_size(alpha: float, p: float, gravity: float) -> _Block: ...
 def uplift_threshold(alpha: float, p: float, physics: Physics) -> float: ...
 def samples(
     acc: _Floats, dt: float, units: str, gravity: float, name: str
-) -> _Floats: ...
+) -> tuple[_Floats, list[str]]: ...
+def measure(name: str) -> str: ...
 def pulse(
     kind: str, numbers: dict[str, float]
 ) -> tuple[float, float, float]: ...
@@ -159,7 +166,7 @@ def peak(
 def ida(
     block: _Block,
     records: Sequence[Given],
-    events: Sequence[str],
+    known: Sequence[tuple[str, str]],
     physics: Physics,
     scan: Scan,
     gravity: float,
@@ -167,7 +174,7 @@ def ida(
     progress: _Progress,
 ) -> IdaTable: ...
 def read_ida(path: str | os.PathLike[str]) -> IdaTable: ...
-def ida_of_csv(text: str) -> IdaTable: ...
+def ida_of_csv(text: str, run: WholeRun | None) -> IdaTable: ...
 def intensity_measures(
     record: Given,
     second: Given | None,
@@ -193,7 +200,8 @@ def test_normality(
 def summarise(
     values: _Floats, probabilities: Sequence[float], quantile_type: int
 ) -> str: ...
-def compare(a: _Floats, b: _Floats, margin: float) -> str: ...
+def compare(a: Sample, b: Sample, margin: float) -> str: ...
+def contrast(a: Sample, b: Sample, replicates: int, seed: int) -> str: ...
 def lognormal(law: Law, function: str, numbers: _Floats) -> _Floats: ...
 def exchange(
     format: str, blocks: Sequence[Wanted], gravity: float

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._inputs import Floats, Frozen, floats
+from ._inputs import Floats, Frozen, floats, frozen, number, numbers
 from ._results import (
     Band,
     Bounds,
     Choice,
     Comparison,
+    Contrast,
     FitIntervals,
     Needed,
     Normality,
@@ -30,16 +31,54 @@ Shift = float | Literal["min", "free"]
 Method = Literal["mle", "moment", "quantile", "trimmed", "censored"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, init=False, eq=False)
 class Sample(Frozen):
-    """Capacities of a suite, as numpy's functions and the fits take them."""
+    """Capacities of a suite, as numpy's functions and the fits take them.
+
+    Parameters
+    ----------
+    values : array_like
+        One value a record; infinite where it is censored.
+    limits : array_like, optional
+        Up to where a censored record was run; NaN where that is not known.
+    events : sequence of str
+        The earthquake of each record; empty where they are not known.
+    records : sequence of str
+        The name of each record, by which `compare` pairs samples.
+
+    >>> Sample([1.5, float("inf")], [float("nan"), 3.2]).limits.tolist()
+    [nan, 3.2]
+    """
 
     values: Floats
-    """One value a record; infinite where it is censored."""
     limits: Floats
-    """Up to where a censored record was run; NaN elsewhere."""
     events: tuple[str, ...] = ()
-    """The earthquake of each record; empty where they are not known."""
+    records: tuple[str, ...] = ()
+
+    def __init__(
+        self,
+        values: ArrayLike,
+        limits: ArrayLike | None = None,
+        events: Sequence[str] = (),
+        records: Sequence[str] = (),
+    ) -> None:
+        own = floats(values, "sample").copy()
+        known = np.full(len(own), np.nan)
+        if limits is not None:
+            known = floats(limits, "limits").copy()
+        sizes = {"limits": len(known)}
+        sizes |= {"events": len(events)} if events else {}
+        sizes |= {"records": len(records)} if records else {}
+        for what, size in sizes.items():
+            if size != len(own):
+                raise ValueError(
+                    f"{what} of {size} records for {len(own)} values: "
+                    "expected one a value"
+                )
+        object.__setattr__(self, "values", frozen(own))
+        object.__setattr__(self, "limits", frozen(known))
+        object.__setattr__(self, "events", tuple(events))
+        object.__setattr__(self, "records", tuple(records))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         return np.array(self.values, dtype=dtype, copy=True)
@@ -55,13 +94,13 @@ class Sample(Frozen):
 
 def given_sample(sample: Any) -> _rocking.Sample:
     """Values, the limits of those that are censored at a known one, and the
-    earthquakes where they are known."""
+    earthquakes and the names of the records where they are known."""
     if isinstance(sample, Sample):
         limits = [None if x != x else x for x in sample.limits.tolist()]
-        return sample.values, limits, sample.events
+        return sample.values, limits, sample.events, sample.records
     parts = ("_uncensored", "_left", "_right", "_interval")
     if not all(hasattr(sample, part) for part in parts):
-        return floats(sample, "sample"), [], ()
+        return floats(sample, "sample"), [], (), ()
     if len(sample._left) > 0 or len(sample._interval) > 0:
         raise ValueError(
             "CensoredData with left- or interval-censored values: expected "
@@ -69,7 +108,18 @@ def given_sample(sample: Any) -> _rocking.Sample:
         )
     limits = [None] * len(sample._uncensored) + sample._right.tolist()
     infinite = np.full(len(sample._right), np.inf)
-    return np.concatenate([sample._uncensored, infinite]), limits, ()
+    return np.concatenate([sample._uncensored, infinite]), limits, (), ()
+
+
+def shift_text(shift: Shift) -> str:
+    """A shift, as the native half reads it."""
+    if isinstance(shift, str):
+        if shift not in ("min", "free"):
+            raise ValueError(
+                f"shift {shift!r}: expected a number, 'min' or 'free'"
+            )
+        return shift
+    return repr(number(shift, "shift"))
 
 
 def seed(rng: int) -> int:
@@ -107,7 +157,7 @@ class Fragility(Result):
         return self.shift, self.log_mean, self.dispersion
 
     def _at(self, function: str, x: ArrayLike) -> Floats:
-        values = np.asarray(x, dtype=np.float64)
+        values = numbers(x, "numbers")
         flat = np.ascontiguousarray(values.ravel())
         found = _rocking.lognormal(self._law, function, flat)
         return found.reshape(values.shape)
@@ -256,7 +306,7 @@ def options(
 ) -> _rocking.Fit:
     """The options of a fit, as the native half takes them."""
     return {
-        "shift": shift if isinstance(shift, str) else repr(float(shift)),
+        "shift": shift_text(shift),
         "method": method,
         "quantile_type": quantile_type,
         "c": c,
@@ -324,7 +374,7 @@ def fit_stripes(
     >>> round(fit.fitted.median, 6)
     2.0
     """
-    counts = [(float(im), int(k), int(n)) for im, k, n in stripes]
+    counts = [(number(im, "intensity"), k, n) for im, k, n in stripes]
     return CountsFragility._of(_rocking.fit_stripes(counts, shift))
 
 
@@ -375,7 +425,7 @@ def test_normality(
     >>> found.verdict
     'not-rejected'
     """
-    above = shift if shift is None or isinstance(shift, str) else repr(shift)
+    above = None if shift is None else shift_text(shift)
     found = _rocking.test_normality(
         given_sample(sample), above, level, n_mc, seed(rng)
     )
@@ -404,16 +454,55 @@ def summarise(
     return Summary._of(_rocking.summarise(values, at, quantile_type))
 
 
-def compare(
-    a: ArrayLike | Sample, b: ArrayLike | Sample, *, margin: float = 0.05
-) -> Comparison:
-    """Compares two samples over the same records by their ratios a/b.
+def compare(a: Sample, b: Sample, *, margin: float = 0.05) -> Comparison:
+    """Compares two samples of the same records by their ratios a/b.
 
-    Ratios between 1/(1 + margin) and 1 + margin count as equivalent to 1.
+    Values are paired by the names of their records, which `Ida.sample` gives;
+    `contrast` takes samples of different records. Ratios between
+    1/(1 + margin) and 1 + margin count as equivalent to 1.
 
-    >>> found = compare([1.0, 2.1, 3.0], [1.0, 2.0, 3.1])
+    >>> a = Sample([1.0, 2.1, 3.0], records=["x", "y", "z"])
+    >>> b = Sample([3.1, 1.0, 2.0], records=["z", "x", "y"])
+    >>> found = compare(a, b)
     >>> round(found.mean_equivalence.geometric_mean, 4)
     1.0053
     """
-    values = given_sample(a)[0], given_sample(b)[0]
-    return Comparison._of(_rocking.compare(*values, margin))
+    for sample in (a, b):
+        if not isinstance(sample, Sample):
+            raise TypeError(
+                f"{type(sample).__name__}: expected a Sample with the names "
+                "of its records, by which values are paired; contrast takes "
+                "samples of different records"
+            )
+    both = given_sample(a), given_sample(b)
+    return Comparison._of(_rocking.compare(*both, margin))
+
+
+def contrast(
+    a: ArrayLike | Sample,
+    b: ArrayLike | Sample,
+    *,
+    n_resamples: int = 1000,
+    rng: int = 0,
+) -> Contrast:
+    """Contrasts two samples of different records: the ratio of their medians
+    a/b with a bootstrap interval, and the distance of their distributions.
+
+    Parameters
+    ----------
+    a, b : array_like, Sample or scipy.stats.CensoredData
+        Positive capacities, infinite where censored.
+    n_resamples : int
+        Bootstrap samples. Earthquakes are drawn with all their records, where
+        a sample knows them.
+    rng : int
+        Repetition of the bootstrap.
+
+    >>> pulse, ordinary = [1.1, 1.3, 1.4, 1.8], [2.2, 2.6, 2.8, 3.6, 9.0]
+    >>> found = contrast(pulse, ordinary, n_resamples=200)
+    >>> round(found.median_ratio.point, 3), found.median_ratio.high < 1.0
+    (0.482, True)
+    """
+    both = given_sample(a), given_sample(b)
+    found = _rocking.contrast(*both, n_resamples, seed(rng))
+    return Contrast._of(found)

@@ -12,7 +12,7 @@ use rocking::statistics::Clusters;
 use rocking_assessment::{About, files, set_surfaces};
 
 use crate::exchange::{Written, read};
-use crate::given::{Given, block_of, positive_gravity, records_of, refuse};
+use crate::given::{Given, block_of, positive_gravity, refuse, suite_of};
 use crate::work;
 
 /// An object.
@@ -84,7 +84,7 @@ pub fn assess(
     if embedded {
         set_surfaces(&mut objects).map_err(refuse)?;
     }
-    let records: Vec<Accelerogram> = records_of(records)?;
+    let records: Vec<Accelerogram> = suite_of(records)?;
     let clusters = match events.as_slice() {
         [] => Clusters::singletons(records.len()),
         known => Clusters::from_labels(known),

@@ -6,15 +6,24 @@ use std::path::{Path, PathBuf};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
-use rocking::record::{self, Accelerogram, ReadOptions, Remark, Suite};
+use rocking::record::{
+    self, Accelerogram, ReadOptions, Remark, Remarked, Suite, remarks,
+    remarks_together,
+};
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
-use crate::given::{choose, refuse, unit};
+use crate::given::{choose, refuse, remarked, unit};
 use crate::work;
 
-/// Name, samples in g, interval in s, and what the file says of itself.
-type Read<'py> =
-    (String, Bound<'py, PyArray1<f64>>, f64, BTreeMap<String, String>);
+/// Name, samples in g, interval in s, what the file says of itself, and what
+/// is suspicious.
+type Read<'py> = (
+    String,
+    Bound<'py, PyArray1<f64>>,
+    f64,
+    BTreeMap<String, String>,
+    Vec<String>,
+);
 
 fn options(
     dt: Option<f64>,
@@ -39,15 +48,11 @@ fn to_python<'py>(
     py: Python<'py>,
     record: &Accelerogram,
     attributes: BTreeMap<String, String>,
+    remarks: &[Remark],
 ) -> Read<'py> {
     let samples = record.samples_g().to_vec().into_pyarray(py);
-    (record.name().to_owned(), samples, record.dt_s(), attributes)
-}
-
-/// What reading a file found suspicious, as an attribute.
-fn remarked(remarks: &[Remark]) -> Option<(String, String)> {
-    let words: Vec<String> = remarks.iter().map(Remark::to_string).collect();
-    (!words.is_empty()).then(|| ("remarks".to_owned(), words.join("; ")))
+    let remarks = remarks.iter().map(remarked).collect();
+    (record.name().to_owned(), samples, record.dt_s(), attributes, remarks)
 }
 
 /// One record.
@@ -69,8 +74,9 @@ pub fn read_record<'py>(
     ]);
     attributes.extend(read.channel.map(|text| ("channel".to_owned(), text)));
     attributes.extend(read.site.map(|text| ("site".to_owned(), text)));
-    attributes.extend(remarked(&read.remarks));
-    Ok(to_python(py, &read.accelerogram, attributes))
+    let record = &read.accelerogram;
+    let remarks = [read.remarks, remarks(record)].concat();
+    Ok(to_python(py, record, attributes, &remarks))
 }
 
 /// The name of a suite, what was set aside, and its records; of pairs the
@@ -88,8 +94,14 @@ pub fn read_suite<'py>(
     let suite = work::alone(py, || Suite::read(&path, &options))?
         .map_err(|e| refuse_at(&path, e))?;
     let members = suite.members().iter();
+    let members: Vec<_> =
+        members.filter(|m| both || m.study_component).collect();
+    let together = work::on_all(py, || {
+        let all = members.iter().map(|member| Remarked::from(*member));
+        remarks_together(&all.collect::<Vec<_>>())
+    })?;
     let records =
-        members.filter(|m| both || m.study_component).map(|member| {
+        members.into_iter().zip(&together).map(|(member, remarks)| {
             let mut attributes = member.attributes_by_name();
             attributes.insert("file".to_owned(), member.file.clone());
             let event = member.event.clone();
@@ -101,8 +113,7 @@ pub fn read_suite<'py>(
                 attributes
                     .extend(text.clone().map(|text| (key.to_owned(), text)));
             }
-            attributes.extend(remarked(&member.remarks));
-            to_python(py, &member.accelerogram, attributes)
+            to_python(py, &member.accelerogram, attributes, remarks)
         });
     let (name, aside) = (suite.name(), suite.set_aside().to_string());
     Ok((name.to_owned(), aside, records.collect()))
@@ -130,7 +141,8 @@ pub fn embedded_suite<'py>(
             attributes.extend(
                 pair.map(|(pair, _)| ("pair".to_owned(), pair.to_owned())),
             );
-            records.push(to_python(py, component, attributes));
+            let remarks = remarks(component);
+            records.push(to_python(py, component, attributes, &remarks));
         }
     }
     Ok(records)

@@ -1,6 +1,7 @@
 //! What Python gives: blocks, models, records and pulses, checked by the
 //! core.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
@@ -10,8 +11,11 @@ use pyo3::prelude::*;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Pulse, PulseName, PulseParameter};
 use rocking::integrator::{self, Model, Overturning};
-use rocking::record::Accelerogram;
+use rocking::intensity::IntensityMeasure;
+use rocking::record::{Accelerogram, Remark, remarks, suite_names};
 use rocking::units::AccelerationUnit;
+
+use crate::work;
 
 /// The core's error as a `ValueError` with the core's text.
 pub fn refuse(error: impl Display) -> PyErr {
@@ -115,9 +119,21 @@ impl Ground {
     }
 }
 
-/// The records of given excitations that must be some.
-pub fn records_of(given: Vec<Given<'_>>) -> PyResult<Vec<Accelerogram>> {
-    given.into_iter().map(record_of).collect()
+/// The records of a suite, by names that tell them apart.
+pub fn suite_of(given: Vec<Given<'_>>) -> PyResult<Vec<Accelerogram>> {
+    let records = given.into_iter().map(record_of);
+    let records = records.collect::<PyResult<Vec<_>>>()?;
+    let given: Vec<&str> = records.iter().map(Accelerogram::name).collect();
+    let names = suite_names(&given).map_err(|error| {
+        refuse(format!(
+            "{error}; Record(..., name=...) and Record.of(..., name=...) \
+             name a record"
+        ))
+    })?;
+    let names = names.into_iter().map(Cow::into_owned);
+    let names: Vec<String> = names.collect();
+    let named = records.into_iter().zip(names);
+    named.map(|(record, name)| record.named(name).map_err(refuse)).collect()
 }
 
 /// The record of a given excitation that must be one.
@@ -192,7 +208,13 @@ pub fn uplift_threshold(
     Ok(integrator::uplift_threshold(&block, physics.model()?))
 }
 
-/// Samples in multiples of gravity, checked with the name of the record.
+/// A remark as Python shows it.
+pub fn remarked(remark: &Remark) -> String {
+    format!("{}: {remark}", remark.code())
+}
+
+/// Samples in multiples of gravity, checked with the name of the record, and
+/// what is suspicious about them.
 #[pyfunction]
 pub fn samples<'py>(
     py: Python<'py>,
@@ -201,12 +223,21 @@ pub fn samples<'py>(
     units: &str,
     gravity: f64,
     name: &str,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Vec<String>)> {
     let per_gravity = unit(units)?.per_gravity(positive_gravity(gravity)?);
     let samples: Vec<f64> =
         acc.as_slice()?.iter().map(|a| a / per_gravity).collect();
     let record = Accelerogram::try_new(name, dt, samples).map_err(refuse)?;
-    Ok(record.samples_g().to_vec().into_pyarray(py))
+    let found = || remarks(&record).iter().map(remarked).collect();
+    let found = work::on_numbers(py, record.samples_g().len(), found)?;
+    Ok((record.samples_g().to_vec().into_pyarray(py), found))
+}
+
+/// The name of an intensity measure as results spell it.
+#[pyfunction]
+pub fn measure(name: &str) -> PyResult<String> {
+    let found: IntensityMeasure = name.parse().map_err(refuse)?;
+    Ok(found.to_string())
 }
 
 /// Duration in s, PGA in g and PGV/g in s of a pulse.

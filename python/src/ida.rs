@@ -1,7 +1,6 @@
 //! Incremental dynamic analysis of a suite, and what one asks of its table.
 
 use std::collections::BTreeMap;
-use std::convert::Infallible;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +13,7 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Grid, IdaCurve, curves};
+use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::intensity::{
     AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
@@ -29,7 +28,7 @@ use rocking::record::Accelerogram;
 use rocking::stop;
 use rocking_exchange::ida::{self as tables, Curves, Row};
 
-use crate::given::{Given, Physics, block_of, record_of, records_of, refuse};
+use crate::given::{Given, Physics, block_of, refuse, suite_of};
 use crate::procedures::{Fit, answer};
 use crate::work;
 
@@ -50,33 +49,19 @@ pub struct Scan {
     highest_im: f64,
 }
 
-/// The table of an IDA, and unless it was read the run that made it.
-#[pyclass(frozen, module = "rocking._rocking")]
-pub struct IdaTable {
-    table: tables::IdaTable,
-    run: Option<(Analysis, Vec<IdaCurve>)>,
-}
-
-/// IDA of every record.
-#[pyfunction]
-pub fn ida<'py>(
-    py: Python<'py>,
+/// The analysis of a block by levels.
+fn analysis_of(
     block: (f64, f64),
-    records: Vec<Given<'py>>,
-    events: Vec<String>,
-    physics: Physics,
-    scan: Scan,
-    gravity: f64,
-    threads: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<IdaTable> {
+    physics: &Physics,
+    scan: &Scan,
+) -> PyResult<Analysis> {
     let block = block_of(block)?;
     let grid = match (scan.step_im, scan.step_g) {
         (Some(step), None) => Grid::Im { step },
         (None, Some(step_g)) => Grid::Pga { step_g },
         _ => return Err(refuse("expected one of step_g and step_im")),
     };
-    let analysis = Analysis {
+    Ok(Analysis {
         model: physics.model()?,
         overturning: physics.overturning()?,
         grid,
@@ -85,8 +70,33 @@ pub fn ida<'py>(
         highest_im: scan.highest_im,
         certify: scan.certify,
         ..Analysis::paper(block, physics.restitution(&block)?)
-    };
-    let records = records_of(records)?;
+    })
+}
+
+/// The table of an IDA, and unless it was read the run that made it: the
+/// analysis, and the JSON of its summary.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct IdaTable {
+    table: tables::IdaTable,
+    run: Option<(Analysis, String)>,
+}
+
+/// IDA of every record, of which the codes of its remarks and its earthquake
+/// are known.
+#[pyfunction]
+pub fn ida<'py>(
+    py: Python<'py>,
+    block: (f64, f64),
+    records: Vec<Given<'py>>,
+    known: Vec<(String, String)>,
+    physics: Physics,
+    scan: Scan,
+    gravity: f64,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<IdaTable> {
+    let analysis = analysis_of(block, &physics, &scan)?;
+    let records = suite_of(records)?;
     let found = work::run(py, threads, progress, records.len(), |done| {
         let units = normalised(&records);
         let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
@@ -95,15 +105,14 @@ pub fn ida<'py>(
     .map_err(refuse)?;
     let curves = found.into_iter().flatten().collect::<Vec<_>>();
     let about = ("none", concat!("rocking ", env!("CARGO_PKG_VERSION")));
-    let named = records.iter().map(Accelerogram::name).zip(&events);
-    let events: BTreeMap<&str, &String> = named.collect();
-    let known = |record: &str| {
-        let event = events.get(record).map_or("", |event| event.as_str());
-        (String::new(), event.to_owned())
-    };
+    let named = records.iter().map(Accelerogram::name).zip(known);
+    let known: BTreeMap<&str, (String, String)> = named.collect();
+    let known = |record: &str| known.get(record).cloned().unwrap_or_default();
     let table =
         tables::IdaTable::of(&curves, &analysis, gravity, about, known);
-    Ok(IdaTable { table, run: Some((analysis, curves)) })
+    let summary = summarise_ida(&curves, &analysis);
+    let summary = serde_json::to_string(&summary).map_err(refuse)?;
+    Ok(IdaTable { table, run: Some((analysis, summary)) })
 }
 
 /// The records at a peak of 1 g.
@@ -131,11 +140,18 @@ pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
     Ok(IdaTable { table, run: None })
 }
 
-/// The table of a CSV text, for pickles.
+/// The table of a CSV text, for pickles: with the block, the physics, the
+/// levels and the summary of the run that made it.
 #[pyfunction]
-pub fn ida_of_csv(text: &str) -> PyResult<IdaTable> {
-    let read = tables::IdaTable::read(text.as_bytes(), Path::new("CSV"));
-    read.map(|table| IdaTable { table, run: None }).map_err(refuse)
+pub fn ida_of_csv(
+    text: &str,
+    run: Option<((f64, f64), Physics, Scan, String)>,
+) -> PyResult<IdaTable> {
+    let table = tables::IdaTable::read(text.as_bytes(), Path::new("CSV"));
+    let run = run.map(|(block, physics, scan, summary)| {
+        Ok::<_, PyErr>((analysis_of(block, &physics, &scan)?, summary))
+    });
+    Ok(IdaTable { table: table.map_err(refuse)?, run: run.transpose()? })
 }
 
 /// A record of a suite, and what else is known of it.
@@ -186,7 +202,7 @@ fn cell(
 
 impl IdaTable {
     /// What was run.
-    fn run(&self) -> PyResult<&(Analysis, Vec<IdaCurve>)> {
+    fn run(&self) -> PyResult<&(Analysis, String)> {
         self.run.as_ref().ok_or_else(|| {
             refuse("a table that was read: expected the result of `ida`")
         })
@@ -197,10 +213,24 @@ impl IdaTable {
         &self,
         suite: impl Iterator<Item = &'a Accelerogram>,
     ) -> PyResult<()> {
-        if suite.map(Accelerogram::name).eq(self.table.records()) {
-            return Ok(());
+        let own: Vec<&str> = self.table.records().collect();
+        let found: Vec<&str> = suite.map(Accelerogram::name).collect();
+        if own.len() != found.len() {
+            let (own, found) = (own.len(), found.len());
+            return Err(refuse(format!(
+                "{found} records: expected the {own} of the IDA"
+            )));
         }
-        Err(refuse("records of another suite than those of the IDA"))
+        let mut all = found.iter().zip(&own);
+        match all.position(|(found, own)| found != own) {
+            None => Ok(()),
+            Some(i) => Err(refuse(format!(
+                "record {} of the suite is {}: expected {}, as in the IDA",
+                i + 1,
+                found[i],
+                own[i]
+            ))),
+        }
     }
 
     fn ground(
@@ -226,11 +256,10 @@ impl IdaTable {
         let settings =
             Settings::try_new(gravity_m_s2, damping, periods_s.clone());
         let settings = settings.map_err(refuse)?;
-        let members = suite.into_iter().map(|(record, known)| {
-            record_of(record).map(|record| (record, known))
-        });
-        let members = members.collect::<PyResult<Vec<_>>>()?;
-        self.of_suite(members.iter().map(|(record, _)| record))?;
+        let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
+        let records = suite_of(given)?;
+        self.of_suite(records.iter())?;
+        let members: Vec<_> = records.into_iter().zip(known).collect();
         let measured = || {
             let one = |(record, known): (Accelerogram, _)| {
                 let measures = Measures::of(&record, &settings)?;
@@ -250,6 +279,17 @@ impl IdaTable {
     /// The CSV text, with the bytes of `rocking ida`.
     fn csv(&self) -> String {
         self.table.csv()
+    }
+
+    /// The first row of each record.
+    fn starts(&self) -> Vec<usize> {
+        let sizes = self.table.by_record().map(<[Row]>::len);
+        let next = |next: &mut usize, size| {
+            let start = *next;
+            *next += size;
+            Some(start)
+        };
+        sizes.scan(0, next).collect()
     }
 
     /// The columns that differ by row.
@@ -299,10 +339,8 @@ impl IdaTable {
     }
 
     /// The curves in a few numbers.
-    fn summary(&self, py: Python<'_>) -> PyResult<String> {
-        let (analysis, curves) = self.run()?;
-        let found = || Ok::<_, Infallible>(summarise_ida(curves, analysis));
-        answer(py, found)
+    fn summary(&self) -> PyResult<String> {
+        Ok(self.run()?.1.clone())
     }
 
     /// What the analyses ask of the pivot.
@@ -312,12 +350,17 @@ impl IdaTable {
         suite: Vec<Given<'_>>,
         friction: Vec<f64>,
     ) -> PyResult<String> {
-        let (analysis, curves) = self.run()?;
-        let records = records_of(suite)?;
+        let (analysis, _) = self.run()?;
+        let records = suite_of(suite)?;
         self.of_suite(records.iter())?;
+        // The onset was not run, and a refined end is no level.
+        let run = |rows: &[Row]| -> Vec<f64> {
+            let levels = rows[1..].iter().filter(|row| !row.is_refined());
+            levels.map(|row| row.intensity_pga).collect()
+        };
+        let ims: Vec<_> = self.table.by_record().map(run).collect();
         answer(py, || {
-            let units = normalised(&records);
-            pivot_forces(&units, curves, analysis, &friction)
+            pivot_forces(&normalised(&records), &ims, analysis, &friction)
         })
     }
 

@@ -29,7 +29,8 @@ mod _rocking {
     use crate::files::{embedded_suite, read_record, read_suite};
     #[pymodule_export]
     use crate::given::{
-        block, block_of_size, block_size, pulse, samples, uplift_threshold,
+        block, block_of_size, block_size, measure, pulse, samples,
+        uplift_threshold,
     };
     #[pymodule_export]
     use crate::ida::{IdaCurves, IdaTable, ida, ida_of_csv, read_ida};
@@ -41,8 +42,8 @@ mod _rocking {
     use crate::peak::peak;
     #[pymodule_export]
     use crate::procedures::{
-        choose_distribution, compare, fit, fit_stripes, lognormal, summarise,
-        test_normality,
+        choose_distribution, compare, contrast, fit, fit_stripes, lognormal,
+        summarise, test_normality,
     };
 
     #[pymodule_export]

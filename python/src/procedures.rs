@@ -4,10 +4,13 @@ use std::fmt::Display;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use rocking::procedures::comparison::Named;
+use rocking::procedures::contrast::Drawn;
 use rocking::procedures::{
     Draws, FitOptions, NormalityOptions, choose as choose_family,
-    compare as compare_pairs, fit_sample, fit_stripes as fit_counts,
-    summarise as summarise_sample, test_normality as test,
+    compare as compare_pairs, contrast as contrast_suites, fit_sample,
+    fit_stripes as fit_counts, summarise as summarise_sample,
+    test_normality as test,
 };
 use rocking::statistics::lognormal::{FitMethod, Stripe};
 use rocking::statistics::{
@@ -29,19 +32,19 @@ pub fn answer<T: Serialize + Send, E: Display + Send>(
 }
 
 /// A sample as Python gives it: values, infinite where censored, and the
-/// limits of those that are censored at a known one, and the earthquakes, none
-/// where they are not known.
+/// limits of those that are censored at a known one, and the earthquakes and
+/// the names of the records, none where they are not known.
 pub type GivenSample<'py> =
-    (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>, Vec<String>);
+    (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>, Vec<String>, Vec<String>);
 
 pub fn sample_of(
-    (values, limits, _): &GivenSample<'_>,
+    (values, limits, ..): &GivenSample<'_>,
 ) -> PyResult<CensoredSample> {
     CensoredSample::try_new(values.as_slice()?, limits).map_err(refuse)
 }
 
 /// The values of a sample by earthquake, where they are known.
-pub fn clusters_of((_, _, events): &GivenSample<'_>) -> Option<Clusters> {
+pub fn clusters_of((_, _, events, _): &GivenSample<'_>) -> Option<Clusters> {
     (!events.is_empty()).then(|| Clusters::from_labels(events))
 }
 
@@ -158,12 +161,28 @@ pub fn summarise(
 #[pyfunction]
 pub fn compare(
     py: Python<'_>,
-    a: PyReadonlyArray1<'_, f64>,
-    b: PyReadonlyArray1<'_, f64>,
+    a: GivenSample<'_>,
+    b: GivenSample<'_>,
     margin: f64,
 ) -> PyResult<String> {
-    let (a, b) = (a.as_slice()?, b.as_slice()?);
+    let a = Named { records: &a.3, values: a.0.as_slice()? };
+    let b = Named { records: &b.3, values: b.0.as_slice()? };
     answer(py, || compare_pairs(a, b, margin))
+}
+
+/// Two samples over different records.
+#[pyfunction]
+pub fn contrast(
+    py: Python<'_>,
+    a: GivenSample<'_>,
+    b: GivenSample<'_>,
+    replicates: usize,
+    seed: u64,
+) -> PyResult<String> {
+    let (of_a, of_b) = (sample_of(&a)?, sample_of(&b)?);
+    let a = Drawn { sample: &of_a, records: &a.3, events: &a.2 };
+    let b = Drawn { sample: &of_b, records: &b.3, events: &b.2 };
+    answer(py, || contrast_suites(a, b, Draws { replicates, seed }))
 }
 
 /// A function of the lognormal (shift, log_mean, dispersion) at each number.

@@ -1,6 +1,5 @@
 """What is refused, by which exception, with the core's text."""
 
-import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,10 @@ LOBE = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="lobe")
 PACKET = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="packet")
 # What a type checker refuses, too.
 WRONG: Any = "neither"
+TEXT: Any = "0.2"
+NO_BLOCK: Any = (0.2, 3.0)
+COMPLEX: Any = np.array([0.0, 1j, 0.0])
+TIMES: Any = np.array(["2026-01-01", "2026-01-02"], dtype="datetime64[s]")
 HAZARD = rk.Hazard("h.csv", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")
 LAW = rk.Fragility(shift=0.0, log_mean=0.0, dispersion=0.5, median=1.0)
 BY_VELOCITY = rk.BlockFragility(
@@ -72,23 +75,19 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
     ),
     (
         lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [PACKET]),
-        "records of another suite",
+        "record 1 of the suite is packet: expected lobe, as in the IDA",
     ),
     (
         lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [LOBE], ims=["column:mw"]),
         "record lobe, attribute mw: found none: expected a positive",
     ),
     (
-        lambda: rk.ida(BLOCK, LOBE).pivot_forces([PACKET], [0.3]),
-        "records of another suite",
+        lambda: rk.ida(BLOCK, LOBE).pivot_forces([LOBE, PACKET], [0.3]),
+        "2 records: expected the 1 of the IDA",
     ),
     (
         lambda: rk.ida(BLOCK, LOBE).pivot_forces([LOBE], [0.0]),
         "coefficient of friction 0: expected",
-    ),
-    (
-        lambda: pickle.loads(pickle.dumps(rk.ida(BLOCK, LOBE))).summarise(),
-        "a table that was read: expected the result of `ida`",
     ),
     (lambda: rk.surface_fragility(rk.Block(alpha=0.2, p=8.0)), "p 8"),
     (lambda: rk.Hazard("h.csv", "pga,rate\n"), "h.csv:1: found columns"),
@@ -107,7 +106,41 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.test_normality([1.0, 2.0], level=2.0), "level 2: expected"),
     (lambda: rk.summarise([1.0], [1.5]), "probability 1.5"),
     (lambda: rk.summarise([]), "empty sample"),
-    (lambda: rk.compare([1.0], [1.0, 2.0]), "as many on either side"),
+    (
+        lambda: rk.compare(rk.Sample([1.0]), rk.Sample([2.0])),
+        "0 names of records for 1 values: expected a name for each value",
+    ),
+    (
+        lambda: rk.compare(
+            rk.Sample([1.0], records=["a"]), rk.Sample([2.0], records=["b"])
+        ),
+        "record a is not in the other sample",
+    ),
+    (
+        lambda: rk.compare(
+            # Of two suites without names.
+            rk.Sample([1.0, 2.0], records=["1", "2"]),
+            rk.Sample([2.0, 1.0], records=["1", "2"]),
+        ),
+        "records without names, numbered by their places",
+    ),
+    (
+        lambda: rk.contrast(
+            rk.Sample([1.0, 2.0], records=["a", "b"]),
+            rk.Sample([1.0, 2.0], records=["b", "c"]),
+        ),
+        "record b is in both samples",
+    ),
+    (lambda: rk.contrast([1.0, 0.0], [1.0]), "value 2 is 0: expected a pos"),
+    (lambda: rk.Sample([1.0], [1.0, 2.0]), "limits of 2 records for 1 values"),
+    (
+        lambda: rk.BlockFragility(block=BLOCK, fit=LAW, im="sa"),  # type: ignore[arg-type]
+        'intensity measure "sa": expected one of pga, pgv',
+    ),
+    (
+        lambda: rk.fit_fragility([1.0, 2.0], shift="0.2"),  # type: ignore[arg-type]
+        "shift '0.2': expected a number, 'min' or 'free'",
+    ),
     (
         lambda: rk.intensity_measures(LOBE, periods=[-1.0]),
         "period -1 s: expected at least 0.001 s",
@@ -147,6 +180,63 @@ def test_a_cut_file_is_refused_with_its_line(tmp_path: Path) -> None:
     file.write_text("0.0\n1.0\nabc\n")
     with pytest.raises(ValueError, match="column.txt:3"):
         rk.read_record(file, dt=0.1, units="g")
+
+
+KINDS: list[tuple[Callable[[], object], str]] = [
+    (lambda: rk.Record(WRONG, 0.1, units="g"), "samples of <U7: expected real"),
+    (lambda: rk.Record(COMPLEX, 0.1, units="g"), "samples of complex128"),
+    (
+        lambda: rk.Record(COMPLEX.real > 0.0, 0.1, units="g"),
+        "samples of bool: expected real numbers",
+    ),
+    (
+        lambda: rk.Record(TIMES, 0.1, units="g"),
+        "samples of datetime64[s]: expected real numbers",
+    ),
+    (
+        lambda: rk.Record([0.0, None], 0.1, units="g"),  # type: ignore[arg-type]
+        "samples of object: expected real numbers",
+    ),
+    (lambda: rk.Block(alpha=TEXT, p=3.0), "alpha '0.2': expected a number"),
+    (lambda: rk.Block(alpha=0.2, p=True), "p True: expected a number"),
+    (
+        lambda: rk.Pulse("one-sine", amplitude_g=TEXT, omega=1.0),
+        "amplitude_g '0.2': expected a number",
+    ),
+    (lambda: rk.respond(BLOCK, PULSE, eta=1j), "eta 1j: expected a"),  # type: ignore[arg-type]
+    (lambda: LAW.cdf(TEXT), "numbers of <U3: expected real numbers"),
+    (lambda: rk.fit_fragility(["1", "2"]), "sample of <U1: expected"),
+    (lambda: rk.ida(NO_BLOCK, LOBE), "tuple: expected a Block"),
+    (lambda: rk.respond(NO_BLOCK, LOBE), "tuple: expected a Block"),
+    (lambda: rk.peak([NO_BLOCK], LOBE, levels=2.0), "tuple: expected a Block"),
+    (lambda: rk.surface_fragility(NO_BLOCK), "tuple: expected a Block"),
+    (
+        lambda: rk.BlockFragility(block=NO_BLOCK, fit=BY_VELOCITY.fit, im="pga"),
+        "tuple: expected a Block",
+    ),
+    (
+        lambda: rk.assess(rk.Object("a", NO_BLOCK), [LOBE]),
+        "tuple: expected a Block",
+    ),
+    (lambda: rk.compare([1.0], [1.0]), "list: expected a Sample with the"),  # type: ignore[arg-type]
+]
+
+
+@pytest.mark.parametrize(("call", "text"), KINDS, ids=[t for _, t in KINDS])
+def test_what_is_of_another_kind_is_a_type_error_with_a_text(
+    call: Callable[[], object], text: str
+) -> None:
+    with pytest.raises(TypeError) as refused:
+        call()
+    assert text in str(refused.value)
+
+
+def test_capitals_name_a_measure() -> None:
+    block = rk.BlockFragility(block=BLOCK, fit=BY_VELOCITY.fit, im="PGV")
+    assert block == BY_VELOCITY
+    analysed = rk.ida(BLOCK, LOBE)
+    found = analysed.against("SA:1", [LOBE]).capacities(np.inf)
+    assert found == analysed.against("sa:1", [LOBE]).capacities(np.inf)
 
 
 def test_an_array_is_no_excitation() -> None:

@@ -46,7 +46,8 @@ def noise(count: int) -> rk.Record:
 
 @long
 def ida(given: Given) -> Call:
-    return lambda: rk.ida(given.block, [*given.suite] * 50)
+    unnamed = [rk.Record(one.acc_g, one.dt, units="g") for one in given.suite]
+    return lambda: rk.ida(given.block, unnamed * 50)
 
 
 @long
@@ -135,7 +136,21 @@ def normality_above_the_smallest(given: Given) -> Call:
 @long
 def compare(given: Given) -> Call:
     a, b = np.exp(np.random.default_rng(0).standard_normal((2, 9000)))
-    return lambda: rk.compare(a, b)
+    names = [f"r{k}" for k in range(9000)]
+    both = [rk.Sample(values, records=names) for values in (a, b)]
+    return lambda: rk.compare(*both)
+
+
+@long
+def contrast(given: Given) -> Call:
+    a, b = given.ida.capacities([0.3, 0.5])
+    return lambda: rk.contrast(a, b, n_resamples=1_000_000)
+
+
+@long
+def contrast_of_large_samples(given: Given) -> Call:
+    a, b = np.exp(np.random.default_rng(0).standard_normal((2, 40_000)))
+    return lambda: rk.contrast(a, b, n_resamples=2)
 
 
 @long

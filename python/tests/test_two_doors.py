@@ -180,13 +180,48 @@ def normality_by_simulation(house: House) -> Pair:
 
 @pair("compare")
 def comparison(house: House) -> Pair:
-    a, b = [1.0, 2.1, 3.0, np.inf, 0.0], [1.0, 2.0, 3.1, 4.0, 0.0]
+    a, b = [1.0, 2.1, 3.0, np.inf, 0.0], [0.0, 1.0, 2.0, 3.1, 4.0]
     files = [
-        house.file(name, [str(x) for x in values])
-        for name, values in (("a.txt", a), ("b.txt", b))
+        house.file(file, [f"{x!r} # {name}" for x, name in zip(values, names)])
+        for file, values, names in (("a.txt", a, "vwxyz"), ("b.txt", b, "zvwxy"))
     ]
     words = ["compare", "--a", files[0], "--b", files[1], "--margin", 0.1]
-    return Pair(rk.compare(a, b, margin=0.1), words, (), ("paired_by_name",))
+    of_a = rk.Sample(a, records=[*"vwxyz"])
+    of_b = rk.Sample(b, records=[*"zvwxy"])
+    return Pair(rk.compare(of_a, of_b, margin=0.1), words)
+
+
+@pair("contrast")
+def contrast_of_records(house: House) -> Pair:
+    a, b = [1.1, 1.3, 1.4, 1.8], [2.2, 2.6, 2.8, 3.6, 9.0]
+    files = [
+        house.file(file, [repr(x) for x in values])
+        for file, values in (("few.txt", a), ("others.txt", b))
+    ]
+    words = ["contrast", "--a", files[0], "--b", files[1]]
+    words += ["--bootstrap", 50, "--seed", 4]
+    return Pair(rk.contrast(a, b, n_resamples=50, rng=4), words)
+
+
+@pair("contrast")
+def contrast_of_earthquakes(house: House) -> Pair:
+    names = ["aabbccddeeffgg", "ggghhhiiijjjkk"]
+    samples, files = [], []
+    for file, factor, events in zip(("near.txt", "far.txt"), (1.0, 2.0), names):
+        values = [factor * (1.2 + 0.1 * i) for i in range(14)]
+        limits = [np.nan] * 13 + [factor * 2.4]
+        records = [f"{file} {i}" for i in range(14)]
+        samples.append(
+            rk.Sample([*values[:13], np.inf], limits, [*events], records)
+        )
+        texts = [*map(repr, values[:13]), f">{limits[13]!r}"]
+        rows = zip(texts, records, events)
+        files.append(house.file(file, [" # ".join(row) for row in rows]))
+    words = ["contrast", "--a", files[0], "--b", files[1], "--bootstrap", 80]
+    found = rk.contrast(*samples, n_resamples=80)
+    assert found.a.drawn == "14 records of 7 earthquakes; unit: earthquake"
+    assert isinstance(found.kolmogorov_smirnov.p_value, rk.Reason)
+    return Pair(found, words)
 
 
 @pair("rank")

@@ -1,6 +1,8 @@
 //! Names of records, and other texts that come from files and go into
 //! results.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::fmt::{self, Write as _};
 
 use thiserror::Error;
@@ -40,6 +42,60 @@ pub fn result_name(text: &str) -> Result<&str, NameError> {
         true => Err(NameError(text.to_owned())),
         false => Ok(text),
     }
+}
+
+/// Why the records of a suite have no names that tell them apart.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SuiteNameError {
+    /// Two records that results could not distinguish.
+    #[error("two records are named {0:?}: expected different names")]
+    Same(String),
+    /// A record without a name among others that have one.
+    #[error(
+        "record {0} has no name: expected a name of every record, or of none"
+    )]
+    Unnamed(usize),
+}
+
+/// The names by which results tell the records of a suite apart: those given,
+/// or, where no record has one, the places `1`, `2`, ...
+///
+/// # Errors
+/// [`SuiteNameError`] for a name that two records share, and for a record
+/// without a name among others that have one.
+///
+/// ```
+/// use rocking::record::suite_names;
+/// assert_eq!(suite_names(&["a", "b"])?, ["a", "b"]);
+/// assert_eq!(suite_names(&["", ""])?, ["1", "2"]);
+/// assert!(suite_names(&["a", "a"]).is_err());
+/// assert!(suite_names(&["a", ""]).is_err());
+/// # Ok::<(), rocking::record::SuiteNameError>(())
+/// ```
+pub fn suite_names<'a>(
+    given: &[&'a str],
+) -> Result<Vec<Cow<'a, str>>, SuiteNameError> {
+    let unnamed = given.iter().position(|name| name.is_empty());
+    if unnamed.is_some() && given.iter().all(|name| name.is_empty()) {
+        return Ok((1..=given.len()).map(|i| i.to_string().into()).collect());
+    }
+    if let Some(place) = unnamed {
+        return Err(SuiteNameError::Unnamed(place + 1));
+    }
+    let mut seen = BTreeSet::new();
+    match given.iter().find(|name| !seen.insert(**name)) {
+        Some(name) => Err(SuiteNameError::Same((*name).to_owned())),
+        None => Ok(given.iter().map(|name| Cow::Borrowed(*name)).collect()),
+    }
+}
+
+/// Whether the names are the places that [`suite_names`] gives records
+/// without a name.
+pub(crate) fn are_places<S: AsRef<str>>(names: &[S]) -> bool {
+    let is_place =
+        |(i, name): (usize, &S)| name.as_ref() == (i + 1).to_string();
+    !names.is_empty() && names.iter().enumerate().all(is_place)
 }
 
 /// A file's name in a message, each control character as `\u001b`.

@@ -126,6 +126,12 @@ impl IdaCurve {
         ResponseCurve::try_new(&vertices, overturning)
     }
 
+    /// Intensities of `points`.
+    #[must_use]
+    pub fn ims(&self) -> Vec<f64> {
+        self.points.iter().map(|point| point.im).collect()
+    }
+
     /// Standing analyses, in rising intensity.
     pub fn standing(&self) -> impl Iterator<Item = &IdaPoint> {
         self.points.iter().filter(|point| !point.outcome.is_overturned())

@@ -119,10 +119,10 @@ impl FromStr for IntensityMeasure {
             period.filter(|t| *t > 0.0 && t.is_finite())
         };
         let (kind, rest) = match text.split_once(':') {
-            Some((kind, rest)) => (kind, Some(rest)),
-            None => (text, None),
+            Some((kind, rest)) => (kind.to_ascii_lowercase(), Some(rest)),
+            None => (text.to_ascii_lowercase(), None),
         };
-        let found = match (kind.to_ascii_lowercase().as_str(), rest) {
+        let found = match (kind.as_str(), rest) {
             ("sa", Some(t)) => period(t).map(Self::Sa),
             ("avgsa", Some(list)) => {
                 let periods: Option<_> = list.split(',').map(period).collect();

@@ -41,9 +41,10 @@ pub struct FrictionNeed {
     pub share: f64,
 }
 
-/// Finds the forces at the pivot of every analysis of `curves`, which
-/// `analysis` made of `records`, and the share of the analyses that need
-/// more friction |H|/N than each coefficient in `friction`.
+/// Finds the forces at the pivot of every analysis of `records` at the
+/// intensities `ims` of each ([`IdaCurve::ims`]), and the share of the
+/// analyses that need more friction |H|/N than each coefficient in
+/// `friction`.
 ///
 /// Each analysis is run once more, whole, on the threads of the caller's
 /// pool.
@@ -65,7 +66,8 @@ pub struct FrictionNeed {
 /// let found = curves(&records, &[analysis], &Batch::default())?;
 /// // Uplift needs the friction tan(alpha) at least.
 /// let enough = [0.9 * libm::tan(0.1), 1.0];
-/// let pivot = pivot_forces(&records, &found[0], &analysis, &enough)?;
+/// let ims = [found[0][0].ims()];
+/// let pivot = pivot_forces(&records, &ims, &analysis, &enough)?;
 /// assert_eq!(pivot.needs[0].share, 1.0);
 /// assert_eq!(pivot.needs[1].need_more, 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -76,7 +78,7 @@ pub struct FrictionNeed {
 /// [`forces_at`].
 pub fn pivot_forces(
     records: &[NormalisedRecord],
-    curves: &[IdaCurve],
+    ims: &[Vec<f64>],
     analysis: &Analysis,
     friction: &[f64],
 ) -> Result<PivotForces, IdaError> {
@@ -84,10 +86,9 @@ pub fn pivot_forces(
         let what = "coefficient of friction";
         return Err(IdaError::NotPositive { what, found });
     }
-    let pairs: Vec<_> = records.iter().zip(curves).collect();
-    let of = |(record, curve): &(&NormalisedRecord, &IdaCurve)| {
-        let points = curve.points.iter();
-        points.map(|point| forces_at(record, analysis, point.im)).collect()
+    let pairs: Vec<_> = records.iter().zip(ims).collect();
+    let of = |(record, ims): &(&NormalisedRecord, &Vec<f64>)| {
+        ims.iter().map(|im| forces_at(record, analysis, *im)).collect()
     };
     let curves: Vec<Vec<Forces>> =
         pairs.par_iter().panic_fuse().map(of).collect::<Result<_, _>>()?;

@@ -46,6 +46,12 @@ impl CensoredSample {
         &self.values
     }
 
+    /// The limits of the values that are censored at a known one.
+    #[must_use]
+    pub fn limits(&self) -> &[Option<f64>] {
+        &self.limits
+    }
+
     /// The same values without their limits.
     #[must_use]
     pub fn extended(&self) -> ExtendedSample {

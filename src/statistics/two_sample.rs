@@ -1,6 +1,7 @@
 //! Do two samples come from one distribution?
 
 use super::ExtendedSample;
+use crate::stop;
 
 /// Kolmogorov and Smirnov's comparison of two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +49,7 @@ pub fn kolmogorov_smirnov(
     }
     let mut share = vec![0.0; m + 1];
     for i in 0..=n {
+        stop::point();
         for j in 0..=m {
             let beyond = if i + j == 0 {
                 0.0

@@ -19,6 +19,7 @@ pub mod blocks;
 pub mod capacities;
 pub mod compare;
 pub mod completions;
+pub mod contrast;
 pub mod diff;
 pub mod excitation;
 pub mod floors;
@@ -63,6 +64,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
             "rank",
             "sample",
             "compare",
+            "contrast",
             "lilliefors",
         ],
     ),
@@ -94,6 +96,7 @@ enum Command {
     Capacities(capacities::Args),
     Compare(compare::Args),
     Completions(completions::Args),
+    Contrast(contrast::Args),
     Diff(diff::Args),
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
@@ -188,6 +191,7 @@ pub fn run() -> ExitCode {
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => completions::run(&args, command()),
+        Command::Contrast(args) => contrast::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),

@@ -1,11 +1,10 @@
 //! On how many threads a command works, and which signals stop it.
 
 use std::fs;
-use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
 
-use rocking::stop::{Stop, StopError};
+use rocking::stop::{MOST_THREADS_A_PROCESSOR, Stop, StopError, most_threads};
 #[cfg(unix)]
 use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -13,9 +12,6 @@ use signal_hook::flag::{register, register_conditional_default};
 
 use crate::failure::Failure;
 use crate::terminal::note;
-
-/// Threads beyond which more only cost.
-const MOST_THREADS_A_PROCESSOR: usize = 8;
 
 /// Signals that stop long work.
 const STOPPING: &[i32] = &[
@@ -73,8 +69,7 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// Runs `work` on `threads` threads (default: all processors), until SIGINT,
-/// SIGTERM or SIGHUP stops it. Caps the count at eight per processor, with a
-/// note.
+/// SIGTERM or SIGHUP stops it, with a note where [`Stop::run`] starts fewer.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, for threads that cannot be started, and for
@@ -98,19 +93,17 @@ pub fn until<T: Send>(
     if threads == Some(0) {
         return Err(Failure::input("--threads 0: expected at least 1"));
     }
-    let processors =
-        std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let most = MOST_THREADS_A_PROCESSOR * processors;
+    let most = most_threads();
     if let Some(asked) = threads.filter(|asked| *asked > most) {
+        let processors = most / MOST_THREADS_A_PROCESSOR;
         note(&format!(
             "--threads {asked}: {most} are used, \
              {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
         ));
     }
-    let count = threads.unwrap_or(processors).min(most);
-    match SIGNALS.heeded(|stop| stop.run(count, work)) {
+    match SIGNALS.heeded(|stop| stop.run(threads.unwrap_or(0), work)) {
         Ok(result) => Ok(Some(result)),
         Err(StopError::Stopped) => Ok(None),
-        Err(error) => Err(Failure::input(format!("{count} {error}"))),
+        Err(error) => Err(Failure::input(error)),
     }
 }

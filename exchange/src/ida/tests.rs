@@ -1,6 +1,10 @@
 use std::path::Path;
 
+use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{Analysis, Grid, curve};
 use rocking::intensity::Intensity;
+use rocking::record::Accelerogram;
 
 use super::IdaTable;
 use crate::columns::IDA;
@@ -62,5 +66,50 @@ fn a_table_that_is_none_is_refused_with_its_line() {
     assert!(fixed.contains("a.csv:2: found `6` in column order"), "{fixed}");
     let again = read(&[ROWS[0], ROWS[3], ROWS[1]]).unwrap_err();
     assert!(again.contains("a.csv:4: record A comes again"), "{again}");
+    // Levels that begin anew are those of another record.
+    let refined = ROWS[2].replace("overturned", "overturned-refined");
+    let refined = refined.replace(",2,1,inf", ",1.8,0.9,inf");
+    let whole = [ROWS[0], ROWS[1], ROWS[2], &refined];
+    assert_eq!(read(&whole).unwrap().records().count(), 1);
+    for rows in [
+        &[ROWS[0], ROWS[1], ROWS[0]][..],
+        &[ROWS[0], ROWS[1], ROWS[1]],
+        &[ROWS[0], ROWS[1], &refined, &refined],
+        &[ROWS[0], ROWS[1], &refined, ROWS[2]],
+        &[&whole[..], &whole[..]].concat(),
+    ] {
+        let error = read(rows).unwrap_err();
+        assert!(error.contains("expected rising levels"), "{error}");
+        assert!(error.contains("do two records share the name?"), "{error}");
+    }
     assert!(read(&[]).unwrap_err().contains("no analysis"));
+}
+
+/// A curve belongs to its place in the suite, never to a name.
+#[test]
+fn as_many_curves_as_records_whatever_their_names() {
+    let lobe = |name: &str, dt_s| {
+        let record = Accelerogram::try_new(name, dt_s, vec![0.0, 0.2, 0.0]);
+        NormalisedRecord::new(&record.unwrap())
+    };
+    let block = Block::try_new(0.1, 3.0).unwrap();
+    let analysis = Analysis {
+        grid: Grid::Im { step: 0.5 },
+        ..Analysis::paper(block, Restitution::constant(0.92).unwrap())
+    };
+    for names in [["", "", ""], ["a", "a", "a"], ["a", "b", "c"]] {
+        let records = [0, 1, 2].map(|i| lobe(names[i], 0.2 + 0.05 * i as f64));
+        let found = records.map(|record| curve(&record, &analysis).unwrap());
+        let known = |_: &str| (String::new(), String::new());
+        let about = ("none", "x");
+        let table = IdaTable::of(&found, &analysis, 9.81, about, known);
+        assert_eq!(table.records().collect::<Vec<_>>(), names);
+        let curves = table.curves(Intensity::Pga).unwrap().curves;
+        let overturning: Vec<_> =
+            curves.iter().map(|(_, curve)| curve.overturning_im()).collect();
+        let expected = found.map(|one| one.overturning.map(|o| o.im()));
+        assert_eq!(overturning, expected);
+        let read = IdaTable::read(table.csv().as_bytes(), Path::new("a.csv"));
+        assert_eq!(read.is_ok(), names[0] != names[1]);
+    }
 }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::SetAside;
-use crate::record::RecordError;
+use crate::record::{RecordError, SuiteNameError};
 
 /// A suite that was refused.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -61,15 +61,14 @@ pub enum SuiteError {
         /// Value of the index.
         expected: String,
     },
-    /// Two records that results could not distinguish.
-    #[error(
-        "{path}: two records are named {name:?}: expected different names"
-    )]
-    SameName {
+    /// Records that results could not distinguish.
+    #[error("{path}: {source}")]
+    Names {
         /// Folder or index.
         path: String,
-        /// The name.
-        name: String,
+        /// Which.
+        #[source]
+        source: SuiteNameError,
     },
     /// A record that changed between two readings.
     #[error(
@@ -116,7 +115,7 @@ impl SuiteError {
             | Self::Empty { path, .. }
             | Self::Index { path, .. }
             | Self::Changed { path, .. }
-            | Self::SameName { path, .. }
+            | Self::Names { path, .. }
             | Self::Pair { path, .. } => path,
         }
     }
@@ -130,7 +129,7 @@ impl SuiteError {
             Self::Empty { .. } => "empty",
             Self::Index { .. } => "index",
             Self::Mismatch { .. } => "mismatch",
-            Self::SameName { .. } => "same-name",
+            Self::Names { .. } => "same-name",
             Self::Changed { .. } => "changed",
             Self::Pair { .. } => "pair",
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
 use crate::record::direction::{glued, is_azimuth, is_code};
-use crate::record::{Direction, Motion};
+use crate::record::{Direction, Motion, suite_names};
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 
@@ -103,19 +103,15 @@ pub(super) fn check_pairs<M>(
     Ok(())
 }
 
-/// Refuses two records of one name.
+/// Refuses records that results could not tell apart.
 pub(super) fn check_names<M: Motion>(
     path: &str,
     members: &[SuiteMember<M>],
 ) -> Result<(), SuiteError> {
-    let mut names: Vec<&str> =
+    let names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();
-    names.sort_unstable();
-    match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        None => Ok(()),
-        Some(pair) => Err(SuiteError::SameName {
-            path: path.to_owned(),
-            name: pair[0].to_owned(),
-        }),
-    }
+    let path = || path.to_owned();
+    suite_names(&names)
+        .map(|_| ())
+        .map_err(|source| SuiteError::Names { path: path(), source })
 }

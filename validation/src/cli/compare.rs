@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use rocking::procedures::{Comparison, compare};
-use serde::Serialize;
+use rocking::procedures::compare;
+use rocking::procedures::comparison::{Named, Side};
 
 use super::shared::JsonArg;
 use crate::failure::Failure;
 use crate::input;
 
 /// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
-/// and of equivalence to it. Values are paired by the names of their records,
-/// or line by line where a value has none.
+/// and of equivalence to it. Values are paired by the names of their records;
+/// `rocking contrast` takes samples of different records.
 ///
 /// A ratio exists where both values are finite and positive. Pairs in which
 /// one or both are infinite (overturned, censored) or zero are counted by
@@ -33,22 +33,26 @@ pub struct Args {
     json: JsonArg,
 }
 
-#[derive(Serialize)]
-struct Shown {
-    /// By the names of the records, or by their lines.
-    paired_by_name: bool,
-    #[serde(flatten)]
-    found: Comparison,
-}
-
 /// Runs the command.
 ///
 /// # Errors
 /// [`Failure`] for files, pairs or a margin that are refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
+    a.same_kind(&b)?;
+    a.extended()?;
+    b.extended()?;
     input::records_as_unit(&a);
-    let (a, b, paired_by_name) = a.pairs(&b)?;
-    let found = compare(&a, &b, args.margin)?;
-    args.json.show(&Shown { paired_by_name, found })
+    let (of_a, of_b) = (a.records(), b.records());
+    let found = compare(
+        Named { records: &of_a, values: a.values() },
+        Named { records: &of_b, values: b.values() },
+        args.margin,
+    );
+    let found = found.map_err(|error| match error.place() {
+        Some((Side::A, place)) => a.error(place, error).into(),
+        Some((Side::B, place)) => b.error(place, error).into(),
+        None => Failure::from(error),
+    })?;
+    args.json.show(&found)
 }

@@ -40,7 +40,8 @@ impl ForcesArgs {
         if self.friction.is_empty() && self.forces.is_none() {
             return Ok(None);
         }
-        pivot_forces(records, table, analysis, &self.friction).map(Some)
+        let ims: Vec<_> = table.iter().map(IdaCurve::ims).collect();
+        pivot_forces(records, &ims, analysis, &self.friction).map(Some)
     }
 }
 

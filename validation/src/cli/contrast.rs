@@ -1,0 +1,55 @@
+//! `rocking contrast`: two samples over different records.
+
+use std::path::PathBuf;
+
+use clap::Args as ClapArgs;
+use rocking::procedures::contrast;
+use rocking::procedures::contrast::Drawn;
+
+use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use crate::failure::Failure;
+use crate::input;
+
+/// Ratio of the medians of two samples over different records, and the
+/// distance of their distributions. `rocking compare` pairs samples of the
+/// same records.
+///
+/// The interval of the ratio a/b is of the bootstrap, which draws earthquakes
+/// where a file says them. Kolmogorov and Smirnov's p-value is exact for
+/// independent records, and left out where an earthquake has several.
+#[derive(ClapArgs)]
+pub struct Args {
+    /// Sample file of the numerator.
+    #[arg(long, value_name = "FILE")]
+    a: PathBuf,
+    /// Sample file of the denominator, of other records.
+    #[arg(long, value_name = "FILE")]
+    b: PathBuf,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    #[command(flatten)]
+    json: JsonArg,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for files or draws that are refused.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
+    a.same_kind(&b)?;
+    let (of_a, of_b) = (a.censored()?, b.censored()?);
+    let (records, events) =
+        ([a.records(), b.records()], [a.events(), b.events()]);
+    let drawn = |sample, k: usize| Drawn {
+        sample,
+        records: &records[k],
+        events: &events[k],
+    };
+    let draws = args.bootstrap.draws();
+    let (a, b) = (drawn(&of_a, 0), drawn(&of_b, 1));
+    let found = args.threads.run(|| contrast(a, b, draws))??;
+    args.json.show(&found)
+}

@@ -302,12 +302,7 @@ pub(super) fn rows(
         row(
             "How sure is the integrator?",
             sure(proof),
-            format!(
-                "{}; rounding may have changed peak or fate in {}; first \
-                 overturnings among these are resolved in wider arithmetic",
-                timings.error(),
-                basis.open()
-            ),
+            format!("{}; {}", timings.error(), basis.rounding()),
             ("evidence", "proof"),
         ),
         row("Is it fast?", fast, rate, ("speed", "speed")),

@@ -85,21 +85,37 @@ impl<'a> Basis<'a> {
         )))
     }
 
-    /// In how many analyses of each side rounding may have changed the peak
-    /// or the fate: `5.5 % of 687326 analyses (recorded suites)`.
-    pub fn open(&self) -> String {
-        let side = |(name, findings): (&str, &Findings)| {
-            let sum = |of: fn(&Suite) -> u64| -> u64 {
-                findings.suites.iter().map(of).sum()
+    /// What rounding may have changed, and what it had changed among the first
+    /// overturnings, for each side.
+    pub fn rounding(&self) -> String {
+        let each = |of: &dyn Fn(&[Suite]) -> String| {
+            let side = |(name, findings): (&str, &Findings)| {
+                format!("{} ({name})", of(&findings.suites))
             };
-            let open = sum(|suite| suite.unresolved as u64) as f64;
-            let all = sum(|suite| suite.analyses);
-            format!(
-                "{} of {all} analyses ({name})",
-                percent(open / all as f64, 1)
-            )
+            let sides: Vec<String> =
+                self.all().into_iter().map(side).collect();
+            sides.join(" and ")
         };
-        self.all().into_iter().map(side).collect::<Vec<_>>().join(" and ")
+        let open = |suites: &[Suite]| {
+            let all: u64 = suites.iter().map(|s| s.analyses).sum();
+            let open: usize = suites.iter().map(|s| s.unresolved).sum();
+            let share = percent(open as f64 / all as f64, 1);
+            format!("{share} of {all} analyses")
+        };
+        let wrong = |suites: &[Suite]| {
+            let ends =
+                || suites.iter().map(|s| s.first_overturnings_reevaluated);
+            let wrong: usize = ends().map(|e| e.wrong_in_double).sum();
+            let all: usize = ends().map(|e| e.all).sum();
+            format!("{wrong} of {all}")
+        };
+        format!(
+            "rounding may have changed peak or fate in {}; of the first \
+             overturnings among these, resolved in wider arithmetic, {} had \
+             been wrong",
+            each(&open),
+            each(&wrong)
+        )
     }
 
     /// The figures of the study, each behind that of the recorded suites

@@ -19,6 +19,7 @@ use crate::words::words;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
+use rocking_common::words::capital;
 use rocking_draw::figures::{Figure, Place};
 use rocking_study::questions::Answer;
 use rocking_study::results::Results;
@@ -121,12 +122,10 @@ pub(crate) fn input<'a>(
         .concat(),
         glossary: words.glossary,
         proof: format!(
-            "{} {} Rounding may have changed the peak or the fate in {}. \
-             First overturnings among them are resolved in wider arithmetic \
-             (annex).",
+            "{} {} {} (annex).",
             proof.map_or(NOT_RUN.into(), Proof::to_string),
             timings.accuracy(),
-            basis.open()
+            capital(&basis.rounding())
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {

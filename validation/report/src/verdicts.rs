@@ -37,10 +37,10 @@ fn of_suite(name: &str, suite: &Suite) -> String {
     let ends = suite.first_overturnings_reevaluated;
     format!(
         "{work}. In {} of them the motion is chaotic, and rounding in double \
-         precision may have changed the peak or the fate. {} of these are \
-         first overturnings, on which capacities rest. Assessed double \
-         precision resolves {}, double-double {}, octuple precision {}, none \
-         {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
+         precision may have changed the peak or the fate. First overturnings \
+         among these, on which capacities rest: {}. Assessed double precision \
+         resolves {}, double-double {}, octuple precision {}, none {}. Wrong \
+         in double precision: {}; the 16, 50 and 84 % overturning intensities \
          would move by {} at most.",
         suite.unresolved,
         ends.all,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::basis::recorded;
+use crate::verdicts::work;
 
 /// What may come out about a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -275,4 +276,38 @@ fn each_number_names_its_blocks() {
     assert_eq!(of("Which fragility").matches(one).count(), 3);
     assert_eq!(of("May I shift").matches(one).count(), 3);
     assert!(of("Does shape matter").contains("blocks: all 15"));
+}
+
+#[test]
+fn what_rounding_changed_is_said_of_both_suites() {
+    let mut here = recorded();
+    let counts = |findings: &mut Findings, k: usize, wrong, all| {
+        let ends = &mut findings.suites[k].first_overturnings_reevaluated;
+        (ends.wrong_in_double, ends.all) = (wrong, all);
+    };
+    counts(&mut here, 0, 4, 90);
+    counts(&mut here, 1, 3, 8);
+    here.suites[0].largest_shift_if_flipped = 0.0421;
+    let basis = Basis::of(true, &here).unwrap();
+    let said = basis.rounding();
+    let kept = recorded();
+    let ends = kept.suites.iter().map(|s| s.first_overturnings_reevaluated);
+    let (wrong, all) = ends.fold((0, 0), |(wrong, all), end| {
+        (wrong + end.wrong_in_double, all + end.all)
+    });
+    assert!(wrong > 0, "the kept results have some");
+    let recorded = format!("{wrong} of {all} (recorded suites)");
+    assert!(said.contains(&recorded), "{said}");
+    assert!(said.contains("7 of 98 (embedded suites)"), "{said}");
+    let annex: Vec<String> = basis.all().into_iter().flat_map(work).collect();
+    let of = |start: &str| {
+        let own = annex.iter().find(|words| words.starts_with(start));
+        own.expect(start).clone()
+    };
+    let said = of("Embedded suites: 86 ordinary");
+    assert!(said.contains("Wrong in double precision: 4;"), "{said}");
+    assert!(said.contains("move by 0.0421 at most"), "{said}");
+    let shift = format!("{:.4}", kept.suites[0].largest_shift_if_flipped);
+    let said = of("Recorded suites: 86 ordinary");
+    assert!(said.contains(&format!("move by {shift} at most")), "{said}");
 }

@@ -78,7 +78,7 @@ pub struct QuantityScore {
 pub struct Code {
     /// Name of the code.
     pub code: String,
-    /// `default`, as it is shipped, or `best`, the best setting found.
+    /// `default`, as it is shipped, or `best`, the finest setting tried.
     pub setting: String,
     /// Version of the code, where it has one.
     pub version: String,

@@ -111,28 +111,28 @@ const PROOF: Edges = "
 
 /// The modules of the report.
 const REPORT: Edges = "
-    answers evidence page quantity recorded timings verdicts
-    credibility evidence recorded words
+    answers basis evidence page quantity timings verdicts
+    basis
+    credibility basis evidence words
     diff answers output verdicts
     evidence
-    findings page quantity verdicts
+    findings basis page quantity verdicts
     head
-    input answers credibility evidence findings head ledger page recorded scored \
+    input answers basis credibility evidence findings head ledger page scored \
         timings verdicts words
     lab
-    ledger evidence recorded
-    output answers evidence head input page quantity recorded scored timings
-    page evidence lab quantity recorded
+    ledger basis evidence
+    marked answers basis evidence page scored timings
+    output answers basis evidence head input page quantity scored timings
+    page basis evidence lab quantity
     quantity
-    readme answers evidence page recorded scored timings
-    recorded
     scored
     speed
     stale diff output
-    tests answers credibility evidence findings head input ledger output \
-        recorded
+    tests answers basis credibility evidence findings head input ledger output \
+        quantity
     timings speed
-    verdicts
+    verdicts basis
     words
 ";
 
@@ -155,16 +155,17 @@ const STUDY: Edges = "
     distances distributions estimates inference normality results
     distributions analyses normality runs
     estimates analyses results runs sensitivities
-    figures analyses claims distributions estimates fits inference measures \
-        normality results stripes ties
+    figures analyses claims estimates fits inference measures normality \
+        results stripes ties
     findings analyses estimates figures questions results stripes
     fits
     inference
+    kept
     measures analyses distances distributions estimates fits inference results \
         runs sensitivities stripes
     normality
-    questions analyses contents distributions estimates fits inference normality \
-        results runs stripes ties
+    questions analyses contents distributions estimates fits inference kept \
+        normality results runs stripes ties
     results analyses distributions inference sensitivities
     runs certainty
     sensitivities analyses runs

@@ -65,6 +65,29 @@ pub struct Settings {
     /// Width in IM to which first overturnings are bisected.
     #[serde(with = "nine")]
     pub refinement_im: f64,
+    /// Whether other choices are run on all blocks.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub full: bool,
+}
+
+impl Settings {
+    /// Names and values.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, String); 5] {
+        let arms: Vec<&str> = self.arms.iter().map(|a| a.letter()).collect();
+        [
+            ("arms", arms.join(", ")),
+            ("eta", self.eta.to_string()),
+            ("overturning", self.overturning.to_string()),
+            ("refinement im", self.refinement_im.to_string()),
+            ("full", self.full.to_string()),
+        ]
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// A suite, and the work on it.

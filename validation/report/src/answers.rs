@@ -4,16 +4,14 @@
 use anyhow::Context as _;
 use serde::Deserialize;
 
+use crate::basis::Basis;
 use crate::evidence::Proof;
 use crate::page::AnswerRow;
 use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
 use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score, turned};
-use rocking_common::findings::{
-    Claim, ClaimResult, Findings, Region, Suite, Tested,
-};
+use rocking_common::findings::{Claim, ClaimResult, Findings, Region, Tested};
 use rocking_common::paper::{Arm, Verdict};
-use rocking_common::words::percent;
 use rocking_draw::figures::Figure;
 
 /// The questions that claims answer; the file says what its fields are.
@@ -155,7 +153,8 @@ impl Part {
             _ => measured_text(claim, result),
         };
         let place = if suite.is_empty() { "" } else { &format!(", {suite}") };
-        (fact, format!("{} {text}{place}", self.name))
+        let blocks = &claim.blocks;
+        (fact, format!("{} {text}{place}, blocks: {blocks}", self.name))
     }
 }
 
@@ -266,20 +265,17 @@ pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
     Ok(asked()?.into_iter().map(answered).collect())
 }
 
-/// The rows of the first table, by the first of `recorded` and `here` that
-/// there is.
+/// The rows of the first table.
 ///
 /// # Errors
 /// As [`answers`].
 pub(super) fn rows(
-    embedded: bool,
-    here: &Findings,
-    recorded: Option<&Findings>,
+    basis: &Basis<'_>,
     timings: &Timings,
     proof: Option<&Proof>,
     figures: &[&Figure],
 ) -> anyhow::Result<Vec<AnswerRow>> {
-    let lead = recorded.unwrap_or(here);
+    let lead = basis.lead();
     let claimed = answers(lead)?.into_iter().map(|own| {
         let shown = own.figures.iter().filter_map(|number| {
             let is = |f: &&&Figure| f.heading.number == Some(*number);
@@ -306,7 +302,7 @@ pub(super) fn rows(
         row(
             "How sure is the integrator?",
             sure(proof),
-            format!("{}; {}", timings.error(), open_fates(lead)),
+            format!("{}; {}", timings.error(), basis.rounding()),
             ("evidence", "proof"),
         ),
         row("Is it fast?", fast, rate, ("speed", "speed")),
@@ -316,12 +312,12 @@ pub(super) fn rows(
                 "The model against shaking-table tests. It leaves out \
                  {LEFT_OUT}."
             ),
-            not_run(embedded),
+            not_run(basis),
             ("limits", "limits"),
         ),
         row(
             "May I sign?",
-            signed(proof, recorded.is_some()),
+            signed(proof, basis.recorded().is_some()),
             chance(lead),
             ("provenance", "sign-off"),
         ),
@@ -334,29 +330,23 @@ pub(super) const LEFT_OUT: &str =
     "sliding, bouncing, vertical motion and flexible supports";
 
 /// What else was not run.
-pub(super) fn not_run(embedded: bool) -> String {
-    let records = if embedded {
-        "recorded motions anew (their results are kept), "
-    } else {
-        ""
+pub(super) fn not_run(basis: &Basis<'_>) -> String {
+    let records = match (basis.embedded, basis.recorded()) {
+        (true, Some(_)) => "recorded motions anew (their results are kept), ",
+        (true, None) => "recorded motions, ",
+        (false, _) => "",
     };
     format!("Not run: {records}other machines than x86-64 Linux")
 }
 
-/// Cases that passed, of how many.
-fn passed(proof: Option<&Proof>) -> Option<(usize, usize)> {
-    proof.map(|proof| (proof.passed(), proof.results().len()))
-}
-
 fn sure(proof: Option<&Proof>) -> String {
-    match passed(proof) {
+    match proof.map(|proof| (proof.failed(), proof.results().len())) {
         None => "Open: the cases with known answers were not run here.".into(),
-        Some((passed, all)) if passed == all => {
+        Some((0, all)) => {
             format!("Very: all {all} cases with known answers pass.")
         }
-        Some((passed, all)) => format!(
-            "Not sure: {} of {all} cases with known answers fail.",
-            all - passed
+        Some((failed, all)) => format!(
+            "Not sure: {failed} of {all} cases with known answers fail."
         ),
     }
 }
@@ -366,89 +356,85 @@ fn signed(proof: Option<&Proof>, kept: bool) -> String {
         true => "; recorded results are kept, not run here",
         false => "",
     };
-    match passed(proof) {
+    match proof.map(Proof::failed) {
         None => "Not yet: the cases with known answers were not run.".into(),
-        Some((passed, all)) if passed < all => {
-            "Not before every case with a known answer passes.".into()
-        }
-        Some(_) => format!(
+        Some(0) => format!(
             "For the computation, yes{kept}. For real objects, no: no test \
              backs the model."
         ),
+        Some(_) => "Not before every case with a known answer passes.".into(),
     }
-}
-
-/// The share of analyses that rounding may have changed.
-fn open_fates(findings: &Findings) -> String {
-    let sum =
-        |of: fn(&Suite) -> u64| findings.suites.iter().map(of).sum::<u64>();
-    let open = sum(|suite| suite.unresolved as u64) as f64;
-    format!(
-        "in {} of the analyses rounding may have changed peak or fate; first \
-         overturnings among these are resolved in wider arithmetic",
-        percent(open / sum(|suite| suite.analyses) as f64, 1)
-    )
 }
 
 fn chance(findings: &Findings) -> String {
     let found = findings.withdrawn(FALSE_DISCOVERIES);
     format!(
-        "{} of {} verdicts would not stand at 5 % false discoveries, {} under \
-         any dependence",
+        "{} of {} verdicts on all grids would not stand at 5 % false \
+         discoveries, {} under any dependence",
         found.positive, found.decided, found.any
     )
 }
 
 /// What was done, in a few sentences.
-pub(super) fn done(here: &Findings, recorded: Option<&Findings>) -> String {
-    let lead = recorded.unwrap_or(here);
-    let source = match recorded {
-        Some(_) => " recorded",
-        None => "",
+pub(super) fn done(basis: &Basis<'_>) -> String {
+    let lead = basis.lead();
+    let source = match (basis.embedded, basis.recorded()) {
+        (true, Some(_)) => " recorded",
+        (true, None) => " synthetic",
+        (false, _) => "",
     };
     let motions: Vec<String> = lead
         .suites
         .iter()
-        .map(|suite| match suite.earthquakes {
-            Some(count) => format!(
-                "{} {}{source} motions of {count} earthquakes",
-                suite.records, suite.kind
-            ),
-            None => {
-                format!("{} {}{source} motions", suite.records, suite.kind)
-            }
+        .map(|suite| {
+            let of = suite.earthquakes.map(|n| format!(" of {n} earthquakes"));
+            format!(
+                "{} {}{source} motions{}",
+                suite.records,
+                suite.kind,
+                of.unwrap_or_default()
+            )
         })
         .collect();
-    let analyses: u64 = lead.suites.iter().map(|s| s.analyses).sum();
+    let analyses = |findings: &Findings| -> u64 {
+        findings.suites.iter().map(|s| s.analyses).sum()
+    };
+    let run = match basis.recorded() {
+        Some(_) => format!(
+            " Those analyses were made by an earlier run, whose results are \
+             kept; this run made {} of synthetic motions.",
+            analyses(basis.here)
+        ),
+        None => String::new(),
+    };
     let score = score(lead);
     let count = |v| score.iter().find(|(own, _)| *own == v).map_or(0, |s| s.1);
     let all: usize = score.iter().map(|s| s.1).sum();
     format!(
-        "We let fifteen blocks rock under {} at rising intensity, {analyses} times in all, and asked whether a \
-         paper [1] is right about the statistics of their rocking. Of its \
-         {all} sentences that one can test, {} hold, {} fail and {} stay \
-         open.",
+        "Fifteen blocks rocked under {} at rising intensity, {} times in all, \
+         to check a paper by Lachanas, Vamvatsikos and Dimitrakopoulos on the \
+         statistics of their rocking.{run} Of its {all} sentences that one \
+         can test, {} hold, {} fail and {} stay open.",
         motions.join(" and "),
+        analyses(lead),
         count(Verdict::Confirmed),
         count(Verdict::NotConfirmed),
         count(Verdict::Inconclusive)
     )
 }
 
-/// Where the embedded motions answer otherwise than the recorded ones; to be
-/// less certain is not to answer otherwise.
+/// How the answers of the embedded motions differ from those of the recorded
+/// ones, or that recorded results were left out; to be less certain is not to
+/// answer otherwise.
 ///
 /// # Errors
 /// As [`answers`].
-pub(super) fn otherwise(
-    here: &Findings,
-    recorded: Option<&Findings>,
-) -> anyhow::Result<Option<String>> {
-    let Some(recorded) = recorded else { return Ok(None) };
-    let (turned, all) = turned(here, recorded);
+pub(super) fn otherwise(basis: &Basis<'_>) -> anyhow::Result<Option<String>> {
+    let Some(recorded) = basis.recorded() else { return basis.left_out() };
+    let (turned, all) = turned(basis.here, recorded);
     let alike = |lead| if lead == Some(1) { Some(0) } else { lead };
     let mut other = String::new();
-    for (own, kept) in answers(here)?.iter().zip(answers(recorded)?) {
+    for (own, kept) in answers(basis.here)?.iter().zip(answers(recorded)?) {
         if alike(own.lead) != alike(kept.lead) {
             other += &format!(" {} {}.", own.question, own.first);
         }

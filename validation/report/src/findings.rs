@@ -1,5 +1,6 @@
 //! The findings of a study for the page: by theme, recorded suites first.
 
+use crate::basis::Basis;
 use crate::page::{Column, Shown};
 use crate::quantity::rule_text;
 use crate::verdicts;
@@ -19,30 +20,22 @@ pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
     recorded.suites.iter().map(row).collect()
 }
 
-/// Columns of the page: those of the recorded suites first, where the study
-/// at hand is of the embedded ones.
-pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
-    let first = verdicts::first_arm(here);
-    let one = |name, findings: &Findings| Column {
+/// Columns of the page: those that answer first.
+pub(crate) fn columns(basis: &Basis<'_>) -> Vec<Column> {
+    let first = verdicts::first_arm(basis.here);
+    let one = |(name, findings): (&'static str, &Findings)| Column {
         name,
         findings: findings.clone(),
         first,
         score: verdicts::score(findings),
     };
-    match recorded {
-        Some(recorded) => vec![
-            one("recorded suites", recorded),
-            one("embedded suites", here),
-        ],
-        None => vec![one("your suites", here)],
-    }
+    basis.all().into_iter().map(one).collect()
 }
 
 /// The themes with what came out about each, and those of the figures that
 /// belong to it.
-pub fn themes<'a>(
-    here: &Findings,
-    recorded: Option<&Findings>,
+pub(crate) fn themes<'a>(
+    basis: &Basis<'_>,
     figures: &[&'a Figure],
 ) -> Vec<Shown<'a>> {
     let order = [
@@ -55,7 +48,7 @@ pub fn themes<'a>(
     ];
     let shown = |theme| Shown {
         theme,
-        paragraph: verdicts::by_theme(theme, here, recorded),
+        paragraph: verdicts::by_theme(theme, basis),
         figures: placed(figures, Place::Opens(theme)),
         more: placed(figures, Place::Folded(theme)),
     };

@@ -99,9 +99,10 @@ fn command(results: &Results, proved: bool) -> String {
         true => " --proof FOLDER/data, after rocking validate --out FOLDER",
         false => "",
     };
+    let full = if results.plan.full { " --full" } else { "" };
     format!(
         "rocking study{suites} --eta {} --overturn {} --refine {} \
-         --arms {}{proof}",
+         --arms {}{full}{proof}",
         setup.restitution.velocity_ratio(),
         setup.overturning,
         setup.tolerance,

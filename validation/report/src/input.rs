@@ -4,6 +4,7 @@ use rocking::block::{BlockError, Restitution};
 use rocking::integrator::Overturning;
 
 use crate::answers;
+use crate::basis::Basis;
 use crate::credibility;
 use crate::evidence::{self, NOT_RUN, Proof};
 use crate::findings::{self, placed};
@@ -11,7 +12,6 @@ use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
 use crate::page::{Chapter, ReportInput};
-use crate::recorded;
 use crate::scored;
 use crate::timings::Timings;
 use crate::verdicts;
@@ -19,6 +19,7 @@ use crate::words::words;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
+use rocking_common::words::capital;
 use rocking_draw::figures::{Figure, Place};
 use rocking_study::questions::Answer;
 use rocking_study::results::Results;
@@ -31,19 +32,18 @@ pub(super) const TITLE: &str = "The statistics of rocking";
 ///
 /// # Errors
 /// Where a figure cannot be drawn.
-pub fn input<'a>(
+pub(crate) fn input<'a>(
     results: &Results,
     figures: &'a [Figure],
     charts: &'a [Figure],
-    found: &Findings,
+    basis: &Basis<'_>,
     questions: &[Answer],
     proof: Option<&Proof>,
     signatures: &Signatures,
 ) -> anyhow::Result<ReportInput<'a>> {
     let timings = Timings::kept()?;
     let words = words()?;
-    let recorded = results.embedded().then(recorded::recorded).transpose()?;
-    let recorded = recorded.as_ref();
+    let (found, recorded) = (basis.here, basis.recorded());
     // Of figures that both arms have, those of the paper's grid stand in the
     // annex.
     let both = results.plan.drawn().len() > 1;
@@ -51,16 +51,9 @@ pub fn input<'a>(
         .iter()
         .partition(|f| both && f.heading.own_arm() == Some(Arm::A));
     let charts: Vec<&Figure> = charts.iter().collect();
-    let rows = answers::rows(
-        results.embedded(),
-        found,
-        recorded,
-        &timings,
-        proof,
-        &own,
-    )?;
+    let rows = answers::rows(basis, &timings, proof, &own)?;
     let compared = || questions.iter().filter(|q| q.id == "suites");
-    let work = [&results.ordinary, &results.pulse].map(verdicts::work);
+    let work = basis.all().into_iter().flat_map(verdicts::work);
     let suites = Chapter {
         text: compared().map(|q| q.answer.clone()).collect(),
         figures: placed(&own, Place::Suites),
@@ -97,7 +90,7 @@ pub fn input<'a>(
     };
     Ok(ReportInput {
         title: TITLE.into(),
-        intro: vec![words.intro, answers::done(found, recorded)],
+        intro: vec![words.intro, answers::done(basis)],
         lab: false,
         head: [
             head::head(results, proof.is_some(), signatures),
@@ -107,7 +100,7 @@ pub fn input<'a>(
         .concat(),
         signatures: signatures.shown(),
         answers: rows,
-        otherwise: answers::otherwise(found, recorded)?,
+        otherwise: answers::otherwise(basis)?,
         scope: Chapter {
             text: words.scope,
             folded: vec![only(
@@ -118,21 +111,21 @@ pub fn input<'a>(
             ..Chapter::titled("scope", "Scope")
         },
         first: placed(&own, Place::Answers),
-        columns: findings::columns(found, recorded),
-        findings: findings::themes(found, recorded, &own),
+        columns: findings::columns(basis),
+        findings: findings::themes(basis, &own),
         identities: findings::identities(found),
         method: [
             words.method,
-            vec![verdicts::trust(found, recorded)],
+            vec![verdicts::trust(basis)],
             coverage.iter().map(|c| c.words()).collect(),
         ]
         .concat(),
         glossary: words.glossary,
         proof: format!(
-            "{} {} {}",
+            "{} {} {} (annex).",
             proof.map_or(NOT_RUN.into(), Proof::to_string),
             timings.accuracy(),
-            verdicts::rounding(results)
+            capital(&basis.rounding())
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
@@ -158,7 +151,7 @@ pub fn input<'a>(
                         "No test was compared with the model. It leaves out \
                          {}. {}.",
                         answers::LEFT_OUT,
-                        answers::not_run(results.embedded())
+                        answers::not_run(basis)
                     )],
                     assessment.iter().map(credibility::levels).collect(),
                 ]
@@ -187,7 +180,7 @@ pub fn input<'a>(
         files: PlainTable::default(),
         annexes: vec![
             Chapter {
-                text: work.into(),
+                text: work.collect(),
                 tables: vec![table_1()?],
                 ..Chapter::titled("blocks", "The blocks")
             },
@@ -220,7 +213,7 @@ pub fn input<'a>(
                 timings.tables(),
             ),
             Chapter {
-                tables: vec![scored::codes_table(&scored::SETTINGS)],
+                tables: vec![scored::codes_table(&scored::SETTINGS)?],
                 figures: placed(&charts, Place::Others),
                 ..Chapter::titled("others", "How do others do?")
             },

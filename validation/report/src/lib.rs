@@ -1,6 +1,7 @@
 //! The report of a study: its page, and the files beside it.
 
 mod answers;
+mod basis;
 pub mod credibility;
 pub mod diff;
 pub mod evidence;
@@ -9,11 +10,10 @@ pub mod head;
 pub mod input;
 pub mod lab;
 pub mod ledger;
+pub mod marked;
 pub mod output;
 pub mod page;
 pub mod quantity;
-pub mod readme;
-pub mod recorded;
 pub mod scored;
 pub mod speed;
 pub mod stale;

@@ -6,13 +6,13 @@ use std::fs;
 use std::path::Path;
 
 use crate::answers;
+use crate::basis::{self, Basis};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
 use crate::input;
 use crate::page;
 use crate::page::AnswerRow;
 use crate::quantity::{rule_text, value_text};
-use crate::recorded;
 use crate::scored;
 use crate::timings::Timings;
 use rocking_common::files::{SUMS, sums};
@@ -109,7 +109,8 @@ pub fn files(
     let mut files = Files::new();
     let mut charts = vec![Timings::kept()?.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
-    let figures = recorded::figures(study)?;
+    let basis = Basis::of(study.results.embedded(), &study.findings)?;
+    let figures = basis.figures(&study.figures)?;
     for figure in figures.iter().chain(&charts) {
         let name = &figure.heading.name;
         put(&mut files, format!("{name}.svg"), figure.svg())?;
@@ -117,8 +118,8 @@ pub fn files(
     }
     put(&mut files, "single-records.csv", single_csv(&study.results))?;
     put(&mut files, "findings.json", study.findings.text())?;
-    if !study.results.embedded() {
-        put(&mut files, "figures.json", recorded::kept(study)?)?;
+    if !basis.embedded {
+        put(&mut files, "figures.json", basis::kept(study)?)?;
     }
     for (name, text) in questions::files(&study.answers) {
         put(&mut files, name, text)?;
@@ -127,7 +128,7 @@ pub fn files(
         &study.results,
         &figures,
         &charts,
-        &study.findings,
+        &basis,
         &study.answers,
         proof,
         signatures,
@@ -254,27 +255,26 @@ fn single_csv(results: &Results) -> String {
     table.finish()
 }
 
-/// The answers of the page for people, of this study's suites alone.
+/// The answers of the page as text for a terminal.
 ///
 /// # Errors
-/// Where the kept timings cannot be read.
+/// Where the kept timings or results cannot be read.
 pub fn answers_text(
     study: &Study,
     proof: Option<&Proof>,
 ) -> anyhow::Result<String> {
-    let rows = answers::rows(
-        study.results.embedded(),
-        &study.findings,
-        None,
-        &Timings::kept()?,
-        proof,
-        &[],
-    )?;
+    let basis = Basis::of(study.results.embedded(), &study.findings)?;
+    let rows = answers::rows(&basis, &Timings::kept()?, proof, &[])?;
     let text = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;
         format!("{question}\n  {answer}\n  {effect}.\n")
     };
-    Ok(rows.iter().map(text).collect())
+    let mut out = answers::done(&basis) + "\n";
+    out.extend(rows.iter().map(text));
+    if let Some(words) = answers::otherwise(&basis)? {
+        out += &format!("{words}\n");
+    }
+    Ok(out)
 }
 
 /// The findings among the claims as a table for people.

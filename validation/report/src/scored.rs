@@ -63,9 +63,24 @@ pub fn page(scored: &Score) -> String {
 /// Settings of the known codes.
 pub const SETTINGS: [&str; 2] = ["default", "best"];
 
-/// Medians of each level of known codes in these settings.
-#[must_use]
-pub fn codes_table(settings: &[&str]) -> PlainTable {
+/// Medians of each level of this program, and of known codes in these
+/// settings.
+///
+/// # Errors
+/// Where our own answers are refused.
+pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
+    let own = score(&own_answers().map_err(anyhow::Error::msg)?);
+    let digits =
+        |x: Option<f64>| x.map_or("–".into(), |x| format!("{x:.1}"));
+    let [wrong, right] = [
+        own.levels.iter().map(|level| level.fates_wrong).sum::<usize>(),
+        own.levels.iter().map(|level| level.fates_right).sum(),
+    ];
+    let medians = own.levels.iter().map(|level| digits(level.median_digits));
+    let name = format!("rocking {}", env!("CARGO_PKG_VERSION"));
+    let first = [name, "as shipped".into()].into_iter().chain(medians);
+    let first: Vec<String> =
+        first.chain([format!("{wrong} of {}", wrong + right)]).collect();
     let mut codes = codes();
     codes.retain(|code| settings.contains(&code.setting.as_str()));
     let same =
@@ -77,21 +92,25 @@ pub fn codes_table(settings: &[&str]) -> PlainTable {
         let (wrong, of) = (sum(|c| c.fates_wrong), sum(|c| c.fates_answered));
         let name = format!("{code} {version}").trim_end().to_owned();
         let mut cells = vec![name, setting.clone()];
-        cells.extend((1..=5).map(|level| {
-            median(level)
-                .map_or("–".into(), |c| format!("{:.1}", c.median_digits))
-        }));
+        cells.extend(
+            (1..=5)
+                .map(|level| digits(median(level).map(|c| c.median_digits))),
+        );
         cells.push(format!("{wrong} of {of}"));
         cells
     };
-    PlainTable::new(
+    let others = codes.chunk_by(same).map(row);
+    Ok(PlainTable::new(
         "other-codes",
         "How do others do?",
-        "Median digits of the answers of other codes to the reference data \
-         set (fixtures/benchmark), level by level; `default` is a code as \
-         it is shipped, `best` the best settings found. Double precision gives 14 to 15 digits where a \
-         scene is well conditioned. What could not be made to rock, and why, \
-         stands in validation/peers.",
+        format!(
+            "Median digits of the answers of this program and of other codes \
+             to the reference data set (fixtures/benchmark), level by level. {} Double \
+             precision gives 14 to 15 digits where a scene is well \
+             conditioned. validation/peers lists the codes that could not be \
+             made to rock, and why.",
+            meant(settings)
+        ),
         &[
             "code",
             "setting",
@@ -102,8 +121,40 @@ pub fn codes_table(settings: &[&str]) -> PlainTable {
             "hard",
             "wrong fates",
         ],
-        codes.chunk_by(same).map(row).collect(),
-    )
+        [first].into_iter().chain(others).collect(),
+    ))
+}
+
+/// What the shown settings are, and which codes the finest do not serve.
+fn meant(settings: &[&str]) -> String {
+    let mut out = Vec::new();
+    if settings.contains(&SETTINGS[0]) {
+        out.push("`default`: a code as it is shipped.".to_owned());
+    }
+    if settings.contains(&SETTINGS[1]) {
+        out.push(
+            "`best`: a code with the smallest steps and tightest tolerances \
+             that were tried."
+                .into(),
+        );
+    }
+    let wrong = |name: &str, setting: &str| -> usize {
+        let of = |c: &Code| c.code == name && c.setting == setting;
+        let own = codes().into_iter().filter(of);
+        own.map(|c| c.fates_wrong).sum()
+    };
+    let all = codes();
+    let names = all.chunk_by(|a, b| a.code == b.code).map(|c| &c[0].code);
+    for name in names {
+        let [shipped, finest] = SETTINGS.map(|setting| wrong(name, setting));
+        if finest > shipped {
+            out.push(format!(
+                "With these {name} has {finest} wrong fates, as shipped \
+                 {shipped}."
+            ));
+        }
+    }
+    out.join(" ")
 }
 
 /// The figure of that table.
@@ -123,7 +174,7 @@ pub fn codes_figure() -> anyhow::Result<Figure> {
     let few = few.into_iter().flatten().map(|code| code.median_digits);
     let most = few.fold(0.0, f64::max);
     Ok(Chart { heading, ..chart }.figure(format!(
-        "With the best settings, {} of {} codes have a median of {MANY} digits \
+        "With the finest settings tried, {} of {} codes have a median of {MANY} digits \
          or more on every level; the others have at most {most:.1} on any.",
         many.len(),
         best.chunk_by(|a, b| a.code == b.code).count()
@@ -274,5 +325,40 @@ fn lacking(score: &Score) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_code_that_fine_settings_do_not_serve_is_named() {
+        let table = codes_table(&SETTINGS).unwrap();
+        let wrong = |row: &Vec<String>| -> usize {
+            let cell = row.last().unwrap();
+            cell.split(' ').next().unwrap().parse().unwrap()
+        };
+        // This program is among them.
+        let own = format!("rocking {}", env!("CARGO_PKG_VERSION"));
+        assert_eq!(table.rows[0][0], own);
+        assert_eq!(table.rows[0].len(), table.header.len());
+        let mut named = 0;
+        for row in table.rows.iter().filter(|row| row[1] == "best") {
+            let is = |other: &&Vec<String>| {
+                other[0] == row[0] && other[1] == "default"
+            };
+            let shipped = wrong(table.rows.iter().find(is).expect("both"));
+            let code = row[0].split(' ').next().unwrap();
+            let words = format!("With these {code} has");
+            let worse = wrong(row) > shipped;
+            assert_eq!(table.reading.contains(&words), worse, "{code}");
+            named += usize::from(worse);
+        }
+        assert!(named > 0, "{}", table.reading);
+        // Settings that are not shown are not explained.
+        assert!(
+            !codes_table(&["best"]).unwrap().reading.contains("`default`")
+        );
     }
 }

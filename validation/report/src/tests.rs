@@ -1,6 +1,8 @@
 //! Tests of the study as a whole, on the first motions of the embedded
 //! suites.
 
+use std::collections::BTreeSet;
+
 use indicatif::ProgressBar;
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
@@ -8,6 +10,7 @@ use rocking::record::{Processing, ReadOptions, SetAside};
 use rocking::statistics::Clusters;
 
 use crate::answers;
+use crate::basis::{self, Basis};
 use crate::credibility;
 use crate::evidence::{NOT_RUN, Proof};
 use crate::findings;
@@ -15,9 +18,9 @@ use crate::head::{self, Signatures};
 use crate::input;
 use crate::ledger::requirements;
 use crate::output::{self, FINDINGS, Files};
-use crate::recorded;
+use crate::quantity::measured_text;
 use rocking_common::curves::Execution;
-use rocking_common::findings::{Findings, Kind, Topic};
+use rocking_common::findings::{Findings, Kind, Tested, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
 use rocking_common::suites::{Source, StudySuite};
@@ -29,14 +32,20 @@ use rocking_study::findings::set_aside as findings_of;
 use rocking_study::results::Results;
 use rocking_study::runs::Setup;
 
+/// The plan whose settings kept results have.
 fn plan(way: Execution) -> Plan {
     let setup = Setup {
         restitution: Restitution::constant(0.92).expect("restitution"),
         overturning: Overturning::Alpha,
-        tolerance: 1e-3,
+        tolerance: 1e-4,
         way,
     };
-    Plan { setup, arms: vec![Arm::A, Arm::B] }
+    Plan { setup, arms: vec![Arm::A, Arm::B, Arm::C], full: false }
+}
+
+/// Results of nothing on the embedded suites.
+fn on_embedded_suites() -> Results {
+    empty(&Source::Embedded { streams: "x" })
 }
 
 /// Results of nothing, on two suites from there.
@@ -83,7 +92,7 @@ fn set_aside() -> SetAside {
 
 #[test]
 fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
-    let mut results = empty(&Source::Embedded { streams: "x" });
+    let mut results = on_embedded_suites();
     assert!(
         input::provenance(&results).iter().all(|r| !r.0.contains("aside"))
     );
@@ -107,7 +116,12 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
 /// A name that a page must not take for its own.
 const HOSTILE: &str = "</text><script>alert(1)</script><a onload='b()' \"&lt;";
 
-fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
+/// Files of a study of a few records, and what the terminal answers.
+fn small(
+    threads: usize,
+    plan: Plan,
+    proof: Option<&Proof>,
+) -> (Files, String) {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     for (suite, records) in [(&mut ordinary, 10), (&mut pulse, 4)] {
         suite.motions.truncate(records);
@@ -117,15 +131,40 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
         }
         suite.clusters = Clusters::singletons(records);
     }
-    let plan = plan(way);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
-        let study = Study::run(plan, &[ordinary, pulse], false, &progress);
+        let study = Study::run(plan, &[ordinary, pulse], &progress);
+        let study = study.expect("study");
         let signatures = Signatures::default();
-        output::files(&study.expect("study"), proof, &signatures, false)
-            .expect("report")
+        let files = output::files(&study, proof, &signatures, false);
+        let answers = output::answers_text(&study, proof);
+        (files.expect("report"), answers.expect("answers"))
     })
+}
+
+/// The text of a page: without tags, entities and joined words.
+fn text(page: &str) -> String {
+    let mut text = String::new();
+    for part in page.split('<') {
+        let (_, words) = part.split_once('>').unwrap_or_default();
+        text += words;
+        text += "\n";
+    }
+    let text = text.replace("&lt;", "<").replace("&gt;", ">");
+    let text = text.replace("&quot;", "\"").replace("&amp;", "&");
+    text.replace('\u{a0}', " ").replace('\u{2060}', "")
+}
+
+/// What the terminal answers stands on the page, line by line.
+fn answer_alike(page: &str, terminal: &str) {
+    let page = text(page);
+    assert!(terminal.lines().count() > 20, "{terminal}");
+    for line in terminal.lines() {
+        let line = line.trim();
+        let without = line.strip_suffix('.').unwrap_or(line);
+        assert!(page.contains(without), "not on the page: {line}");
+    }
 }
 
 /// Everything that is said of where the records come from.
@@ -136,7 +175,10 @@ fn said_of(source: &Source) -> String {
         credibility::tables(&results, &[], None, None).expect("tables");
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
-    limits + &answers::not_run(results.embedded()) + &cells
+    let mut found = basis::recorded();
+    found.settings = results.plan.settings();
+    let basis = Basis::of(results.embedded(), &found).expect("basis");
+    limits + &answers::not_run(&basis) + &cells
 }
 
 #[test]
@@ -160,8 +202,23 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 }
 
 #[test]
+fn verification_is_claimed_only_if_every_case_passes() {
+    let results = on_embedded_suites();
+    let row = |proof: Option<&Proof>| {
+        let tables = credibility::tables(&results, &[], proof, None);
+        let rows = tables.expect("tables").into_iter().flat_map(|t| t.rows);
+        rows.into_iter().find(|row| row[0] == "Verification").expect("a row")
+    };
+    assert_eq!(row(None)[1], "0");
+    assert_eq!(row(Some(&Proof::committed(0)))[1], "3");
+    let red = row(Some(&Proof::committed(1)));
+    assert_eq!(red[1], "0");
+    assert!(red[2].starts_with("1 of "), "{red:?}");
+}
+
+#[test]
 fn the_command_names_the_proof_only_where_one_was_handed_in() {
-    let results = empty(&Source::Embedded { streams: "x" });
+    let results = on_embedded_suites();
     let command = |proved| {
         let rows = head::head(&results, proved, &Signatures::default());
         let row = rows.into_iter().find(|(name, _)| name == "Command");
@@ -174,8 +231,19 @@ fn the_command_names_the_proof_only_where_one_was_handed_in() {
 }
 
 #[test]
+fn the_command_says_that_other_choices_ran_on_all_blocks() {
+    let mut results = on_embedded_suites();
+    for full in [false, true] {
+        results.plan.full = full;
+        let rows = head::head(&results, false, &Signatures::default());
+        let command = &rows.last().expect("a command").1;
+        assert_eq!(command.contains("--full"), full, "{command}");
+    }
+}
+
+#[test]
 fn identities_and_descriptions_are_counted_apart() {
-    let here = recorded::recorded().expect("findings");
+    let here = basis::recorded();
     let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
     let (identities, descriptions) =
         (count(Kind::Identity), count(Kind::Description));
@@ -197,12 +265,52 @@ fn no_claim_names_a_restitution_that_a_run_may_not_have() {
     }
 }
 
+/// Values with their intervals, numbers of analyses, hashes of suites.
+fn numbers(findings: &Findings) -> BTreeSet<String> {
+    let claims = findings.claims.iter();
+    let results = claims.flat_map(|c| c.results.iter().map(move |r| (c, r)));
+    let bounded = results.filter(|(_, r)| r.measured().interval.is_some());
+    let texts = bounded.map(|(c, r)| measured_text(c, r));
+    let suites = findings.suites.iter();
+    let suites =
+        suites.flat_map(|s| [s.analyses.to_string(), s.sha256.clone()]);
+    texts.chain(suites).filter(|text| text.len() > 5).collect()
+}
+
+/// How many of the numbers a text shows.
+fn shown_of(numbers: &BTreeSet<String>, text: &str) -> usize {
+    numbers.iter().filter(|number| text.contains(*number)).count()
+}
+
+/// The caption of Figure 18 quotes the distances that its claim uses.
+fn figure_18_is_about_its_claim(found: &Findings, page: &str) {
+    let page = text(page);
+    let claim = found.claims.iter().find(|c| c.id == "low-c-helps");
+    let gain = claim
+        .expect("a claim")
+        .results
+        .iter()
+        .find(|r| r.suite == Tested::Ordinary && r.arm == Some(Arm::C));
+    let start = "to the SSFL in probability for c = 0.25, 0.5, 0.75, 1: \
+                 untrimmed ";
+    // Kept captions are renewed with the kept results.
+    let caption = page.rsplit_once(start).expect("a caption").1;
+    let distances: Vec<f64> = caption
+        .split([',', ';'])
+        .take(4)
+        .map(|word| word.trim().parse().expect("a number"))
+        .collect();
+    // The claim: by how much c = 1 is further off than c = 0.25.
+    let apart = distances[3] - distances[0] - gain.expect("a result").value;
+    assert!(apart.abs() <= 0.001, "{distances:?}");
+}
+
 #[test]
 fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
     let proof = Proof::read(data.as_ref()).expect("proof");
-    let mut one = small(1, Execution::default(), Some(&proof));
-    let mut two = small(2, Execution::OneByOne, None);
+    let (mut one, said) = small(1, plan(Execution::default()), Some(&proof));
+    let (mut two, _) = small(2, plan(Execution::OneByOne), None);
     // The proof is on the page and in the ledger alone.
     let ledgers = [&mut one, &mut two].map(|f| f.remove("data/ledger.csv"));
     assert!(ledgers.iter().all(Option::is_some) && ledgers[0] != ledgers[1]);
@@ -215,6 +323,8 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
+    answer_alike(&page, &said);
+    assert!(shown_of(&numbers(&basis::recorded()), &text(&page)) > 100);
     // Names of records stand on the page and in the drawings, as text.
     let drawings = one.iter().filter(|(name, _)| name.ends_with(".svg"));
     let drawings = drawings.map(|(_, svg)| String::from_utf8_lossy(svg));
@@ -265,6 +375,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
     let findings = Findings::parse(&text).expect("findings");
     assert_eq!(findings.text(), text);
+    figure_18_is_about_its_claim(&findings, &page);
     // Every finding is judged where it has an interval, and nowhere else.
     for claim in &findings.claims {
         let finding = claim.kind == Kind::Finding;
@@ -303,4 +414,37 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     for table in ["ledger", "comparison-error", "credibility-assessment"] {
         assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
     }
+}
+
+#[test]
+fn a_run_of_other_settings_shows_no_kept_number_and_leads_with_its_own() {
+    let mut other = plan(Execution::default());
+    other.setup.restitution =
+        Restitution::constant(0.90).expect("restitution");
+    other.arms = vec![Arm::A];
+    let (files, said) = small(2, other, None);
+    let page = String::from_utf8_lossy(&files["index.html"]).into_owned();
+    answer_alike(&page, &said);
+    let shown = text(&page);
+    let left_out = "Results of recorded motions are kept for other settings \
+                    only (arms A, B, C, not A; eta 0.92, not 0.9): they are \
+                    left out.";
+    assert_eq!(shown.matches(left_out).count(), 1, "said once");
+    assert!(said.contains(left_out), "{said}");
+    for words in ["ecorded suites,", "Recorded suites:", "earlier run"] {
+        assert!(!shown.contains(words), "{words}");
+    }
+    let recorded = files.keys().find(|name| name.contains("-recorded"));
+    assert_eq!(recorded, None);
+    // Each but what this run happens to have as well.
+    let own = String::from_utf8_lossy(&files[FINDINGS]);
+    let own = numbers(&Findings::parse(&own).expect("findings"));
+    assert!(shown_of(&own, &shown) > 20);
+    for number in numbers(&basis::recorded()).difference(&own) {
+        assert!(!shown.contains(number), "kept number on the page: {number}");
+    }
+    // Kept capacities of the comparison of suites are left out as well.
+    let compared = String::from_utf8_lossy(&files["data/suites.csv"]);
+    assert!(compared.contains(",motion,"));
+    assert!(!compared.contains(",capacity,"), "kept capacities");
 }

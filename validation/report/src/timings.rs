@@ -395,7 +395,7 @@ impl Timings {
              The most accurate setting of each compiled tool takes {} as \
              long, of each interpreted one {}. Their errors are {} to {}. A \
              line joins the settings of a tool, dashed where an interpreter \
-             evaluates the equation. All ran the same {} cases under one \
+             evaluates the equation. All ran the same {} cases{} under one \
              rest rule, against double-double.",
             own.map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
             own.map_or(String::new(), |t| digits(t.peak_error)),
@@ -404,7 +404,21 @@ impl Timings {
             digits(good),
             digits(bad),
             own.map_or(0, |t| t.cases),
+            self.fewer(),
         )
+    }
+
+    /// The tools that ran only some of the cases, in brackets.
+    fn fewer(&self) -> String {
+        let all = self.own().map_or(0, |t| t.cases);
+        let fewer = self.most_accurate().into_iter().filter(|t| t.cases < all);
+        let some: Vec<String> = fewer
+            .map(|t| format!("{} {} of them", t.label[0], t.cases))
+            .collect();
+        match some.as_slice() {
+            [] => String::new(),
+            some => format!(" ({})", some.join(", ")),
+        }
     }
 }
 

@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
+use crate::basis::Basis;
+use rocking_common::findings::{Claim, ClaimResult, Findings, Suite, Theme};
 use rocking_common::paper::{Arm, Verdict};
-use rocking_common::words::rounded_text;
-use rocking_study::analyses::SuiteResults;
-use rocking_study::results::Results;
+use rocking_common::words::{capital, rounded_text};
 
 /// The arm that stands among the findings.
 pub(super) fn first_arm(findings: &Findings) -> Arm {
@@ -18,56 +17,45 @@ pub(super) fn first_arm(findings: &Findings) -> Arm {
 /// False discovery rate that decisions are held against.
 pub(super) const FALSE_DISCOVERIES: f64 = 0.05;
 
-/// What the work on a suite was, and what rounding may have changed.
-pub(super) fn work(suite: &SuiteResults) -> String {
-    let certainty = suite.work.certainty;
+/// What the work on the suites of a side was, and what rounding may have
+/// changed.
+pub(super) fn work(
+    (name, findings): (&str, &Findings),
+) -> impl Iterator<Item = String> {
+    let name = capital(name);
+    findings.suites.iter().map(move |suite| of_suite(&name, suite))
+}
+
+fn of_suite(name: &str, suite: &Suite) -> String {
     let work = format!(
-        "{} {} records, {} analyses",
-        suite.records.len(),
-        suite.kind,
-        suite.work.analyses
+        "{name}: {} {} records, {} analyses",
+        suite.records, suite.kind, suite.analyses
     );
-    if certainty.unresolved == 0 {
+    if suite.unresolved == 0 {
         return format!("{work}; double precision tells every one.");
     }
-    let ends = certainty.reevaluated;
+    let ends = suite.first_overturnings_reevaluated;
     format!(
         "{work}. In {} of them the motion is chaotic, and rounding in double \
-         precision may have changed the peak or the fate. {} of these are \
-         first overturnings, on which capacities rest. Assessed double \
-         precision resolves {}, double-double {}, octuple precision {}, none \
-         {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
+         precision may have changed the peak or the fate. First overturnings \
+         among these, on which capacities rest: {}. Assessed double precision \
+         resolves {}, double-double {}, octuple precision {}, none {}. Wrong \
+         in double precision: {}; the 16, 50 and 84 % overturning intensities \
          would move by {} at most.",
-        certainty.unresolved,
+        suite.unresolved,
         ends.all,
         ends.resolved_by_double,
         ends.resolved_by_double_double,
         ends.resolved_by_octuple,
         ends.unresolved,
         ends.wrong_in_double,
-        rounded_text(certainty.largest_shift)
-    )
-}
-
-/// How many analyses rounding may have changed, in a sentence.
-pub(super) fn rounding(results: &Results) -> String {
-    let suites = [&results.ordinary, &results.pulse];
-    let all: u64 = suites.iter().map(|s| s.work.analyses).sum();
-    let open = suites.iter().map(|s| s.work.certainty.unresolved);
-    format!(
-        "In {} of {all} analyses rounding may have changed the peak or the \
-         fate. First overturnings among them are resolved in wider arithmetic \
-         (annex).",
-        open.sum::<usize>()
+        rounded_text(suite.largest_shift_if_flipped)
     )
 }
 
 /// How many decisions chance may have given, by the two false discovery
 /// rates.
-pub(super) fn trust(
-    findings: &Findings,
-    recorded: Option<&Findings>,
-) -> String {
+pub(super) fn trust(basis: &Basis<'_>) -> String {
     let counts = |findings: &Findings| {
         let found = findings.withdrawn(FALSE_DISCOVERIES);
         format!(
@@ -75,30 +63,26 @@ pub(super) fn trust(
             found.positive, found.any, found.decided
         )
     };
-    let counts = match recorded {
+    let counts = match basis.recorded() {
         Some(recorded) => {
             format!(
                 "{} recorded, {} embedded",
                 counts(recorded),
-                counts(findings)
+                counts(basis.here)
             )
         }
-        None => counts(findings),
+        None => counts(basis.here),
     };
     format!(
         "Chance. Kept to 5 % false discoveries (Benjamini and Hochberg; \
-         Benjamini and Yekutieli), we would withdraw {counts} decisions."
+         Benjamini and Yekutieli), we would withdraw {counts} decisions on all grids."
     )
 }
 
 /// What came out about a theme: the plain words of its findings by verdict,
 /// and where another suite says something else.
-pub(super) fn by_theme(
-    theme: Theme,
-    here: &Findings,
-    recorded: Option<&Findings>,
-) -> String {
-    let lead = recorded.unwrap_or(here);
+pub(super) fn by_theme(theme: Theme, basis: &Basis<'_>) -> String {
+    let lead = basis.lead();
     let own = |findings: &Findings| -> Vec<(String, Verdict)> {
         let first = first_arm(findings);
         let claims = findings.claims.iter().filter(|c| c.theme == theme);
@@ -137,10 +121,10 @@ pub(super) fn by_theme(
         1 => words += ". One claim is inconclusive",
         n => words += &format!(". {n} claims are inconclusive"),
     }
-    if recorded.is_none() {
+    if basis.recorded().is_none() {
         return words + ".";
     }
-    let others = own(here);
+    let others = own(basis.here);
     let turned = others.iter().filter(|(name, verdict)| {
         found.iter().any(|(n, v)| n == name && v != verdict)
     });

@@ -24,14 +24,15 @@ use rocking_proof::methods::{self, digits, digits_csv};
 use rocking_proof::verdict::{Outcome, run_all, snapshot};
 use rocking_report::evidence::Proof;
 use rocking_report::lab::LAB;
+use rocking_report::marked;
 use rocking_report::output::{FINDINGS, Files};
-use rocking_report::readme;
 use rocking_report::stale::{self, stale};
 
 /// Renews every committed file that holds results of this program: pins,
 /// help snapshots, docs/tables.md, the surrogate, the results on recorded
 /// suites where ../shared/records has them, reports/, reports/lab.html where
-/// `web/build` can compile its engine, the README's table.
+/// `web/build` can compile its engine, the results between marks in README,
+/// docs and paper.
 ///
 /// It runs in the root of the repository, by cargo, so that the program is
 /// built from what is there. It runs the tests that hold such files, the
@@ -53,8 +54,9 @@ pub struct Args {
 const PINS: &str = "tests/pins";
 /// Folder of the committed report.
 const REPORTS: &str = "reports";
-/// The file with the table of results.
-const README: &str = "README.md";
+/// The example of the README: what its objects say first stands there.
+const EXAMPLE: &str = "assess --objects examples/museum/objects.csv \
+                       --hazard examples/museum/hazard.csv --out";
 /// Results of the declared cases.
 const CASES: &str = "data/validation.json";
 /// Digits that each precision reaches.
@@ -119,7 +121,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
     let findings = Findings::parse(&findings.unwrap_or_default())
         .map_err(Failure::gate)?;
-    let readme = readme::renewed(&file(README)?, &findings, &proof)?;
+    let assessed = assessed()?;
+    let results = marked::Results {
+        findings: &findings,
+        proof: &proof,
+        assessed: Some(&assessed),
+    };
+    let mut pages = Files::new();
+    for page in marked::PAGES {
+        let new = results.renewed(page, &file(page)?)?;
+        pages.insert(page.into(), new.into_bytes());
+    }
     words += &stale(Path::new(REPORTS), &report)?.unwrap_or_default();
     for (name, content) in &report {
         put(REPORTS, name, content.clone());
@@ -127,7 +139,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(page) = lab::made()? {
         files.insert(format!("{REPORTS}/{LAB}"), page);
     }
-    files.insert(README.into(), readme.into_bytes());
+    files.extend(pages);
     let mut changed = changed(files, &mut words)?;
     changed.extend(compiled_in);
     say(&words)?;
@@ -272,6 +284,40 @@ fn gather(
     Ok(())
 }
 
+/// What `rocking assess` says first of the example, in lines as the README's.
+fn assessed() -> Result<String, Failure> {
+    note("the example of the README");
+    let place = tempfile::tempdir()?;
+    let program = fs::canonicalize(env::args_os().next().unwrap_or_default())?;
+    let done = Command::new(program)
+        .args(EXAMPLE.split_whitespace())
+        .arg(place.path().join("museum"))
+        .stderr(Stdio::inherit())
+        .output()?;
+    if !done.status.success() {
+        return Err(Failure::gate(format!("failed: rocking {EXAMPLE}")));
+    }
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    let first = text.split("\n\n").next().unwrap_or_default();
+    Ok(wrapped(first))
+}
+
+/// Lines of at most 79 characters.
+fn wrapped(text: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        if lines[last].is_empty() {
+            lines[last] = word.into();
+        } else if lines[last].chars().count() + word.chars().count() < 79 {
+            lines[last] += &format!(" {word}");
+        } else {
+            lines.push(word.into());
+        }
+    }
+    lines.join("\n")
+}
+
 /// Work counters, results of the declared cases and digits of each
 /// precision, as their files have them.
 fn cases() -> Result<(String, String, String), Failure> {
@@ -368,6 +414,15 @@ fn lines(name: &str, old: &[u8], new: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_are_no_longer_than_a_page_allows() {
+        let text = "word ".repeat(40);
+        let lines = wrapped(&text);
+        assert!(lines.lines().all(|line| line.len() <= 79), "{lines}");
+        assert_eq!(lines.lines().next().map(str::len), Some(79));
+        assert_eq!(lines.split_whitespace().count(), 40);
+    }
 
     #[test]
     fn the_first_changed_line_is_shown() {

@@ -126,7 +126,7 @@ pub(super) fn report(
     }
     let line = ["study"].iter().chain(arguments);
     let args = Line::try_parse_from(line)?.args;
-    let study = computed(plan(&args)?, &args, &suites(&args)?)?;
+    let study = computed(plan(&args)?, &suites(&args)?)?;
     let lab = args.out.join(LAB).is_file();
     Ok(output::files(&study, proof, &args.signatures, lab)?)
 }
@@ -156,11 +156,7 @@ fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
 }
 
 /// The study that the options ask for.
-fn computed(
-    plan: Plan,
-    args: &Args,
-    suites: &[StudySuite; 2],
-) -> Result<Study, Failure> {
+fn computed(plan: Plan, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
     // Drawn on a terminal only.
     let progress = ProgressBar::new(0);
     if let Ok(style) =
@@ -168,8 +164,7 @@ fn computed(
     {
         progress.set_style(style);
     }
-    let study =
-        logged(&progress, || Study::run(plan, suites, args.full, &progress))?;
+    let study = logged(&progress, || Study::run(plan, suites, &progress))?;
     progress.finish_and_clear();
     Ok(study)
 }
@@ -197,7 +192,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         None => Proof::find(&args.out.join("data"))?,
     };
     let suites = suites(args)?;
-    let study = computed(plan, args, &suites)?;
+    let study = computed(plan, &suites)?;
     let signatures = Signatures { commit: COMMIT, ..args.signatures.clone() };
     let lab = args.out.join(LAB).is_file();
     let files = output::files(&study, proof.as_ref(), &signatures, lab)?;
@@ -278,5 +273,5 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
         tolerance: args.refine,
         way: args.way.way()?,
     };
-    Ok(Plan { setup, arms })
+    Ok(Plan { setup, arms, full: args.full })
 }

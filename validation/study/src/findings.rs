@@ -3,15 +3,15 @@
 use rocking::record::{AsideCount, SetAside};
 use rocking::statistics::Proportion;
 
-use crate::analyses::{Plan, SuiteResults};
+use crate::analyses::SuiteResults;
 use crate::estimates;
 use crate::figures::adjusted_boxes;
 use crate::questions::{self, Answer};
 use crate::results::Results;
 use crate::stripes::{adjusted_split, of_arm};
 use rocking_common::findings::{
-    Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings,
-    Suite, Table, Topic, Unit,
+    Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Suite,
+    Table, Topic, Unit,
 };
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_common::suites::earthquakes;
@@ -29,7 +29,7 @@ pub fn all(
     Ok(Findings {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION").into(),
-        settings: settings(&results.plan),
+        settings: results.plan.settings(),
         suites: [&results.ordinary, &results.pulse].map(suite).into(),
         claims,
         tables: vec![
@@ -43,15 +43,6 @@ pub fn all(
         ],
         questions: questions::findings(answers),
     })
-}
-
-fn settings(plan: &Plan) -> Settings {
-    Settings {
-        arms: plan.arms.clone(),
-        eta: plan.setup.restitution.velocity_ratio(),
-        overturning: plan.setup.overturning,
-        refinement_im: plan.setup.tolerance,
-    }
 }
 
 /// A suite of a study, and the work on it.

@@ -12,6 +12,7 @@ pub mod figures;
 pub mod findings;
 mod fits;
 pub mod inference;
+pub mod kept;
 pub mod measures;
 pub mod normality;
 pub mod questions;

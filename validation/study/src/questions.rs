@@ -27,11 +27,7 @@ use rocking_common::findings::Question;
 ///
 /// # Errors
 /// Where a number cannot be computed.
-pub fn all(
-    results: &Results,
-    draws: &Draws,
-    full: bool,
-) -> anyhow::Result<Vec<Answer>> {
+pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Answer>> {
     Ok(vec![
         grid::answer(results)?,
         nulls::answer(results)?,
@@ -40,7 +36,7 @@ pub fn all(
         robustness::answer(results)?,
         equivalence::answer(results)?,
         inversion::answer(results)?,
-        options::answer(results, full)?,
+        options::answer(results)?,
         trimming::answer(results)?,
         suites::answer(results)?,
         recorded::answer(results)?,

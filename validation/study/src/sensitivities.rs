@@ -97,8 +97,8 @@ impl Plan {
     pub fn sensitivities(
         &self,
         suite: &StudySuite,
-        full: bool,
     ) -> anyhow::Result<Vec<Varied>> {
+        let full = self.full;
         let study: Vec<Option<NormalisedRecord>> = suite
             .motions
             .iter()

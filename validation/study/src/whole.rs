@@ -27,15 +27,13 @@ pub struct Study {
 }
 
 impl Study {
-    /// Runs everything: `suites` are the ordinary and the pulse-type one;
-    /// `full` runs other choices on all blocks.
+    /// Runs everything: `suites` are the ordinary and the pulse-type one.
     ///
     /// # Errors
     /// Where an analysis cannot be done.
     pub fn run(
         plan: Plan,
         suites: &[StudySuite; 2],
-        full: bool,
         progress: &ProgressBar,
     ) -> anyhow::Result<Self> {
         let [first, second] = suites;
@@ -44,11 +42,11 @@ impl Study {
         let common = plan.common();
         let mut distributions = of_suite(&ordinary, common)?;
         distributions.extend(of_suite(&pulse, common)?);
-        let varied = plan.sensitivities(first, full)?;
+        let varied = plan.sensitivities(first)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let draws = results.draws(1);
         let mut figures = figures::all(&results, &draws)?;
-        let mut answers = questions::all(&results, &draws, full)?;
+        let mut answers = questions::all(&results, &draws)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }

@@ -260,11 +260,11 @@ pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
             "Digits against difficulty, this project and other codes",
             "Median digits of the answers of each code, level by level: free \
              rocking, pulses without and with impacts, records, hard cases; \
-             as shipped and with the best settings found.",
+             as shipped and with the finest settings tried.",
         ),
         panels: vec![
             by_level("as shipped", codes, own, "default"),
-            by_level("best settings found", codes, own, "best"),
+            by_level("finest settings tried", codes, own, "best"),
         ],
         columns: 2,
     }

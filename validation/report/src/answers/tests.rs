@@ -1,7 +1,8 @@
 //! Answers of every combination of verdicts.
 
 use super::*;
-use crate::recorded::recorded;
+use crate::basis::recorded;
+use crate::verdicts::work;
 
 /// What may come out about a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,7 +114,7 @@ fn is_plain(text: &str) -> bool {
 
 #[test]
 fn every_combination_of_verdicts_gives_a_true_and_readable_sentence() {
-    let recorded = recorded().unwrap();
+    let recorded = recorded();
     let first = first_arm(&recorded);
     for asked in &asked().unwrap() {
         let n = asked.all().count();
@@ -172,7 +173,7 @@ fn every_combination_of_verdicts_gives_a_true_and_readable_sentence() {
 
 #[test]
 fn a_fact_has_the_number_of_the_worst_verdict() {
-    let recorded = recorded().unwrap();
+    let recorded = recorded();
     let first = first_arm(&recorded);
     let asked = &asked().unwrap()[3];
     let states = [
@@ -193,18 +194,120 @@ fn a_fact_has_the_number_of_the_worst_verdict() {
     assert!(found.contains("PGV off by 0.06 (ordinary)"), "{found}");
 }
 
+/// The answers to the questions that start so, with proof and basis.
+fn answered(basis: &Basis<'_>, proof: Option<&Proof>, start: &str) -> String {
+    let timings = Timings::kept().unwrap();
+    let rows = rows(basis, &timings, proof, &[]).unwrap();
+    let own = rows.into_iter().find(|row| row.question.starts_with(start));
+    own.expect(start).answer
+}
+
 #[test]
 fn other_answers_follow_from_the_cases_that_passed() {
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
-    let proof = Proof::read(data.as_ref()).unwrap();
-    for kept in [true, false] {
-        assert!(signed(None, kept).starts_with("Not yet"));
-        let found = signed(Some(&proof), kept);
-        assert_eq!(found.contains("kept, not run here"), kept, "{found}");
-        for text in [found, sure(None), sure(Some(&proof))] {
-            assert!(words(&text) <= 25 && is_plain(&text), "{text}");
+    let green = Proof::committed(0);
+    let all = green.results().len();
+    // One case fails, or all of them.
+    let reds = [1, all].map(Proof::committed);
+    let here = recorded();
+    let mut elsewhere = here.clone();
+    elsewhere.settings.eta = 0.90;
+    let kept = Basis::of(true, &here).unwrap();
+    let left_out = Basis::of(true, &elsewhere).unwrap();
+    let own = Basis::of(false, &here).unwrap();
+    for (basis, are_kept) in [(&kept, true), (&left_out, false), (&own, false)]
+    {
+        let sure = |proof| answered(basis, proof, "How sure");
+        let signed = |proof| answered(basis, proof, "May I sign");
+        assert!(sure(None).starts_with("Open: "));
+        assert!(signed(None).starts_with("Not yet: "));
+        let known = "cases with known answers";
+        assert_eq!(
+            sure(Some(&green)),
+            format!("Very: all {all} {known} pass.")
+        );
+        let found = signed(Some(&green));
+        assert!(found.starts_with("For the computation, yes"), "{found}");
+        assert_eq!(found.contains("kept, not run here"), are_kept, "{found}");
+        for red in &reds {
+            let failed = red.failed();
+            let words = format!("Not sure: {failed} of {all} {known} fail.");
+            assert_eq!(sure(Some(red)), words);
+            let found = signed(Some(red));
+            assert!(found.starts_with("Not before every case"), "{found}");
+            assert!(!found.contains("yes"), "{found}");
+        }
+        for proof in [None, Some(&green), Some(&reds[0])] {
+            for text in [sure(proof), signed(proof)] {
+                assert!(words(&text) <= 25 && is_plain(&text), "{text}");
+            }
         }
     }
-    assert!(sure(None).starts_with("Open"));
-    assert!(sure(Some(&proof)).starts_with("Very: all"));
+}
+
+#[test]
+fn results_of_other_settings_are_left_out_and_named() {
+    let mut here = recorded();
+    let basis = Basis::of(true, &here).unwrap();
+    assert!(basis.recorded().is_some() && basis.left_out().unwrap().is_none());
+    assert!(done(&basis).contains("made by an earlier run"));
+    // Suites of files have no kept results beside them.
+    let own = Basis::of(false, &here).unwrap();
+    assert!(own.recorded().is_none() && otherwise(&own).unwrap().is_none());
+    here.settings.eta = 0.90;
+    here.settings.arms = vec![Arm::A];
+    let basis = Basis::of(true, &here).unwrap();
+    assert!(basis.recorded().is_none());
+    let words = otherwise(&basis).unwrap().unwrap();
+    assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
+    assert!(done(&basis).contains(" synthetic motions"));
+    assert!(!done(&basis).contains("earlier run"));
+}
+
+#[test]
+fn each_number_names_its_blocks() {
+    let found = recorded();
+    let answers = answers(&found).unwrap();
+    // The fragility was examined for one block.
+    let of = |start: &str| {
+        let own = answers.iter().find(|own| own.question.starts_with(start));
+        &own.expect(start).numbers
+    };
+    let one = "blocks: p = 3, alpha = 0.20";
+    assert_eq!(of("Which fragility").matches(one).count(), 3);
+    assert_eq!(of("May I shift").matches(one).count(), 3);
+    assert!(of("Does shape matter").contains("blocks: all 15"));
+}
+
+#[test]
+fn what_rounding_changed_is_said_of_both_suites() {
+    let mut here = recorded();
+    let counts = |findings: &mut Findings, k: usize, wrong, all| {
+        let ends = &mut findings.suites[k].first_overturnings_reevaluated;
+        (ends.wrong_in_double, ends.all) = (wrong, all);
+    };
+    counts(&mut here, 0, 4, 90);
+    counts(&mut here, 1, 3, 8);
+    here.suites[0].largest_shift_if_flipped = 0.0421;
+    let basis = Basis::of(true, &here).unwrap();
+    let said = basis.rounding();
+    let kept = recorded();
+    let ends = kept.suites.iter().map(|s| s.first_overturnings_reevaluated);
+    let (wrong, all) = ends.fold((0, 0), |(wrong, all), end| {
+        (wrong + end.wrong_in_double, all + end.all)
+    });
+    assert!(wrong > 0, "the kept results have some");
+    let recorded = format!("{wrong} of {all} (recorded suites)");
+    assert!(said.contains(&recorded), "{said}");
+    assert!(said.contains("7 of 98 (embedded suites)"), "{said}");
+    let annex: Vec<String> = basis.all().into_iter().flat_map(work).collect();
+    let of = |start: &str| {
+        let own = annex.iter().find(|words| words.starts_with(start));
+        own.expect(start).clone()
+    };
+    let said = of("Embedded suites: 86 ordinary");
+    assert!(said.contains("Wrong in double precision: 4;"), "{said}");
+    assert!(said.contains("move by 0.0421 at most"), "{said}");
+    let shift = format!("{:.4}", kept.suites[0].largest_shift_if_flipped);
+    let said = of("Recorded suites: 86 ordinary");
+    assert!(said.contains(&format!("move by {shift} at most")), "{said}");
 }

@@ -171,12 +171,9 @@ fn decided_at(claim: &Claim, result: &ClaimResult) -> String {
 fn settings(out: &mut Vec<Item>, findings: &Findings) {
     let mut own = Owner::new(out, "settings", "settings".into());
     own.text("version", &findings.version);
-    let settings = &findings.settings;
-    let arms: Vec<&str> = settings.arms.iter().map(|a| a.letter()).collect();
-    own.setting("arms", arms.join(", "));
-    own.setting("eta", settings.eta.to_string());
-    own.setting("overturning", settings.overturning.to_string());
-    own.setting("refinement im", settings.refinement_im.to_string());
+    for (name, value) in findings.settings.named() {
+        own.setting(name, value);
+    }
 }
 
 fn suite(out: &mut Vec<Item>, suite: &Suite) {

@@ -138,6 +138,11 @@ impl Proof {
         self.results.values().filter(|case| case.passed()).count()
     }
 
+    /// Number of cases that did not.
+    pub fn failed(&self) -> usize {
+        self.results.len() - self.passed()
+    }
+
     /// How often the intervals of the study hold the truth of simulated
     /// suites, by the cases that simulate them.
     ///
@@ -288,14 +293,32 @@ fn whole_table(path: &Path, text: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// The folder of the committed results.
+#[cfg(test)]
+fn committed() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/data")
+}
+
+#[cfg(test)]
+impl Proof {
+    /// The committed results, of which so many fail.
+    pub(crate) fn committed(failed: usize) -> Self {
+        let text = |name| read(&committed().join(name)).expect(name);
+        let results = text(RESULTS).replacen(
+            "\"verdict\": \"pass\"",
+            "\"verdict\": \"fail\"",
+            failed,
+        );
+        let proof = Self::from_texts(&committed(), &results, text(DIGITS));
+        let proof = proof.expect("results");
+        assert_eq!(proof.failed(), failed);
+        proof
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The folder of the committed results.
-    fn committed() -> std::path::PathBuf {
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/data")
-    }
 
     /// Reads the committed results after a change of both texts.
     fn changed(

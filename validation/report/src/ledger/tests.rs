@@ -137,7 +137,7 @@ fn a_failed_or_missing_case_is_red() {
 
 #[test]
 fn a_claim_that_does_not_hold_is_not_shown_as_passed() {
-    let recorded = crate::recorded::recorded().unwrap();
+    let recorded = crate::basis::recorded();
     let id = "shift-gains-little-pgv";
     let mut claim =
         recorded.claims.iter().find(|c| c.id == id).unwrap().clone();

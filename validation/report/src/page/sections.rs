@@ -224,7 +224,7 @@ fn links(shown: &[(String, String)]) -> Markup {
 fn legend() -> Markup {
     html! {
         "A cell shows the value and the 90 % interval that decides: each end \
-         misses in a nominal 5 % (simulated: Coverage, under Proof). Where the limit is \
+         misses in a nominal 5 % (simulated: Coverage, under Method). Where the limit is \
          about a share of cells, it is that of the cells with 30 records or \
          more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
          suites of the first column. Values on all suites and arms, measures and reasons: "

@@ -20,7 +20,7 @@ fn sketches() -> [Figure; 3] {
 }
 
 fn made_up(figures: &[Figure]) -> ReportInput<'_> {
-    let recorded = crate::recorded::recorded().unwrap();
+    let recorded = crate::basis::recorded();
     let column = |name| Column {
         name,
         findings: recorded.clone(),

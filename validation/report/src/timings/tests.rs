@@ -85,3 +85,15 @@ fn numbers_are_short() {
     let words = shown.map(digits);
     assert_eq!(words, ["0", "2.8e-16", "0.017", "1", "9700", "none"]);
 }
+
+#[test]
+fn a_tool_that_ran_fewer_cases_is_named() {
+    let timings = Timings::kept().unwrap();
+    let said = timings.reading();
+    let all = timings.own().unwrap().cases;
+    for total in timings.most_accurate() {
+        let Total { label, cases, .. } = total;
+        let named = said.contains(&format!("{} {cases} of them", label[0]));
+        assert_eq!(named, *cases < all, "{}: {said}", label[0]);
+    }
+}

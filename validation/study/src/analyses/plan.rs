@@ -3,6 +3,7 @@
 use anyhow::anyhow;
 
 use crate::runs::Setup;
+use rocking_common::findings::Settings;
 use rocking_common::paper::Arm;
 
 /// Refuses to read an arm that was not run.
@@ -17,9 +18,23 @@ pub struct Plan {
     pub setup: Setup,
     /// Arms in the order A, B, C.
     pub arms: Vec<Arm>,
+    /// Whether other choices are run on all blocks.
+    pub full: bool,
 }
 
 impl Plan {
+    /// The settings, as findings have them.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        Settings {
+            arms: self.arms.clone(),
+            eta: self.setup.restitution.velocity_ratio(),
+            overturning: self.setup.overturning,
+            refinement_im: self.setup.tolerance,
+            full: self.full,
+        }
+    }
+
     /// Arms from which figures are drawn: A and C, where they are run.
     #[must_use]
     pub fn drawn(&self) -> Vec<Arm> {

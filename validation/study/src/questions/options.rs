@@ -47,7 +47,8 @@ struct Entry {
     used: usize,
 }
 
-pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+    let full = results.plan.full;
     let arm = results.plan.common();
     let kind = results.ordinary.kind;
     let replicates = REPLICATES[usize::from(full)];

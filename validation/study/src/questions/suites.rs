@@ -10,7 +10,9 @@ use row::{Group, Interval, MOTIONS, Row, Shown, of_group, of_motion};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::estimates::median;
+use crate::kept::Kept;
 use crate::results::Results;
+use rocking_common::findings::Settings;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
 use rocking_common::words::{capital, range};
@@ -29,7 +31,7 @@ const LIMIT: f64 = 0.1;
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let own = results.embedded();
     let rows = if own {
-        row::from_csv(COMMITTED)
+        kept(&results.plan.settings())?
     } else {
         // Through the file's digits: the same numbers as from the file.
         row::from_csv(&row::to_csv(&compare::rows(results)?))
@@ -38,23 +40,34 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let answer = Answer::new("suites", QUESTION, words(&rows, kinds));
     let origin = if own {
         "The recorded suites are not part of this run: the numbers are kept \
-         from a run with its default choices on 86 ordinary and 44 \
+         from a run with the default settings on 86 ordinary and 44 \
          pulse-type recorded motions of PEER's database, of which nothing \
          but these medians, dispersions and intervals is kept."
     } else {
         "The recorded suites are those of this run; the embedded ones were \
          run beside them with the same choices."
     };
-    let tables = vec![
-        motions(&rows, &answer.answer, origin),
-        capacities(&rows, kinds),
-        accepted(&rows),
-    ];
-    let figures = vec![
-        drawing::motions(&rows, kinds),
-        drawing::capacities(&rows, kinds),
-    ];
+    let mut tables = vec![motions(&rows, &answer.answer, origin)];
+    let mut figures = vec![drawing::motions(&rows, kinds)];
+    if has_capacities(&rows) {
+        tables.extend([capacities(&rows, kinds), accepted(&rows)]);
+        figures.push(drawing::capacities(&rows, kinds));
+    }
     Ok(Answer { csv: row::to_csv(&rows), tables, figures, ..answer })
+}
+
+/// The committed comparison: with other settings than its own only what no
+/// setting changes, the motions.
+fn kept(settings: &Settings) -> anyhow::Result<Vec<Row>> {
+    let mut rows = row::from_csv(COMMITTED);
+    if Kept::of(settings)?.is_none() {
+        rows.retain(|r| matches!(r.group, Group::Source | Group::Motion));
+    }
+    Ok(rows)
+}
+
+fn has_capacities(rows: &[Row]) -> bool {
+    rows.iter().any(|r| r.group == Group::Capacity)
 }
 
 fn words(rows: &[Row], kinds: [&str; 2]) -> String {
@@ -84,7 +97,11 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             capital(kind),
             counted(shown),
         ));
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let measures = match has_capacities(rows) {
+            true => &[Intensity::Pga, Intensity::Pgv][..],
+            false => &[],
+        };
+        for &intensity in measures {
             let own = of_group(rows, Group::Capacity, kind, intensity.name());
             let (low, high) = range(own.iter().map(|r| r.ratio.value));
             out.push(format!(
@@ -95,6 +112,13 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
                 counted(own.iter().map(|r| r.dispersions(LIMIT))),
             ));
         }
+    }
+    if !has_capacities(rows) {
+        out.push(
+            "Capacities under recorded motions are kept of other settings \
+             than those of this run, and are left out."
+                .into(),
+        );
     }
     out.join(" ")
 }
@@ -304,6 +328,21 @@ mod tests {
         };
         let said = words(&[motion], ["ordinary", "pulse-type"]);
         assert!(said.contains("medians of measures: all 1 open."), "{said}");
+        assert!(!said.contains("Capacities in"), "{said}");
+        assert!(said.contains("left out"), "{said}");
+    }
+
+    #[test]
+    fn kept_capacities_are_shown_for_their_own_settings_only() {
+        let mut settings = crate::kept::settings().expect("settings");
+        let all = row::from_csv(COMMITTED).len();
+        assert_eq!(kept(&settings).expect("rows").len(), all);
+        settings.eta = 0.90;
+        let rows = kept(&settings).expect("rows");
+        assert!(rows.iter().any(|r| r.group == Group::Motion));
+        let of_settings =
+            |r: &&Row| matches!(r.group, Group::Capacity | Group::Accepted);
+        assert_eq!(rows.iter().find(of_settings), None);
     }
 
     #[test]

@@ -5,7 +5,9 @@ use rocking::statistics::ExtendedSample;
 
 use super::answer::{Answer, Rows, number, word};
 use crate::fits::Fits;
+use crate::kept::Kept;
 use crate::results::Results;
+use rocking::integrator::Overturning;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
 use rocking_draw::colour::{Ink, Pen};
 use rocking_draw::figures::{
@@ -123,11 +125,23 @@ fn words(
             beside(errors.median.rms, records),
         ));
     }
-    let suites = if results.embedded() {
-        "embedded suites, to which the surface is fitted"
-    } else {
-        "suites of this run, which the surface does not know: it is fitted \
-         to the embedded ones"
+    let setup = &results.plan.setup;
+    let fitted = setup.restitution.velocity_ratio() == RESTITUTION
+        && setup.overturning == Overturning::Alpha;
+    let suites = match (results.embedded(), fitted) {
+        (true, true) => "embedded suites, to which the surface is fitted",
+        (true, false) => {
+            "embedded suites, with another restitution or criterion than \
+             those of the surface"
+        }
+        (false, true) => {
+            "suites of this run, which the surface does not know: it is \
+             fitted to the embedded ones"
+        }
+        (false, false) => {
+            "suites of this run, with another restitution or criterion than \
+             those of the surface, which is fitted to the embedded suites"
+        }
     };
     for (model, _) in &surrogate.models {
         let errors = model.errors(own)?;
@@ -149,7 +163,7 @@ fn words(
             ));
         }
     }
-    if results.embedded() {
+    if results.embedded() && Kept::of(&results.plan.settings())?.is_some() {
         let kept = Recorded::kept()?;
         for (model, _) in &surrogate.models {
             let errors = model.to_recorded(&kept)?;

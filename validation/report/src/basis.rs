@@ -1,0 +1,230 @@
+//! What the answers of a page rest on: the findings of a run and, beside
+//! those of embedded suites, the kept ones of recorded suites; and the figures
+//! of both.
+
+use anyhow::Context as _;
+
+use rocking_common::findings::{Findings, Suite};
+use rocking_common::words::{percent, rounded};
+use rocking_draw::figures::{DIGITS, Figure, Motions};
+use rocking_study::Study;
+use rocking_study::kept::{self, Kept};
+use serde_json::Value;
+
+/// The paper's figures that draw a history of rotation. From a history the
+/// record's acceleration could be computed: of recorded motions, which may
+/// not be passed on, none is kept.
+const HISTORIES: [u32; 2] = [2, 3];
+/// The last of the paper's figures.
+const LAST: u32 = 18;
+
+/// The findings of a run and, if it has their settings, the kept ones.
+pub(crate) struct Basis<'a> {
+    /// What the run found.
+    pub here: &'a Findings,
+    /// Whether its suites are the embedded ones.
+    pub embedded: bool,
+    kept: Option<Kept>,
+}
+
+impl<'a> Basis<'a> {
+    /// The basis of a run, on embedded suites or others.
+    ///
+    /// # Errors
+    /// For kept results that cannot be read.
+    pub fn of(embedded: bool, here: &'a Findings) -> anyhow::Result<Self> {
+        let kept = match embedded {
+            true => Kept::of(&here.settings)?,
+            false => None,
+        };
+        Ok(Self { here, embedded, kept })
+    }
+
+    /// The kept findings of the recorded suites.
+    pub fn recorded(&self) -> Option<&Findings> {
+        self.kept.as_ref().map(Kept::findings)
+    }
+
+    /// The findings that answer.
+    pub fn lead(&self) -> &Findings {
+        self.recorded().unwrap_or(self.here)
+    }
+
+    /// All findings, those that answer first, by the name of their suites.
+    pub fn all(&self) -> Vec<(&'static str, &Findings)> {
+        let here = match self.embedded {
+            true => "embedded suites",
+            false => "your suites",
+        };
+        let recorded = self.recorded().map(|found| ("recorded suites", found));
+        recorded.into_iter().chain([(here, self.here)]).collect()
+    }
+
+    /// That recorded results of other settings were left out, where they
+    /// were.
+    ///
+    /// # Errors
+    /// For kept results that cannot be read.
+    pub fn left_out(&self) -> anyhow::Result<Option<String>> {
+        if !self.embedded || self.kept.is_some() {
+            return Ok(None);
+        }
+        let kept = kept::settings()?.named();
+        let other: Vec<String> = kept
+            .into_iter()
+            .zip(self.here.settings.named())
+            .filter(|(kept, here)| kept != here)
+            .map(|((name, kept), (_, here))| {
+                format!("{name} {kept}, not {here}")
+            })
+            .collect();
+        Ok(Some(format!(
+            "Results of recorded motions are kept for other settings only \
+             ({}): they are left out.",
+            other.join("; ")
+        )))
+    }
+
+    /// What rounding may have changed, and what it had changed among the first
+    /// overturnings, for each side.
+    pub fn rounding(&self) -> String {
+        let each = |of: &dyn Fn(&[Suite]) -> String| {
+            let side = |(name, findings): (&str, &Findings)| {
+                format!("{} ({name})", of(&findings.suites))
+            };
+            let sides: Vec<String> =
+                self.all().into_iter().map(side).collect();
+            sides.join(" and ")
+        };
+        let open = |suites: &[Suite]| {
+            let all: u64 = suites.iter().map(|s| s.analyses).sum();
+            let open: usize = suites.iter().map(|s| s.unresolved).sum();
+            let share = percent(open as f64 / all as f64, 1);
+            format!("{share} of {all} analyses")
+        };
+        let wrong = |suites: &[Suite]| {
+            let ends =
+                || suites.iter().map(|s| s.first_overturnings_reevaluated);
+            let wrong: usize = ends().map(|e| e.wrong_in_double).sum();
+            let all: usize = ends().map(|e| e.all).sum();
+            format!("{wrong} of {all}")
+        };
+        format!(
+            "rounding may have changed peak or fate in {}; of the first \
+             overturnings among these, resolved in wider arithmetic, {} had \
+             been wrong",
+            each(&open),
+            each(&wrong)
+        )
+    }
+
+    /// The figures of the study, each behind that of the recorded suites
+    /// where this is kept.
+    ///
+    /// # Errors
+    /// What the reader found instead of figures.
+    pub fn figures(&self, drawn: &[Figure]) -> anyhow::Result<Vec<Figure>> {
+        if !self.embedded {
+            return Ok(drawn.to_vec());
+        }
+        let kept: Vec<Figure> = match &self.kept {
+            Some(kept) => serde_json::from_str(kept.figures())
+                .context("fixtures/recorded/figures.json")?,
+            None => Vec::new(),
+        };
+        let mut all = Vec::new();
+        for own in drawn {
+            let same = |f: &&Figure| f.heading.is_beside(&own.heading);
+            let mut own = own.clone();
+            if let Some(recorded) = kept.iter().find(same) {
+                all.push(of(recorded.clone(), Motions::Recorded));
+                own = of(own, Motions::Embedded);
+            }
+            if own.heading.number.is_some_and(|n| HISTORIES.contains(&n)) {
+                own = of(own, Motions::Embedded);
+                own.reading += " These motions are synthetic: from a history \
+                                the acceleration of its record could be \
+                                computed, and recorded motions may not be \
+                                passed on.";
+            }
+            all.push(own);
+        }
+        Ok(all)
+    }
+}
+
+fn of(mut figure: Figure, motions: Motions) -> Figure {
+    figure.heading = figure.heading.of_motions(motions);
+    figure
+}
+
+/// The figures of a study that are kept if its suites are the recorded ones,
+/// a figure a line, with the digits that a drawing needs.
+///
+/// # Errors
+/// For a figure that cannot be written.
+pub(super) fn kept(study: &Study) -> anyhow::Result<String> {
+    let mut lines = Vec::new();
+    for figure in &study.figures {
+        let number = figure.heading.number.unwrap_or(u32::MAX);
+        if number > HISTORIES[1] && number <= LAST {
+            let mut value = serde_json::to_value(figure)?;
+            round(&mut value);
+            lines.push(value.to_string());
+        }
+    }
+    Ok(format!("[\n{}\n]\n", lines.join(",\n")))
+}
+
+fn round(value: &mut Value) {
+    match value {
+        Value::Array(all) => all.iter_mut().for_each(round),
+        Value::Object(fields) => fields.values_mut().for_each(round),
+        Value::Number(number) if number.is_f64() => {
+            *value = number
+                .as_f64()
+                .map_or(Value::Null, |x| Value::from(rounded(x, DIGITS)));
+        }
+        _ => {}
+    }
+}
+
+/// The kept findings, whatever the settings of a run.
+#[cfg(test)]
+pub(crate) fn recorded() -> Findings {
+    let own = kept::settings().expect("settings");
+    let kept = Kept::of(&own).expect("findings").expect("its settings");
+    kept.findings().clone()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kept_figures_are_those_without_histories() {
+        let own = kept::settings().expect("settings");
+        let kept = Kept::of(&own).expect("findings").expect("its settings");
+        let kept: Vec<Figure> =
+            serde_json::from_str(kept.figures()).expect("form");
+        let numbers = kept.iter().filter_map(|f| f.heading.number);
+        let mut numbers: Vec<u32> = numbers.collect();
+        numbers.dedup();
+        assert_eq!(numbers, (4..=LAST).collect::<Vec<_>>());
+        for figure in &kept {
+            let name = &figure.heading.name;
+            let csv = figure.csv();
+            let header = csv.lines().next().unwrap_or_default();
+            assert!(!header.contains("time"), "{name}: {header}");
+            assert!(csv.lines().count() > 10, "{name}");
+            assert!(figure.svg().starts_with("<svg"), "{name}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_rounded_wherever_they_stand() {
+        let mut value = serde_json::json!({"a": [1.234_567_89, "inf", 7]});
+        round(&mut value);
+        assert_eq!(value, serde_json::json!({"a": [1.23457, "inf", 7]}));
+    }
+}

@@ -20,6 +20,7 @@ use crate::ledger::requirements;
 use crate::output::{self, FINDINGS, Files};
 use crate::quantity::measured_text;
 use rocking_common::curves::Execution;
+use rocking_common::files::SUMS;
 use rocking_common::findings::{Findings, Kind, Tested, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
@@ -314,6 +315,9 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     // The proof is on the page and in the ledger alone.
     let ledgers = [&mut one, &mut two].map(|f| f.remove("data/ledger.csv"));
     assert!(ledgers.iter().all(Option::is_some) && ledgers[0] != ledgers[1]);
+    let manifests = [&mut one, &mut two].map(|f| f.remove(SUMS));
+    assert!(manifests.iter().all(Option::is_some));
+    assert!(manifests[0] != manifests[1]);
     let pages = [&mut one, &mut two].map(|files| {
         let page = files.remove("index.html").expect("page");
         String::from_utf8(page).expect("text")

@@ -282,7 +282,7 @@ fn an_error_at_any_call_leaves_the_old_file() {
         write_atomically(&root.path().join("a.csv"), "new").unwrap();
     });
     assert!(calls.len() > 4, "{calls:?}");
-    for after in 0..calls.len() {
+    for (after, call) in calls.iter().enumerate() {
         let root = folder();
         let path = root.path().join("a.csv");
         fs::write(&path, "old").unwrap();
@@ -291,7 +291,7 @@ fn an_error_at_any_call_leaves_the_old_file() {
             faults::with(Some(fault), || write_atomically(&path, "new"));
         let error = done.unwrap_err().to_string();
         assert!(error.starts_with("cannot write "), "{error}");
-        assert_eq!(fs::read(&path).unwrap(), b"old", "{}", calls[after]);
+        assert_eq!(fs::read(&path).unwrap(), b"old", "{call}");
         assert_eq!(names(root.path()), ["a.csv"]);
     }
 }

@@ -129,7 +129,9 @@ impl Suite {
     /// files of no known format, histories of velocity or displacement,
     /// vertical components, records of a sensor in a borehole (KiK-net),
     /// folders and links to nothing are set aside ([`Suite::set_aside`]), and
-    /// hidden files left out; any other fault refuses the suite. So does a
+    /// hidden files left out; any other fault refuses the suite. Where
+    /// [`ReadOptions::recursive`] says so, folders are entered, and their names
+    /// go before those of their records. Refused is also a
     /// name that results cannot carry ([`result_name`](super::result_name)),
     /// of a file or a record, or in a cell of an index. An index may list
     /// vertical and borehole records; a remark says so. Pairs are found by

@@ -23,6 +23,7 @@ fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
         dt_s: Some(0.02),
         unit: Some(rocking::units::AccelerationUnit::parse("g").unwrap()),
         gravity_m_s2: 9.81,
+        ..ReadOptions::default()
     };
     let suite = profiles::<Failure>(&place, read, &Processing::default());
     (suite.unwrap(), place, read)

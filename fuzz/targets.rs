@@ -152,9 +152,10 @@ fn hazard(bytes: &[u8]) -> Result<(), String> {
     let found = Hazard::parse("x.csv", text, &options);
     let curve = found.map_err(|error| error.to_string())?.curve;
     let (im, most) = curve.points()[0];
-    for shift in [0.0, 0.5 * im, im] {
-        // The median is where the curve begins.
-        let law = Lognormal::try_new(shift, im.ln(), 0.5);
+    for shift in [0.0, 0.5, 1.0] {
+        // Where the curve begins, or above.
+        let law = Lognormal::try_new(shift, 0.0, 0.5);
+        let law = law.and_then(|law| law.scaled(im));
         let law = law.map_err(|error| error.to_string())?;
         let found = curve.annual_frequency(&law);
         let (low, high) = (found.truncation_lower, found.truncation_upper);

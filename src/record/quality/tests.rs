@@ -87,7 +87,7 @@ fn a_recording_is_known_again_by_its_shape() {
 #[test]
 fn many_copies_of_a_record_have_a_remark_each() {
     let copy = |k: usize| {
-        Accelerogram::try_new(&format!("r{k:03}"), 0.01, clean()).unwrap()
+        Accelerogram::try_new(format!("r{k:03}"), 0.01, clean()).unwrap()
     };
     let all: Vec<_> = (0..600).map(copy).collect();
     let all: Vec<_> =

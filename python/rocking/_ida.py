@@ -241,7 +241,8 @@ class Ida(Curves):
     @cached_property
     def setting(self) -> dict[str, Any]:
         """What was analysed, with the names of the table's columns;
-        `alpha_rad` is None where slenderness was adjusted."""
+        `alpha_rad` is None where slenderness was adjusted, and `order`
+        always: the order of the Taylor polynomial is free."""
         return self._table.setting()
 
     @cached_property

@@ -93,7 +93,8 @@ impl<N: Number> Screen<N> {
     ///
     /// A series of `n` coefficients, of which `last` is the velocity's last,
     /// leaves `last` tau/n of the rotation, its next term, and of the velocity
-    /// about as much. Many steps in a row leave it in one direction. By the
+    /// about as much; up to an impact within the step it leaves less. Many
+    /// steps in a row leave it in one direction. By the
     /// Cauchy-Schwarz inequality the square of such a sum is at most the sum
     /// of the squares, each over its share of the time: in a time T (in 1/p)
     /// a step counts as a variance of (`last` tau/n)^2 T/tau. T = n^2, 25 or

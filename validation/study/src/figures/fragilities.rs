@@ -64,8 +64,8 @@ pub(super) fn constants(
             series.push(curve);
             match fit {
                 Some(_) => {
-                    distances
-                        .push(format!("{:.3}", to_ssfl(usfl, &fitted_at, c)));
+                    let apart = to_ssfl(usfl, &fitted_at, c);
+                    distances.push(format!("{apart:.3}"));
                 }
                 None => {
                     distances.push("undefined".into());

@@ -7,8 +7,8 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::record::{
-    self, Accelerogram, ReadOptions, Remark, Remarked, Suite, remarks,
-    remarks_together,
+    self, Accelerogram, ReadOptions, RecordError, Remark, Remarked, Suite,
+    remarks, remarks_together,
 };
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
@@ -65,8 +65,13 @@ pub fn read_record<'py>(
     gravity: f64,
 ) -> PyResult<Read<'py>> {
     let options = options(dt, units, gravity)?;
-    let read = work::alone(py, || record::read_file(&path, &options))?
-        .map_err(|e| refuse_at(&path, e))?;
+    let read = || {
+        let read = record::read_file(&path, &options)?;
+        let found = remarks(&read.accelerogram);
+        Ok::<_, RecordError>((read, found))
+    };
+    let (read, found) =
+        work::alone(py, read)?.map_err(|e| refuse_at(&path, e))?;
     let mut attributes = BTreeMap::from([
         ("file".to_owned(), path.display().to_string()),
         ("format".to_owned(), read.format.to_string()),
@@ -75,7 +80,7 @@ pub fn read_record<'py>(
     attributes.extend(read.channel.map(|text| ("channel".to_owned(), text)));
     attributes.extend(read.site.map(|text| ("site".to_owned(), text)));
     let record = &read.accelerogram;
-    let remarks = [read.remarks, remarks(record)].concat();
+    let remarks = [read.remarks, found].concat();
     Ok(to_python(py, record, attributes, &remarks))
 }
 

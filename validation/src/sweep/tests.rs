@@ -51,13 +51,16 @@ fn plan(folder: &Path, tile_minutes: f64) -> Planned {
         rows: true,
         tile_minutes,
     };
-    Plan::write(&wanted, &folder.join("plan"), "test").unwrap()
+    Plan::write(&wanted, &folder.join("plan"), BUILD).unwrap()
 }
+
+/// The program of all plans and tiles here.
+const BUILD: &str = "rocking 0.1.0 (commit 0123456789ab)";
 
 fn run_all(planned: &Planned, of: usize) {
     // The last task first: the order does not matter.
     for task in (0..of).rev() {
-        run(planned, (task, of), &|_| ()).unwrap();
+        run(planned, BUILD, (task, of), &|_| ()).unwrap();
         assert!(left(planned, (task, of)).is_empty());
     }
 }
@@ -110,7 +113,7 @@ fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
             stop.request();
         }
     };
-    let stopped = stop.run(2, || run(&planned, (0, 1), &done));
+    let stopped = stop.run(2, || run(&planned, BUILD, (0, 1), &done));
     assert!(matches!(stopped, Err(StopError::Stopped)), "{stopped:?}");
     assert_eq!(left(&planned, (0, 1)), [3, 4, 5, 6]);
     for tile in 0..7 {
@@ -160,6 +163,89 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     let last = bytes.len() - 3;
     bytes[last] = if bytes[last] == b'1' { b'2' } else { b'1' };
     fs::write(&record, bytes).unwrap();
-    let error = run(&planned, (0, 1), &|_| ()).unwrap_err();
+    let error = run(&planned, BUILD, (0, 1), &|_| ()).unwrap_err();
     assert!(error.message.contains("b.at2"), "{error:?}");
+}
+
+/// Two builds of one version may give other numbers.
+#[test]
+fn tiles_of_two_builds_are_not_mixed() {
+    let place = tempfile::tempdir().unwrap();
+    let planned = plan(place.path(), 1e-9);
+    let other = BUILD.replace("0123456789ab", "ba9876543210");
+    let error = run(&planned, &other, (0, 1), &|_| ()).unwrap_err().message;
+    assert!(error.contains(BUILD) && error.contains(&other), "{error}");
+    run_all(&planned, 1);
+    // A tile of this plan that another build has made, sum and all.
+    let path = planned.tile_path(Content::Capacities, 5);
+    let text = fs::read_to_string(&path).unwrap();
+    assert_eq!(text.matches(BUILD).count(), 1);
+    fs::write(&path, text.replace(BUILD, &other)).unwrap();
+    assert_eq!(state(&planned, 5), State::Foreign);
+    let out = place.path().join("out.csv");
+    let error = merge(&planned, Content::Capacities, &out).unwrap_err();
+    let words = error.message;
+    assert!(
+        words.contains("00005.csv: of another plan or another"),
+        "{words}"
+    );
+    assert!(!out.exists());
+}
+
+/// A plan lies in a shared folder: it is input like any other.
+#[test]
+fn a_plan_is_checked_when_it_is_read() {
+    let place = tempfile::tempdir().unwrap();
+    let planned = plan(place.path(), 1e-9);
+    let path = planned.folder.join("plan.json");
+    let whole = fs::read_to_string(&path).unwrap();
+    assert_eq!(whole, Planned::read(&planned.folder).unwrap().plan.text());
+    let value: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    let refused = |pointer: &str, to: serde_json::Value, words: &str| {
+        let mut changed = value.clone();
+        let at = changed.pointer_mut(pointer).unwrap_or_else(|| {
+            panic!("{pointer}: not in the plan");
+        });
+        *at = to;
+        fs::write(&path, changed.to_string()).unwrap();
+        let error = Planned::read(&planned.folder).unwrap_err().message;
+        assert!(error.contains("plan.json"), "{error}");
+        assert!(error.contains(words), "{pointer}: {error}");
+    };
+    use serde_json::json;
+    let tile =
+        |blocks: u64| json!({"blocks": blocks, "analyses": 1, "core_s": 1.0});
+    for (pointer, to, words) in [
+        ("/schema", json!(4), "schema 4: expected 5"),
+        ("/replicates", json!(1_u64 << 62), "replicates: expected 2 to"),
+        ("/replicates", json!(1), "1 replicates"),
+        ("/demands", json!([]), "no demands"),
+        ("/demands", json!([0.35, 0.0]), "demand 0: expected a number above"),
+        ("/demands", json!([0.35, 0.35]), "comes again"),
+        ("/levels/step_im", json!(0.0), "step 0: expected a positive"),
+        ("/levels/step_im", json!(-0.1), "step -0.1"),
+        ("/tiles/0/blocks", json!(u64::MAX), "hold each block once"),
+        ("/tiles/0/blocks", json!(0), "hold each block once"),
+        ("/tiles", json!([tile(u64::MAX), tile(8)]), "hold each block once"),
+        ("/tiles", json!(vec![tile(0); 1000]), "hold each block once"),
+        ("/tiles/0/core_s", json!(-1.0), "a tile of -1 s"),
+        ("/tiles/0/analyses", json!(u64::MAX), "expected at most 1e12"),
+        ("/blocks", json!([]), "hold each block once"),
+        ("/blocks/0/alpha_rad", json!(2.0), "block_0: "),
+        ("/blocks/0/eta", json!(1.5), "block_0: "),
+        ("/blocks/0/id", json!("a b"), "found `a b`"),
+        ("/blocks/1/id", json!("block_0"), "two blocks are block_0"),
+        ("/blocks/1/alpha_rad", json!(0.08), "block_1 is the same block as"),
+        ("/records", json!([]), "0 records"),
+        ("/records/0/0", json!("../../a"), "that a file can have"),
+        ("/records/0/0", json!("b"), "of its own"),
+        ("/records/0/1", json!("0"), "a SHA-256"),
+    ] {
+        refused(pointer, to, words);
+    }
+    let mut short = value.clone();
+    short["events"] = json!(["one"]);
+    fs::write(&path, short.to_string()).unwrap();
+    let error = Planned::read(&planned.folder).unwrap_err().message;
+    assert!(error.contains("3 records of 1 earthquakes"), "{error}");
 }

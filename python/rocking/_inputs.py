@@ -379,15 +379,12 @@ def _unpickled(
 
 
 def _interval(index: Any) -> float:
-    """Interval in s of a regular index: by least squares, as the shortest
-    decimal or whole number of samples a second that the times allow."""
+    """Interval in s of a regular index, by the rule for times in files."""
     times = np.asarray(index)
-    resolution = 0.0
-    if len(times) < 2:
-        raise ValueError(f"index of {len(times)}: expected at least 2 times")
+    resolution = None
     if times.dtype.kind in "mM":
-        times = (times - times[0]) / np.timedelta64(1, "ns") * 1e-9
-        resolution = 1e-9
+        times = (times - times[:1]) / np.timedelta64(1, "ns") * 1e-9
+        resolution = 0.5e-9
     elif times.dtype.kind in "iu":
         raise ValueError(
             "index of whole numbers, as pandas numbers rows: expected times "
@@ -398,33 +395,7 @@ def _interval(index: Any) -> float:
         raise ValueError(
             f"index of {times.dtype}: expected times in s, or time steps"
         )
-    times = times.astype(np.float64)
-    count = len(times)
-    place = np.arange(count) - 0.5 * (count - 1)
-    since = times - times[0]
-    dt = float(place @ since / (place @ place))
-    # Half a unit of single precision, in which times are often kept, but no
-    # more than 1 % of the step.
-    most = float(np.abs(times).max())
-    rounding = min(2.0**-24 * most, 0.01 * abs(dt)) + resolution
-    rounding += 2.0**-53 * most
-
-    def is_regular(step: float, allowed: float) -> bool:
-        left = since - place * step
-        return bool(np.all(np.abs(left - left.mean()) <= allowed))
-
-    if not is_regular(dt, rounding + 1e-6 * abs(dt)):
-        steps = np.diff(times)
-        middle = float(np.median(steps))
-        row = int(np.argmax(np.abs(steps - middle)))
-        raise ValueError(
-            f"index: step {row + 1} is {steps[row]:.9g} s, the median step "
-            f"{middle:.9g} s: expected a regular index"
-        )
-    tries = [float(f"{dt:.{digits}g}") for digits in range(1, 10)]
-    if 0.0 < dt < 1.0:
-        tries.insert(6, 1.0 / round(1.0 / dt))
-    return next((step for step in tries if is_regular(step, rounding)), dt)
+    return _rocking.sampling_interval(times.astype(np.float64), resolution)
 
 
 @dataclass(frozen=True)

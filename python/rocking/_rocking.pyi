@@ -137,6 +137,9 @@ def read_record(
     units: str | None,
     gravity: float,
 ) -> _Read: ...
+def sampling_interval(
+    times_s: _Floats, resolution_s: float | None
+) -> float: ...
 def read_suite(
     path: str | os.PathLike[str],
     dt: float | None,

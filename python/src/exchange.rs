@@ -1,9 +1,7 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking::fragility::hazard::{
-    Hazard, HazardMeasure, HazardOptions, Site,
-};
+use rocking::fragility::hazard::{Hazard, HazardMeasure, HazardOptions, Site};
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::{
     Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,

@@ -12,6 +12,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Pulse, PulseName, PulseParameter};
 use rocking::integrator::{self, Model, Overturning};
 use rocking::intensity::IntensityMeasure;
+use rocking::record::sampling::{Digits, interval};
 use rocking::record::{Accelerogram, Remark, remarks, suite_names};
 use rocking::units::AccelerationUnit;
 
@@ -34,6 +35,26 @@ pub fn choose<T: Copy>(
         let names = names.join(", ");
         refuse(format!("{what} {found:?}: expected one of {names}"))
     })
+}
+
+/// The constant step in s of an index of times in s: each is known to within
+/// a resolution, or as far as its digits go.
+#[pyfunction]
+pub fn sampling_interval(
+    times_s: PyReadonlyArray1<'_, f64>,
+    resolution_s: Option<f64>,
+) -> PyResult<f64> {
+    let times = times_s.as_slice()?;
+    let digits = Digits::of(times);
+    let within = |i: usize| {
+        resolution_s.unwrap_or_else(|| digits.resolution_s(times[i]))
+    };
+    let found = interval(times, within).map_err(|fault| {
+        let row =
+            fault.index().map_or(String::new(), |i| format!(" row {i}:"));
+        refuse(format!("index:{row} {fault}"))
+    })?;
+    Ok(found.dt_s)
 }
 
 /// The unit in which samples are given.

@@ -30,7 +30,7 @@ mod _rocking {
     #[pymodule_export]
     use crate::given::{
         block, block_of_size, block_size, measure, pulse, samples,
-        uplift_threshold,
+        sampling_interval, uplift_threshold,
     };
     #[pymodule_export]
     use crate::ida::{IdaCurves, IdaTable, ida, ida_of_csv, read_ida};

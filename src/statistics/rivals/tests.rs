@@ -78,7 +78,8 @@ fn intervals_shrink_to_the_exact_fit() {
 fn intervals_without_a_maximum_are_refused() {
     let refused =
         |cells: &[(f64, f64)]| fit_intervals(cells, 1.0).unwrap_err();
-    assert_eq!(refused(&[(1.0, 1.2); 5]), FitError::Degenerate);
+    let one = FitError::OneValue { value: 1.2, n: 5 };
+    assert_eq!(refused(&[(1.0, 1.2); 5]), one);
     let error = refused(&[(1.0, 1.2), (1.5, 1.4)]);
     assert!(matches!(error, FitError::Interval { number: 2, .. }));
     let error = refused(&[(1.0, 1.2), (0.5, 1.0)]);

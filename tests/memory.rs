@@ -318,7 +318,7 @@ const IDA_ROW: &str =
     "A,1,1,1,1,1,1,0,rocked,1,,,1,nonlinear,,alpha,record-scaling,1,,\n";
 
 /// Commands and what each reads in place of FILE.
-const COMMANDS: [&str; 24] = [
+const COMMANDS: [&str; 25] = [
     "assess --objects FILE --out out",
     "assess --objects objects.csv --floors FILE --out out",
     "assess --objects objects.csv --suite FILE --out out",

@@ -51,8 +51,8 @@ fn head(text: &Text<'_>) -> Option<Head> {
 /// `910 0.0100`, and more numbers in some programs, above samples: one a line
 /// or more than two, or else these are times and samples.
 fn one_line(text: &Text<'_>, index: usize) -> Option<Head> {
-    let words: Vec<&str> =
-        text.line(index)?.split_ascii_whitespace().collect();
+    let words = text.line(index)?.split_ascii_whitespace();
+    let words: Vec<&str> = words.take(EMOD3D + 1).collect();
     let (count, dt_s) = (count(words.first()?)?, interval(words.get(1)?)?);
     let first = index + 1;
     let next = text.line(first).filter(|line| is_data(line))?;

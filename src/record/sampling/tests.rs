@@ -127,9 +127,10 @@ proptest! {
         let whole = printed(printing, dt_s, 0, n);
         // Resolved to the last line.
         let coarse = match printing {
-            Decimals(places) => 0.5 * read(&format!("1e-{places}")),
             // Zeros at the end are not written.
-            Significant(_) => Digits::of(&whole).resolution_s(whole[n - 1]),
+            Significant(_) | Decimals(_) => {
+                Digits::of(&whole).resolution_s(whole[n - 1])
+            }
             Single | SingleStep | SingleSum => 1e-5,
         };
         prop_assume!(coarse < 0.2 * dt_s);

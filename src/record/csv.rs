@@ -77,7 +77,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         if line.starts_with('#') {
             continue;
         }
-        let mut parts = split(line);
+        let parts = split(line);
         if head && !parts.iter().all(|p| number::is_number(p)) {
             numbered = is_numbered(line);
             let named = &parts[usize::from(numbered)..];
@@ -86,14 +86,18 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
             continue;
         }
         head = false;
-        if numbered {
-            let number = parts.remove(0);
-            if number.parse::<usize>() != Ok(times.len()) {
-                let expected = format!("{}, the row's number", times.len());
-                return Err(text.no_number(index, number, &expected));
+        let cells = match parts.as_slice() {
+            [number, cells @ ..] if numbered => {
+                let row = times.len();
+                if number.parse::<usize>() != Ok(row) {
+                    let expected = format!("{row}, the row's number");
+                    return Err(text.no_number(index, number, &expected));
+                }
+                cells
             }
-        }
-        let &[time, value] = parts.as_slice() else {
+            cells => cells,
+        };
+        let &[time, value] = cells else {
             let expected = "two numbers, time and acceleration";
             return Err(text.no_number(index, line, expected));
         };

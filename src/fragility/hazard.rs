@@ -435,6 +435,13 @@ fn site<'a>(
     rows: impl Iterator<Item = Result<Row<'a>, Faulty>>,
     wanted: Option<&Site>,
 ) -> Result<Row<'a>, Faulty> {
+    if let Some(Site::Degrees(lon, lat)) = wanted
+        && !(lon.abs() <= 360.0 && lat.abs() <= 90.0)
+    {
+        let expected = "a longitude from -360 to 360 and a latitude from \
+                        -90 to 90 degrees";
+        return Err(fault(None, format!("site {lon},{lat}"), expected));
+    }
     let place = |name: &str| columns.iter().position(|own| *own == name);
     let [lon, lat] = [SITE[0], SITE[1]].map(|own| place(own).unwrap_or(0));
     let id_at = place(SITE[3]);
@@ -461,8 +468,11 @@ fn site<'a>(
                     && (own.1 - lat).abs() <= SAME_SITE_DEG
             }
         };
+        if is_it && found.is_empty() {
+            named.clear();
+        }
         if named.len() < MOST_NAMED && (is_it || found.is_empty()) {
-            named.push((is_it, name(&row)));
+            named.push(name(&row));
         }
         if is_it && found.len() < 2 {
             found.push(row);
@@ -474,9 +484,7 @@ fn site<'a>(
         return Ok(row);
     }
     let one = "one site (--site LON,LAT or --site ID)";
-    named.retain(|(is_it, _)| *is_it || found.is_empty());
-    let names: Vec<String> = named.into_iter().map(|(_, name)| name).collect();
-    let names = names.join(", ");
+    let names = named.join(", ");
     let found = match (wanted, nearest) {
         _ if all == 0 => "no site".to_owned(),
         (None, _) => format!("{all} sites, such as {names}"),

@@ -44,10 +44,15 @@ pub enum ContrastError {
         /// Number of values.
         values: usize,
     },
-    /// The same records have pairs.
+    /// A record twice in a sample.
+    #[error(
+        "record {0} is twice in a sample: expected each record once in it"
+    )]
+    Twice(String),
+    /// A record in both samples.
     #[error(
         "record {0} is in both samples: expected samples of different \
-         records; a comparison pairs those of the same"
+         records; a comparison pairs samples of the same records"
     )]
     Shared(String),
     /// The draws are refused.
@@ -183,7 +188,7 @@ pub struct Distance {
 ///
 /// # Errors
 /// [`ContrastError`] for a value that is not positive, more than 3000 values,
-/// a record in both samples, and draws that are refused.
+/// a record that is twice in a sample or in both, and draws that are refused.
 pub fn contrast<S: AsRef<str>>(
     a: Drawn<'_, S>,
     b: Drawn<'_, S>,
@@ -240,7 +245,12 @@ impl<S: AsRef<str>> Drawn<'_, S> {
         if events > 0 && events != values {
             return Err(ContrastError::Events { events, values });
         }
-        Ok(())
+        let mut seen = BTreeSet::<&str>::new();
+        let mut names = self.records.iter().map(AsRef::as_ref);
+        match names.find(|name| !seen.insert(*name)) {
+            Some(name) => Err(ContrastError::Twice(name.to_owned())),
+            None => Ok(()),
+        }
     }
 
     fn half(&self) -> Half {

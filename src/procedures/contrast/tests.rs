@@ -113,6 +113,7 @@ fn what_makes_no_contrast_is_refused() {
     let (good, zero) = (sample(&[1.0, 2.0]), sample(&[1.0, 0.0]));
     let many = sample(&vec![1.0; 3001]);
     let names = ["x".to_owned(), "y".to_owned()];
+    let twice = ["x".to_owned(), "x".to_owned()];
     let places = ["1".to_owned(), "2".to_owned()];
     let named = |records| Drawn { records, ..of(&good, &[]) };
     let ask = |a: Drawn<'_, String>, b: Drawn<'_, String>| {
@@ -123,6 +124,7 @@ fn what_makes_no_contrast_is_refused() {
         (ask(of(&many, &[]), of(&good, &[])), "3001 values: expected"),
         (ask(of(&good, &names[..1]), of(&good, &[])), "1 earthquakes for 2"),
         (ask(named(&names), named(&names)), "record x is in both samples"),
+        (ask(of(&good, &[]), named(&twice)), "record x is twice in a sample"),
     ];
     for (found, expected) in refused {
         let error = found.unwrap_err();

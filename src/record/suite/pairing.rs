@@ -110,8 +110,10 @@ pub(super) fn check_names<M: Motion>(
 ) -> Result<(), SuiteError> {
     let names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();
-    let path = || path.to_owned();
-    suite_names(&names)
-        .map(|_| ())
-        .map_err(|source| SuiteError::Names { path: path(), source })
+    match suite_names(&names) {
+        Ok(_) => Ok(()),
+        Err(source) => {
+            Err(SuiteError::Names { path: path.to_owned(), source })
+        }
+    }
 }

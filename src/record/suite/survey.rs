@@ -72,6 +72,7 @@ impl<K> Survey<K> {
         if path.is_dir() {
             let (mut files, mut others) = Default::default();
             contents(path, "", options.recursive, &mut files, &mut others)?;
+            others.sort_by(|a, b| a.file.cmp(&b.file));
             let names: Vec<String> = files.keys().cloned().collect();
             let bytes = |name: &str| {
                 let own = || path.join(name);
@@ -386,7 +387,6 @@ fn contents(
             }
         }
     }
-    others.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(())
 }
 

@@ -23,8 +23,8 @@ pub struct Column {
     /// a missing one), `level` (a number that many rows share, never
     /// missing), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
-    /// Whether a table that is read may lack it: `?` behind what its cells
-    /// are.
+    /// Whether a table that is read may lack it: `?` after the kind of its
+    /// cells.
     pub is_optional: bool,
     /// Unit; `1` for a number without one, `own` for that of the sample or
     /// the fragility, empty for other cells.

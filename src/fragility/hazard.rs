@@ -49,7 +49,7 @@ pub struct Hazard {
 /// What the intensities of a hazard curve are.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HazardMeasure {
-    /// Those of the fragility, in its own unit: the file says `intensity`.
+    /// The fragility's own, in its unit: the column is `intensity`.
     Own,
     /// A measure.
     Of(IntensityMeasure),
@@ -59,7 +59,7 @@ pub enum HazardMeasure {
 }
 
 impl HazardMeasure {
-    /// Whether a fragility in this measure may stand under the curve.
+    /// Whether the curve applies to a fragility in this measure.
     ///
     /// ```
     /// use rocking::fragility::hazard::HazardMeasure;
@@ -78,7 +78,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The dimensionless measure, where it is the axis of an IDA curve.
+    /// The dimensionless measure, if it is the axis of an IDA curve.
     #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
@@ -87,7 +87,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The name of the measure; none for that of the fragility.
+    /// The name of the measure; none for the fragility's own.
     #[must_use]
     pub fn name(&self) -> Option<String> {
         match self {
@@ -159,7 +159,7 @@ impl fmt::Display for Site {
     }
 }
 
-/// What was set aside of a hazard curve, or taken for granted.
+/// What was set aside from a hazard curve, or assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HazardRemark {
@@ -246,8 +246,8 @@ pub enum HazardFault {
 
 const HEADER: &str = "pga_g, pgv_m_s, pgv_cm_s or intensity, and \
     annual_frequency or probability_of_exceedance; or \
-    lon, lat, poe-LEVEL,.. and where wanted depth and custom_site_id of \
-    OpenQuake";
+    OpenQuake's lon, lat, poe-LEVEL,.. with or without depth and \
+    custom_site_id";
 
 /// A point as it is written: line, intensity, and frequency or probability.
 type Written = (usize, f64, f64);
@@ -272,8 +272,8 @@ impl Hazard {
     /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, where
     /// OpenQuake writes them, `depth` and `custom_site_id`, behind a comment
     /// with `investigation_time=T` and `imt='PGA'`, `'PGV'` (levels in cm/s),
-    /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency -ln(1 - P)/T of a
-    /// Poisson process. `file` is named in errors.
+    /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency
+    /// -ln(1 - P)/T of a Poisson process. `file` is named in errors.
     ///
     /// Points of frequency 0 at the end and of probability 1 at the start
     /// are set aside, with a remark.
@@ -337,7 +337,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
             let row = cells(row);
             if row.len() != columns.len() {
                 let found = format!("{} cells", row.len());
-                return Err(fault(line, found, "one a column"));
+                return Err(fault(line, found, "one per column"));
             }
             Ok((line, row))
         });
@@ -357,7 +357,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     };
     if options.site.is_some() {
         let found = "a curve of no site";
-        return Err(fault(at, found, "no site asked for (--site)"));
+        return Err(fault(at, found, "no site (--site)"));
     }
     let mut points = Vec::new();
     for row in rows {
@@ -375,7 +375,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     made(points, years, (im, per_unit))
 }
 
-/// A curve of OpenQuake: a row a site, a column a level.
+/// A curve of OpenQuake: one row per site, one column per level.
 fn openquake<'a>(
     comments: &str,
     (at, columns): (usize, &[&str]),
@@ -583,7 +583,7 @@ fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(str::trim).collect()
 }
 
-/// As much of a text as a message has room for.
+/// The beginning of a text, as much as a message shows.
 fn beginning(text: &str) -> &str {
     text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
 }

@@ -17,8 +17,8 @@ use crate::statistics::{
 /// Level of the interval.
 const LEVEL: f64 = 0.95;
 
-/// Values of a sample, at most: the exact p-value takes the product of both
-/// numbers, and the draws keep their values.
+/// Most values of a sample: the exact p-value takes time as the product of both
+/// numbers.
 const MOST: usize = 3000;
 
 /// Why a contrast was refused, or has no interval.
@@ -30,14 +30,16 @@ pub enum ContrastError {
     Value {
         /// Place in its sample, from 1.
         number: usize,
-        /// What stood there.
+        /// The value.
         value: f64,
     },
     /// More values than the test and the draws are made for.
     #[error("{0} values: expected at most {MOST}")]
     Many(usize),
-    /// One earthquake a value.
-    #[error("{events} earthquakes for {values} values: expected one a value")]
+    /// Earthquakes and values differ in number.
+    #[error(
+        "{events} earthquakes for {values} values: expected one per value"
+    )]
     Events {
         /// Number of earthquakes.
         events: usize,
@@ -64,13 +66,13 @@ pub enum ContrastError {
     /// A median that censored values leave open.
     #[error("a median is censored: the ratio is not known")]
     Open,
-    /// A bootstrap of few clusters.
+    /// Too few clusters for a bootstrap.
     #[error(
         "{0} records or earthquakes on a side: expected at least 2 for an \
          interval"
     )]
     Few(usize),
-    /// A test of independent values.
+    /// The test is one of independent values.
     #[error(
         "records of shared earthquakes are not independent: no p-value; the \
          interval draws earthquakes"
@@ -78,14 +80,14 @@ pub enum ContrastError {
     Dependent,
 }
 
-/// One of two samples, and what is known of its records.
+/// One of two samples, and what is known about its records.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawn<'a, S> {
-    /// One positive value a record, infinite where censored.
+    /// One positive value per record, infinite if censored.
     pub sample: &'a CensoredSample,
-    /// Names of the records; empty where they are not known.
+    /// Names of the records; empty if they are not known.
     pub records: &'a [S],
-    /// Earthquakes of the records; empty where they are not known.
+    /// Earthquakes of the records; empty if they are not known.
     pub events: &'a [S],
 }
 
@@ -119,7 +121,7 @@ pub struct Half {
     pub n: usize,
     /// Number of censored values.
     pub censored: usize,
-    /// Median (type 5); none where censored values leave it open.
+    /// Median (type 5); none if censored values leave it open.
     pub median: Option<f64>,
     /// What the bootstrap draws.
     pub drawn: Clusters,
@@ -132,9 +134,9 @@ pub struct Half {
 pub struct MedianRatio {
     /// The ratio.
     pub point: f64,
-    /// Lower end; none where draws leave it open.
+    /// Lower end; none if draws leave it open.
     pub low: Option<f64>,
-    /// Upper end; none where draws leave it open.
+    /// Upper end; none if draws leave it open.
     pub high: Option<f64>,
     /// Level of the interval.
     pub level: f64,
@@ -150,7 +152,7 @@ pub struct MedianRatio {
 pub struct Distance {
     /// Largest difference of the distributions.
     pub distance: f64,
-    /// Up to the least limit of a censored value, where one is known.
+    /// Compared up to the least limit of a censored value, if one is known.
     pub up_to: Option<f64>,
     /// Exact p-value of independent records; an upper bound with ties.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
@@ -160,8 +162,8 @@ pub struct Distance {
 /// Contrasts two samples over different records.
 ///
 /// The interval is that of a bootstrap (percentiles of type 7 of the
-/// logarithm) that draws the records of each sample, or the earthquakes with
-/// all their records where these are known; an earthquake with records in
+/// logarithm) that draws the records of each sample or, if they are known,
+/// the earthquakes with all their records; an earthquake with records in
 /// both samples is drawn for both. Deviations from the ratio are widened by
 /// [`Clusters::half_width`] over the normal quantile, the larger of the two.
 ///
@@ -180,7 +182,7 @@ pub struct Distance {
 /// let ratio = found.median_ratio?;
 /// assert!((ratio.point - 1.35 / 2.8).abs() < 1e-12);
 /// assert!(ratio.high.is_some_and(|high| high < 1.0));
-/// // Two of the orders of 4 and 5 values keep the samples apart.
+/// // Two of the 126 orders of 4 and 5 values separate the samples.
 /// let p_value = found.kolmogorov_smirnov.p_value?;
 /// assert!((p_value - 2.0 / 126.0).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -284,7 +286,7 @@ fn refuse_shared<S: AsRef<str>>(
     }
 }
 
-/// The median, where it is a number.
+/// The median, if it is a number.
 fn median(sample: &CensoredSample) -> Option<f64> {
     let median = sample.quantile(QuantileType::default(), 0.5);
     median.filter(|median| median.is_finite())

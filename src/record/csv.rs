@@ -2,9 +2,10 @@
 //!
 //! Separator: semicolon, comma, tab or blanks. A header names the columns and
 //! may state their units (`time_ms`, `acc [m/s2]`); lines that begin with `#`
-//! are comments, and may state units in brackets. A cell may stand in quotes.
-//! A first column that is no time is refused, but for the running number that
-//! pandas writes under no name or `index`. The first sample counts as t = 0, whatever its time.
+//! are comments, and may state units in brackets. Cells may be quoted. A first
+//! column that is no time is refused, except the row number that pandas writes
+//! under no name or `index`. The first sample counts as t = 0, whatever its
+//! time.
 //! Lines dropped at either end leave no trace: an index's `npts` tells. A
 //! file that ends within a number is refused where the number's form tells
 //! it.

@@ -151,7 +151,7 @@ fn what_is_no_curve_is_refused_with_its_line() {
             "h.csv:1: found columns",
         ),
         ("".into(), none.clone(), "h.csv:1: found columns"),
-        // No analysis of hazard tells such a frequency.
+        // No hazard analysis gives such a frequency.
         (
             "pga_g,annual_frequency\n0.1,1\n1,5e-324\n".into(),
             none.clone(),
@@ -195,7 +195,7 @@ fn columns_of_openquake_are_found_by_name_and_sites_by_id() {
     assert_eq!(hazard.unit(), "g");
     assert_eq!(hazard.im, HazardMeasure::AverageSa);
     assert_eq!(hazard.remarks, [HazardRemark::Periods]);
-    // The date line parts no site from itself.
+    // A site on the date line has two longitudes.
     let points = |site| of(site).map(|hazard| hazard.curve.points().to_vec());
     assert_eq!(points("1:BC"), points("-179.999998,-10"));
     let two = of("15.2,37.5").unwrap_err();

@@ -103,7 +103,7 @@ pub(super) fn check_pairs<M>(
     Ok(())
 }
 
-/// Refuses records that results could not tell apart.
+/// Refuses records that results could not distinguish.
 pub(super) fn check_names<M: Motion>(
     path: &str,
     members: &[SuiteMember<M>],

@@ -6,7 +6,7 @@ use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 
-/// Records of all stripes, at most: each is an observation.
+/// Most records in all stripes: each is an observation.
 const MOST_RECORDS: u64 = 1_000_000;
 
 /// The records run at one intensity.
@@ -127,8 +127,8 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
         return Err(FitError::Records(records));
     }
     let (mut known, mut places) = (Vec::new(), Vec::new());
-    // The highest intensity that a record stood, the lowest one that a record
-    // exceeded the level at.
+    // The highest intensity at which a record did not exceed the level, and
+    // the lowest one at which a record did.
     let mut last_below = (f64::NEG_INFINITY, f64::NAN);
     let mut first_above = (f64::INFINITY, f64::NAN);
     let mut coefficients = 0.0;

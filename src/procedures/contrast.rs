@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use libm::{exp, log};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{Draws, ProcedureError};
@@ -13,6 +14,7 @@ use crate::statistics::{
     CensoredSample, Clusters, ExtendedSample, QuantileType, SampleError,
     normal,
 };
+use crate::stop;
 
 /// Level of the interval.
 const LEVEL: f64 = 0.95;
@@ -328,31 +330,37 @@ fn ratio<S: AsRef<str>>(
         }
     }
     let names = ["contrast/a", "contrast/b", "contrast/both"];
-    let drawn =
-        names.iter().zip(&parts).filter(|(_, part)| !part.0.is_empty());
-    let drawn: Vec<Vec<Vec<usize>>> = drawn
+    let drawn = names.into_iter().zip(parts);
+    let drawn: Vec<(Vec<usize>, Bootstrap)> = drawn
+        .filter(|(_, (places, _))| !places.is_empty())
         .map(|(name, (places, labels))| {
             let clusters = Clusters::from_labels(labels);
-            let all = Bootstrap::of(name, seed, &clusters, replicates);
-            all.map(|draw| draw.iter().map(|&i| places[i]).collect())
+            (places, Bootstrap::of(name, seed, &clusters, replicates))
         })
         .collect();
+    let (first, second) = (a.sample, b.sample);
     let point = log(x / y);
-    let (mut low, mut high) = (Vec::new(), Vec::new());
-    for k in 0..replicates {
-        let places = drawn.iter().flat_map(|part| &part[k]);
+    let deviation = |index: u64| -> Option<f64> {
+        stop::point();
+        let places = drawn.iter().flat_map(|(places, draws)| {
+            draws.draw(index).into_iter().map(move |i| places[i])
+        });
         let (of_a, of_b): (Vec<usize>, Vec<usize>) =
-            places.partition(|place| **place < n);
+            places.partition(|place| *place < n);
+        if of_a.is_empty() || of_b.is_empty() {
+            return None;
+        }
         let of_b: Vec<usize> = of_b.iter().map(|place| place - n).collect();
-        let both = (!of_a.is_empty() && !of_b.is_empty())
-            .then(|| [a.sample.at(&of_a), b.sample.at(&of_b)])
-            .and_then(|[a, b]| Some((median(&a)?, median(&b)?)));
-        let found = both.map(|(x, y)| wider * (log(x / y) - point));
-        low.push(found.unwrap_or(f64::NEG_INFINITY));
-        high.push(found.unwrap_or(f64::INFINITY));
-    }
-    let open = low.iter().filter(|x| x.is_infinite()).count();
-    let end = |mut deviations: Vec<f64>, p: f64| {
+        let x = median(&first.at(&of_a))?;
+        let y = median(&second.at(&of_b))?;
+        Some(wider * (log(x / y) - point))
+    };
+    let found = (0..replicates as u64).into_par_iter().panic_fuse();
+    let found: Vec<Option<f64>> = found.map(deviation).collect();
+    let open = found.iter().filter(|x| x.is_none()).count();
+    let end = |if_open: f64, p: f64| {
+        let deviations = found.iter().map(|x| x.unwrap_or(if_open));
+        let mut deviations: Vec<f64> = deviations.collect();
         deviations.sort_by(f64::total_cmp);
         let place = p * (replicates - 1) as f64;
         let [below, above] = [place.floor(), place.ceil()];
@@ -362,8 +370,8 @@ fn ratio<S: AsRef<str>>(
     };
     Ok(MedianRatio {
         point: x / y,
-        low: end(low, 0.5 - 0.5 * LEVEL),
-        high: end(high, 0.5 + 0.5 * LEVEL),
+        low: end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL),
+        high: end(f64::INFINITY, 0.5 + 0.5 * LEVEL),
         level: LEVEL,
         open,
     })

@@ -155,6 +155,16 @@ pub enum IdaError {
         /// The limit.
         most: f64,
     },
+    /// Records and their levels differ in number.
+    #[error(
+        "levels of {levels} records: expected those of the {records} records"
+    )]
+    Unmatched {
+        /// Number of records.
+        records: usize,
+        /// Number of records whose levels are given.
+        levels: usize,
+    },
     /// A record of zeros has no intensity.
     #[error("record {record}: its peak ground acceleration is zero")]
     Silent {

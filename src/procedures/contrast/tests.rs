@@ -82,8 +82,8 @@ fn records_of_one_earthquake_count_as_one() {
     assert!(half_width(&ask(&many, &[])) < 0.8 * half_width(&records));
     let p_value = by_event.kolmogorov_smirnov.p_value;
     assert_eq!(p_value, Err(ContrastError::Dependent));
-    let said = by_event.a.drawn.to_string();
-    assert_eq!(said, "36 records of 12 earthquakes; unit: earthquake");
+    let drawn = by_event.a.drawn.to_string();
+    assert_eq!(drawn, "36 records of 12 earthquakes; unit: earthquake");
     let one = contrast(of(&few, &labels(1, 12)), of(&other, &[]), DRAWS);
     let Err(error) = one.unwrap().median_ratio else { panic!() };
     assert_eq!(error, ContrastError::Few(1));
@@ -96,7 +96,7 @@ fn censored_values_leave_open_what_they_do() {
     let b = sample(&[1.0, 2.0, 3.0, 4.0]);
     let ask = |a: &CensoredSample| contrast(of(a, &[]), of(&b, &[]), DRAWS);
     let found = ask(&a).unwrap();
-    // Above 2.2 nothing is known of the fourth record.
+    // Above 2.2 nothing is known about the fourth record.
     let distance = &found.kolmogorov_smirnov;
     assert_eq!((distance.distance, distance.up_to), (0.0, Some(2.2)));
     assert_eq!((found.a.censored, found.a.median), (1, None));

@@ -96,7 +96,7 @@ fn two_columns_state_their_interval() {
 }
 
 /// Times with few digits are read by what their digits resolve, with a
-/// remark; where the step changes is told.
+/// remark; an error names the place where the step changes.
 #[test]
 fn times_have_the_digits_of_their_program() {
     let rows = |time: &dyn Fn(u32) -> String, n: u32| -> String {

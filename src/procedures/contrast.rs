@@ -19,8 +19,8 @@ use crate::stop;
 /// Level of the interval.
 const LEVEL: f64 = 0.95;
 
-/// Most values of a sample: the exact p-value takes time as the product of both
-/// numbers.
+/// Most values of a sample: the time of the exact p-value grows with the
+/// product of both numbers.
 const MOST: usize = 3000;
 
 /// Why a contrast was refused, or has no interval.

@@ -276,8 +276,8 @@ pub fn read_all(
     settled.into_iter().map(Settled::agreed).collect()
 }
 
-/// Reads all components of a file; what the caller gives is taken where the
-/// file states none.
+/// Reads all components of a file; what the caller gives is taken if the file
+/// states none.
 fn settle(
     file: &str,
     bytes: &[u8],

@@ -237,7 +237,7 @@ fn counts_agree_with_statsmodels() {
         ),
         (
             "intensity,record\n0.1,a\n",
-            "expected `intensity,record,exceeded`, and where known `event`",
+            "expected `intensity,record,exceeded`, and, if known, `event`",
         ),
         (
             "intensity,record,exceeded\n0.1,=1+1,0\n",

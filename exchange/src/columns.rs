@@ -147,7 +147,7 @@ impl Layout {
             };
             let mut expected = format!("`{}`", names(false));
             if self.columns.iter().any(|column| column.is_optional) {
-                expected += &format!(", and where known `{}`", names(true));
+                expected += &format!(", and, if known, `{}`", names(true));
             }
             let found: String = header.join(",").chars().take(200).collect();
             return Err(format!(

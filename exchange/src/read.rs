@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn other_tables_are_refused_with_what_is_needed() {
-        let columns = "expected `intensity,record,exceeded`, and where known \
+        let columns = "expected `intensity,record,exceeded`, and, if known, \
                        `event`";
         for (text, words) in [
             ("intensity,record\n1,a\n", columns),

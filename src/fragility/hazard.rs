@@ -209,7 +209,7 @@ pub struct HazardOptions {
     /// Years of the probabilities of exceedance, where the file does not say
     /// them.
     pub years: Option<f64>,
-    /// The site, where the file has several.
+    /// The site, if the file has several.
     pub site: Option<Site>,
 }
 
@@ -269,7 +269,7 @@ impl Hazard {
     /// The project's own CSV has two columns: `pga_g`, `pgv_m_s`, `pgv_cm_s`
     /// or `intensity` (the unit of the fragility), and `annual_frequency` in
     /// 1/year or `probability_of_exceedance` P in T years. A hazard curve of
-    /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, where
+    /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, if
     /// OpenQuake writes them, `depth` and `custom_site_id`, behind a comment
     /// with `investigation_time=T` and `imt='PGA'`, `'PGV'` (levels in cm/s),
     /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency

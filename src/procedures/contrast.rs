@@ -27,7 +27,7 @@ const MOST: usize = 3000;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ContrastError {
-    /// Medians of capacities are positive.
+    /// A value that is not positive.
     #[error("value {number} is {value}: expected a positive number, or inf")]
     Value {
         /// Place in its sample, from 1.
@@ -271,7 +271,7 @@ impl<S: AsRef<str>> Drawn<'_, S> {
     }
 }
 
-/// Refuses samples with a record in common; places are no names.
+/// Refuses samples with a record in common; places do not count as names.
 fn refuse_shared<S: AsRef<str>>(
     a: &Drawn<'_, S>,
     b: &Drawn<'_, S>,

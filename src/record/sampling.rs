@@ -27,7 +27,7 @@ pub enum Uneven {
     /// Fewer than two times.
     #[error("number of times: {0}: expected at least 2")]
     Few(usize),
-    /// A time that is no finite number.
+    /// A time that is not finite.
     #[error("a time that is not finite: expected a number of seconds")]
     NotFinite {
         /// Index of the time, from 0.
@@ -158,7 +158,7 @@ impl Digits {
     }
 
     /// Half a unit in s of the last digit with which `time_s` is written: the
-    /// last decimal of the file, or the last significant digit where that is
+    /// last decimal of the file, or the last significant digit if that is
     /// coarser. A zero that a program leaves out at the end is a digit, too.
     #[must_use]
     pub fn resolution_s(self, time_s: f64) -> f64 {

@@ -66,11 +66,12 @@ pub struct CountsFit {
 /// # Errors
 /// [`FitError::Stripe`] for a stripe that counts more than its records, or
 /// lies not above the shift, [`FitError::Records`] for more than 1,000,000
-/// records. Where the likelihood has no maximum:
+/// records. If the likelihood has no maximum:
 /// [`FitError::NoneExceeded`] and [`FitError::AllExceeded`] for counts of one
-/// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] where one
-/// intensity parts stripes without from stripes with exceedances only,
-/// [`FitError::NotRising`] for shares that do not rise with the intensity.
+/// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] if one
+/// intensity separates stripes without exceedances from stripes with only
+/// exceedances, [`FitError::NotRising`] for shares that do not rise with the
+/// intensity.
 pub fn fit_counts(
     stripes: &[Stripe],
     shift: f64,
@@ -176,9 +177,9 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     Ok((known, coefficients, found))
 }
 
-/// Whether the likelihood rises with 1/dispersion from 0, where all stripes
-/// have one probability: since it is concave, it has a maximum there or
-/// nowhere.
+/// Whether the likelihood rises with 1/dispersion from 0, at which all stripes
+/// have one probability: since it is concave, it otherwise has no maximum at a
+/// positive value.
 fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
     let sum = |of: &dyn Fn(&Stripe) -> f64| {
         stripes.iter().fold(0.0, |sum, stripe| sum + of(stripe))

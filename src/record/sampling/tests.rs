@@ -192,7 +192,7 @@ proptest! {
         }
     }
 
-    /// The hulls find what all pairs of times say, at the same time.
+    /// The hulls find the steps of all pairs of times, and the same fault.
     #[test]
     fn the_steps_are_those_of_all_pairs(
         offs in prop::collection::vec((-1.0..1.0_f64, 0.1..1.0_f64), 2..40),
@@ -277,7 +277,7 @@ fn sums_in_single_precision_are_followed() {
 }
 
 #[test]
-fn faults_are_told_apart() {
+fn faults_are_distinguished() {
     let text = |times: &[f64]| found(times).unwrap_err().to_string();
     assert_eq!(text(&[0.0]), "number of times: 1: expected at least 2");
     assert!(text(&[0.0, f64::NAN, 1.0]).starts_with("a time that is not"));

@@ -76,7 +76,7 @@ def test_the_unit_must_be_said() -> None:
 
 def test_an_irregular_index_is_refused_with_its_step() -> None:
     series = pd.Series(ACC, index=[0.0, 0.01, 0.02, 0.04])
-    with pytest.raises(ValueError, match="step 3 is 0.02 s, the median"):
+    with pytest.raises(ValueError, match="row 3: time 0.04 s: expected 0.03 s"):
         rk.Record.of(series, units="g")
     with pytest.raises(ValueError, match="expected times in s"):
         rk.Record.of(pd.Series(ACC, index=list("abcd")), units="g")

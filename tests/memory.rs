@@ -313,9 +313,9 @@ fn bombs() -> Vec<(&'static str, &'static [&'static str], Vec<u8>)> {
     ]
 }
 
-const IDA_HEAD: &str = "record,alpha_rad,p_rad_s,pga_g,pgv_m_s,intensity_pga,intensity_pgv,edp,outcome,margin,remarks,event,eta,model,overturn,by,gravity_m_s2,processing,software\n";
+const IDA_HEAD: &str = "record,alpha_rad,p_rad_s,pga_g,pgv_m_s,intensity_pga,intensity_pgv,edp,outcome,margin,remarks,event,eta,model,order,overturn,by,gravity_m_s2,processing,software\n";
 const IDA_ROW: &str =
-    "A,1,1,1,1,1,1,0,rocked,1,,,1,nonlinear,alpha,record-scaling,1,,\n";
+    "A,1,1,1,1,1,1,0,rocked,1,,,1,nonlinear,,alpha,record-scaling,1,,\n";
 
 /// Commands and what each reads in place of FILE.
 const COMMANDS: [&str; 24] = [
@@ -324,6 +324,7 @@ const COMMANDS: [&str; 24] = [
     "assess --objects objects.csv --suite FILE --out out",
     "capacities --ida FILE --at 1",
     "compare --a FILE --b FILE",
+    "contrast --a FILE --b FILE",
     "diff FILE FILE",
     "fragility choose --sample FILE --bootstrap 2 --shift 1",
     "fragility counts --counts FILE --bootstrap 2",

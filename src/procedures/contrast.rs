@@ -17,6 +17,10 @@ use crate::statistics::{
 /// Level of the interval.
 const LEVEL: f64 = 0.95;
 
+/// Values of a sample, at most: the exact p-value takes the product of both
+/// numbers, and the draws keep their values.
+const MOST: usize = 3000;
+
 /// Why a contrast was refused, or has no interval.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -29,6 +33,9 @@ pub enum ContrastError {
         /// What stood there.
         value: f64,
     },
+    /// More values than the test and the draws are made for.
+    #[error("{0} values: expected at most {MOST}")]
+    Many(usize),
     /// One earthquake a value.
     #[error("{events} earthquakes for {values} values: expected one a value")]
     Events {
@@ -175,8 +182,8 @@ pub struct Distance {
 /// ```
 ///
 /// # Errors
-/// [`ContrastError`] for a value that is not positive, a record in both
-/// samples, and draws that are refused.
+/// [`ContrastError`] for a value that is not positive, more than 3000 values,
+/// a record in both samples, and draws that are refused.
 pub fn contrast<S: AsRef<str>>(
     a: Drawn<'_, S>,
     b: Drawn<'_, S>,
@@ -222,6 +229,9 @@ pub fn contrast<S: AsRef<str>>(
 impl<S: AsRef<str>> Drawn<'_, S> {
     fn check(&self) -> Result<(), ContrastError> {
         let values = self.sample.values();
+        if values.len() > MOST {
+            return Err(ContrastError::Many(values.len()));
+        }
         if let Some(place) = values.iter().position(|x| !(*x > 0.0)) {
             let (number, value) = (place + 1, values[place]);
             return Err(ContrastError::Value { number, value });

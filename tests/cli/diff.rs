@@ -163,7 +163,7 @@ fn the_consequence_comes_first() {
     assert_eq!(error, "rocking: 6 significant changes\n");
     let lines = [
         "Changed: 1 of 4 answers, 2 of 3 verdicts; 2 of ",
-        "Before: Hardly: medians differ by 0 %",
+        "Before: Hardly: median rotations differ by 0 %",
         "\"the same\" (ratios-p1), ordinary, arm C: confirmed to inconclusive",
         "  case free-rocking/one: pass to fail\n",
         "  median overturning, PGA/(g tan alpha), ordinary: +6.3 % (p = 1: \

@@ -111,6 +111,7 @@ fn censored_values_leave_open_what_they_do() {
 #[test]
 fn what_makes_no_contrast_is_refused() {
     let (good, zero) = (sample(&[1.0, 2.0]), sample(&[1.0, 0.0]));
+    let many = sample(&vec![1.0; 3001]);
     let names = ["x".to_owned(), "y".to_owned()];
     let places = ["1".to_owned(), "2".to_owned()];
     let named = |records| Drawn { records, ..of(&good, &[]) };
@@ -119,6 +120,7 @@ fn what_makes_no_contrast_is_refused() {
     };
     let refused = [
         (ask(of(&zero, &[]), of(&good, &[])), "value 2 is 0: expected"),
+        (ask(of(&many, &[]), of(&good, &[])), "3001 values: expected"),
         (ask(of(&good, &names[..1]), of(&good, &[])), "1 earthquakes for 2"),
         (ask(named(&names), named(&names)), "record x is in both samples"),
     ];

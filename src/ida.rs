@@ -83,8 +83,8 @@ pub struct Analysis {
     /// Levels above the first overturning are looked at up to here.
     pub resurrections: Option<Resurrections>,
     /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
-    /// as each step needs for double precision. What a fixed order leaves is
-    /// part of the estimate by which analyses are flagged.
+    /// as each step needs for double precision. The estimate that flags
+    /// analyses includes the truncation error of a fixed order.
     pub order: Option<Order>,
     /// Whether analyses that double precision cannot resolve run again in
     /// the arithmetic that resolves them (see
@@ -154,6 +154,16 @@ pub enum IdaError {
         found: f64,
         /// The limit.
         most: f64,
+    },
+    /// Records and their levels differ in number.
+    #[error(
+        "levels of {levels} records: expected those of the {records} records"
+    )]
+    Unmatched {
+        /// Number of records.
+        records: usize,
+        /// Number of records whose levels are given.
+        levels: usize,
     },
     /// A record of zeros has no intensity.
     #[error("record {record}: its peak ground acceleration is zero")]

@@ -126,8 +126,9 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 
 /// What the caller knows about a file.
 ///
-/// What a file states can be said again, but not be overruled. In a suite it
-/// is taken for the files that state none, of which there must be one.
+/// What a file states may be repeated, but not contradicted. In a suite, what
+/// is given holds for the files that state nothing; if no file takes it, all
+/// files must agree with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
     /// Sampling interval in s, for files that state none.
@@ -136,7 +137,7 @@ pub struct ReadOptions {
     pub unit: Option<AccelerationUnit>,
     /// Gravity in m/s2 by which an SI record is divided.
     pub gravity_m_s2: f64,
-    /// Whether the folders in the folder of a suite are entered.
+    /// Whether the folders within a suite's folder are read.
     pub recursive: bool,
 }
 
@@ -176,7 +177,7 @@ pub struct Record {
     pub given: Given,
 }
 
-/// What the caller gave of a record whose file states none.
+/// What the caller gave because the file states none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Given {
     /// Sampling interval.
@@ -185,8 +186,8 @@ pub struct Given {
     pub unit: bool,
 }
 
-/// A record, and what the caller gave although its file states another: a
-/// fault in a file read alone.
+/// A record, and whether the caller contradicts its file, which is a fault in
+/// a file that belongs to no suite.
 struct Settled {
     record: Record,
     dt: Result<(), RecordError>,
@@ -248,7 +249,7 @@ pub fn read(
     settle_one(file, bytes, options)?.agreed()
 }
 
-/// As [`settle`], for a file of one component.
+/// Does what [`settle`] does, for a file of one component.
 fn settle_one(
     file: &str,
     bytes: &[u8],
@@ -275,8 +276,8 @@ pub fn read_all(
     settled.into_iter().map(Settled::agreed).collect()
 }
 
-/// Reads all components of a file; what the caller gives is taken where the
-/// file states none.
+/// Reads all components of a file; what the caller gives is taken if the file
+/// states none.
 fn settle(
     file: &str,
     bytes: &[u8],

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
 
-/// Threads a processor beyond which more only cost.
+/// Threads per processor beyond which more only cost time.
 #[cfg(feature = "threads")]
 pub const MOST_THREADS_A_PROCESSOR: usize = 8;
 
@@ -55,7 +55,7 @@ pub enum StopError {
     Threads {
         /// How many.
         threads: usize,
-        /// What the system said.
+        /// The reason that the system gave.
         reason: String,
     },
 }
@@ -80,8 +80,8 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Does `work` on `threads` threads of its own (0: one a processor; at most
-    /// [`most_threads`]), which heed this stop.
+    /// Does `work` on `threads` threads of its own, which heed this stop: 0 is
+    /// one per processor, and at most [`most_threads`] are started.
     ///
     /// Results have the same bits for any number of threads, and whether or
     /// not there is a stop to heed.

@@ -221,7 +221,7 @@ fn counts_agree_with_statsmodels() {
         ),
         (
             "intensity,exceeded,n\n0.1,0,20\n0.2,0,20\n0.4,5,20\n",
-            "wrong.csv: the stripe at 0.4 alone has both",
+            "wrong.csv: only the stripe at 0.4 has both",
         ),
         (
             "intensity,exceeded,n\n0.1,0,20\n0.2,0,20\n",
@@ -237,7 +237,7 @@ fn counts_agree_with_statsmodels() {
         ),
         (
             "intensity,record\n0.1,a\n",
-            "expected `intensity,record,exceeded`, and where known `event`",
+            "expected `intensity,record,exceeded`, and, if known, `event`",
         ),
         (
             "intensity,record,exceeded\n0.1,=1+1,0\n",

@@ -23,8 +23,8 @@ pub struct Column {
     /// a missing one), `level` (a number that many rows share, never
     /// missing), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
-    /// Whether a table that is read may lack it: `?` behind what its cells
-    /// are.
+    /// Whether a table that is read may lack it: `?` after the kind of its
+    /// cells.
     pub is_optional: bool,
     /// Unit; `1` for a number without one, `own` for that of the sample or
     /// the fragility, empty for other cells.
@@ -147,7 +147,7 @@ impl Layout {
             };
             let mut expected = format!("`{}`", names(false));
             if self.columns.iter().any(|column| column.is_optional) {
-                expected += &format!(", and where known `{}`", names(true));
+                expected += &format!(", and, if known, `{}`", names(true));
             }
             let found: String = header.join(",").chars().take(200).collect();
             return Err(format!(

@@ -37,8 +37,8 @@ pub struct Setting {
     /// Equation of motion.
     pub model: Model,
     /// Order of the Taylor polynomial, if it was fixed. A table of a fixed
-    /// order is written, to be compared with others, and not read: its errors
-    /// are those of the order, not of chance, so no statistics are made of it.
+    /// order is written, to be compared with others, but not read: its errors
+    /// come from the order, not from chance, so it allows no statistics.
     pub order: Option<Order>,
     /// Overturning criterion.
     pub overturn: Overturning,

@@ -72,7 +72,7 @@ impl Cells<'_> {
         ))
     }
 
-    /// A cell that is a name of what results carry, or empty.
+    /// A cell that is a name that results can carry, or empty.
     ///
     /// # Errors
     /// [`FileError`] for a control character, and for a formula.
@@ -99,8 +99,8 @@ impl Cells<'_> {
     }
 }
 
-/// A reader of CSV from outside, which a file that ends within a quoted cell
-/// ends with an error; lines that begin with `comment` are left out.
+/// A reader of CSV from outside, which fails at the end of a file within a
+/// quoted cell; lines that begin with `comment` are left out.
 pub fn reader<R: Read>(
     from: R,
     trim: csv::Trim,
@@ -130,8 +130,8 @@ pub fn no_csv(path: &Path, error: csv::Error) -> FileError {
 }
 
 /// The lines of a table; `path` is its name in messages. Columns are found by
-/// name, and the cells are in the order of the layout; one of a column that
-/// is not there is empty. A table without the column of the schema is read,
+/// name, and the cells are in the order of the layout; those of a missing
+/// column are empty. A table without the column of the schema is read,
 /// one of another schema is refused.
 ///
 /// # Errors
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn other_tables_are_refused_with_what_is_needed() {
-        let columns = "expected `intensity,record,exceeded`, and where known \
+        let columns = "expected `intensity,record,exceeded`, and, if known, \
                        `event`";
         for (text, words) in [
             ("intensity,record\n1,a\n", columns),

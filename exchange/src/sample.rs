@@ -212,8 +212,7 @@ impl SampleFile {
         Ok(text)
     }
 
-    /// Refuses another file that says of itself that it is a sample of
-    /// something else.
+    /// Refuses another file that states that it is a sample of something else.
     ///
     /// # Errors
     /// [`FileError`] of the other file.
@@ -230,14 +229,14 @@ impl SampleFile {
         }
     }
 
-    /// Names of the records of the values; none where a value has no name.
+    /// Names of the records of the values; none if a value has no name.
     #[must_use]
     pub fn records(&self) -> Vec<&str> {
         let names = self.names.iter().map(Option::as_deref);
         names.collect::<Option<_>>().unwrap_or_default()
     }
 
-    /// Earthquakes of the values; none where the file does not say them.
+    /// Earthquakes of the values; none if the file does not state them.
     #[must_use]
     pub fn events(&self) -> Vec<&str> {
         let events = self.events.iter().map(Option::as_deref);

@@ -44,7 +44,7 @@ pub fn result_name(text: &str) -> Result<&str, NameError> {
     }
 }
 
-/// Why the records of a suite have no names that tell them apart.
+/// Why names do not distinguish the records of a suite.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SuiteNameError {
@@ -53,13 +53,13 @@ pub enum SuiteNameError {
     Same(String),
     /// A record without a name among others that have one.
     #[error(
-        "record {0} has no name: expected a name of every record, or of none"
+        "record {0} has no name: expected a name for every record, or for none"
     )]
     Unnamed(usize),
 }
 
-/// The names by which results tell the records of a suite apart: those given,
-/// or, where no record has one, the places `1`, `2`, ...
+/// The names by which results distinguish the records of a suite: those given,
+/// or, if no record has one, the places `1`, `2`, ...
 ///
 /// # Errors
 /// [`SuiteNameError`] for a name that two records share, and for a record

@@ -49,7 +49,7 @@ pub struct Hazard {
 /// What the intensities of a hazard curve are.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HazardMeasure {
-    /// Those of the fragility, in its own unit: the file says `intensity`.
+    /// The fragility's own, in its unit: the column is `intensity`.
     Own,
     /// A measure.
     Of(IntensityMeasure),
@@ -59,7 +59,7 @@ pub enum HazardMeasure {
 }
 
 impl HazardMeasure {
-    /// Whether a fragility in this measure may stand under the curve.
+    /// Whether the curve applies to a fragility in this measure.
     ///
     /// ```
     /// use rocking::fragility::hazard::HazardMeasure;
@@ -78,7 +78,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The dimensionless measure, where it is the axis of an IDA curve.
+    /// The dimensionless measure, if it is the axis of an IDA curve.
     #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
@@ -87,7 +87,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The name of the measure; none for that of the fragility.
+    /// The name of the measure; none for the fragility's own.
     #[must_use]
     pub fn name(&self) -> Option<String> {
         match self {
@@ -159,7 +159,7 @@ impl fmt::Display for Site {
     }
 }
 
-/// What was set aside of a hazard curve, or taken for granted.
+/// What was set aside from a hazard curve, or assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HazardRemark {
@@ -209,7 +209,7 @@ pub struct HazardOptions {
     /// Years of the probabilities of exceedance, where the file does not say
     /// them.
     pub years: Option<f64>,
-    /// The site, where the file has several.
+    /// The site, if the file has several.
     pub site: Option<Site>,
 }
 
@@ -246,8 +246,8 @@ pub enum HazardFault {
 
 const HEADER: &str = "pga_g, pgv_m_s, pgv_cm_s or intensity, and \
     annual_frequency or probability_of_exceedance; or \
-    lon, lat, poe-LEVEL,.. and where wanted depth and custom_site_id of \
-    OpenQuake";
+    OpenQuake's lon, lat, poe-LEVEL,.. with or without depth and \
+    custom_site_id";
 
 /// A point as it is written: line, intensity, and frequency or probability.
 type Written = (usize, f64, f64);
@@ -269,11 +269,11 @@ impl Hazard {
     /// The project's own CSV has two columns: `pga_g`, `pgv_m_s`, `pgv_cm_s`
     /// or `intensity` (the unit of the fragility), and `annual_frequency` in
     /// 1/year or `probability_of_exceedance` P in T years. A hazard curve of
-    /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, where
+    /// OpenQuake has the columns `lon`, `lat`, `poe-LEVEL`, .. and, if
     /// OpenQuake writes them, `depth` and `custom_site_id`, behind a comment
     /// with `investigation_time=T` and `imt='PGA'`, `'PGV'` (levels in cm/s),
-    /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency -ln(1 - P)/T of a
-    /// Poisson process. `file` is named in errors.
+    /// `'SA(1.0)'` or `'AvgSA'`. A probability makes the frequency
+    /// -ln(1 - P)/T of a Poisson process. `file` is named in errors.
     ///
     /// Points of frequency 0 at the end and of probability 1 at the start
     /// are set aside, with a remark.
@@ -337,7 +337,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
             let row = cells(row);
             if row.len() != columns.len() {
                 let found = format!("{} cells", row.len());
-                return Err(fault(line, found, "one a column"));
+                return Err(fault(line, found, "one per column"));
             }
             Ok((line, row))
         });
@@ -357,7 +357,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     };
     if options.site.is_some() {
         let found = "a curve of no site";
-        return Err(fault(at, found, "no site asked for (--site)"));
+        return Err(fault(at, found, "no site (--site)"));
     }
     let mut points = Vec::new();
     for row in rows {
@@ -375,7 +375,7 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     made(points, years, (im, per_unit))
 }
 
-/// A curve of OpenQuake: a row a site, a column a level.
+/// A curve of OpenQuake: one row per site, one column per level.
 fn openquake<'a>(
     comments: &str,
     (at, columns): (usize, &[&str]),
@@ -435,6 +435,13 @@ fn site<'a>(
     rows: impl Iterator<Item = Result<Row<'a>, Faulty>>,
     wanted: Option<&Site>,
 ) -> Result<Row<'a>, Faulty> {
+    if let Some(Site::Degrees(lon, lat)) = wanted
+        && !(lon.abs() <= 360.0 && lat.abs() <= 90.0)
+    {
+        let expected = "a longitude from -360 to 360 and a latitude from \
+                        -90 to 90 degrees";
+        return Err(fault(None, format!("site {lon},{lat}"), expected));
+    }
     let place = |name: &str| columns.iter().position(|own| *own == name);
     let [lon, lat] = [SITE[0], SITE[1]].map(|own| place(own).unwrap_or(0));
     let id_at = place(SITE[3]);
@@ -461,8 +468,11 @@ fn site<'a>(
                     && (own.1 - lat).abs() <= SAME_SITE_DEG
             }
         };
+        if is_it && found.is_empty() {
+            named.clear();
+        }
         if named.len() < MOST_NAMED && (is_it || found.is_empty()) {
-            named.push((is_it, name(&row)));
+            named.push(name(&row));
         }
         if is_it && found.len() < 2 {
             found.push(row);
@@ -474,9 +484,7 @@ fn site<'a>(
         return Ok(row);
     }
     let one = "one site (--site LON,LAT or --site ID)";
-    named.retain(|(is_it, _)| *is_it || found.is_empty());
-    let names: Vec<String> = named.into_iter().map(|(_, name)| name).collect();
-    let names = names.join(", ");
+    let names = named.join(", ");
     let found = match (wanted, nearest) {
         _ if all == 0 => "no site".to_owned(),
         (None, _) => format!("{all} sites, such as {names}"),
@@ -575,7 +583,7 @@ fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(str::trim).collect()
 }
 
-/// As much of a text as a message has room for.
+/// The beginning of a text, as much as a message shows.
 fn beginning(text: &str) -> &str {
     text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
 }

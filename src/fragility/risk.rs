@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::statistics::{Lognormal, normal};
 use crate::stop;
 
-/// Intensities and annual frequencies that a curve may have, least and most:
+/// Least and largest intensity and annual frequency that a curve may have:
 /// the ratio of any two of them is a finite number.
 pub const RANGE: (f64, f64) = (1e-150, 1e150);
 
@@ -42,8 +42,8 @@ pub enum HazardError {
         /// The frequency before, or infinity.
         before: f64,
     },
-    /// No hazard analysis gives such a number, and its ratio to another one
-    /// may be no finite number.
+    /// A number that no hazard analysis gives, and whose ratio to another may
+    /// not be finite.
     #[error(
         "{what} {found:e} of point {number}: expected a number from {:e} to {:e}",
         RANGE.0,
@@ -326,7 +326,7 @@ impl Segment {
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
         let at = |z: f64| {
             let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));
-            // The rounding of a steep segment's ends leads beyond them.
+            // Rounding may lead beyond the ends of a steep segment.
             let frequency = self.frequency(shift + excess);
             frequency.clamp(self.to.1, self.from.1) * normal::pdf(z)
         };

@@ -102,7 +102,7 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     limit: WorkLimit,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
-    /// Series keep their length, whatever they leave.
+    /// Whether series keep their length, whatever their truncation error.
     fixed: bool,
     /// Rough certificate, where nothing but outcome and peak is asked for.
     screen: Option<Screen<N>>,

@@ -7,8 +7,9 @@
 //! estimate adds the squares of error over margin of all decisions, so it is
 //! no less than the largest ratio. Lanes and a run alone give the same bits.
 //!
-//! It takes in rounding. A series whose order is fixed also leaves what its
-//! last term shows; one whose order is free leaves less than rounding does.
+//! It includes rounding and, if the order is fixed, the truncation error that
+//! the last term of a series shows. At a free order that error is smaller than
+//! rounding.
 
 use crate::number::{Number, Real};
 
@@ -18,8 +19,8 @@ use crate::number::{Number, Real};
 /// A certificate is clear where 32 standard deviations are at most a quarter
 /// of every margin, which is 8e-3 here. The estimate leaves out what a
 /// certificate also takes in: the truncation of a series of free order, and
-/// constants that are rounded once. So the threshold is lower, by a factor of three that was
-/// chosen on whole suites: see `tests/trials`.
+/// constants that are rounded once. So the threshold is lower, by a factor of
+/// three that was chosen on whole suites: see `tests/trials`.
 pub(crate) const DOUBTFUL: f64 = 2.5e-3;
 
 /// Share of the slenderness angle that the error is held against: above it
@@ -92,13 +93,13 @@ impl<N: Number> Screen<N> {
     /// the block is.
     ///
     /// A series of `n` coefficients, of which `last` is the velocity's last,
-    /// leaves `last` tau/n of the rotation, its next term, and of the velocity
-    /// about as much; up to an impact within the step it leaves less. Many
-    /// steps in a row leave it in one direction. By the
+    /// has the truncation error `last` tau/n in the rotation, its next term,
+    /// and about as much in the velocity; up to an impact within the step it
+    /// has less. The errors of many steps in a row may have one sign. By the
     /// Cauchy-Schwarz inequality the square of such a sum is at most the sum
     /// of the squares, each over its share of the time: in a time T (in 1/p)
     /// a step counts as a variance of (`last` tau/n)^2 T/tau. T = n^2, 25 or
-    /// more, leaves `last`^2 tau.
+    /// more, makes this `last`^2 tau.
     #[inline(always)]
     pub fn fly(self, step: &Flown<N>) -> Self {
         let Self { uu, uw, ww, .. } = self;
@@ -255,7 +256,7 @@ mod tests {
 
     /// Errors of one sign in every step, for as long as an order of 4 allows.
     #[test]
-    fn what_a_fixed_order_leaves_adds_up() {
+    fn truncation_errors_of_a_fixed_order_add_up() {
         let (tau, last, coefficients) = (0.01, 1e-9, 5.0);
         let (u, w, size, last) = (0.0, 0.0, 0.0, Some(last));
         let step = Flown { tau, curvature: 1.0, u, w, size, last };

@@ -311,10 +311,10 @@ pub enum AssessError {
     /// There is nothing to assess.
     #[error("no object: expected at least one")]
     NoObject,
-    /// Too few records to tell how they scatter.
+    /// Too few records to estimate the scatter of intensities.
     #[error(
-        "{0} records: expected at least {LEAST_RECORDS}, which tell how \
-         intensities of damage scatter"
+        "{0} records: expected at least {LEAST_RECORDS}, to estimate the \
+         scatter of intensities of damage"
     )]
     Records(usize),
     /// A limit is a part of the slenderness.
@@ -438,9 +438,9 @@ pub enum AssessError {
 /// ```
 ///
 /// # Errors
-/// [`AssessError`] for no object, fewer than three records, a limit outside (0, 1), a hazard
-/// curve in another unit, and an object that makes no fit, such as one that
-/// fewer than two records damage.
+/// [`AssessError`] for no object, fewer than three records, a limit outside
+/// (0, 1), a hazard curve in another unit, and an object that makes no fit,
+/// such as one that fewer than two records damage.
 pub fn assess(
     objects: &[Object],
     records: &[Accelerogram],

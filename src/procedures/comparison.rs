@@ -53,7 +53,7 @@ pub enum Side {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// One name a value.
+    /// Names and values differ in number.
     #[error(
         "{names} names of records for {values} values: expected a name for \
          each value, by which values are paired; a contrast takes samples of \
@@ -67,7 +67,7 @@ pub enum ComparisonError {
         /// Number of values.
         values: usize,
     },
-    /// The names say nothing but the order.
+    /// The names are only places.
     #[error(
         "records without names, numbered by their places: expected names, by \
          which values are paired; a contrast takes samples of different \
@@ -86,7 +86,7 @@ pub enum ComparisonError {
         /// Place of the second value, from 0.
         place: usize,
     },
-    /// A record of one sample alone.
+    /// A record that is only in one sample.
     #[error(
         "record {record} is not in the other sample: expected each record \
          once in both; a contrast takes samples of different records"
@@ -119,7 +119,7 @@ impl ComparisonError {
     }
 }
 
-/// One value a record, with the names of the records.
+/// Values, one per record, with the names of the records.
 #[derive(Clone, Copy, Debug)]
 pub struct Named<'a, S> {
     /// Names of the records.
@@ -186,8 +186,8 @@ fn refuse_lone(
 /// ```
 ///
 /// # Errors
-/// [`ComparisonError`] for records without names, a record of one sample
-/// alone, a value that is negative or NaN, or a margin that is not positive.
+/// [`ComparisonError`] for records without names, a record that is only in one
+/// sample, a value that is negative or NaN, or a margin that is not positive.
 pub fn compare<S: AsRef<str>>(
     a: Named<'_, S>,
     b: Named<'_, S>,

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use libm::{exp, log};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{Draws, ProcedureError};
@@ -13,41 +14,49 @@ use crate::statistics::{
     CensoredSample, Clusters, ExtendedSample, QuantileType, SampleError,
     normal,
 };
+use crate::stop;
 
 /// Level of the interval.
 const LEVEL: f64 = 0.95;
 
-/// Values of a sample, at most: the exact p-value takes the product of both
-/// numbers, and the draws keep their values.
+/// Most values of a sample: the time of the exact p-value grows with the
+/// product of both numbers.
 const MOST: usize = 3000;
 
 /// Why a contrast was refused, or has no interval.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ContrastError {
-    /// Medians of capacities are positive.
+    /// A value that is not positive.
     #[error("value {number} is {value}: expected a positive number, or inf")]
     Value {
         /// Place in its sample, from 1.
         number: usize,
-        /// What stood there.
+        /// The value.
         value: f64,
     },
     /// More values than the test and the draws are made for.
     #[error("{0} values: expected at most {MOST}")]
     Many(usize),
-    /// One earthquake a value.
-    #[error("{events} earthquakes for {values} values: expected one a value")]
+    /// Earthquakes and values differ in number.
+    #[error(
+        "{events} earthquakes for {values} values: expected one per value"
+    )]
     Events {
         /// Number of earthquakes.
         events: usize,
         /// Number of values.
         values: usize,
     },
-    /// The same records have pairs.
+    /// A record twice in a sample.
+    #[error(
+        "record {0} is twice in a sample: expected each record once in it"
+    )]
+    Twice(String),
+    /// A record in both samples.
     #[error(
         "record {0} is in both samples: expected samples of different \
-         records; a comparison pairs those of the same"
+         records; a comparison pairs samples of the same records"
     )]
     Shared(String),
     /// The draws are refused.
@@ -59,13 +68,13 @@ pub enum ContrastError {
     /// A median that censored values leave open.
     #[error("a median is censored: the ratio is not known")]
     Open,
-    /// A bootstrap of few clusters.
+    /// Too few clusters for a bootstrap.
     #[error(
         "{0} records or earthquakes on a side: expected at least 2 for an \
          interval"
     )]
     Few(usize),
-    /// A test of independent values.
+    /// The test is one of independent values.
     #[error(
         "records of shared earthquakes are not independent: no p-value; the \
          interval draws earthquakes"
@@ -73,14 +82,14 @@ pub enum ContrastError {
     Dependent,
 }
 
-/// One of two samples, and what is known of its records.
+/// One of two samples, and what is known about its records.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawn<'a, S> {
-    /// One positive value a record, infinite where censored.
+    /// One positive value per record, infinite if censored.
     pub sample: &'a CensoredSample,
-    /// Names of the records; empty where they are not known.
+    /// Names of the records; empty if they are not known.
     pub records: &'a [S],
-    /// Earthquakes of the records; empty where they are not known.
+    /// Earthquakes of the records; empty if they are not known.
     pub events: &'a [S],
 }
 
@@ -114,7 +123,7 @@ pub struct Half {
     pub n: usize,
     /// Number of censored values.
     pub censored: usize,
-    /// Median (type 5); none where censored values leave it open.
+    /// Median (type 5); none if censored values leave it open.
     pub median: Option<f64>,
     /// What the bootstrap draws.
     pub drawn: Clusters,
@@ -127,9 +136,9 @@ pub struct Half {
 pub struct MedianRatio {
     /// The ratio.
     pub point: f64,
-    /// Lower end; none where draws leave it open.
+    /// Lower end; none if draws leave it open.
     pub low: Option<f64>,
-    /// Upper end; none where draws leave it open.
+    /// Upper end; none if draws leave it open.
     pub high: Option<f64>,
     /// Level of the interval.
     pub level: f64,
@@ -145,7 +154,7 @@ pub struct MedianRatio {
 pub struct Distance {
     /// Largest difference of the distributions.
     pub distance: f64,
-    /// Up to the least limit of a censored value, where one is known.
+    /// Compared up to the least limit of a censored value, if one is known.
     pub up_to: Option<f64>,
     /// Exact p-value of independent records; an upper bound with ties.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
@@ -155,8 +164,8 @@ pub struct Distance {
 /// Contrasts two samples over different records.
 ///
 /// The interval is that of a bootstrap (percentiles of type 7 of the
-/// logarithm) that draws the records of each sample, or the earthquakes with
-/// all their records where these are known; an earthquake with records in
+/// logarithm) that draws the records of each sample or, if they are known,
+/// the earthquakes with all their records; an earthquake with records in
 /// both samples is drawn for both. Deviations from the ratio are widened by
 /// [`Clusters::half_width`] over the normal quantile, the larger of the two.
 ///
@@ -175,7 +184,7 @@ pub struct Distance {
 /// let ratio = found.median_ratio?;
 /// assert!((ratio.point - 1.35 / 2.8).abs() < 1e-12);
 /// assert!(ratio.high.is_some_and(|high| high < 1.0));
-/// // Two of the orders of 4 and 5 values keep the samples apart.
+/// // Two of the 126 orders of 4 and 5 values separate the samples.
 /// let p_value = found.kolmogorov_smirnov.p_value?;
 /// assert!((p_value - 2.0 / 126.0).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -183,7 +192,7 @@ pub struct Distance {
 ///
 /// # Errors
 /// [`ContrastError`] for a value that is not positive, more than 3000 values,
-/// a record in both samples, and draws that are refused.
+/// a record that is twice in a sample or in both, and draws that are refused.
 pub fn contrast<S: AsRef<str>>(
     a: Drawn<'_, S>,
     b: Drawn<'_, S>,
@@ -240,7 +249,12 @@ impl<S: AsRef<str>> Drawn<'_, S> {
         if events > 0 && events != values {
             return Err(ContrastError::Events { events, values });
         }
-        Ok(())
+        let mut seen = BTreeSet::<&str>::new();
+        let mut names = self.records.iter().map(AsRef::as_ref);
+        match names.find(|name| !seen.insert(*name)) {
+            Some(name) => Err(ContrastError::Twice(name.to_owned())),
+            None => Ok(()),
+        }
     }
 
     fn half(&self) -> Half {
@@ -257,7 +271,7 @@ impl<S: AsRef<str>> Drawn<'_, S> {
     }
 }
 
-/// Refuses samples with a record in common; places are no names.
+/// Refuses samples with a record in common; places do not count as names.
 fn refuse_shared<S: AsRef<str>>(
     a: &Drawn<'_, S>,
     b: &Drawn<'_, S>,
@@ -274,7 +288,7 @@ fn refuse_shared<S: AsRef<str>>(
     }
 }
 
-/// The median, where it is a number.
+/// The median, if it is a number.
 fn median(sample: &CensoredSample) -> Option<f64> {
     let median = sample.quantile(QuantileType::default(), 0.5);
     median.filter(|median| median.is_finite())
@@ -316,31 +330,37 @@ fn ratio<S: AsRef<str>>(
         }
     }
     let names = ["contrast/a", "contrast/b", "contrast/both"];
-    let drawn =
-        names.iter().zip(&parts).filter(|(_, part)| !part.0.is_empty());
-    let drawn: Vec<Vec<Vec<usize>>> = drawn
+    let drawn = names.into_iter().zip(parts);
+    let drawn: Vec<(Vec<usize>, Bootstrap)> = drawn
+        .filter(|(_, (places, _))| !places.is_empty())
         .map(|(name, (places, labels))| {
             let clusters = Clusters::from_labels(labels);
-            let all = Bootstrap::of(name, seed, &clusters, replicates);
-            all.map(|draw| draw.iter().map(|&i| places[i]).collect())
+            (places, Bootstrap::of(name, seed, &clusters, replicates))
         })
         .collect();
+    let (first, second) = (a.sample, b.sample);
     let point = log(x / y);
-    let (mut low, mut high) = (Vec::new(), Vec::new());
-    for k in 0..replicates {
-        let places = drawn.iter().flat_map(|part| &part[k]);
+    let deviation = |index: u64| -> Option<f64> {
+        stop::point();
+        let places = drawn.iter().flat_map(|(places, draws)| {
+            draws.draw(index).into_iter().map(move |i| places[i])
+        });
         let (of_a, of_b): (Vec<usize>, Vec<usize>) =
-            places.partition(|place| **place < n);
+            places.partition(|place| *place < n);
+        if of_a.is_empty() || of_b.is_empty() {
+            return None;
+        }
         let of_b: Vec<usize> = of_b.iter().map(|place| place - n).collect();
-        let both = (!of_a.is_empty() && !of_b.is_empty())
-            .then(|| [a.sample.at(&of_a), b.sample.at(&of_b)])
-            .and_then(|[a, b]| Some((median(&a)?, median(&b)?)));
-        let found = both.map(|(x, y)| wider * (log(x / y) - point));
-        low.push(found.unwrap_or(f64::NEG_INFINITY));
-        high.push(found.unwrap_or(f64::INFINITY));
-    }
-    let open = low.iter().filter(|x| x.is_infinite()).count();
-    let end = |mut deviations: Vec<f64>, p: f64| {
+        let x = median(&first.at(&of_a))?;
+        let y = median(&second.at(&of_b))?;
+        Some(wider * (log(x / y) - point))
+    };
+    let found = (0..replicates as u64).into_par_iter().panic_fuse();
+    let found: Vec<Option<f64>> = found.map(deviation).collect();
+    let open = found.iter().filter(|x| x.is_none()).count();
+    let end = |if_open: f64, p: f64| {
+        let deviations = found.iter().map(|x| x.unwrap_or(if_open));
+        let mut deviations: Vec<f64> = deviations.collect();
         deviations.sort_by(f64::total_cmp);
         let place = p * (replicates - 1) as f64;
         let [below, above] = [place.floor(), place.ceil()];
@@ -350,8 +370,8 @@ fn ratio<S: AsRef<str>>(
     };
     Ok(MedianRatio {
         point: x / y,
-        low: end(low, 0.5 - 0.5 * LEVEL),
-        high: end(high, 0.5 + 0.5 * LEVEL),
+        low: end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL),
+        high: end(f64::INFINITY, 0.5 + 0.5 * LEVEL),
         level: LEVEL,
         open,
     })

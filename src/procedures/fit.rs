@@ -239,7 +239,7 @@ pub struct FragilityFit {
     pub n_limited: usize,
     /// Values left out because they equal the shift `min`.
     pub n_left_out: usize,
-    /// What is weak about the fit.
+    /// Weaknesses of the fit.
     pub remarks: Vec<FitRemark>,
     /// How the distribution was fitted.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]

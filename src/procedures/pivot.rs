@@ -74,7 +74,8 @@ pub struct FrictionNeed {
 /// ```
 ///
 /// # Errors
-/// [`IdaError::NotPositive`] for a coefficient that is not positive; as
+/// [`IdaError::NotPositive`] for a coefficient that is not positive,
+/// [`IdaError::Unmatched`] for levels of more or fewer records; as
 /// [`forces_at`].
 pub fn pivot_forces(
     records: &[NormalisedRecord],
@@ -85,6 +86,10 @@ pub fn pivot_forces(
     if let Some(&found) = friction.iter().find(|mu| !(**mu > 0.0)) {
         let what = "coefficient of friction";
         return Err(IdaError::NotPositive { what, found });
+    }
+    if records.len() != ims.len() {
+        let (records, levels) = (records.len(), ims.len());
+        return Err(IdaError::Unmatched { records, levels });
     }
     let pairs: Vec<_> = records.iter().zip(ims).collect();
     let of = |(record, ims): &(&NormalisedRecord, &Vec<f64>)| {
@@ -167,5 +172,15 @@ mod tests {
             let error = found.unwrap_err().to_string();
             assert!(error.contains("coefficient of friction"), "{error}");
         }
+    }
+
+    #[test]
+    fn levels_of_other_records_are_refused() {
+        let block = Block::try_new(0.1, 3.0).unwrap();
+        let analysis =
+            Analysis::paper(block, Restitution::constant(0.92).unwrap());
+        let found = pivot_forces(&[], &[vec![1.0]], &analysis, &[0.3]);
+        let expected = IdaError::Unmatched { records: 0, levels: 1 };
+        assert_eq!(found.unwrap_err(), expected);
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Generations differ in the line that counts: `NPTS=  4096, DT= .0100 SEC`
 //! with or without commas, unit, filter poles and blanks, and the oldest
-//! `4096  .0100  NPTS, DT` with the values first. What has no digit behind the
-//! samples (`*** End Data ***`) ends them.
+//! `4096  .0100  NPTS, DT` with the values first. Lines without a digit after
+//! the samples (`*** End Data ***`) are left out.
 
 use super::csv::bracketed;
 use super::number::{self, Reading};

@@ -2,8 +2,8 @@
 //! then for each channel a line and its samples in 8F10.3, in cm/s2.
 //!
 //! `1993/01/15 20:06:08   3 100 15700 KSR: Kushiro` states channels, samples
-//! a second and samples of each; `063-GL` in a channel's line is an azimuth
-//! and a place in or under the building. The peak behind it is checked.
+//! per second and samples per channel; `063-GL` in a channel's line is an
+//! azimuth and a place in or under the building. The peak behind it is checked.
 
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
@@ -13,7 +13,7 @@ use crate::units::AccelerationUnit;
 
 const LAYOUT: Layout = Layout::even(8, 10);
 
-/// What the first line says.
+/// What the first line states.
 struct Head<'a> {
     event: String,
     channels: usize,

@@ -46,8 +46,8 @@ fn check_first(
     forms: &Forms,
 ) -> Result<(), RecordError> {
     let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
-    let mut lines = text.lines().enumerate();
-    let mut lines = lines.by_ref().filter(|(_, line)| !line.starts_with('#'));
+    let lines = text.lines().enumerate();
+    let mut lines = lines.filter(|(_, line)| !line.starts_with('#'));
     let (index, line) = lines.next().unwrap_or_default();
     let interval = |line: &str| counted::interval(line).is_some();
     let whole = line.trim().bytes().all(|b| b.is_ascii_digit() || b == b'+');

@@ -1,13 +1,13 @@
-//! A name, number of samples and interval, samples: what many programs write
-//! for the next.
+//! A name, number of samples and interval, samples: many programs pass records
+//! on in this form.
 //!
 //! eqsig: a name, `910 0.0100`, one sample a line. EMOD3D: station and
 //! component, count and interval with six numbers more, six samples a line.
 //! RspMatch: a title, count, interval and another number, five samples a
-//! line. El Centro as teachers have it: `1559 points at equal spacing of 0.02
+//! line. El Centro as used in teaching: `1559 points at equal spacing of 0.02
 //! sec`, `The units are (g)`, `*** Begin data ***`, 8F10.5, `*** End Data
-//! ***`. Two lines, a count and an interval, may stand before one column.
-//! None but the fourth states a unit.
+//! ***`. Two lines, a count and an interval, may precede one column.
+//! Only the fourth states a unit.
 
 use super::csv::bracketed;
 use super::fields::{self, Forms, one_number};
@@ -25,7 +25,7 @@ const WORDS_LINES: usize = 6;
 /// Numbers of EMOD3D's second line.
 const EMOD3D: usize = 8;
 
-/// What the head says.
+/// What the head states.
 struct Head {
     count: usize,
     dt_s: f64,
@@ -48,11 +48,11 @@ fn head(text: &Text<'_>) -> Option<Head> {
     })
 }
 
-/// `910 0.0100`, and more numbers in some programs, above samples: one a line
-/// or more than two, or else these are times and samples.
+/// `910 0.0100`, and more numbers in some programs, above samples: not two per
+/// line, which would be times and samples.
 fn one_line(text: &Text<'_>, index: usize) -> Option<Head> {
-    let words: Vec<&str> =
-        text.line(index)?.split_ascii_whitespace().collect();
+    let words = text.line(index)?.split_ascii_whitespace();
+    let words: Vec<&str> = words.take(EMOD3D + 1).collect();
     let (count, dt_s) = (count(words.first()?)?, interval(words.get(1)?)?);
     let first = index + 1;
     let next = text.line(first).filter(|line| is_data(line))?;
@@ -84,7 +84,7 @@ fn in_words(text: &Text<'_>) -> Option<Head> {
     Some(Head { count, dt_s, numbers: 2, first })
 }
 
-/// A count and an interval on lines of their own, before so many samples.
+/// A count and an interval on lines of their own, before that many samples.
 fn two_lines(text: &Text<'_>) -> Option<Head> {
     let (count, dt_s) = (count(text.line(0)?)?, interval(text.line(1)?)?);
     let first = 2;
@@ -103,8 +103,8 @@ fn count(text: &str) -> Option<usize> {
     text.parse().ok().filter(|count| digits && *count >= 2)
 }
 
-/// A sampling interval that is written as such: a whole number of samples a
-/// second, or four decimals.
+/// A sampling interval in a usual form: a whole number of samples per second,
+/// or at most four decimals.
 pub(super) fn interval(text: &str) -> Option<f64> {
     let Reading::Finite(dt_s, form) = number::read(text.trim()) else {
         return None;

@@ -2,9 +2,10 @@
 //!
 //! Separator: semicolon, comma, tab or blanks. A header names the columns and
 //! may state their units (`time_ms`, `acc [m/s2]`); lines that begin with `#`
-//! are comments, and may state units in brackets. A cell may stand in quotes.
-//! A first column that is no time is refused, but for the running number that
-//! pandas writes under no name or `index`. The first sample counts as t = 0, whatever its time.
+//! are comments, and may state units in brackets. Cells may be quoted. A first
+//! column that is no time is refused, except the row number that pandas writes
+//! under no name or `index`. The first sample counts as t = 0, whatever its
+//! time.
 //! Lines dropped at either end leave no trace: an index's `npts` tells. A
 //! file that ends within a number is refused where the number's form tells
 //! it.
@@ -77,7 +78,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         if line.starts_with('#') {
             continue;
         }
-        let mut parts = split(line);
+        let parts = split(line);
         if head && !parts.iter().all(|p| number::is_number(p)) {
             numbered = is_numbered(line);
             let named = &parts[usize::from(numbered)..];
@@ -86,14 +87,18 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
             continue;
         }
         head = false;
-        if numbered {
-            let number = parts.remove(0);
-            if number.parse::<usize>() != Ok(times.len()) {
-                let expected = format!("{}, the row's number", times.len());
-                return Err(text.no_number(index, number, &expected));
+        let cells = match parts.as_slice() {
+            [number, cells @ ..] if numbered => {
+                let row = times.len();
+                if number.parse::<usize>() != Ok(row) {
+                    let expected = format!("{row}, the row's number");
+                    return Err(text.no_number(index, number, &expected));
+                }
+                cells
             }
-        }
-        let &[time, value] = parts.as_slice() else {
+            cells => cells,
+        };
+        let &[time, value] = cells else {
             let expected = "two numbers, time and acceleration";
             return Err(text.no_number(index, line, expected));
         };

@@ -32,9 +32,9 @@ impl Layout {
     }
 }
 
-/// The layout that at least half of the lines `first..end` have, if the numbers end one
-/// width apart, the first field being `missing` characters narrower; `None`
-/// for free text.
+/// The layout that at least half of the lines `first..end` have, if the
+/// numbers end one width apart, the first field being `missing` characters
+/// narrower; `None` for free text.
 ///
 /// The last line may be short. A file of one number a line is free text: its
 /// width says nothing.

@@ -182,8 +182,8 @@ impl Remark {
 fn and_others(more: usize) -> String {
     match more {
         0 => String::new(),
-        1 => ", and the like with 1 other".to_owned(),
-        more => format!(", and the like with {more} others"),
+        1 => ", and similar with 1 other".to_owned(),
+        more => format!(", and similar with {more} others"),
     }
 }
 

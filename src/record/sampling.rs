@@ -1,10 +1,10 @@
 //! The constant step of times that a program wrote.
 //!
 //! Programs write times with a fixed number of decimals or of significant
-//! digits, or hold them in single precision. A written time then says that
-//! the true one lies within a resolution of it. The step is one that all
-//! times of the file allow; times that allow none are refused where the
-//! first of them contradicts all before.
+//! digits, or hold them in single precision. The true time then lies within a
+//! resolution of the written one. The step is one that all times of the file
+//! allow. If there is none, the file is refused at the first time that
+//! contradicts those before it.
 
 use std::fmt;
 
@@ -27,7 +27,7 @@ pub enum Uneven {
     /// Fewer than two times.
     #[error("number of times: {0}: expected at least 2")]
     Few(usize),
-    /// A time that is no finite number.
+    /// A time that is not finite.
     #[error("a time that is not finite: expected a number of seconds")]
     NotFinite {
         /// Index of the time, from 0.
@@ -56,8 +56,8 @@ pub enum Uneven {
         /// Least and largest time in s that the times before allow.
         expected_s: (f64, f64),
     },
-    /// A time that is off the step, where a missing one would not show if the
-    /// times were rounded.
+    /// A time that is off the step, in times too coarse to show whether one is
+    /// missing.
     #[error(
         "time {found_s} s: expected {}, a constant step from the times before, or times with more digits",
         Shown(*found_s, *expected_s)
@@ -158,7 +158,7 @@ impl Digits {
     }
 
     /// Half a unit in s of the last digit with which `time_s` is written: the
-    /// last decimal of the file, or the last significant digit where that is
+    /// last decimal of the file, or the last significant digit if that is
     /// coarser. A zero that a program leaves out at the end is a digit, too.
     #[must_use]
     pub fn resolution_s(self, time_s: f64) -> f64 {
@@ -182,7 +182,7 @@ const SINGLE: f64 = 1.0 / (1_u32 << 24) as f64;
 /// in double precision.
 const SLACK: f64 = 1e-6;
 
-/// Part of the mean step that tells a missing time from a rounded one.
+/// Part of the mean step that distinguishes a missing time from a rounded one.
 const RESOLVED: f64 = 0.25;
 
 /// Part of the step by which the steps that fit may differ.
@@ -191,11 +191,10 @@ const DETERMINED: f64 = 0.01;
 /// The constant step of `times_s`, each of which is written to within
 /// `resolution_s` of its index.
 ///
-/// Where times are held in single precision, each may also be the rounded sum
-/// of the one before and the step. Of the steps
-/// that all times allow, the one with the fewest decimals or the largest
-/// whole number of times a second is taken, if it is the only one of its kind;
-/// else their middle.
+/// If times are held in single precision, each may also be the rounded sum of
+/// the one before and the step. Of the steps that all times allow, the one
+/// with the fewest decimals or of a whole number of times per second is taken,
+/// if it is the only one of its kind; else their middle.
 ///
 /// ```
 /// use rocking::record::sampling::{Digits, interval};
@@ -217,7 +216,7 @@ const DETERMINED: f64 = 0.01;
 ///
 /// # Errors
 /// [`Uneven`] for fewer than two times, times that do not increase, a time
-/// that contradicts a constant step, and times whose digits do not tell it.
+/// that contradicts a constant step, and times whose digits do not resolve it.
 pub fn interval(
     times_s: &[f64],
     resolution_s: impl Fn(usize) -> f64,
@@ -302,7 +301,7 @@ impl Steps {
     }
 
     /// The plainest step among these: the coarser its kind, the less likely
-    /// it is met by chance.
+    /// it fits by chance.
     fn plain(&self) -> f64 {
         let Self { least_s, most_s } = *self;
         let middle = 0.5 * (least_s + most_s);

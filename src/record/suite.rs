@@ -129,15 +129,14 @@ impl Suite {
     /// files of no known format, histories of velocity or displacement,
     /// vertical components, records of a sensor in a borehole (KiK-net),
     /// folders and links to nothing are set aside ([`Suite::set_aside`]), and
-    /// hidden files left out; any other fault refuses the suite. Where
-    /// [`ReadOptions::recursive`] says so, folders are entered, and their names
-    /// go before those of their records. Refused is also a
-    /// name that results cannot carry ([`result_name`](super::result_name)),
-    /// of a file or a record, or in a cell of an index. An index may list
-    /// vertical and borehole records; a remark says so. Pairs are found by
-    /// event and station where
-    /// the files name both, and otherwise by file name: what is left without
-    /// the orientation at its end.
+    /// hidden files left out; any other fault refuses the suite. If
+    /// [`ReadOptions::recursive`] is set, folders are read, too, and their
+    /// names precede those of their records. A name of a file or a record, or
+    /// a cell of an index, that results cannot carry
+    /// ([`result_name`](super::result_name)) is also refused. An index may
+    /// list vertical and borehole records; a remark says so. Pairs are found
+    /// by event and station if the files name both, else by file name: what is
+    /// left without the orientation at its end.
     ///
     /// # Errors
     /// [`SuiteError`] naming the folder, index or record, and the line.

@@ -172,8 +172,8 @@ impl<'a> Text<'a> {
     }
 
     /// Index of the line after the last one, from index `first` on, that has
-    /// a digit or is meant as a number: some programs write words behind
-    /// their numbers.
+    /// a digit or is meant as a number: some programs write words after their
+    /// numbers.
     pub(super) fn end_of_numbers(&self, first: usize) -> usize {
         let number = |index: &usize| {
             let line = self.line(*index).unwrap_or("");

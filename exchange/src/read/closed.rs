@@ -37,8 +37,8 @@ pub struct Closed<R> {
 }
 
 impl<R> Closed<R> {
-    /// The bytes of `from`, whose lines that begin with `comment` are none of
-    /// the table.
+    /// The bytes of `from`, whose lines that begin with `comment` are not part
+    /// of the table.
     pub fn new(from: R, comment: Option<u8>) -> Self {
         let place = Place::Line;
         Self { from, comment, place, mark: 0, line: 1, opened: 1 }

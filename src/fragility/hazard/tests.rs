@@ -69,6 +69,16 @@ fn what_is_no_curve_is_refused_with_its_line() {
         ),
         (
             OPENQUAKE.to_owned(),
+            of(Some(Site::Degrees(37.9, 123.7))),
+            "h.csv: found site 37.9,123.7: expected a longitude from -360",
+        ),
+        (
+            OPENQUAKE.to_owned(),
+            at(f64::NAN),
+            "h.csv: found site NaN,0: expected a longitude from -360",
+        ),
+        (
+            OPENQUAKE.to_owned(),
             of(Some(Site::Id("x".into()))),
             "h.csv: found no site x, and no column custom_site_id",
         ),
@@ -141,7 +151,7 @@ fn what_is_no_curve_is_refused_with_its_line() {
             "h.csv:1: found columns",
         ),
         ("".into(), none.clone(), "h.csv:1: found columns"),
-        // No analysis of hazard tells such a frequency.
+        // No hazard analysis gives such a frequency.
         (
             "pga_g,annual_frequency\n0.1,1\n1,5e-324\n".into(),
             none.clone(),
@@ -185,13 +195,20 @@ fn columns_of_openquake_are_found_by_name_and_sites_by_id() {
     assert_eq!(hazard.unit(), "g");
     assert_eq!(hazard.im, HazardMeasure::AverageSa);
     assert_eq!(hazard.remarks, [HazardRemark::Periods]);
-    // The date line parts no site from itself.
+    // A site on the date line has two longitudes.
     let points = |site| of(site).map(|hazard| hazard.curve.points().to_vec());
     assert_eq!(points("1:BC"), points("-179.999998,-10"));
     let two = of("15.2,37.5").unwrap_err();
     let words = "found several sites 15.2,37.5: 15.20000,37.50000 (0:CD), \
                  15.20000,37.50000 (0:BC): expected one site";
     assert!(two.contains(words), "{two}");
+    // However many other sites come before them.
+    let other = "9:BC,1.00000,2.00000,0.00000,4.0E-01,5.0E-02\n";
+    let rows = other.repeat(6) + "0:CD,15.2";
+    let text = WITH_IDS.replace("0:CD,15.2", &rows);
+    let site = Some(Site::Degrees(15.2, 37.5));
+    let two = parse(&text, &HazardOptions { site, years: None });
+    assert!(two.unwrap_err().contains(words));
     let none = of("BC").unwrap_err();
     assert!(none.contains("found no site BC among 3, such as"), "{none}");
     assert!(none.contains("(0:CD)"), "{none}");

@@ -82,8 +82,8 @@ fn records_of_one_earthquake_count_as_one() {
     assert!(half_width(&ask(&many, &[])) < 0.8 * half_width(&records));
     let p_value = by_event.kolmogorov_smirnov.p_value;
     assert_eq!(p_value, Err(ContrastError::Dependent));
-    let said = by_event.a.drawn.to_string();
-    assert_eq!(said, "36 records of 12 earthquakes; unit: earthquake");
+    let drawn = by_event.a.drawn.to_string();
+    assert_eq!(drawn, "36 records of 12 earthquakes; unit: earthquake");
     let one = contrast(of(&few, &labels(1, 12)), of(&other, &[]), DRAWS);
     let Err(error) = one.unwrap().median_ratio else { panic!() };
     assert_eq!(error, ContrastError::Few(1));
@@ -96,7 +96,7 @@ fn censored_values_leave_open_what_they_do() {
     let b = sample(&[1.0, 2.0, 3.0, 4.0]);
     let ask = |a: &CensoredSample| contrast(of(a, &[]), of(&b, &[]), DRAWS);
     let found = ask(&a).unwrap();
-    // Above 2.2 nothing is known of the fourth record.
+    // Above 2.2 nothing is known about the fourth record.
     let distance = &found.kolmogorov_smirnov;
     assert_eq!((distance.distance, distance.up_to), (0.0, Some(2.2)));
     assert_eq!((found.a.censored, found.a.median), (1, None));
@@ -113,6 +113,7 @@ fn what_makes_no_contrast_is_refused() {
     let (good, zero) = (sample(&[1.0, 2.0]), sample(&[1.0, 0.0]));
     let many = sample(&vec![1.0; 3001]);
     let names = ["x".to_owned(), "y".to_owned()];
+    let twice = ["x".to_owned(), "x".to_owned()];
     let places = ["1".to_owned(), "2".to_owned()];
     let named = |records| Drawn { records, ..of(&good, &[]) };
     let ask = |a: Drawn<'_, String>, b: Drawn<'_, String>| {
@@ -123,6 +124,7 @@ fn what_makes_no_contrast_is_refused() {
         (ask(of(&many, &[]), of(&good, &[])), "3001 values: expected"),
         (ask(of(&good, &names[..1]), of(&good, &[])), "1 earthquakes for 2"),
         (ask(named(&names), named(&names)), "record x is in both samples"),
+        (ask(of(&good, &[]), named(&twice)), "record x is twice in a sample"),
     ];
     for (found, expected) in refused {
         let error = found.unwrap_err();

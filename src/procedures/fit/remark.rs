@@ -1,10 +1,10 @@
-//! What is weak about a fit.
+//! Weaknesses of a fit.
 
 use std::fmt;
 
 use crate::statistics::CensoredSample;
 
-/// What is weak about a fit.
+/// A weakness of a fit.
 ///
 /// ```
 /// use rocking::procedures::{FitOptions, FitRemark, fit_sample};
@@ -19,9 +19,9 @@ use crate::statistics::CensoredSample;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FitRemark {
-    /// All other values are censored.
+    /// Only one value is not censored.
     OneValue {
-        /// How many.
+        /// Number of censored values.
         censored: usize,
     },
 }
@@ -43,8 +43,8 @@ impl fmt::Display for FitRemark {
         let Self::OneValue { censored } = self;
         write!(
             f,
-            "1 value, beside {censored} censored ones: median and dispersion \
-             rest on one observation"
+            "1 value and {censored} censored: median and dispersion rest on \
+             one observation"
         )
     }
 }

@@ -97,5 +97,5 @@ fn many_copies_of_a_record_have_a_remark_each() {
     let words = |k: usize| found[k][0].to_string();
     assert!(words(0).contains("with r001 about"), "{}", words(0));
     assert!(words(7).contains("with r000 about"), "{}", words(7));
-    assert!(words(599).contains("the like with 598 others"), "{}", words(599));
+    assert!(words(599).contains("similar with 598 others"), "{}", words(599));
 }

@@ -331,7 +331,7 @@ impl Row {
     }
 
     /// Reads the row's record from `content` and checks what the row says
-    /// about it. What only the caller states, `see` settles.
+    /// about it. `see` settles what only the caller states.
     pub(super) fn member(
         &self,
         content: &[u8],
@@ -352,7 +352,7 @@ impl Row {
         let dt_s = dt_s.or(options.dt_s);
         let read_options = ReadOptions { dt_s, unit, ..*options };
         let mut settled = settle_one(&self.file, content, &read_options)?;
-        // The row speaks of this file alone.
+        // The row describes only this file.
         if stated.dt {
             settled.dt?;
             (settled.dt, settled.record.given.dt) = (Ok(()), false);

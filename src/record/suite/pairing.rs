@@ -103,15 +103,17 @@ pub(super) fn check_pairs<M>(
     Ok(())
 }
 
-/// Refuses records that results could not tell apart.
+/// Refuses records that results could not distinguish.
 pub(super) fn check_names<M: Motion>(
     path: &str,
     members: &[SuiteMember<M>],
 ) -> Result<(), SuiteError> {
     let names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();
-    let path = || path.to_owned();
-    suite_names(&names)
-        .map(|_| ())
-        .map_err(|source| SuiteError::Names { path: path(), source })
+    match suite_names(&names) {
+        Ok(_) => Ok(()),
+        Err(source) => {
+            Err(SuiteError::Names { path: path.to_owned(), source })
+        }
+    }
 }

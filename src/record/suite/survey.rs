@@ -72,6 +72,7 @@ impl<K> Survey<K> {
         if path.is_dir() {
             let (mut files, mut others) = Default::default();
             contents(path, "", options.recursive, &mut files, &mut others)?;
+            others.sort_by(|a, b| a.file.cmp(&b.file));
             let names: Vec<String> = files.keys().cloned().collect();
             let bytes = |name: &str| {
                 let own = || path.join(name);
@@ -266,8 +267,8 @@ impl<M: Motion> Survey<SuiteMember<M>> {
     }
 }
 
-/// What the caller gave, over the files of a suite: which of it a file took,
-/// and the first file that states another.
+/// How the files of a suite take what the caller gave: which of it any file
+/// took, and the first file that contradicts it.
 #[derive(Default)]
 struct Seen {
     taken: Given,
@@ -285,7 +286,7 @@ impl Seen {
         record
     }
 
-    /// The first contradiction to what no file took.
+    /// The first contradiction of what no file took.
     fn unused<K>(self) -> impl Iterator<Item = Result<K, SuiteError>> {
         let dt = self.dt.filter(|_| !self.taken.dt);
         let unit = self.unit.filter(|_| !self.taken.unit);
@@ -302,7 +303,7 @@ fn container(path: &str) -> &str {
 
 /// A record of a folder as a member of the suite, unless it is vertical or
 /// from a borehole, or results cannot carry the file's name. The name of the
-/// folder `within` the suite's goes before the record's.
+/// folder `within` the suite's precedes the record's.
 fn horizontal(
     shown: &str,
     file: &str,
@@ -386,7 +387,6 @@ fn contents(
             }
         }
     }
-    others.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(())
 }
 

@@ -382,8 +382,8 @@ fn peers_search_results_are_an_index() {
     );
 }
 
-/// An interval and a unit are taken for the files that state none, however
-/// many others there are; what none takes and one contradicts is refused.
+/// An interval and a unit hold for the files that state none, however many
+/// others there are; what no file takes and one contradicts is refused.
 #[test]
 fn what_is_given_is_for_files_that_state_none() {
     let at2 = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere\n\
@@ -427,7 +427,7 @@ fn what_is_given_is_for_files_that_state_none() {
     let unit = "f/a.AT2: unit m/s2 was given: expected g, which the file";
     assert!(suite(&all[..1], None, si).unwrap_err().starts_with(unit));
     assert!(suite(&all[..1], Some(0.005), Some(g)).is_ok());
-    // A row of an index speaks of its file alone.
+    // A row of an index describes only its file.
     let index = "file,dt_s,units\na.AT2,0.02,g\n";
     let options = ReadOptions { unit: si, ..ReadOptions::default() };
     let found = Suite::from_index("i.csv", index.as_bytes(), &options, |_| {

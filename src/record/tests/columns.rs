@@ -96,7 +96,7 @@ fn two_columns_state_their_interval() {
 }
 
 /// Times with few digits are read by what their digits resolve, with a
-/// remark; where the step changes is told.
+/// remark; an error names the place where the step changes.
 #[test]
 fn times_have_the_digits_of_their_program() {
     let rows = |time: &dyn Fn(u32) -> String, n: u32| -> String {
@@ -167,6 +167,7 @@ fn quotes_and_numbered_rows_are_read() {
     refused_with(&[
         (",time,acc\n0,0,1\n2,1,2\n", "test:3: \"2\": expected 1, the row's"),
         (",time,acc\n0,0,1\n1,1\n", "test:3: \"1,1\": expected two"),
+        (",time,acc\n0,0,1\n\n1,1,2\n", "test:3: \"\": expected two"),
         ("n,time,acc\n0,0,1\n1,1,2\n", "test:1: begins with"),
         ("t,\"a\n0,1\n1,2\n", "test: no unit"),
         ("\"t\",\"a\"\n0,1\n1,\"2\n", "test:3: \"\\\"2\": expected"),

@@ -6,7 +6,7 @@ use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 
-/// Records of all stripes, at most: each is an observation.
+/// Most records in all stripes: each is an observation.
 const MOST_RECORDS: u64 = 1_000_000;
 
 /// The records run at one intensity.
@@ -66,11 +66,12 @@ pub struct CountsFit {
 /// # Errors
 /// [`FitError::Stripe`] for a stripe that counts more than its records, or
 /// lies not above the shift, [`FitError::Records`] for more than 1,000,000
-/// records. Where the likelihood has no maximum:
+/// records. If the likelihood has no maximum:
 /// [`FitError::NoneExceeded`] and [`FitError::AllExceeded`] for counts of one
-/// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] where one
-/// intensity parts stripes without from stripes with exceedances only,
-/// [`FitError::NotRising`] for shares that do not rise with the intensity.
+/// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] if one
+/// intensity separates stripes without exceedances from stripes with only
+/// exceedances, [`FitError::NotRising`] for shares that do not rise with the
+/// intensity.
 pub fn fit_counts(
     stripes: &[Stripe],
     shift: f64,
@@ -127,8 +128,8 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
         return Err(FitError::Records(records));
     }
     let (mut known, mut places) = (Vec::new(), Vec::new());
-    // The highest intensity that a record stood, the lowest one that a record
-    // exceeded the level at.
+    // The highest intensity at which a record did not exceed the level, and
+    // the lowest one at which a record did.
     let mut last_below = (f64::NEG_INFINITY, f64::NAN);
     let mut first_above = (f64::INFINITY, f64::NAN);
     let mut coefficients = 0.0;
@@ -176,9 +177,9 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     Ok((known, coefficients, found))
 }
 
-/// Whether the likelihood rises with 1/dispersion from 0, where all stripes
-/// have one probability: since it is concave, it has a maximum there or
-/// nowhere.
+/// Whether the likelihood rises with 1/dispersion from 0, at which all stripes
+/// have one probability: since it is concave, it otherwise has no maximum at a
+/// positive value.
 fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
     let sum = |of: &dyn Fn(&Stripe) -> f64| {
         stripes.iter().fold(0.0, |sum, stripe| sum + of(stripe))

@@ -136,7 +136,7 @@ pub enum FitError {
         /// Size of the sample.
         n: usize,
     },
-    /// Nothing is known but that each value is above a limit.
+    /// Each value is only known to be above a limit.
     #[error("all {0} values are censored: expected at least one that is not")]
     AllCensored(usize),
     /// All values are equal, to rounding.
@@ -144,7 +144,7 @@ pub enum FitError {
     Degenerate,
     /// One number may be every value.
     #[error(
-        "all {n} values, censored ones included, may be {value}: expected values that tell a dispersion"
+        "all {n} values, censored ones included, may be {value}: expected values that determine a dispersion"
     )]
     OneValue {
         /// The number.
@@ -178,7 +178,7 @@ pub enum FitError {
         /// Records run.
         n: u32,
     },
-    /// More records than memory and time are meant for.
+    /// Too many records for memory and time.
     #[error("{0} records in all stripes: expected at most 1000000")]
     Records(u64),
     /// No stripe has an exceedance.
@@ -193,7 +193,7 @@ pub enum FitError {
     AllExceeded,
     /// One stripe has records of both kinds, and parts the others.
     #[error(
-        "the stripe at {im} alone has both records that exceeded the level and records that did not: expected another such stripe, without which the counts tell no dispersion"
+        "only the stripe at {im} has both records that exceeded the level and records that did not: expected another such stripe, without which the counts determine no dispersion"
     )]
     OneMixedStripe {
         /// Its intensity.
@@ -201,7 +201,7 @@ pub enum FitError {
     },
     /// One intensity parts all stripes without from all with exceedance.
     #[error(
-        "every stripe up to {below} has no exceedance and every one from {above} on only exceedances: expected stripes with both, without which the counts tell no dispersion"
+        "every stripe up to {below} has no exceedance and every one from {above} on only exceedances: expected stripes with both, without which the counts determine no dispersion"
     )]
     Parted {
         /// The highest intensity without exceedance.
@@ -209,7 +209,7 @@ pub enum FitError {
         /// The lowest intensity with exceedances.
         above: f64,
     },
-    /// The shares of exceedance call for no rising fragility.
+    /// The shares of exceedance do not rise.
     #[error(
         "the shares of records that exceeded the level do not rise with the intensity: expected more exceedances at higher intensities"
     )]

@@ -146,13 +146,13 @@ fn counts_that_tell_no_dispersion_are_refused() {
     assert_eq!(refused(&[stripe(1.5, 0); 3]), FitError::NoneExceeded);
     assert_eq!(refused(&[stripe(1.5, 9); 3]), FitError::AllExceeded);
     assert_eq!(refused(&[]), FitError::NoneExceeded);
-    // More exceed where less shakes, and as many everywhere: also where all
-    // do at one intensity and none at a higher one.
+    // More exceed at the lower intensity, or as many at both: also if all do
+    // at the lower one and none at the higher.
     for falling in [(5, 2), (3, 3), (9, 0), (1, 1)] {
         let stripes = [stripe(1.5, falling.0), stripe(2.0, falling.1)];
         assert_eq!(refused(&stripes), FitError::NotRising, "{falling:?}");
     }
-    // What rises least has a fit.
+    // The least rise has a fit.
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 900 };
     let (least, more) = (stripe(1.5, 300), stripe(2.0, 301));
     assert!(fit_counts(&[least, more], 1.0).is_ok());

@@ -106,8 +106,8 @@ pub fn sign_equivalence(
     Ok(SignEquivalence { margin, p_lower, p_upper, p_value })
 }
 
-/// Ratios of Hodges and Lehmann's estimate, at most: their pairwise means
-/// are held together.
+/// Most ratios of Hodges and Lehmann's estimate, which holds all their
+/// pairwise means in memory.
 pub(super) const MOST: usize = 3000;
 
 /// The median of pairwise means of ln ratio, with its interval.

@@ -149,10 +149,10 @@ fn names_that_break_a_line_or_compute_are_refused() {
     }
 }
 
-/// A download has a folder for each event. Entered, records have its name
-/// before theirs, and stay distinct and in order.
+/// A download has a folder for each event, whose name precedes those of its
+/// records, so that they stay distinct and in order.
 #[test]
-fn folders_are_entered_where_it_is_asked_for() {
+fn folders_are_read_if_it_is_recursive() {
     let folder = Folder::new("recursive");
     for within in ["2", "10", "10/old", ".hidden"] {
         fs::create_dir_all(folder.0.join(within)).unwrap();

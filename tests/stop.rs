@@ -140,7 +140,7 @@ fn every_long_work_ends_where_a_stop_is_requested() {
     assert!(goes_on.is_empty(), "not stopped: {goes_on:?}");
 }
 
-/// However many threads are asked for, no more are started than help.
+/// No more threads are started than help.
 #[test]
 fn threads_are_capped() {
     let processors = std::thread::available_parallelism().unwrap().get();

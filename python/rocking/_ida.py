@@ -236,7 +236,7 @@ class Ida(Curves):
 
     _table: _rocking.IdaTable
     _run: _rocking.Run | None = field(default=None, repr=False)
-    """What was asked for; None for a table that was read."""
+    """The arguments of the run; None for a table that was read."""
 
     @cached_property
     def setting(self) -> dict[str, Any]:

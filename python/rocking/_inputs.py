@@ -196,7 +196,7 @@ class Record(Frozen):
     """A record of ground acceleration, linear between its samples.
 
     `remarks` says what is suspicious about the samples, as `rocking records`
-    does; a record of an array that has remarks warns of them.
+    does. A record that has remarks is made with a `UserWarning`.
 
     Parameters
     ----------
@@ -310,7 +310,7 @@ class Record(Frozen):
 
         Refused are an index of whole numbers, as pandas numbers the rows of a
         table (`Record(series, dt, units=...)` takes the samples alone), and a
-        trace whose `stats.calib` is not 1: ObsPy does not tell whether its
+        trace whose `stats.calib` is not 1: ObsPy does not record whether its
         data were multiplied by it.
 
         >>> import pandas
@@ -458,9 +458,9 @@ def read_record(
     PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC,
     AFAD, GeoNet, BRI, and samples below a count and an interval (eqsig,
     EMOD3D, RspMatch). A file of several components is refused: `read_suite`
-    takes the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are
-    needed where the file states none, and refused where they contradict it.
-    What is suspicious is in `remarks`, and warned of.
+    takes the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2")
+    are needed if the file states none, and refused if they contradict it. What
+    is suspicious is in `remarks` and in a `UserWarning`.
 
     Raises
     ------

@@ -239,9 +239,9 @@ class FragilityFit(_Fit):
     n_limited: int
     """Censored values whose limit is known."""
     n_left_out: int
+    """Values left out because they equal the shift "min"."""
     remarks: tuple[str, ...]
     """What is weak about the fit."""
-    """Values left out because they equal the shift "min"."""
     method: str
     fitted: Fragility
     shift_interval: ShiftInterval | None

@@ -1,5 +1,5 @@
 """As many curves as records, whatever the records are made of and called;
-what is suspicious about them is told."""
+a warning says what is suspicious about them."""
 
 import csv
 import json

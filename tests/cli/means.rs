@@ -73,7 +73,7 @@ fn threads_that_cannot_be_started_are_a_refusal() {
     assert!(error.contains("threads cannot be started: "), "{error}");
 }
 
-/// What cannot be allocated is said, and the status is that of SIGABRT. The
+/// A message says what cannot be allocated; SIGABRT gives the status. The
 /// program fits into 200 MB of addresses; four million values do not.
 #[cfg(target_os = "linux")]
 #[test]

@@ -16,7 +16,6 @@ fn pages_show_the_committed_results() {
     for page in PAGES {
         let text = read(page);
         let expected = results(&findings).renewed(page, &text).unwrap();
-
         assert!(
             text == expected,
             "{page}: other results than those of reports/, expected as \

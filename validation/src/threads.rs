@@ -56,8 +56,8 @@ impl Signals {
     }
 }
 
-/// Whether the program was started to ignore a signal. Where the system does
-/// not tell, that is assumed of SIGHUP, which `nohup` has ignored.
+/// Whether the program was started to ignore a signal. If the system does not
+/// say, SIGHUP counts as ignored, as `nohup` has it.
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

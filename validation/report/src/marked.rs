@@ -1,5 +1,5 @@
-//! Results of this program in pages that are written by hand: they stand
-//! between marks, and nobody types them.
+//! Results of this program in pages that are written by hand: the program
+//! writes them between marks.
 
 use anyhow::{Context as _, bail};
 

@@ -94,9 +94,9 @@ fn laid_out(files: Files) -> Files {
 }
 
 /// The report's files: `index.html`, numbers in `data/`, drawings in
-/// `figures/`, and the manifest of all of them. The page shows `proof`, the results of the declared cases,
-/// if they were handed in. It links [`lab::LAB`](crate::lab::LAB) where that
-/// lies beside it.
+/// `figures/`, and the manifest of all of them. The page shows `proof`, the
+/// results of the declared cases, if they were handed in. It links
+/// [`lab::LAB`](crate::lab::LAB) if that lies beside it.
 ///
 /// # Errors
 /// Where a figure cannot be drawn, and for two files of one name.

@@ -54,7 +54,7 @@ pub struct Args {
 const PINS: &str = "tests/pins";
 /// Folder of the committed report.
 const REPORTS: &str = "reports";
-/// The example of the README: what its objects say first stands there.
+/// The example of the README, which shows the first paragraph that it prints.
 const EXAMPLE: &str = "assess --objects examples/museum/objects.csv \
                        --hazard examples/museum/hazard.csv --out";
 /// Results of the declared cases.
@@ -284,7 +284,8 @@ fn gather(
     Ok(())
 }
 
-/// What `rocking assess` says first of the example, in lines as the README's.
+/// The first paragraph that `rocking assess` prints of the example, in lines
+/// as the README's.
 fn assessed() -> Result<String, Failure> {
     note("the example of the README");
     let place = tempfile::tempdir()?;

@@ -67,7 +67,7 @@ impl ReadArgs {
         }
     }
 
-    /// Tells for how many records the flags were taken, and with `--strict`
+    /// Notes for how many records the flags were taken, and with `--strict`
     /// refuses remarks on records and what was set aside beside them.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! `rocking records`: what is in record files, and why one is refused.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
@@ -340,16 +341,17 @@ impl Listing {
             Fault::IntervalConflict { .. } => !dt,
             _ => !unit,
         };
-        for error in self.contradicted.iter().filter(unused) {
-            let within = |listed: &Listed| {
-                let rest = listed.file.strip_prefix(error.file());
-                rest.is_some_and(|rest| {
-                    matches!(rest.get(..1), None | Some(":"))
-                })
-            };
-            self.records.retain(|listed| !within(listed));
-            self.refused.push(Finding::from(error));
-        }
+        let unused = self.contradicted.iter().filter(unused);
+        let unused: Vec<&RecordError> = unused.collect();
+        let files: BTreeSet<&str> = unused.iter().map(|e| e.file()).collect();
+        // A file of several components has them behind colons.
+        self.records.retain(|listed| {
+            let file = listed.file.as_str();
+            let ends = file.match_indices(':').map(|(end, _)| end);
+            let mut ends = ends.chain([file.len()]);
+            !ends.any(|end| files.contains(&file[..end]))
+        });
+        self.refused.extend(unused.into_iter().map(Finding::from));
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {

@@ -234,7 +234,7 @@ fn a_plan_is_checked_when_it_is_read() {
         ("/blocks/0/alpha_rad", json!(2.0), "block_0: "),
         ("/blocks/0/eta", json!(1.5), "block_0: "),
         ("/blocks/0/id", json!("a b"), "found `a b`"),
-        ("/blocks/1/id", json!("block_0"), "two blocks are block_0"),
+        ("/blocks/1/id", json!("block_0"), "two blocks are named block_0"),
         ("/blocks/1/alpha_rad", json!(0.08), "block_1 is the same block as"),
         ("/records", json!([]), "0 records"),
         ("/records/0/0", json!("../../a"), "that a file can have"),

@@ -42,8 +42,8 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let part = self.part.take();
         if self.moving {
-            // The mark stays; without its lock it tells that its run ended,
-            // where there are no locks, too.
+            // The mark stays. Without its lock file it says that its run has
+            // ended, even if the file system has no locks.
             let lock = part.map(|(part, _)| part.join(LOCK));
             let _ = lock.map(|lock| system::remove_file(&lock));
             return;
@@ -102,7 +102,7 @@ impl Folder {
         // From here on it is removed where anything fails.
         let (_, lock) = folder.part.insert((part, system::create(&lock)?));
         system::lock(lock)?;
-        // Tells that its owner had the lock.
+        // A lock file with content had an owner.
         system::add(lock, b"locked\n")?;
         Ok(folder)
     }
@@ -124,7 +124,8 @@ impl Folder {
     }
 
     /// Writes `files`, by their paths below the folder. Those named `last`
-    /// tell that all are there: they go first and come last, in this order.
+    /// show that all are there: they are removed first and put into place
+    /// last, in this order.
     ///
     /// # Errors
     /// [`WriteError`] naming the file. Before all files are complete, nothing
@@ -214,7 +215,7 @@ impl Folder {
     }
 
     /// Sets the mark, which lists all files that this run and earlier ones
-    /// may have put into place; gives those of earlier ones.
+    /// may have put into place, and returns what earlier ones left.
     fn mark(&self, files: &BTreeMap<String, Vec<u8>>) -> io::Result<Earlier> {
         let own = self.part.as_ref().map(|(part, _)| part.as_path());
         let mut earlier = Earlier::of(&self.path, own)?;
@@ -255,9 +256,9 @@ struct Earlier {
 }
 
 impl Earlier {
-    /// By the marks in `folder`, but for that of the run whose unfinished
-    /// folder is `own`; refuses a folder into which another run is putting
-    /// files.
+    /// What the marks in `folder` list, without the mark in `own`, the
+    /// unfinished folder of this run. Refuses a folder into which another run
+    /// is putting files.
     fn of(folder: &Path, own: Option<&Path>) -> io::Result<Self> {
         let (mut text, mut parts) = (String::new(), Vec::new());
         for part in moving(folder).filter(|part| Some(&**part) != own) {
@@ -307,8 +308,8 @@ fn busy(part: &Path) -> io::Error {
     io::Error::new(
         io::ErrorKind::ResourceBusy,
         format!(
-            "another run writes there: expected to be the only one; where \
-             none runs, remove {}",
+            "another run writes there: expected to be the only one; if none \
+             is running, remove {}",
             part.join(LOCK).display()
         ),
     )

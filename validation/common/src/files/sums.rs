@@ -44,7 +44,7 @@ pub enum Mixed {
         /// What is there.
         found: String,
     },
-    /// A line of the manifest is none.
+    /// A line of the manifest has another form.
     #[error(
         "{SUMS}:{line}: found {found:?}: expected a SHA-256, two spaces and \
          the path of a file in the folder"
@@ -90,7 +90,7 @@ pub fn is_whole(folder: &Path) -> Result<bool, Mixed> {
     Ok(true)
 }
 
-/// The sums of a text and their paths; other lines are none.
+/// The sums of a text and their paths; other lines are left out.
 pub(super) fn listed(text: &str) -> impl Iterator<Item = (&str, &str)> {
     text.lines().filter_map(parsed)
 }

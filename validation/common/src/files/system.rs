@@ -137,7 +137,7 @@ fn has_no_locks(error: &io::Error) -> bool {
         || NONE.iter().any(|none| code == Some(none.raw_os_error()))
 }
 
-/// Stands before each call; a test makes it fail.
+/// Comes before each call; a test makes it fail.
 #[cfg(not(test))]
 fn begin(_: &str) -> io::Result<()> {
     Ok(())
@@ -155,7 +155,7 @@ pub(super) mod faults {
     /// Which calls fail, and how.
     #[derive(Clone, Copy, Debug)]
     pub struct Fault {
-        /// Their name; any where there is none.
+        /// Their name; none for all calls.
         pub call: Option<&'static str>,
         /// How many such calls are made before.
         pub after: usize,

@@ -301,7 +301,7 @@ fn committed() -> std::path::PathBuf {
 
 #[cfg(test)]
 impl Proof {
-    /// The committed results, of which so many fail.
+    /// The committed results, of which the first `failed` are made to fail.
     pub(crate) fn committed(failed: usize) -> Self {
         let text = |name| read(&committed().join(name)).expect(name);
         let results = text(RESULTS).replacen(

@@ -1,5 +1,5 @@
-//! What a plan is held to, when it is made and whenever it is read: its
-//! folder is shared, and input like any other.
+//! What a plan must satisfy, when it is made and whenever it is read: its
+//! folder is shared, so it is input like any other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,37 +16,33 @@ const MOST_ANALYSES: f64 = 1e12;
 impl Plan {
     /// Refuses another form, and settings out of range.
     pub(super) fn check_settings(&self) -> Result<(), String> {
-        let refuse = |words: String| Err(words);
         if self.schema != SCHEMA {
-            return refuse(format!(
-                "schema {}: expected {SCHEMA}",
-                self.schema
-            ));
+            return Err(format!("schema {}: expected {SCHEMA}", self.schema));
         }
         let step = match self.levels {
             Levels::StepIm(step) | Levels::StepPgaG(step) => step,
         };
         if !(step > 0.0 && step.is_finite()) {
-            return refuse(format!("step {step}: expected a positive number"));
+            return Err(format!("step {step}: expected a positive number"));
         }
         if !(2..=MOST_REPLICATES).contains(&self.replicates) {
-            return refuse(format!(
+            return Err(format!(
                 "{} replicates: expected 2 to {MOST_REPLICATES}",
                 self.replicates
             ));
         }
         if self.demands.is_empty() {
-            return refuse("no demands: expected one or more".into());
+            return Err("no demands: expected one or more".into());
         }
         let mut seen = BTreeSet::new();
         for demand in &self.demands {
             if !(*demand > 0.0 && *demand <= 1.0) {
-                return refuse(format!(
+                return Err(format!(
                     "demand {demand}: expected a number above 0, at most 1"
                 ));
             }
             if !seen.insert(demand.to_string()) {
-                return refuse(format!(
+                return Err(format!(
                     "demand {demand} comes again: expected each once"
                 ));
             }
@@ -54,8 +50,8 @@ impl Plan {
         Ok(())
     }
 
-    /// Refuses blocks that are none or the same, and tiles that do not hold
-    /// each block once.
+    /// Refuses blocks out of range, blocks or names that come twice, and tiles
+    /// that do not hold each block once.
     pub(super) fn check_blocks(&self) -> Result<(), String> {
         let (mut ids, mut same) = (BTreeSet::new(), BTreeMap::new());
         for given in &self.blocks {
@@ -64,7 +60,7 @@ impl Plan {
                 .map_err(|e| format!("{id}: {}", e.message))?;
             if !ids.insert(id) {
                 return Err(format!(
-                    "two blocks are {id}: expected a name of its own"
+                    "two blocks are named {id}: expected different names"
                 ));
             }
             if let Some(first) = same.insert(given.cells(), id) {

@@ -1,17 +1,19 @@
-//! Tells the program the commit of its sources, for `rocking --version` and
-//! for reports that are issued.
+//! Gives the command and the Python package the commit of their sources, for
+//! `rocking --version`, IDA tables and assessments.
 
 use std::fs;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-/// What the program is built from, beside this package's folder.
-const SOURCES: [&str; 10] = [
+/// Sources of the command and of the Python package.
+const SOURCES: [&str; 12] = [
     "../Cargo.lock",
     "../Cargo.toml",
     "../exchange",
     "../fixtures",
     "../parquet",
+    "../python/Cargo.lock",
+    "../python/src",
     "../score",
     "../src",
     "../surrogate",

@@ -104,7 +104,7 @@ pub fn assess(
             .to_owned(),
         false => format!("The motions are {} records.", records.len()),
     };
-    let program = concat!("rocking ", env!("CARGO_PKG_VERSION")).to_owned();
+    let program = crate::SOFTWARE.to_owned();
     let about =
         About { ground, provenance: vec![("Program".to_owned(), program)] };
     let found = work::run(py, threads, None, 0, |_| {

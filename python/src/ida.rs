@@ -104,7 +104,7 @@ pub fn ida<'py>(
     })?
     .map_err(refuse)?;
     let curves = found.into_iter().flatten().collect::<Vec<_>>();
-    let about = ("none", concat!("rocking ", env!("CARGO_PKG_VERSION")));
+    let about = ("none", crate::SOFTWARE);
     let named = records.iter().map(Accelerogram::name).zip(known);
     let known: BTreeMap<&str, (String, String)> = named.collect();
     let known = |record: &str| known.get(record).cloned().unwrap_or_default();

@@ -17,6 +17,15 @@ mod work;
 
 /// Native functions of the package `rocking`; its public names are in
 /// `rocking` itself.
+/// Name, version and commit of the program, for tables and assessments.
+const SOFTWARE: &str = concat!(
+    "rocking ",
+    env!("CARGO_PKG_VERSION"),
+    " (commit ",
+    env!("ROCKING_COMMIT"),
+    ")"
+);
+
 #[pyo3::pymodule(gil_used = false)]
 mod _rocking {
     use pyo3::prelude::*;

@@ -4,6 +4,7 @@ a warning says what is suspicious about them."""
 import csv
 import json
 import pickle
+import re
 import subprocess
 import warnings
 from collections.abc import Callable, Sequence
@@ -178,7 +179,7 @@ def test_a_gap_in_single_precision_times_is_refused() -> None:
     times = (np.arange(20_000) * 0.005).astype(np.float32)
     times[15_000:] += np.float32(0.005)
     series = pd.Series(np.sin(times), index=times)
-    with pytest.raises(ValueError, match=r"row 15000: time 75.00499\d* s: expected 75 s"):
+    with pytest.raises(ValueError, match=r"row 15000: time 75.00499\d* s"):
         rk.Record.of(series, units="g")
 
 
@@ -240,7 +241,11 @@ def test_remarks_reach_the_table_as_the_command_line_writes_them(
     words = ["ida", "--alpha", 0.2, "--p", 3, "--suite", folder]
     command(*words, "--out", table)
     rk.ida(BLOCK, suite).to_csv(own)
-    assert own.read_bytes() == table.read_bytes()
+
+    def without_build(file: Path) -> str:
+        return re.sub(r",rocking [^,]*,1\n", "\n", file.read_text())
+
+    assert without_build(own) == without_build(table)
     cells = [row["remarks"] for row in csv.DictReader(own.open())]
     codes = {code for cell in cells for code in cell.split()}
     assert codes >= {"last-line", "offset", "duplicate", "units"}

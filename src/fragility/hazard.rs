@@ -435,12 +435,16 @@ fn site<'a>(
     rows: impl Iterator<Item = Result<Row<'a>, Faulty>>,
     wanted: Option<&Site>,
 ) -> Result<Row<'a>, Faulty> {
-    if let Some(Site::Degrees(lon, lat)) = wanted
-        && !(lon.abs() <= 360.0 && lat.abs() <= 90.0)
-    {
+    let within = |at: Option<usize>, (lon, lat): (f64, f64)| {
+        if lon.abs() <= 360.0 && lat.abs() <= 90.0 {
+            return Ok((lon, lat));
+        }
         let expected = "a longitude from -360 to 360 and a latitude from \
                         -90 to 90 degrees";
-        return Err(fault(None, format!("site {lon},{lat}"), expected));
+        Err(fault(at, format!("site {lon},{lat}"), expected))
+    };
+    if let Some(Site::Degrees(lon, lat)) = wanted {
+        within(None, (*lon, *lat))?;
     }
     let place = |name: &str| columns.iter().position(|own| *own == name);
     let [lon, lat] = [SITE[0], SITE[1]].map(|own| place(own).unwrap_or(0));
@@ -455,6 +459,7 @@ fn site<'a>(
     for row in rows {
         let row = row?;
         let own = (number(row.0, row.1[lon])?, number(row.0, row.1[lat])?);
+        let own = within(Some(row.0), own)?;
         all += 1;
         let is_it = match wanted {
             None => true,

@@ -82,6 +82,11 @@ fn what_is_no_curve_is_refused_with_its_line() {
             of(Some(Site::Id("x".into()))),
             "h.csv: found no site x, and no column custom_site_id",
         ),
+        (
+            OPENQUAKE.replacen("0.00000,", "nan,", 1),
+            at(0.0),
+            "h.csv:3: found site NaN,",
+        ),
         (OPENQUAKE.replace("depth", "lon"), at(0.0), "found column `lon`"),
         (OPENQUAKE.replace("depth", "lat"), at(0.0), "found column `lat`"),
         (

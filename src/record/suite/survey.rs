@@ -354,7 +354,11 @@ fn contents(
     files: &mut BTreeMap<String, PathBuf>,
     others: &mut Vec<Aside>,
 ) -> Result<(), SuiteError> {
-    let path = &root.join(within);
+    // Joined to nothing, it would end in a separator.
+    let path = &match within {
+        "" => root.to_owned(),
+        _ => root.join(within),
+    };
     let fail = |error: std::io::Error| SuiteError::Unreadable {
         path: path.display().to_string(),
         reason: error.to_string(),

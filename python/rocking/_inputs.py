@@ -381,10 +381,8 @@ def _unpickled(
 def _interval(index: Any) -> float:
     """Interval in s of a regular index, by the rule for times in files."""
     times = np.asarray(index)
-    resolution = None
     if times.dtype.kind in "mM":
-        times = (times - times[:1]) / np.timedelta64(1, "ns") * 1e-9
-        resolution = 0.5e-9
+        times = (times - times[:1]) / np.timedelta64(1_000_000_000, "ns")
     elif times.dtype.kind in "iu":
         raise ValueError(
             "index of whole numbers, as pandas numbers rows: expected times "
@@ -395,7 +393,7 @@ def _interval(index: Any) -> float:
         raise ValueError(
             f"index of {times.dtype}: expected times in s, or time steps"
         )
-    return _rocking.sampling_interval(times.astype(np.float64), resolution)
+    return _rocking.sampling_interval(times.astype(np.float64))
 
 
 @dataclass(frozen=True)

@@ -137,9 +137,7 @@ def read_record(
     units: str | None,
     gravity: float,
 ) -> _Read: ...
-def sampling_interval(
-    times_s: _Floats, resolution_s: float | None
-) -> float: ...
+def sampling_interval(times_s: _Floats) -> float: ...
 def read_suite(
     path: str | os.PathLike[str],
     dt: float | None,

@@ -37,19 +37,14 @@ pub fn choose<T: Copy>(
     })
 }
 
-/// The constant step in s of an index of times in s: each is known to within
-/// a resolution, or as far as its digits go.
+/// The constant step in s of an index of times in s, as far as their digits
+/// determine it.
 #[pyfunction]
-pub fn sampling_interval(
-    times_s: PyReadonlyArray1<'_, f64>,
-    resolution_s: Option<f64>,
-) -> PyResult<f64> {
+pub fn sampling_interval(times_s: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
     let times = times_s.as_slice()?;
     let digits = Digits::of(times);
-    let within = |i: usize| {
-        resolution_s.unwrap_or_else(|| digits.resolution_s(times[i]))
-    };
-    let found = interval(times, within).map_err(|fault| {
+    let found = interval(times, |i| digits.resolution_s(times[i]));
+    let found = found.map_err(|fault| {
         let row =
             fault.index().map_or(String::new(), |i| format!(" row {i}:"));
         refuse(format!("index:{row} {fault}"))

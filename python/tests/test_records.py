@@ -170,6 +170,11 @@ def test_single_precision_times_have_the_step_that_was_meant(
         assert abs(found * rate - 1.0) < 1e-7
         if index is not single and rate != 1000 / 3:
             assert found == 1.0 / rate
+    for unit in ("ms", "us", "ns"):
+        if rate <= 300 and (count > 200 or unit != "ms"):
+            steps = pd.to_timedelta(times, unit="s").round(unit).as_unit(unit)
+            found = rk.Record.of(pd.Series(values, index=steps), units="g")
+            assert abs(found.dt * rate - 1.0) < 1e-6, unit
     steps = pd.to_timedelta(times, unit="s")
     found = rk.Record.of(pd.Series(values, index=steps), units="g").dt
     assert abs(found * rate - 1.0) < 1e-7

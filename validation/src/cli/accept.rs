@@ -303,10 +303,11 @@ fn assessed() -> Result<String, Failure> {
     Ok(wrapped(first))
 }
 
-/// Lines of at most 79 characters.
+/// Lines of at most 79 characters; `%` stays with its number.
 fn wrapped(text: &str) -> String {
     let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
+    let text = text.replace(" %", "\u{a0}%");
+    for word in text.split_ascii_whitespace() {
         let last = lines.len() - 1;
         if lines[last].is_empty() {
             lines[last] = word.into();
@@ -316,7 +317,7 @@ fn wrapped(text: &str) -> String {
             lines.push(word.into());
         }
     }
-    lines.join("\n")
+    lines.join("\n").replace('\u{a0}', " ")
 }
 
 /// Work counters, results of the declared cases and digits of each

@@ -134,7 +134,8 @@ pub fn visit<K, E: From<SuiteError>>(
 /// it (1 MiB and 85 KiB, if it is small), and no two of its files may have
 /// bytes in common. Reading 1 MiB takes less than 64 MiB of memory and a
 /// command that reads it less than 256 MiB, whoever packed it
-/// (`tests/memory.rs`).
+/// (`tests/memory.rs`); `study`, which keeps what all its figures draw, takes
+/// more where the file holds a valid record.
 ///
 /// # Errors
 /// As [`visit`].

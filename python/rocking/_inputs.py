@@ -489,13 +489,17 @@ def read_suite(
     units: Units | None = None,
     gravity: float = STANDARD_GRAVITY,
     component: Component = "study",
+    recursive: bool = False,
 ) -> Suite:
     """Reads a folder of record files, or an index (CSV, one row a file).
 
     Of each pair the component that the study uses, or with
     `component="both"` both. Columns of the index are the records'
-    `attributes`. What is suspicious about a record is in its `remarks`; a
-    `UserWarning` counts such records. What in a folder is no record of the
+    `attributes`. `dt` and `units` serve the files that state none; a
+    `UserWarning` counts these if there are others. With `recursive=True` the
+    folders in a folder are entered, and names begin with theirs. What is
+    suspicious about a record is in its `remarks`; a `UserWarning` counts such
+    records. What in a folder is no record of the
     suite, such as vertical components and files in no known format, is set
     aside with a `UserWarning` that counts it.
 
@@ -515,7 +519,18 @@ def read_suite(
     ['first', 'second']
     """
     both = _both(component)
-    name, aside, records = _rocking.read_suite(path, dt, units, gravity, both)
+    name, aside, given, records = _rocking.read_suite(
+        path, dt, units, gravity, both, recursive
+    )
+    for flag, count, what in zip(
+        ("dt", "units"), given, ("interval", "unit"), strict=True
+    ):
+        if 0 < count < len(records):
+            warnings.warn(
+                f"suite {name}: {flag}: taken for {count} of {len(records)} "
+                f"records, whose files state no {what}",
+                stacklevel=2,
+            )
     if aside:
         warnings.warn(f"suite {name}: set aside: {aside}", stacklevel=2)
     suite = Suite(name, tuple(Record._read(*record) for record in records))

@@ -144,7 +144,8 @@ def read_suite(
     units: str | None,
     gravity: float,
     both: bool,
-) -> tuple[str, str, list[_Read]]: ...
+    recursive: bool,
+) -> tuple[str, str, tuple[int, int], list[_Read]]: ...
 def embedded_suite(name: str, both: bool) -> list[_Read]: ...
 def respond(
     block: _Block,

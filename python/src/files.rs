@@ -7,8 +7,8 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::record::{
-    self, Accelerogram, ReadOptions, RecordError, Remark, Remarked, Suite,
-    remarks, remarks_together,
+    self, Accelerogram, Given, ReadOptions, RecordError, Remark, Remarked,
+    Suite, remarks, remarks_together,
 };
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
@@ -84,8 +84,11 @@ pub fn read_record<'py>(
     Ok(to_python(py, record, attributes, &remarks))
 }
 
-/// The name of a suite, what was set aside, and its records; of pairs the
-/// study component alone, unless `both`.
+/// Name, what was set aside, the numbers of records whose files state no
+/// interval and no unit, records.
+type ReadSuite<'py> = (String, String, (usize, usize), Vec<Read<'py>>);
+
+/// A suite; of pairs only the study component, unless `both`.
 #[pyfunction]
 pub fn read_suite<'py>(
     py: Python<'py>,
@@ -94,8 +97,9 @@ pub fn read_suite<'py>(
     units: Option<&str>,
     gravity: f64,
     both: bool,
-) -> PyResult<(String, String, Vec<Read<'py>>)> {
-    let options = options(dt, units, gravity)?;
+    recursive: bool,
+) -> PyResult<ReadSuite<'py>> {
+    let options = ReadOptions { recursive, ..options(dt, units, gravity)? };
     let suite = work::alone(py, || Suite::read(&path, &options))?
         .map_err(|e| refuse_at(&path, e))?;
     let members = suite.members().iter();
@@ -105,6 +109,10 @@ pub fn read_suite<'py>(
         let all = members.iter().map(|member| Remarked::from(*member));
         remarks_together(&all.collect::<Vec<_>>())
     })?;
+    let count = |is: fn(&Given) -> bool| {
+        members.iter().filter(|member| is(&member.given)).count()
+    };
+    let given = (count(|given| given.dt), count(|given| given.unit));
     let records =
         members.into_iter().zip(&together).map(|(member, remarks)| {
             let mut attributes = member.attributes_by_name();
@@ -121,7 +129,7 @@ pub fn read_suite<'py>(
             to_python(py, &member.accelerogram, attributes, remarks)
         });
     let (name, aside) = (suite.name(), suite.set_aside().to_string());
-    Ok((name.to_owned(), aside, records.collect()))
+    Ok((name.to_owned(), aside, given, records.collect()))
 }
 
 /// An embedded suite, as `read_suite` gives one from files.

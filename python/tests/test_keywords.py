@@ -174,7 +174,13 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
         "read_suite": (
             rk.read_suite,
             all_,
-            {"dt": 0.02, "units": "g", "gravity": 9.81, "component": "both"},
+            {
+                "dt": 0.02,
+                "units": "g",
+                "gravity": 9.81,
+                "component": "both",
+                "recursive": ({"path": at["pair"].parent}, True),
+            },
         ),
         "embedded_suite": (
             rk.embedded_suite,

@@ -244,6 +244,24 @@ def test_an_array_is_no_excitation() -> None:
         rk.respond(BLOCK, np.zeros(3))  # type: ignore[arg-type]
 
 
+def test_what_is_given_serves_the_files_that_state_none(
+    tmp_path: Path,
+) -> None:
+    inner = tmp_path / "event"
+    inner.mkdir()
+    (inner / "column.txt").write_text("0.0\n1.0\n-1.0\n")
+    (tmp_path / "own.csv").write_text("t_s,a_g\n0,0\n0.1,1\n0.2,-1\n")
+    words = "{}: taken for 1 of 2 records, whose files state no {}"
+    with (
+        pytest.warns(UserWarning, match=words.format("dt", "interval")),
+        pytest.warns(UserWarning, match=words.format("units", "unit")),
+    ):
+        suite = rk.read_suite(tmp_path, dt=0.5, units="g", recursive=True)
+    assert {r.name: r.dt for r in suite} == {"event/column": 0.5, "own": 0.1}
+    with pytest.warns(UserWarning, match="set aside: 1 folder"):
+        rk.read_suite(tmp_path)
+
+
 def test_what_a_folder_sets_aside_is_warned_of(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("t_s,a_g\n0,0\n0.1,0.2\n0.2,0\n")
     (tmp_path / "notes.txt").write_text("About these records.\n")

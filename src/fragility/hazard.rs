@@ -1,7 +1,8 @@
 //! Hazard curves as files: the project's own CSV, and OpenQuake's.
 
+mod site;
+
 use std::fmt;
-use std::str::FromStr;
 
 use libm::{asin, cos, hypot, log1p, sin, sqrt};
 use thiserror::Error;
@@ -9,6 +10,8 @@ use thiserror::Error;
 use super::risk::{HazardCurve, HazardError};
 use crate::intensity::{Intensity, IntensityMeasure};
 use crate::stop;
+
+pub use site::{Site, SiteError};
 
 /// The first columns of the project's own table: name, and measure with the
 /// number of its column's units in a g or a m/s.
@@ -105,57 +108,6 @@ impl serde::Serialize for HazardMeasure {
         to: S,
     ) -> Result<S::Ok, S::Error> {
         self.name().serialize(to)
-    }
-}
-
-/// A site of a hazard curve's file.
-///
-/// ```
-/// use rocking::fragility::hazard::Site;
-/// assert_eq!("23.8,37.9".parse(), Ok(Site::Degrees(23.8, 37.9)));
-/// assert_eq!("7zzzzzzz".parse(), Ok(Site::Id("7zzzzzzz".to_owned())));
-/// assert!("23.8,north".parse::<Site>().is_err());
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub enum Site {
-    /// Longitude and latitude in degrees.
-    Degrees(f64, f64),
-    /// Its `custom_site_id`.
-    Id(String),
-}
-
-/// A text that names no site.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error(
-    "found `{0}`: expected longitude,latitude in degrees, or the id of a site"
-)]
-pub struct SiteError(String);
-
-impl FromStr for Site {
-    type Err = SiteError;
-
-    fn from_str(text: &str) -> Result<Self, SiteError> {
-        let refused = || SiteError(text.to_owned());
-        let degrees = |text: &str| {
-            let degrees = text.trim().parse().ok();
-            degrees.filter(|x: &f64| x.is_finite()).ok_or_else(refused)
-        };
-        match text.split_once(',') {
-            Some((lon, lat)) => {
-                Ok(Self::Degrees(degrees(lon)?, degrees(lat)?))
-            }
-            None if text.trim().is_empty() => Err(refused()),
-            None => Ok(Self::Id(text.trim().to_owned())),
-        }
-    }
-}
-
-impl fmt::Display for Site {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Degrees(lon, lat) => write!(f, "{lon},{lat}"),
-            Self::Id(id) => f.write_str(id),
-        }
     }
 }
 

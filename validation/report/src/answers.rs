@@ -67,8 +67,17 @@ fn asked() -> anyhow::Result<Vec<Asked>> {
 struct Found {
     /// The verdicts, each once and for the part, the worst one first.
     verdicts: Vec<Verdict>,
-    /// The fact, and its number with interval and suite; none without data.
-    words: Option<(String, String)>,
+    /// None without data.
+    words: Option<Words>,
+}
+
+/// A part in words.
+struct Words {
+    fact: String,
+    /// Its number with interval and suite.
+    number: String,
+    /// The blocks that it is about.
+    blocks: String,
 }
 
 impl Part {
@@ -120,13 +129,14 @@ impl Part {
         }
     }
 
-    /// The fact, with the suite where suites disagree, and its number.
+    /// The fact, with the suite where suites disagree, its number, and the
+    /// blocks.
     fn words(
         &self,
         claim: &Claim,
         result: &ClaimResult,
         disagree: bool,
-    ) -> (String, String) {
+    ) -> Words {
         let value = self.value(result);
         let shown = match self.shown {
             Shown::Apart => number(100.0 * (value - 1.0).abs()) + " %",
@@ -153,8 +163,8 @@ impl Part {
             _ => measured_text(claim, result),
         };
         let place = if suite.is_empty() { "" } else { &format!(", {suite}") };
-        let blocks = &claim.blocks;
-        (fact, format!("{} {text}{place}, blocks: {blocks}", self.name))
+        let number = format!("{} {text}{place}", self.name);
+        Words { fact, number, blocks: claim.blocks.clone() }
     }
 }
 
@@ -192,7 +202,7 @@ impl Asked {
                 .iter()
                 .filter(|(_, f)| f.verdicts.first() == verdict.as_ref());
             let words = own.map(|(part, f)| match &f.words {
-                Some((fact, _)) => fact.as_str(),
+                Some(words) => words.fact.as_str(),
                 None => part.name.as_str(),
             });
             words.collect::<Vec<&str>>().join(", ")
@@ -213,18 +223,31 @@ impl Asked {
         }
         out += ".";
         let aside = self.aside.as_ref().map(|p| p.found(claims, first));
-        if let Some(Found { verdicts, words: Some((fact, _)) }) = aside
+        if let Some(Found { verdicts, words: Some(words) }) = aside
             && verdicts[0] != Verdict::Inconclusive
         {
-            out += &format!(" {fact}.");
+            out += &format!(" {}.", words.fact);
         }
         out
     }
 
-    /// The numbers of its facts, each with interval and suite.
+    /// The numbers of its facts, each with interval, suite and blocks; blocks
+    /// that all of them share are named once.
     fn numbers(&self, claims: &[Claim], first: Arm) -> String {
         let found = self.all().filter_map(|p| p.found(claims, first).words);
-        found.map(|(_, number)| number).collect::<Vec<String>>().join("; ")
+        let mut out = String::new();
+        let mut found = found.peekable();
+        while let Some(Words { number, blocks, .. }) = found.next() {
+            out += &number;
+            match found.peek() {
+                Some(next) if next.blocks == blocks => out += "; ",
+                next => {
+                    out += &format!("; blocks: {blocks}");
+                    out += if next.is_some() { "; " } else { "" };
+                }
+            }
+        }
+        out
     }
 }
 
@@ -302,7 +325,7 @@ pub(super) fn rows(
         row(
             "How sure is the integrator?",
             sure(proof),
-            format!("{}; {}", timings.error(), basis.rounding()),
+            format!("{}; {}", timings.error(), basis.open()),
             ("evidence", "proof"),
         ),
         row("Is it fast?", fast, rate, ("speed", "speed")),
@@ -401,22 +424,21 @@ pub(super) fn done(basis: &Basis<'_>) -> String {
     };
     let run = match basis.recorded() {
         Some(_) => format!(
-            " Those analyses were made by an earlier run, whose results are \
-             kept; this run made {} of synthetic motions.",
+            "{} analyses of an earlier run; this run made {} under synthetic \
+             motions",
+            analyses(lead),
             analyses(basis.here)
         ),
-        None => String::new(),
+        None => format!("{} analyses", analyses(lead)),
     };
     let score = score(lead);
     let count = |v| score.iter().find(|(own, _)| *own == v).map_or(0, |s| s.1);
     let all: usize = score.iter().map(|s| s.1).sum();
     format!(
-        "Fifteen blocks rocked under {} at rising intensity, {} times in all, \
-         to check a paper by Lachanas, Vamvatsikos and Dimitrakopoulos on the \
-         statistics of their rocking.{run} Of its {all} sentences that one \
-         can test, {} hold, {} fail and {} stay open.",
+        "Fifteen blocks rocked under {} at rising intensity ({run}), to check \
+         a paper by Lachanas, Vamvatsikos and Dimitrakopoulos. Of its {all} \
+         sentences that one can test, {} hold, {} fail and {} stay open.",
         motions.join(" and "),
-        analyses(lead),
         count(Verdict::Confirmed),
         count(Verdict::NotConfirmed),
         count(Verdict::Inconclusive)

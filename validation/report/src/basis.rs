@@ -85,36 +85,40 @@ impl<'a> Basis<'a> {
         )))
     }
 
-    /// What rounding may have changed, and what it had changed among the first
-    /// overturnings, for each side.
-    pub fn rounding(&self) -> String {
-        let each = |of: &dyn Fn(&[Suite]) -> String| {
-            let side = |(name, findings): (&str, &Findings)| {
-                format!("{} ({name})", of(&findings.suites))
-            };
-            let sides: Vec<String> =
-                self.all().into_iter().map(side).collect();
-            sides.join(" and ")
+    /// A word on the suites of each side.
+    fn each(&self, of: impl Fn(&[Suite]) -> String) -> String {
+        let side = |(name, findings): (&str, &Findings)| {
+            format!("{} ({name})", of(&findings.suites))
         };
-        let open = |suites: &[Suite]| {
+        let sides: Vec<String> = self.all().into_iter().map(side).collect();
+        sides.join(" and ")
+    }
+
+    /// The share of analyses that rounding may have changed, for each side.
+    pub fn open(&self) -> String {
+        let open = self.each(|suites| {
             let all: u64 = suites.iter().map(|s| s.analyses).sum();
             let open: usize = suites.iter().map(|s| s.unresolved).sum();
             let share = percent(open as f64 / all as f64, 1);
             format!("{share} of {all} analyses")
-        };
-        let wrong = |suites: &[Suite]| {
+        });
+        format!("rounding may have changed peak or fate in {open}")
+    }
+
+    /// What rounding may have changed, and what it had changed among the first
+    /// overturnings, for each side.
+    pub fn rounding(&self) -> String {
+        let wrong = self.each(|suites| {
             let ends =
                 || suites.iter().map(|s| s.first_overturnings_reevaluated);
             let wrong: usize = ends().map(|e| e.wrong_in_double).sum();
             let all: usize = ends().map(|e| e.all).sum();
             format!("{wrong} of {all}")
-        };
+        });
         format!(
-            "rounding may have changed peak or fate in {}; of the first \
-             overturnings among these, resolved in wider arithmetic, {} had \
-             been wrong",
-            each(&open),
-            each(&wrong)
+            "{}; of the first overturnings among these, resolved in wider \
+             arithmetic, {wrong} had been wrong",
+            self.open()
         )
     }
 

@@ -102,7 +102,7 @@ impl<'a> Basis<'a> {
             let share = percent(open as f64 / all as f64, 1);
             format!("{share} of {all} analyses")
         });
-        format!("rounding may have changed peak or fate in {open}")
+        format!("rounding may have changed {open}")
     }
 
     /// What rounding may have changed, and what it had changed among the first

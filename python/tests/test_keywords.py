@@ -51,16 +51,26 @@ NO_RESULT = {
 
 
 def files(folder: Path) -> dict[str, Path]:
-    """A file without interval and unit, a folder of such a pair, a hazard."""
+    """A file without interval and unit, folders of such, hazard curves."""
     one, pair = folder / "one.txt", folder / "pair"
     one.write_text("0.0\n1.0\n-1.0\n0.0\n")
     pair.mkdir()
     for name in ("a-000.txt", "a-090.txt"):
         (pair / name).write_text("0.0\n1.0\n-1.0\n0.0\n")
+    nested = folder / "nested"
+    (nested / "inner").mkdir(parents=True)
+    for name in ("outer.txt", "inner/inner.txt"):
+        (nested / name).write_text("0.0\n1.0\n-1.0\n0.0\n")
     poe, sites = folder / "poe.csv", folder / "sites.csv"
     poe.write_text(POE)
     sites.write_text(SITES + "\n")
-    return {"one": one, "pair": pair, "poe": poe, "sites": sites}
+    return {
+        "one": one,
+        "pair": pair,
+        "nested": nested,
+        "poe": poe,
+        "sites": sites,
+    }
 
 
 def without_event(record: rk.Record) -> rk.Record:
@@ -179,7 +189,7 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 "units": "g",
                 "gravity": 9.81,
                 "component": "both",
-                "recursive": ({"path": at["pair"].parent}, True),
+                "recursive": ({"path": at["nested"]}, True),
             },
         ),
         "embedded_suite": (

@@ -173,8 +173,8 @@ def test_single_precision_times_have_the_step_that_was_meant(
     for unit in ("ms", "us", "ns"):
         if rate <= 300 and (count > 200 or unit != "ms"):
             steps = pd.to_timedelta(times, unit="s").round(unit).as_unit(unit)
-            found = rk.Record.of(pd.Series(values, index=steps), units="g")
-            assert abs(found.dt * rate - 1.0) < 1e-6, unit
+            dated = rk.Record.of(pd.Series(values, index=steps), units="g")
+            assert abs(dated.dt * rate - 1.0) < 1e-6, unit
     steps = pd.to_timedelta(times, unit="s")
     found = rk.Record.of(pd.Series(values, index=steps), units="g").dt
     assert abs(found * rate - 1.0) < 1e-7

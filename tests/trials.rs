@@ -164,7 +164,7 @@ fn no_analysis_of_a_suite_is_another_without_a_flag() {
     }
 }
 
-/// A row of a fixed order without a flag agrees with that of a free order.
+/// A row of a fixed order without a flag agrees with the row of a free order.
 #[test]
 fn what_a_fixed_order_leaves_is_flagged() {
     let (suites, _) = surveyed();

@@ -510,8 +510,8 @@ def ida(
 ) -> Ida:
     """Raises the intensity of every record until the block overturns.
 
-    Results refer to records by their names; records of which none has a name
-    are numbered from 1.
+    Results refer to records by their names. If no record has a name, they are
+    numbered from 1.
 
     Parameters
     ----------

@@ -81,8 +81,8 @@ pub struct IdaTable {
     run: Option<(Analysis, String)>,
 }
 
-/// IDA of every record, of which the codes of its remarks and its earthquake
-/// are known.
+/// IDA of every record; `known` has the codes of its remarks and its
+/// earthquake.
 #[pyfunction]
 pub fn ida<'py>(
     py: Python<'py>,

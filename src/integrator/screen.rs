@@ -92,7 +92,7 @@ impl<N: Number> Screen<N> {
     /// The change is a difference of terms as large as `size`, however slow
     /// the block is.
     ///
-    /// A series of `n` coefficients, of which `last` is the velocity's last,
+    /// A series of `n` coefficients whose last one, for the velocity, is `last`
     /// has the truncation error `last` tau/n in the rotation, its next term,
     /// and about as much in the velocity; up to an impact within the step it
     /// has less. The errors of many steps in a row may have one sign. By the

@@ -103,7 +103,7 @@ pub struct Contrast {
     pub a: Half,
     /// The second sample.
     pub b: Half,
-    /// Median of the first over that of the second, with its bootstrap
+    /// Ratio of the medians, first sample over second, with its bootstrap
     /// interval.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
     pub median_ratio: Result<MedianRatio, ContrastError>,
@@ -163,10 +163,10 @@ pub struct Distance {
 
 /// Contrasts two samples over different records.
 ///
-/// The interval is that of a bootstrap (percentiles of type 7 of the
-/// logarithm) that draws the records of each sample or, if they are known,
-/// the earthquakes with all their records; an earthquake with records in
-/// both samples is drawn for both. Deviations from the ratio are widened by
+/// The interval comes from a bootstrap (percentiles of type 7 of the
+/// logarithm). The bootstrap draws the records of each sample or, if they are
+/// known, the earthquakes with all their records; an earthquake with records
+/// in both samples is drawn for both. Deviations from the ratio are widened by
 /// [`Clusters::half_width`] over the normal quantile, the larger of the two.
 ///
 /// ```

@@ -244,8 +244,8 @@ mod tests {
     use crate::fragility::hazard::HazardOptions;
 
     /// Draws whose damage is certain in motions stronger than every point of
-    /// the curve, and sure not to happen in weaker ones: all that is known is
-    /// that the frequency is between 0 and that of the last point.
+    /// the curve, and sure not to happen in weaker ones: the frequency lies
+    /// between 0 and the frequency of the last point.
     #[test]
     fn an_interval_reaches_from_bound_to_bound_of_the_truncation() {
         let text = "pga_g,annual_frequency\n0.3,0.004\n0.9,0.0003\n";

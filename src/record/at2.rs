@@ -97,7 +97,7 @@ fn unit(
 }
 
 /// The unit of a line such as `ACCELERATION IN G`, `Accelerations (g)` or
-/// `The units are (g)`, or that of another quantity.
+/// `The units are (g)`, or the unit of another quantity.
 fn in_unit(line: &str) -> Option<Result<AccelerationUnit, &str>> {
     let named = |words: &[&str]| {
         words.iter().find_map(|word| text::after_word(line, word))

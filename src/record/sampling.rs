@@ -188,8 +188,8 @@ const RESOLVED: f64 = 0.25;
 /// Part of the step by which the steps that fit may differ.
 const DETERMINED: f64 = 0.01;
 
-/// The constant step of `times_s`, each of which is written to within
-/// `resolution_s` of its index.
+/// The constant step of `times_s`; time i is written to within
+/// `resolution_s(i)`.
 ///
 /// If times are held in single precision, each may also be the rounded sum of
 /// the one before and the step. Of the steps that all times allow, the one

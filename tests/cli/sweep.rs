@@ -304,9 +304,9 @@ fn the_script_for_slurm_runs_nothing_but_the_sweep() {
     assert_eq!(script.status.code(), Some(2));
 }
 
-/// The 95 % interval of a median in PGV is that of draws each of which has
-/// the least onset of its own records for a shift. The fit of a draw is made
-/// here: the mean of the logarithms.
+/// In the 95 % interval of a median in PGV each draw has the least onset of
+/// its own records for a shift. The fit of a draw is made here: the mean of
+/// the logarithms.
 #[test]
 fn each_draw_of_a_sweep_has_the_shift_of_its_own_records() {
     let place = planned("sweep-shift", 1);

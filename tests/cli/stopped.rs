@@ -67,7 +67,7 @@ fn begun(place: &Path, arguments: &str) -> Child {
 
 /// Work that takes minutes, by the command.
 const LONG: [&str; 5] = [
-    "ida --alpha 0.1 --p 3 --suite s --step-g 2e-6 --certify --out o.csv",
+    "ida --alpha 0.1 --p 1 --suite s --step-g 2e-6 --certify --out o.csv",
     "assess --alpha 0.1 --p 3 --suite s --bootstrap 1000000 --out page",
     "study --out report",
     "study --ordinary s --pulse s --out report",

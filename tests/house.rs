@@ -31,10 +31,9 @@ use edges::{Edges, TREES};
 use source::{holds, named_modules, tokens};
 
 /// Libraries beside the core: manifest and sources.
-const LIBRARIES: [(&str, &[&str]); 13] = [
+const LIBRARIES: [(&str, &[&str]); 12] = [
     ("exchange/Cargo.toml", &["exchange/src"]),
     ("fixtures/Cargo.toml", &["fixtures/src"]),
-    ("parquet/Cargo.toml", &["parquet/src"]),
     ("score/Cargo.toml", &["score/src"]),
     ("surrogate/Cargo.toml", &["surrogate/src"]),
     ("synthesis/Cargo.toml", &["synthesis/src"]),
@@ -48,10 +47,9 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
 ];
 
 /// Folders of sources that follow the same rules.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 10] = [
     "src",
     "exchange/src",
-    "parquet/src",
     "score/src",
     "surrogate/src",
     "synthesis/src",
@@ -78,7 +76,7 @@ const UNSAFE: [&str; 3] =
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &str = "src exchange parquet score surrogate synthesis \
+const FOLDERS: &str = "src exchange score surrogate synthesis \
     validation tests benches examples fixtures reports .ci docs python/src \
     python/rocking python/tests python/notebooks web";
 

@@ -6,12 +6,11 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 /// Sources of the command and of the Python package.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 11] = [
     "../Cargo.lock",
     "../Cargo.toml",
     "../exchange",
     "../fixtures",
-    "../parquet",
     "../python/Cargo.lock",
     "../python/src",
     "../score",

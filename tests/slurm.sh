@@ -6,6 +6,7 @@
 # slurmctld, slurmd, slurm-client and munge. `tests/slurm.sh ROCKING`
 set -euo pipefail
 rocking=$(realpath "$1")
+page=$(realpath "$(dirname "$0")/../docs/cluster.md")
 for tool in munged slurmctld slurmd sbatch srun scontrol; do
     command -v "$tool" >/dev/null || {
         echo "$tool not found: apt-get install slurmctld slurmd slurm-client" \
@@ -103,7 +104,7 @@ for ((k = 0; k < 12; k++)); do
 done
 "$rocking" suite export --out "$place/suites" >/dev/null
 plan() {
-    "$rocking" sweep plan --blocks "$blocks" --tile-minutes 1e-9 \
+    "$rocking" sweep plan --blocks "$blocks" --tile-blocks 1 \
         --suite "$place/suites/ordinary.csv" --out "$place/$1" >/dev/null
 }
 merged() {
@@ -115,11 +116,12 @@ plan direct
 expected=$(merged direct)
 echo "run without SLURM after $SECONDS s"
 
-# The array, by the script that the program writes.
+# The array, by the script of the documentation.
 plan array
 PATH=$(dirname "$rocking"):$PATH
-"$rocking" sweep slurm "$place/array" --tasks 6 >"$place/job.sh"
-job=$(sbatch --parsable --output="$place/array-%a.out" "$place/job.sh")
+sed -n '/^#!/,/^```$/{/^```$/!p}' "$page" >"$place/job.sh"
+job=$(sbatch --parsable --array=0-5 --output="$place/array-%a.out" \
+    "$place/job.sh" "$place/array")
 # Process of task 3, by SLURM's own account.
 process() {
     pid=

@@ -20,8 +20,7 @@ pub struct Column {
     /// Name in the header line.
     pub name: &'static str,
     /// What the cells are: `text`, `number` (`inf` is one, and an empty cell
-    /// a missing one), `level` (a number that many rows share, never
-    /// missing), `count` (whole numbers) or `flag` (`true`, `false`).
+    /// a missing one), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
     /// Whether a table that is read may lack it: `?` after the kind of its
     /// cells.

@@ -1,5 +1,6 @@
 //! `rocking sweep` as a program that is killed, and that finds no room.
 
+use std::env;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::path::Path;
@@ -10,7 +11,7 @@ use std::time::{Duration, SystemTime};
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 
 use super::support::{
-    answer, at2, folder, json, motion, refused_for, rocking,
+    answer, at2, close, folder, json, motion, refused_for, rocking,
 };
 
 /// A folder with a plan of `blocks` blocks in as many tiles.
@@ -30,7 +31,7 @@ fn planned(name: &str, blocks: usize) -> crate::support::Place {
     answer(
         &place,
         "sweep plan --blocks blocks.csv --suite records --out plan \
-         --step-im 0.002 --tile-minutes 1e-9",
+         --step-im 0.002 --tile-blocks 1",
     );
     place
 }
@@ -124,7 +125,7 @@ fn limited(place: &Path, arguments: &str, kib: usize) -> (bool, String) {
 fn without_room_it_says_so_and_leaves_nothing_half_written() {
     let place = planned("sweep-room", 60);
     let all = "sweep plan --blocks blocks.csv --suite records --out plan \
-               --step-im 0.02 --tile-minutes 1e9";
+               --step-im 0.02 --tile-blocks 60";
     fs::remove_dir_all(place.join("plan")).unwrap();
     answer(&place, all);
     // The tile of capacities is larger than 8 KiB.
@@ -134,16 +135,12 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     assert!(last.starts_with("rocking: cannot write plan/tiles/"), "{error}");
     assert!(last.contains("large"), "{error}");
     assert!(tiles(&place).iter().all(|name| name.ends_with(".csv")));
-    let status = answer(&place, "sweep status plan");
-    assert!(
-        status.contains("\ndone                            0\n"),
-        "{status}"
-    );
-    run(&place);
-    // Neither does a merge.
     let old = "an older table\n";
     fs::write(place.join("o.csv"), old).unwrap();
     let merge = "sweep merge plan --what capacities --out o.csv";
+    refused_for(&place, merge, &["1 of 1 tiles are not done"]);
+    run(&place);
+    // Neither does a merge.
     let (done, error) = limited(&place, merge, 8);
     assert!(!done);
     assert!(error.starts_with("rocking: cannot write o.csv: "), "{error}");
@@ -168,18 +165,6 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     }
 }
 
-#[cfg(not(feature = "parquet"))]
-#[test]
-fn parquet_is_refused_where_the_program_has_none() {
-    let place = planned("sweep-parquet", 1);
-    run(&place);
-    fs::write(place.join("o.parquet"), "an older table\n").unwrap();
-    let names = ["o.parquet", "--features parquet"];
-    refused_for(&place, "sweep merge plan --out o.parquet", &names);
-    let old = fs::read_to_string(place.join("o.parquet")).unwrap();
-    assert_eq!(old, "an older table\n");
-}
-
 #[test]
 fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
     let place = planned("sweep-own", 1);
@@ -196,42 +181,13 @@ fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
     }
     let endless = "sweep plan --blocks blocks.csv --suite records --out more \
                    --step-pga-g 1e-14";
-    refused_for(&place, endless, &["expected at most 1e12"]);
-    assert!(!place.join("more/plan.json").exists());
+    answer(&place, endless);
+    refused_for(&place, "sweep run more", &["levels up to the highest IM"]);
 }
 
 #[test]
-fn a_sweep_becomes_one_file_whose_blocks_keep_their_names() {
-    let place = planned("sweep-export", 1);
-    let table = "id,alpha,p\nshelf,0.15,4\nstatue,0.2,5\n";
-    fs::write(place.join("named.csv"), table).unwrap();
-    let plan = "sweep plan --suite records --step-im 0.02";
-    answer(&place, &format!("{plan} --blocks named.csv --out named"));
-    let export = "sweep export named --format csv --out out.csv --json";
-    refused_for(&place, export, &["fragilities-00000.csv: missing"]);
-    let output = rocking(&place, "sweep run named").output().unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let found = json(&place, export);
-    answer(&place, "sweep merge named --out merged.csv");
-    let merged = fs::read_to_string(place.join("merged.csv")).unwrap();
-    let row = |id: &str| -> Vec<f64> {
-        let head = format!("{id},");
-        let own =
-            |line: &&str| line.starts_with(&head) && line.contains(",pga,1,");
-        let line = merged.lines().find(own).unwrap();
-        line.split(',').map(|c| c.parse().unwrap_or(f64::NAN)).collect()
-    };
-    for (k, id) in ["shelf", "statue"].into_iter().enumerate() {
-        let row = row(id);
-        assert_eq!(found["blocks"][k]["id"], id);
-        let median = found["blocks"][k]["median"].as_f64().unwrap();
-        // The median in g: that of PGA/(g tan alpha), times tan alpha.
-        assert!((median / (row[9] * libm::tan(row[1])) - 1.0).abs() < 1e-12);
-    }
-    let nrml = "sweep export named --format nrml --out -";
-    let text = answer(&place, nrml);
-    assert_eq!(text.matches("sweep over 4 records").count(), 1);
-    refused_for(&place, &format!("{nrml} --demand 0.4"), &["as planned"]);
+fn a_table_of_blocks_that_makes_no_sweep_is_refused() {
+    let place = planned("sweep-blocks", 1);
     for (table, names) in [
         ("id,alpha,p\na,0.1,3\na,0.2,3\n", "twice.csv:3: a stands on line 2"),
         ("id,alpha,p\na,0.1,3\nb,0.1,3\n", "b is the same block as a"),
@@ -242,9 +198,12 @@ fn a_sweep_becomes_one_file_whose_blocks_keep_their_names() {
         ("alpha,p\n", "no block"),
     ] {
         fs::write(place.join("twice.csv"), table).unwrap();
-        let plan = format!("{plan} --blocks twice.csv --out twice");
-        refused_for(&place, &plan, &[names]);
+        let plan = "sweep plan --suite records --blocks twice.csv --out new";
+        refused_for(&place, plan, &[names]);
     }
+    let none = "sweep plan --suite records --blocks blocks.csv --out new \
+                --tile-blocks 0";
+    refused_for(&place, none, &["1 blocks, 0 a tile"]);
 }
 
 #[test]
@@ -269,39 +228,55 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     assert!(said.contains("--shift"), "{said}");
 }
 
-/// The script names the folder of the plan, whatever it is called, and may be
-/// submitted from anywhere.
+/// The page's commands, in its order: a plan, a job as SLURM starts it, and
+/// the fragilities of all blocks as one file for another program.
 #[cfg(unix)]
 #[test]
-fn the_script_for_slurm_runs_nothing_but_the_sweep() {
-    let place = planned("sweep-slurm", 1);
-    let name = "q$(touch PWNED)`touch PWNED`it's \"$x\" \\ *;&|<>";
-    fs::rename(place.join("plan"), place.join(name)).unwrap();
-    fs::create_dir(place.join("bin")).unwrap();
-    let program = env!("CARGO_BIN_EXE_rocking");
-    std::os::unix::fs::symlink(program, place.join("bin/rocking")).unwrap();
-    let script = rocking(&place, "sweep slurm").arg(name).output().unwrap();
-    assert!(script.status.success(), "{script:?}");
-    fs::write(place.join("bin/job.sh"), script.stdout).unwrap();
-    let path = format!("{}:{}", place.join("bin").display(), "/usr/bin:/bin");
-    let done = Command::new("bash")
-        .arg("job.sh")
-        .current_dir(place.join("bin"))
-        .env("PATH", path)
-        .output()
-        .unwrap();
-    assert!(done.status.success(), "{done:?}");
-    assert_eq!(
-        fs::read_dir(place.join(name).join("tiles")).unwrap().count(),
-        2
+fn the_page_on_clusters_runs() {
+    let place = planned("sweep-page", 1);
+    let table = "id,alpha,p,eta\nshelf,0.15,4,0.9\nstatue,0.2,5,\n";
+    fs::write(place.join("blocks.csv"), table).unwrap();
+    fs::rename(place.join("plan"), place.join("my plan")).unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_rocking")).parent().unwrap();
+    let path = env::var("PATH").unwrap();
+    let path = format!("{}:{path}", program.display());
+    let page = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(page.join("../docs/cluster.md")).unwrap();
+    let blocks: Vec<&str> = page.split("\n```sh\n").skip(1).collect();
+    for block in &blocks {
+        let block = block.split("\n```\n").next().unwrap();
+        let done = Command::new("bash")
+            .args(["-euc", block, "job.sh", "my plan"])
+            .current_dir(&place)
+            .env("PATH", &path)
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{block}: {done:?}");
+    }
+    assert_eq!(blocks.len(), 3);
+    let tiles = fs::read_dir(place.join("my plan/tiles")).unwrap();
+    assert_eq!(tiles.count(), 2);
+    let nrml = fs::read_to_string(place.join("blocks.xml")).unwrap();
+    assert!(nrml.contains("4 capacities, PGA/(g tan alpha)"), "{nrml}");
+    let found = json(
+        &place,
+        "fragility export --blocks samples/blocks.csv --shift 1 --format csv \
+         --out out.csv",
     );
-    assert!(
-        !place.join("PWNED").exists() && !place.join("bin/PWNED").exists()
-    );
-    let line = place.join("a\nb");
-    fs::rename(place.join(name), &line).unwrap();
-    let script = rocking(&place, "sweep slurm").arg(&line).output().unwrap();
-    assert_eq!(script.status.code(), Some(2));
+    let merged = fs::read_to_string(place.join("fragilities.csv")).unwrap();
+    for (k, id) in ["shelf", "statue"].into_iter().enumerate() {
+        assert!(nrml.contains(&format!("id=\"{id}\"")), "{nrml}");
+        let own =
+            |line: &&str| line.starts_with(id) && line.contains(",pga,1,");
+        let row: Vec<&str> =
+            merged.lines().find(own).unwrap().split(',').collect();
+        let number = |k: usize| row[k].parse::<f64>().unwrap();
+        // The median in g: that of PGA/(g tan alpha), times tan alpha.
+        let median = number(9) * libm::tan(number(1));
+        assert_eq!(found["blocks"][k]["id"], id);
+        close(&found["blocks"][k]["median"], median, 1e-8);
+        close(&found["blocks"][k]["beta"], number(10), 1e-8);
+    }
 }
 
 /// In the 95 % interval of a median in PGV each draw has the least onset of
@@ -335,11 +310,8 @@ fn each_draw_of_a_sweep_has_the_shift_of_its_own_records() {
     let row = cells(row.unwrap());
     let all: Vec<usize> = (0..sample.len()).collect();
     assert!((number(&row[9]) / median(&all) - 1.0).abs() < 1e-9, "{row:?}");
-    let plan = fs::read_to_string(place.join("plan/plan.json")).unwrap();
-    let plan: serde_json::Value = serde_json::from_str(&plan).unwrap();
-    let replicates = plan["replicates"].as_u64().unwrap() as usize;
     let stream = format!("sweep/{}", row[1..4].join("/"));
-    let draws = Bootstrap::new(&stream, 0, sample.len(), replicates);
+    let draws = Bootstrap::new(&stream, 0, sample.len(), 400);
     let medians = draws.map(|places| {
         // One record again and again makes no fit.
         let one = places.iter().all(|i| *i == places[0]);

@@ -25,8 +25,7 @@ fn page() -> String {
          infinity. An empty cell of\nnumbers is missing. `im` is the name of \
          an intensity measure; a number is an\n`intensity`. An index of \
          records carries no schema: its other columns are\nattributes of the \
-         records. A level is a number that many rows share and that none \
-         lacks.\n"
+         records.\n"
     );
     for table in TABLES {
         writeln!(
@@ -76,7 +75,6 @@ fn holds(place: &Path, file: &str, layout: &Layout, extra: &[&str]) {
         for (column, cell) in layout.columns.iter().zip(&row) {
             let fits = match column.cells {
                 "text" => cell.parse::<f64>().is_err(),
-                "level" => cell.parse::<f64>().is_ok(),
                 "number" => cell.is_empty() || cell.parse::<f64>().is_ok(),
                 "count" => cell.parse::<u64>().is_ok(),
                 "flag" => cell.parse::<bool>().is_ok(),

@@ -8,18 +8,14 @@
 //! written whole or not at all, and names the plan and its own sum.
 
 mod content;
-mod cost;
-mod export;
 mod merge;
 mod plan;
 mod tile;
 
 pub use content::Content;
-pub use cost::Tile;
-pub use export::fragilities;
 pub use merge::merge;
 pub use plan::{Given, Levels, Plan, Planned, Wanted};
-pub use tile::{State, left, run, state};
+pub use tile::{left, run};
 
 #[cfg(test)]
 mod tests;

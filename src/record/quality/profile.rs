@@ -13,8 +13,6 @@ pub struct Profile {
     pub(super) name: String,
     pub(super) dt_s: f64,
     pub(super) samples: usize,
-    pga_g: f64,
-    pgv_g_s: f64,
     pub(super) remarks: Vec<Remark>,
     /// Samples about the peak, over the peak.
     pub(super) about_peak: Vec<f32>,
@@ -29,7 +27,7 @@ impl Profile {
     /// use rocking::record::{Accelerogram, Profile};
     /// let record = Accelerogram::try_new("a", 0.01, vec![0.0, 0.2, -0.1])?;
     /// let profile = Profile::of(&record);
-    /// assert_eq!((profile.name(), profile.samples()), ("a", 3));
+    /// assert_eq!(profile.name(), "a");
     /// # Ok::<(), rocking::record::AccelerogramError>(())
     /// ```
     #[must_use]
@@ -50,8 +48,6 @@ impl Profile {
             name: record.name().to_owned(),
             dt_s: record.dt_s(),
             samples: samples.len(),
-            pga_g,
-            pgv_g_s: record.pgv_g_s(),
             remarks: remarks(record),
             about_peak: about.collect(),
             before: peak - from,
@@ -62,18 +58,6 @@ impl Profile {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
-    }
-
-    /// Number of samples.
-    #[must_use]
-    pub fn samples(&self) -> usize {
-        self.samples
-    }
-
-    /// PGV over PGA in s. Not a number for a record of zeros.
-    #[must_use]
-    pub fn velocity_ratio_s(&self) -> f64 {
-        self.pgv_g_s / self.pga_g
     }
 
     /// The samples near the peak less their mean, of length 1; none where

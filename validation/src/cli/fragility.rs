@@ -2,7 +2,7 @@
 
 mod choose;
 pub mod counts;
-pub(super) mod export;
+mod export;
 pub(super) mod fit;
 pub mod source;
 mod surface;

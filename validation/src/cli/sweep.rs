@@ -1,21 +1,18 @@
 //! `rocking sweep`: many blocks over one suite, on one machine or many.
 
 use std::env;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Subcommand;
-use rocking::intensity::Intensity;
 use rocking::record::{Processing, Profile, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use serde::Serialize;
 
-use super::fragility::export::FileArgs;
 use super::reading::ReadArgs;
-use super::shared::{JsonArg, ThreadsArg, positive};
+use super::shared::{ThreadsArg, positive};
 use super::{blocks, names};
 use crate::failure::Failure;
-use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
-use crate::terminal::{SOFTWARE, note, print, say};
+use crate::sweep::{self, Content, Given, Levels, Planned, Wanted};
+use crate::terminal::{SOFTWARE, note, say};
 use crate::threads::{until, with_threads};
 use rocking_common::suites::inputs::profiles;
 use rocking_common::suites::remarks::Remarks;
@@ -31,10 +28,7 @@ use rocking_common::suites::remarks::Remarks;
     rocking sweep plan --blocks blocks.csv --suite records/ --out sweep\n  \
     rocking sweep run sweep\n  \
     rocking sweep run sweep --task 3 --of 8\n  \
-    rocking sweep status sweep\n  \
-    rocking sweep merge sweep --out fragilities.csv\n  \
-    rocking sweep export sweep --format nrml --out blocks.xml\n  \
-    rocking sweep slurm sweep > job.sh && sbatch job.sh")]
+    rocking sweep merge sweep --out fragilities.csv")]
 pub struct Args {
     #[command(subcommand)]
     action: Action,
@@ -44,13 +38,10 @@ pub struct Args {
 enum Action {
     Plan(PlanArgs),
     Run(RunArgs),
-    Status(StatusArgs),
     Merge(MergeArgs),
-    Export(ExportArgs),
-    Slurm(SlurmArgs),
 }
 
-/// Writes a plan, packs the suite into its folder, and says what to expect.
+/// Writes a plan and packs the suite into its folder.
 #[derive(clap::Args)]
 struct PlanArgs {
     /// Table of blocks: alpha,p or width_m,height_m, and where wanted id and
@@ -94,14 +85,9 @@ struct PlanArgs {
     /// Keep every level, not capacities and fragilities alone.
     #[arg(long)]
     rows: bool,
-    /// What a tile should take, in minutes of one core.
-    #[arg(
-        long,
-        value_name = "MIN",
-        default_value_t = 5.0,
-        value_parser = positive
-    )]
-    tile_minutes: f64,
+    /// Blocks of a tile [default: 1000 over the number of records].
+    #[arg(long, value_name = "N")]
+    tile_blocks: Option<usize>,
     /// Folder of the plan.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -122,17 +108,8 @@ struct RunArgs {
     threads: ThreadsArg,
 }
 
-/// Says which tiles are done.
-#[derive(clap::Args)]
-struct StatusArgs {
-    /// Folder of the plan.
-    dir: PathBuf,
-    #[command(flatten)]
-    json: JsonArg,
-}
-
-/// Puts the tiles together in the plan's order; refuses a tile that is
-/// missing, of another plan or another build of the program, or damaged.
+/// Puts the tiles together in the plan's order; names and refuses tiles that
+/// are missing, of another plan or another build of the program, or damaged.
 #[derive(clap::Args)]
 struct MergeArgs {
     /// Folder of the plan.
@@ -144,40 +121,9 @@ struct MergeArgs {
         default_value = Content::Fragilities.name()
     )]
     what: Content,
-    /// Where the table goes: CSV, or Parquet if it ends in .parquet and the
-    /// program was built with `--features parquet`.
+    /// Where the table goes, as CSV.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-}
-
-/// Prints a script for SLURM: an array of tasks that may be requeued. It may
-/// be submitted from any folder.
-#[derive(clap::Args)]
-struct SlurmArgs {
-    /// Folder of the plan.
-    dir: PathBuf,
-    /// Number of tasks [default: one a tile, 100 at most].
-    #[arg(long, value_name = "N")]
-    tasks: Option<usize>,
-}
-
-/// Writes the fragilities of all blocks as one file for another program.
-#[derive(clap::Args)]
-struct ExportArgs {
-    /// Folder of the plan.
-    dir: PathBuf,
-    /// Intensity measure.
-    #[arg(
-        long,
-        value_parser = names::intensity(),
-        default_value = Intensity::Pga.name()
-    )]
-    im: Intensity,
-    /// Demands |theta|/alpha of the plan, one a limit state.
-    #[arg(long, value_name = "E", value_delimiter = ',', default_value = "1")]
-    demand: Vec<f64>,
-    #[command(flatten)]
-    file: FileArgs,
 }
 
 /// What the help says of the tables.
@@ -188,18 +134,6 @@ const CONTENTS: [&str; 3] = [
      `--rows`",
 ];
 
-/// How the tiles of a plan stand.
-#[derive(Serialize)]
-struct Standing {
-    plan: String,
-    tiles: usize,
-    done: usize,
-    missing: usize,
-    foreign: usize,
-    damaged: usize,
-    left_core_s: f64,
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -208,10 +142,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     match &args.action {
         Action::Plan(args) => with_threads(None, || plan(args)).flatten(),
         Action::Run(args) => run_task(args),
-        Action::Status(args) => status(args),
         Action::Merge(args) => with_threads(None, || merge(args)).flatten(),
-        Action::Export(args) => export(args),
-        Action::Slurm(args) => slurm(args),
     }
 }
 
@@ -250,30 +181,19 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
             .step_pga_g
             .map_or(Levels::StepIm(args.step_im), Levels::StepPgaG),
         rows: args.rows,
-        tile_minutes: args.tile_minutes,
+        tile_blocks: args.tile_blocks,
     };
     let planned = sweep::Plan::write(&wanted, &args.out, SOFTWARE)?;
     let plan = &planned.plan;
-    let (blocks, records) = (plan.blocks.len(), plan.records.len());
-    let tiles = plan.tiles.len();
-    let analyses: u64 = plan.tiles.iter().map(|tile| tile.analyses).sum();
-    // Bytes of a row of capacities and of an analysis.
-    let id: usize = plan.blocks.iter().map(|b| b.id.as_ref().len() + 1).sum();
-    let id = id / blocks;
-    let mut bytes = blocks * records * (92 + id + 19 * plan.demands.len());
-    bytes += if plan.rows { (105 + id) * analyses as usize } else { 0 };
     let set_aside = match suite.set_aside() {
         none if none.is_empty() => String::new(),
         some => format!("set aside: {some}\n"),
     };
     say(&format!(
-        "{blocks} blocks, {records} records, {tiles} tiles\n{set_aside}\
-         about {analyses} analyses, {:.3} core-hours, {:.1} MB\n\
-         (19 ns of a core a sample and level; levels guessed from p \
-         PGV/PGA)\n\
-         plan: {}\n",
-        plan.core_s() / 3600.0,
-        bytes as f64 / 1e6,
+        "{} blocks, {} records, {} tiles\n{set_aside}plan: {}\n",
+        plan.blocks.len(),
+        plan.records.len(),
+        plan.tiles(),
         args.out.join("plan.json").display()
     ))
 }
@@ -312,7 +232,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         )));
     }
     let planned = Planned::read(&args.dir)?;
-    let total = planned.plan.tiles.len();
+    let total = planned.plan.tiles();
     let done = |tile: usize| {
         note(&format!("tile {tile} of {total} done"));
     };
@@ -329,29 +249,6 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
     )))
 }
 
-fn status(args: &StatusArgs) -> Result<(), Failure> {
-    let planned = Planned::read(&args.dir)?;
-    let states: Vec<State> = (0..planned.plan.tiles.len())
-        .map(|tile| sweep::state(&planned, tile))
-        .collect();
-    let count = |state: State| states.iter().filter(|s| **s == state).count();
-    let left_core_s = states
-        .iter()
-        .zip(&planned.plan.tiles)
-        .filter(|(state, _)| **state != State::Done)
-        .fold(0.0, |sum, (_, tile)| sum + tile.core_s);
-    let standing = Standing {
-        done: count(State::Done),
-        missing: count(State::Missing),
-        foreign: count(State::Foreign),
-        damaged: count(State::Damaged),
-        plan: planned.hash,
-        tiles: states.len(),
-        left_core_s,
-    };
-    args.json.show(&standing)
-}
-
 fn merge(args: &MergeArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
     if !Content::kept(&planned.plan).contains(&args.what) {
@@ -360,55 +257,4 @@ fn merge(args: &MergeArgs) -> Result<(), Failure> {
         ));
     }
     sweep::merge(&planned, args.what, &args.out)
-}
-
-fn export(args: &ExportArgs) -> Result<(), Failure> {
-    let planned = Planned::read(&args.dir)?;
-    args.file.write(planned.files(), || {
-        sweep::fragilities(&planned, args.im, &args.demand)
-    })
-}
-
-fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
-    let planned = Planned::read(&args.dir)?;
-    let tiles = planned.plan.tiles.len();
-    let tasks = args.tasks.unwrap_or(tiles.min(100));
-    if !(tasks > 0 && tasks <= tiles) {
-        return Err(Failure::input(format!(
-            "--tasks {tasks}: expected 1 to {tiles}, the number of tiles"
-        )));
-    }
-    let longest = (0..tasks)
-        .map(|task| planned.plan.tiles_of(task, tasks))
-        .map(|own| own.iter().map(|t| planned.plan.tiles[*t].core_s).sum())
-        .fold(0.0, f64::max);
-    let dir = quoted(&std::path::absolute(&args.dir)?)?;
-    // Three times the estimate, and ten minutes at least.
-    let minutes = 3.0 * longest / 60.0;
-    let minutes = 10 + minutes.ceil() as u64;
-    print(&format!(
-        "#!/bin/bash\n\
-         #SBATCH --job-name=rocking\n\
-         #SBATCH --array=0-{}\n\
-         #SBATCH --cpus-per-task=1\n\
-         #SBATCH --time={minutes}\n\
-         #SBATCH --requeue\n\
-         # A task that is requeued goes on with the tiles that it lacks.\n\
-         # In one allocation instead: srun rocking sweep run DIR\n\
-         rocking sweep run {dir} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
-        tasks - 1,
-    ))
-}
-
-/// A path as one word of a shell's script, whatever is in it.
-fn quoted(path: &Path) -> Result<String, Failure> {
-    let text = path.to_str().filter(|text| !text.contains(char::is_control));
-    let text = text.ok_or_else(|| {
-        Failure::input(format!(
-            "{}: expected a path of text without control characters, which \
-             a script can hold",
-            path.display()
-        ))
-    })?;
-    Ok(format!("'{}'", text.replace('\'', "'\\''")))
 }

@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 use rocking_common::table::columns::{
-    SCHEMA_COLUMN, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
+    SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
 };
 use rocking_common::words::named;
 
@@ -29,19 +29,20 @@ impl Content {
         out
     }
 
-    /// Name of each column, and what its cells are in the registry.
+    /// Names of the columns.
     #[must_use]
-    pub fn columns(self, plan: &Plan) -> Vec<(String, &'static str)> {
-        let (layout, demands) = match self {
-            Self::Fragilities => (&SWEEP_FRAGILITIES, &[][..]),
-            Self::Capacities => (&SWEEP_CAPACITIES, &plan.demands[..]),
-            Self::Rows => (&SWEEP_ROWS, &[][..]),
+    pub fn columns(self, plan: &Plan) -> Vec<String> {
+        let layout = match self {
+            Self::Fragilities => &SWEEP_FRAGILITIES,
+            Self::Capacities => &SWEEP_CAPACITIES,
+            Self::Rows => &SWEEP_ROWS,
         };
-        let own = layout.columns.iter();
-        let own = own.map(|column| (column.name.into(), column.cells));
-        let at = demands.iter();
-        let at = at.map(|d| (format!("intensity_at_{d}"), "number"));
-        let schema = [(SCHEMA_COLUMN.into(), "level")];
-        own.chain(at).chain(schema).collect()
+        let mut names: Vec<String> = layout.names().map(Into::into).collect();
+        if self == Self::Capacities {
+            let at = plan.demands.iter();
+            let at = at.map(|demand| format!("intensity_at_{demand}"));
+            names.splice(layout.columns.len()..layout.columns.len(), at);
+        }
+        names
     }
 }

@@ -5,15 +5,12 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
-use rocking::integrator::{Model, Overturning, uplift_threshold};
+use rocking::ida::{Analysis, Grid, REFINEMENT};
 use rocking::record::{Processing, Profile, ReadOptions, Suite, read};
 use rocking::statistics::Clusters;
-use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 use serde::{Deserialize, Serialize};
 
-use super::cost::{self, Cost, Tile};
 use crate::failure::{At as _, Failure};
 use crate::input;
 use rocking_common::files::write_atomically;
@@ -23,11 +20,13 @@ use rocking_common::suites::inputs::{BLOCK_SAMPLES, reread, sha256_hex};
 mod check;
 
 /// Version of the plan's shape.
-const SCHEMA: u32 = 5;
+const SCHEMA: u32 = 6;
 
-/// Replicates of the bootstrap, and intensity measures: PGA and PGV.
-const REPLICATES: usize = 400;
-const INTENSITIES: usize = 2;
+/// Replicates of the bootstrap of a fragility's parameters.
+pub(super) const REPLICATES: usize = 400;
+
+/// Curves of a tile, about, where the number of its blocks is not given.
+const TILE_CURVES: usize = 1000;
 
 /// Name of the suite in the plan's folder.
 const SUITE: &str = "suite";
@@ -43,8 +42,6 @@ pub struct Plan {
     pub levels: Levels,
     /// Demands at which capacities are reported.
     pub demands: Vec<f64>,
-    /// Replicates of the bootstrap of a fragility's parameters.
-    pub replicates: usize,
     /// Whether every level is kept.
     pub rows: bool,
     /// The blocks.
@@ -54,8 +51,8 @@ pub struct Plan {
     /// Their earthquakes; empty where the suite does not say them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     events: Vec<String>,
-    /// The tiles, in the order of the blocks, with what they cost.
-    pub tiles: Vec<Tile>,
+    /// Blocks of a tile; the last tile may have fewer.
+    tile_blocks: usize,
 }
 
 /// A block of a plan.
@@ -73,14 +70,6 @@ pub struct Given {
 }
 
 impl Given {
-    /// The block.
-    ///
-    /// # Errors
-    /// [`Failure`] for a block out of range.
-    pub fn block(&self) -> Result<Block, Failure> {
-        Ok(Block::try_new(self.alpha_rad, self.p_rad_s)?)
-    }
-
     /// The parameters as the tables have them.
     #[must_use]
     pub fn cells(&self) -> [String; 3] {
@@ -103,16 +92,6 @@ impl Levels {
         match self {
             Self::StepIm(step) => Grid::Im { step },
             Self::StepPgaG(step_g) => Grid::Pga { step_g },
-        }
-    }
-
-    /// The step in PGA/(g tan alpha) for a block.
-    fn step_im(self, block: &Block) -> f64 {
-        match self {
-            Self::StepIm(step) => step,
-            Self::StepPgaG(step) => {
-                step / uplift_threshold(block, Model::Nonlinear)
-            }
         }
     }
 }
@@ -146,8 +125,8 @@ pub struct Wanted<'a> {
     pub levels: Levels,
     /// Whether every level is kept.
     pub rows: bool,
-    /// What a tile should take, in minutes of a core.
-    pub tile_minutes: f64,
+    /// Blocks of a tile.
+    pub tile_blocks: Option<usize>,
 }
 
 impl Plan {
@@ -155,27 +134,15 @@ impl Plan {
     ///
     /// # Errors
     /// [`Failure`] for a block or a demand that comes again, where the folder
-    /// has another plan already, for more than 1e12 analyses, and where a
-    /// record cannot be packed or a file cannot be written.
+    /// has another plan already, and where a record cannot be packed or a file
+    /// cannot be written.
     pub fn write(
         wanted: &Wanted<'_>,
         folder: &Path,
         software: &str,
     ) -> Result<Planned, Failure> {
         let members: Vec<_> = wanted.suite.study_components().collect();
-        let profiles: Vec<&Profile> =
-            members.iter().map(|member| &member.accelerogram).collect();
-        // A fit a demand and intensity measure.
-        let fits = (INTENSITIES * wanted.demands.len(), REPLICATES);
-        let costs: Vec<Cost> = wanted
-            .blocks
-            .iter()
-            .map(|given| {
-                let step_im = wanted.levels.step_im(&given.block()?);
-                Ok(Cost::of(given.p_rad_s, &profiles, step_im, fits))
-            })
-            .collect::<Result<_, Failure>>()?;
-        let tiles = cost::tiles(&costs, 60.0 * wanted.tile_minutes);
+        let by_default = TILE_CURVES.div_ceil(members.len().max(1));
         let events: Option<Vec<String>> =
             members.iter().map(|member| member.event.clone()).collect();
         let mut plan = Self {
@@ -183,12 +150,11 @@ impl Plan {
             software: software.into(),
             levels: wanted.levels,
             demands: wanted.demands.clone(),
-            replicates: REPLICATES,
             rows: wanted.rows,
             blocks: wanted.blocks.to_vec(),
             records: Vec::with_capacity(members.len()),
             events: events.unwrap_or_default(),
-            tiles,
+            tile_blocks: wanted.tile_blocks.unwrap_or(by_default),
         };
         // Refused before the records are packed.
         plan.check_settings().map_err(Failure::input)?;
@@ -251,50 +217,22 @@ impl Plan {
         }
     }
 
-    /// Seconds of one core that all of it takes, estimated.
-    #[must_use]
-    pub fn core_s(&self) -> f64 {
-        self.tiles.iter().fold(0.0, |sum, tile| sum + tile.core_s)
-    }
-
-    /// The settings as JSON: all but blocks, records and tiles.
-    #[must_use]
-    pub fn settings(&self) -> String {
-        serde_json::json!({
-            "levels": self.levels,
-            "refinement_im": REFINEMENT,
-            "highest_im": HIGHEST_IM,
-            "equation": Model::Nonlinear,
-            "overturn": Overturning::Alpha,
-            "gravity_m_s2": STANDARD_GRAVITY_M_S2,
-            "demands": self.demands,
-            "replicates": self.replicates,
-            "blocks": self.blocks.len(),
-            "records": self.records.len(),
-            "drawn": self.clusters().to_string(),
-        })
-        .to_string()
-    }
-
     pub(super) fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
+    /// Number of tiles.
+    #[must_use]
+    pub fn tiles(&self) -> usize {
+        self.blocks.len().div_ceil(self.tile_blocks)
+    }
+
     /// The blocks of a tile.
     #[must_use]
     pub fn blocks_of(&self, tile: usize) -> &[Given] {
-        let first: usize =
-            self.tiles[..tile].iter().map(|tile| tile.blocks).sum();
-        &self.blocks[first..first + self.tiles[tile].blocks]
-    }
-
-    /// The tiles of a task of `of`, the costliest first, dealt so that tasks
-    /// end together; none for a task that is not below `of`.
-    #[must_use]
-    pub fn tiles_of(&self, task: usize, of: usize) -> Vec<usize> {
-        let mut tasks = cost::deal(&self.tiles, of);
-        if task < of { tasks.swap_remove(task) } else { Vec::new() }
+        let mut tiles = self.blocks.chunks(self.tile_blocks);
+        tiles.nth(tile).unwrap_or_default()
     }
 
     /// What is run of a block.
@@ -302,11 +240,12 @@ impl Plan {
     /// # Errors
     /// [`Failure`] for a block out of range.
     pub fn analysis(&self, given: &Given) -> Result<Analysis, Failure> {
+        let block = Block::try_new(given.alpha_rad, given.p_rad_s)?;
         let restitution = Restitution::constant(given.eta)?;
         Ok(Analysis {
             grid: self.levels.grid(),
             refine: Some(REFINEMENT),
-            ..Analysis::paper(given.block()?, restitution)
+            ..Analysis::paper(block, restitution)
         })
     }
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use rocking::record::{Processing, Profile, ReadOptions, Suite};
 use rocking::stop::{Stop, StopError};
 
+use super::tile::{State, read};
 use super::*;
 use crate::failure::Failure;
 use rocking_common::suites::inputs::{profiles, sha256_hex};
@@ -29,7 +30,7 @@ fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
     (suite.unwrap(), place, read)
 }
 
-fn plan(folder: &Path, tile_minutes: f64) -> Planned {
+fn plan(folder: &Path, tile_blocks: usize) -> Planned {
     let blocks: Vec<Given> = [0.08, 0.1, 0.12, 0.15, 0.2, 0.22, 0.25]
         .into_iter()
         .enumerate()
@@ -49,7 +50,7 @@ fn plan(folder: &Path, tile_minutes: f64) -> Planned {
         demands: vec![0.35, 1.0],
         levels: Levels::StepIm(0.05),
         rows: true,
-        tile_minutes,
+        tile_blocks: Some(tile_blocks),
     };
     Plan::write(&wanted, &folder.join("plan"), BUILD).unwrap()
 }
@@ -77,23 +78,22 @@ fn merged(planned: &Planned, content: Content) -> String {
 fn any_tiles_and_any_tasks_give_the_same_bytes() {
     let mut sums = Vec::new();
     let all = usize::MAX;
-    for (tile_minutes, of, block_samples) in [
-        (1e9, 1, all),
-        (1e9, 1, 1),
-        (1e-9, 1, 201),
-        (1e-9, 2, all),
-        (1e-9, 5, all),
+    for (tile_blocks, tiles, of, block_samples) in [
+        (9, 1, 1, all),
+        (7, 1, 1, 1),
+        (1, 7, 1, 201),
+        (1, 7, 5, all),
+        (3, 3, 2, all),
     ] {
         let place = tempfile::tempdir().unwrap();
-        let planned = plan(place.path(), tile_minutes);
+        let planned = plan(place.path(), tile_blocks);
         let planned = Planned { block_samples, ..planned };
         let first = planned.records(0).unwrap().len();
         assert_eq!(
             first,
             if block_samples == all { 3 } else { block_samples.div_ceil(200) }
         );
-        let tiles = if tile_minutes > 1.0 { 1 } else { 7 };
-        assert_eq!(planned.plan.tiles.len(), tiles);
+        assert_eq!(planned.plan.tiles(), tiles);
         run_all(&planned, of);
         let contents = Content::kept(&planned.plan);
         assert_eq!(contents.len(), 3);
@@ -106,7 +106,7 @@ fn any_tiles_and_any_tasks_give_the_same_bytes() {
 #[test]
 fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
     let place = tempfile::tempdir().unwrap();
-    let planned = plan(place.path(), 1e-9);
+    let planned = plan(place.path(), 1);
     let stop = Stop::default();
     let done = |tile| {
         if tile == 2 {
@@ -116,17 +116,18 @@ fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
     let stopped = stop.run(2, || run(&planned, BUILD, (0, 1), &done));
     assert!(matches!(stopped, Err(StopError::Stopped)), "{stopped:?}");
     assert_eq!(left(&planned, (0, 1)), [3, 4, 5, 6]);
-    for tile in 0..7 {
-        let expected = if tile > 2 { State::Missing } else { State::Done };
-        assert_eq!(state(&planned, tile), expected, "{tile}");
-    }
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
-    assert!(error.message.contains("missing"), "{error:?}");
+    let words = error.message;
+    assert!(words.starts_with("4 of 7 tiles are not done;"), "{words}");
+    for tile in 0..7 {
+        let missing = words.contains(&format!("0000{tile}.csv: missing"));
+        assert_eq!(missing, tile > 2, "{words}");
+    }
     assert!(!out.exists());
     run_all(&planned, 1);
     let whole = tempfile::tempdir().unwrap();
-    let other = plan(whole.path(), 1e-9);
+    let other = plan(whole.path(), 1);
     run_all(&other, 1);
     for content in Content::kept(&planned.plan) {
         assert_eq!(merged(&planned, content), merged(&other, content));
@@ -138,14 +139,15 @@ fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
 #[test]
 fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     let place = tempfile::tempdir().unwrap();
-    let planned = plan(place.path(), 1e-9);
+    let planned = plan(place.path(), 1);
     run_all(&planned, 1);
     let path = planned.tile_path(Content::Fragilities, 3);
     let right = fs::read(&path).unwrap();
     let mut flipped = right.clone();
     flipped[40] ^= 1;
     fs::write(&path, &flipped).unwrap();
-    assert_eq!(state(&planned, 3), State::Damaged);
+    let state = || read(&planned, Content::Fragilities, 3).unwrap_err();
+    assert_eq!(state(), State::Damaged);
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
     let words = error.message;
@@ -157,7 +159,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     let text = String::from_utf8(right).unwrap();
     let foreign = text.replace(&planned.hash, &"0".repeat(64));
     fs::write(&path, foreign).unwrap();
-    assert_eq!(state(&planned, 3), State::Foreign);
+    assert_eq!(state(), State::Foreign);
     let record = planned.folder.join("suite/b.at2");
     let mut bytes = fs::read(&record).unwrap();
     let last = bytes.len() - 3;
@@ -171,7 +173,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
 #[test]
 fn tiles_of_two_builds_are_not_mixed() {
     let place = tempfile::tempdir().unwrap();
-    let planned = plan(place.path(), 1e-9);
+    let planned = plan(place.path(), 1);
     let other = BUILD.replace("0123456789ab", "ba9876543210");
     let error = run(&planned, &other, (0, 1), &|_| ()).unwrap_err().message;
     assert!(error.contains(BUILD) && error.contains(&other), "{error}");
@@ -181,7 +183,7 @@ fn tiles_of_two_builds_are_not_mixed() {
     let text = fs::read_to_string(&path).unwrap();
     assert_eq!(text.matches(BUILD).count(), 1);
     fs::write(&path, text.replace(BUILD, &other)).unwrap();
-    assert_eq!(state(&planned, 5), State::Foreign);
+    assert_eq!(left(&planned, (0, 1)), [5]);
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Capacities, &out).unwrap_err();
     let words = error.message;
@@ -196,7 +198,7 @@ fn tiles_of_two_builds_are_not_mixed() {
 #[test]
 fn a_plan_is_checked_when_it_is_read() {
     let place = tempfile::tempdir().unwrap();
-    let planned = plan(place.path(), 1e-9);
+    let planned = plan(place.path(), 1);
     let path = planned.folder.join("plan.json");
     let whole = fs::read_to_string(&path).unwrap();
     assert_eq!(whole, Planned::read(&planned.folder).unwrap().plan.text());
@@ -213,24 +215,15 @@ fn a_plan_is_checked_when_it_is_read() {
         assert!(error.contains(words), "{pointer}: {error}");
     };
     use serde_json::json;
-    let tile =
-        |blocks: u64| json!({"blocks": blocks, "analyses": 1, "core_s": 1.0});
     for (pointer, to, words) in [
-        ("/schema", json!(4), "schema 4: expected 5"),
-        ("/replicates", json!(1_u64 << 62), "replicates: expected 2 to"),
-        ("/replicates", json!(1), "1 replicates"),
+        ("/schema", json!(5), "schema 5: expected 6"),
         ("/demands", json!([]), "no demands"),
         ("/demands", json!([0.35, 0.0]), "demand 0: expected a number above"),
         ("/demands", json!([0.35, 0.35]), "comes again"),
         ("/levels/step_im", json!(0.0), "step 0: expected a positive"),
         ("/levels/step_im", json!(-0.1), "step -0.1"),
-        ("/tiles/0/blocks", json!(u64::MAX), "hold each block once"),
-        ("/tiles/0/blocks", json!(0), "hold each block once"),
-        ("/tiles", json!([tile(u64::MAX), tile(8)]), "hold each block once"),
-        ("/tiles", json!(vec![tile(0); 1000]), "hold each block once"),
-        ("/tiles/0/core_s", json!(-1.0), "a tile of -1 s"),
-        ("/tiles/0/analyses", json!(u64::MAX), "expected at most 1e12"),
-        ("/blocks", json!([]), "hold each block once"),
+        ("/tile_blocks", json!(0), "7 blocks, 0 a tile: expected one"),
+        ("/blocks", json!([]), "0 blocks, 1 a tile: expected one"),
         ("/blocks/0/alpha_rad", json!(2.0), "block_0: "),
         ("/blocks/0/eta", json!(1.5), "block_0: "),
         ("/blocks/0/id", json!("a b"), "found `a b`"),

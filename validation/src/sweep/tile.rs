@@ -10,7 +10,7 @@ use rocking::statistics::bootstrap::Bootstrap;
 use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
-use super::plan::{Given, Plan, Planned};
+use super::plan::{Given, Plan, Planned, REPLICATES};
 use crate::failure::{At as _, Failure};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
@@ -18,10 +18,8 @@ use rocking_common::table::Table;
 use rocking_common::words::named;
 
 named! {
-    /// How a tile stands.
+    /// Why a tile is not done.
     pub enum State {
-        /// Whole, and of this plan.
-        Done = "done",
         /// Not there.
         Missing = "missing",
         /// Of another plan, or by another build of the program.
@@ -42,8 +40,8 @@ fn source(planned: &Planned) -> String {
     format!("# plan {} by {}", planned.hash, planned.plan.software)
 }
 
-/// The text of a tile's file without the last line, or how the file stands.
-fn read(
+/// The text of a tile's file without the last line, or why it is not done.
+pub(super) fn read(
     planned: &Planned,
     content: Content,
     tile: usize,
@@ -66,33 +64,14 @@ fn read(
     Err(if has_plan && !of_plan { State::Foreign } else { State::Damaged })
 }
 
-/// The text of a tile's file, which is refused unless it is done.
-pub(super) fn body(
-    planned: &Planned,
-    content: Content,
-    tile: usize,
-) -> Result<String, Failure> {
-    read(planned, content, tile).map_err(|state| {
-        let path = planned.tile_path(content, tile);
-        let (path, state) = (path.display(), state.name());
-        Failure::input(format!("{path}: {state}; run the sweep again"))
-    })
-}
-
-/// How a tile stands, by all its files.
-#[must_use]
-pub fn state(planned: &Planned, tile: usize) -> State {
-    Content::kept(&planned.plan)
-        .into_iter()
-        .find_map(|content| read(planned, content, tile).err())
-        .unwrap_or(State::Done)
-}
-
 /// The tiles of task `task` of `of` that are not done.
 #[must_use]
 pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
-    let own = planned.plan.tiles_of(task, of).into_iter();
-    own.filter(|tile| state(planned, *tile) != State::Done).collect()
+    let kept = Content::kept(&planned.plan);
+    let is_done =
+        |tile| kept.iter().all(|what| read(planned, *what, tile).is_ok());
+    let own = (task..planned.plan.tiles()).step_by(of);
+    own.filter(|tile| !is_done(*tile)).collect()
 }
 
 /// Runs the tiles of task `task` of `of` that are not done, by the program
@@ -221,9 +200,8 @@ impl<'a> Found<'a> {
 
 /// The text of a tile's file without its last line.
 fn text(plan: &Plan, content: Content, all: &[Found<'_>]) -> String {
-    let columns = content.columns(plan);
-    let header: Vec<&str> =
-        columns.iter().map(|(name, _)| name.as_str()).collect();
+    let header = content.columns(plan);
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = Table::with_schema(&header);
     for found in all {
         let parameters = found.block.cells();
@@ -308,7 +286,7 @@ fn fragility(
     // Streams are named by the block, not by the tile.
     let stream = format!("sweep/{}", name.join("/"));
     let clusters = plan.clusters();
-    let draws = Bootstrap::of(&stream, 0, &clusters, plan.replicates);
+    let draws = Bootstrap::of(&stream, 0, &clusters, REPLICATES);
     let replicates: Vec<Option<[f64; 2]>> = draws.map(|places| {
         let values: Vec<f64> = places.iter().map(|i| sample[*i]).collect();
         of(&values, least(&mut places.iter().map(|i| onsets[*i])))

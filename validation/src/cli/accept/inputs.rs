@@ -134,7 +134,7 @@ fn swept(first: u64, blocks: u64) -> Result<String, Failure> {
     {
         run(&format!(
             "sweep plan --blocks blocks.csv --suite suites/{name}.csv \
-             --tile-minutes 0.25 --out {name}"
+             --out {name}"
         ))?;
         run(&format!("sweep run {name}"))?;
         run(&format!("sweep merge {name} --out {name}.csv"))?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking::statistics::QuantileType;
-use rocking_exchange::{BlockFragility, Format, Id};
+use rocking_exchange::{Format, Id};
 use serde::Serialize;
 
 use super::fit::FitArgs;
@@ -28,13 +28,6 @@ pub(super) struct Args {
     source: SourceArgs,
     #[command(flatten)]
     fit: FitArgs,
-    #[command(flatten)]
-    file: FileArgs,
-}
-
-/// The file that other programs read.
-#[derive(clap::Args)]
-pub(in crate::cli) struct FileArgs {
     /// Format of the file.
     #[arg(
         long,
@@ -69,52 +62,40 @@ struct ShownState<'a> {
 /// Runs the command.
 ///
 /// # Errors
-/// [`Failure`] for input that is refused.
+/// [`Failure`] for input or a place that is refused, and for fragilities that
+/// the format does not hold; nothing is written then.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let source = args.source.open()?;
     let inputs = [args.source.inputs(), source.inputs()].concat();
+    let mut outputs = Outputs::of(inputs);
+    let file = outputs.open(&args.out)?;
+    let second = outputs.open_some(args.beside()?.as_ref())?;
     let options = args.fit.options(QuantileType::default());
-    args.file.write(inputs, || source.fragilities(&options))
+    let fragilities = source.fragilities(&options)?;
+    let texts = args.format.texts(&fragilities)?;
+    let is_standard = file.is_standard();
+    file.write(texts.main)?;
+    if let (Some(second), Some((_, text))) = (second, texts.beside) {
+        second.write(text)?;
+    }
+    if is_standard {
+        return Ok(());
+    }
+    let states = fragilities.iter().flat_map(|one| {
+        one.limit_states.iter().map(|state| ShownState {
+            id: &one.id,
+            limit_state: &state.name,
+            im: one.im.to_string(),
+            unit: one.im.unit(),
+            shift: state.fragility.shift(),
+            median: state.fragility.median(),
+            beta: state.fragility.dispersion(),
+        })
+    });
+    args.json.show(&Shown { blocks: states.collect() })
 }
 
-impl FileArgs {
-    /// Writes the fragilities that are made, and prints their parameters.
-    ///
-    /// # Errors
-    /// [`Failure`] for a place that is read, and for fragilities that the
-    /// format does not hold; nothing is written then.
-    pub(in crate::cli) fn write(
-        &self,
-        inputs: Vec<PathBuf>,
-        make: impl FnOnce() -> Result<Vec<BlockFragility>, Failure>,
-    ) -> Result<(), Failure> {
-        let mut outputs = Outputs::of(inputs);
-        let file = outputs.open(&self.out)?;
-        let second = outputs.open_some(self.beside()?.as_ref())?;
-        let fragilities = make()?;
-        let texts = self.format.texts(&fragilities)?;
-        let is_standard = file.is_standard();
-        file.write(texts.main)?;
-        if let (Some(second), Some((_, text))) = (second, texts.beside) {
-            second.write(text)?;
-        }
-        if is_standard {
-            return Ok(());
-        }
-        let states = fragilities.iter().flat_map(|one| {
-            one.limit_states.iter().map(|state| ShownState {
-                id: &one.id,
-                limit_state: &state.name,
-                im: one.im.to_string(),
-                unit: one.im.unit(),
-                shift: state.fragility.shift(),
-                median: state.fragility.median(),
-                beta: state.fragility.dispersion(),
-            })
-        });
-        self.json.show(&Shown { blocks: states.collect() })
-    }
-
+impl Args {
     /// The second file of the format, beside the first.
     fn beside(&self) -> Result<Option<PathBuf>, Failure> {
         let Some(extension) = self.format.beside() else { return Ok(None) };

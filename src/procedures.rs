@@ -9,7 +9,6 @@
 
 pub mod assess;
 pub mod capacities;
-pub mod choice;
 pub mod comparison;
 pub mod contrast;
 pub mod counts;
@@ -23,7 +22,6 @@ pub mod stripes;
 pub mod summary;
 
 pub use assess::{AssessOptions, Assessment, Object, assess};
-pub use choice::{Choice, choose};
 pub use comparison::{Comparison, ComparisonError, compare};
 pub use contrast::{Contrast, ContrastError, contrast};
 pub use counts::{

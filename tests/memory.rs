@@ -343,7 +343,7 @@ const IDA_END: &str =
     ",,,0.92,nonlinear,,alpha,record-scaling,9.80665,none,x\n";
 
 /// Commands and what each reads in place of FILE.
-const COMMANDS: [&str; 25] = [
+const COMMANDS: [&str; 24] = [
     "assess --objects FILE --out out",
     "assess --objects objects.csv --floors FILE --out out",
     "assess --objects objects.csv --suite FILE --out out",
@@ -351,7 +351,6 @@ const COMMANDS: [&str; 25] = [
     "compare --a FILE --b FILE",
     "contrast --a FILE --b FILE",
     "diff FILE FILE",
-    "fragility choose --sample FILE --bootstrap 2 --shift 1",
     "fragility counts --counts FILE --bootstrap 2",
     "fragility export --surrogate ordinary --format csv --blocks FILE --out -",
     "fragility fit --sample FILE",

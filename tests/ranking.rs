@@ -379,35 +379,3 @@ fn censored_records_of_a_table_are_written_with_their_limit() {
     let limit: f64 = limit.parse().unwrap();
     assert!(limit > 1.15 && limit <= 1.3, "{line}");
 }
-
-#[test]
-fn a_comparison_of_distributions_agrees_with_scipy() {
-    let place = folder("ranking-compare", &[]);
-    let sample = "1.05\n1.12\n1.2\n1.21\n1.3\n1.33\n1.41\n1.5\n1.52\n1.6\n\
-                  1.75\n1.8\n1.93\n2.0\n2.2\n2.4\n2.45\n2.9\n3.1\n3.8\n4.5\n\
-                  7.5\n";
-    fs::write(place.join("sample.txt"), sample).unwrap();
-    let words = "fragility choose --sample sample.txt --bootstrap 40";
-    let out = json(&place, words);
-    let family = |name: &str| {
-        let all = out["families"].as_array().unwrap();
-        let found = all.iter().find(|one| one["family"] == name);
-        found.unwrap()["fit"].clone()
-    };
-    // Row `right,gamma` of fixtures/oracles/choice.csv.
-    let gamma = family("gamma");
-    close(&gamma["a2"], 0.897_036_829_792_751_8, 1e-9);
-    let p = gamma["a2_p"].as_f64().unwrap();
-    assert!(p > 0.0 && p <= 1.0);
-    let shifted = family("shifted lognormal");
-    // 2 x 3 parameters less twice the likelihood of rivals.csv.
-    let rivals = include_str!("../fixtures/oracles/rivals.csv");
-    let row = rivals.lines().find(|line| line.starts_with("profile"));
-    let value: f64 =
-        row.unwrap().split(',').next_back().unwrap().parse().unwrap();
-    close(&shifted["aic"], 6.0 - 2.0 * value, 1e-12);
-    let one = text(&place, &format!("{words} --threads 1"));
-    assert_eq!(one, text(&place, &format!("{words} --threads 2")));
-    let said = refused(&place, &format!("{words} --shift min"));
-    assert!(said.contains("invalid value"), "{said}");
-}

@@ -41,7 +41,7 @@ fn a_fit_is_that_of_the_method_and_the_shift() {
 
 #[test]
 fn a_free_shift_brings_its_interval() {
-    let csv = include_str!("../fixtures/oracles/rivals.csv");
+    let csv = include_str!("../fixtures/oracles/likelihoods.csv");
     let left = "1\n4\n6\n7\n7.5\n7.9\n";
     let place = with("free", &[("left.txt", left)]);
     let free = "fragility fit --sample sample.txt --shift free";
@@ -57,7 +57,7 @@ fn a_free_shift_brings_its_interval() {
         ),
         (
             "lilliefors --sample left.txt --shift free",
-            "choice of distributions",
+            "expected a number, not negative, or min",
         ),
     ] {
         let said = refused(&place, command);

@@ -13,13 +13,12 @@ use rocking::intensity::{Measures, PairMeasures, Settings};
 use rocking::number::double::DoubleDouble;
 use rocking::procedures::{Draws, FitOptions, fit_sample};
 use rocking::record::{Accelerogram, ReadOptions, read};
+use rocking::statistics::CensoredSample;
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::choice::{Model, candidate, goodness};
 use rocking::statistics::lilliefors::{NullDistribution, ShiftedNull};
 use rocking::statistics::normality::Battery;
 use rocking::statistics::paired::hodges_lehmann;
-use rocking::statistics::{CensoredSample, ExtendedSample};
 use rocking::stop::{Stop, StopError};
 
 use super::compare::same;
@@ -28,7 +27,7 @@ use super::compare::same;
 type Work = (&'static str, fn(u64) -> String);
 
 /// The text of what the work gives has all its bits.
-const WORK: [Work; 17] = [
+const WORK: [Work; 16] = [
     ("IDA curves", |_| {
         text(curves(&[normalised()], &[analysis()], &Batch::default()))
     }),
@@ -74,11 +73,6 @@ const WORK: [Work; 17] = [
         let sample = CensoredSample::try_new(&sample(), &[]).unwrap();
         let draws = Some(Draws { replicates: 2, seed: 0 });
         text(fit_sample(&sample, &FitOptions { draws, ..Default::default() }))
-    }),
-    ("the goodness of a fit", |size| {
-        let values = ExtendedSample::try_new(&sample()).unwrap();
-        let found = candidate(&values, 0.0, Model::Lognormal).unwrap();
-        text(goodness(&found, 29, 0.0, size, 0))
     }),
     ("a bootstrap", |size| {
         text(Bootstrap::new("stop", 0, 9, size as usize).map(<[_]>::to_vec))

@@ -17,8 +17,8 @@ none of these             `embedded_suite`
 a block and a motion      `respond`: what the block does
 many of both              `peak`, `spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
-capacities                `fit_fragility`, `choose`, `test_normality`,
-                          `summarise`, `compare`, `contrast`
+capacities                `fit_fragility`, `test_normality`, `summarise`,
+                          `compare`, `contrast`
 counts of stripes         `fit_stripes`
 a record                  `intensity_measures`, `rotd50`, `velocity_pulse`
 an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
@@ -68,7 +68,6 @@ from ._inputs import (
 from ._measures import intensity_measures, rotd50, velocity_pulse
 from ._results import (
     Boxplot,
-    Choice,
     Comparison,
     Contrast,
     IdaSummary,
@@ -91,7 +90,6 @@ from ._statistics import (
     FragilityFit,
     LevelFit,
     Sample,
-    choose,
     compare,
     contrast,
     fit_fragility,
@@ -106,7 +104,6 @@ __all__ = [
     "Block",
     "BlockFragility",
     "Boxplot",
-    "Choice",
     "Comparison",
     "Contrast",
     "CountsFragility",
@@ -140,7 +137,6 @@ __all__ = [
     "VelocityPulse",
     "__version__",
     "assess",
-    "choose",
     "compare",
     "contrast",
     "embedded_suite",

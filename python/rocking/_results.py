@@ -176,44 +176,6 @@ class Bounds(Result):
 
 
 @dataclass(frozen=True)
-class FamilyFit(Result):
-    """A fitted family of distributions."""
-
-    aic: float
-    delta_aic: float
-    bic: float
-    log_likelihood: float
-    ks_distance: float
-    ks_p: float
-    a2: float
-    a2_p: float
-    used: int
-    shape: float
-    scale: float
-    location: float
-
-
-@dataclass(frozen=True)
-class Family(Result):
-    """A family of distributions, and its fit."""
-
-    family: str
-    parameters: int
-    fit: FamilyFit | Reason
-
-
-@dataclass(frozen=True)
-class Choice(Result):
-    """Families of distributions fitted to one sample."""
-
-    n: int
-    shift_given: float
-    replicates: int
-    seed: int
-    families: tuple[Family, ...]
-
-
-@dataclass(frozen=True)
 class Statistic(Result):
     """Lilliefors' D and its one-sided parts."""
 

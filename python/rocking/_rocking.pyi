@@ -189,9 +189,6 @@ def fit(sample: Sample, options: Fit) -> str: ...
 def fit_stripes(
     stripes: Sequence[tuple[float, int, int]], shift: float
 ) -> str: ...
-def choose_distribution(
-    sample: Sample, shift: float, replicates: int, seed: int
-) -> str: ...
 def test_normality(
     sample: Sample,
     shift: str | None,

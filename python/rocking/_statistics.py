@@ -14,7 +14,6 @@ from ._inputs import Floats, Frozen, floats, frozen, number, numbers
 from ._results import (
     Band,
     Bounds,
-    Choice,
     Comparison,
     Contrast,
     FitIntervals,
@@ -376,28 +375,6 @@ def fit_stripes(
     """
     counts = [(number(im, "intensity"), k, n) for im, k, n in stripes]
     return CountsFragility._of(_rocking.fit_stripes(counts, shift))
-
-
-def choose(
-    sample: ArrayLike | Sample,
-    *,
-    shift: float = 0.0,
-    n_resamples: int = 1000,
-    rng: int = 0,
-) -> Choice:
-    """Compares lognormal, shifted lognormal, Weibull, gamma and generalized
-    extreme value distributions.
-
-    A difference of AIC below 2 decides nothing.
-
-    >>> found = choose([1.2, 1.5, 1.9, 2.4, 3.8, 5.0], n_resamples=50)
-    >>> len(found.families)
-    5
-    """
-    found = _rocking.choose_distribution(
-        given_sample(sample), shift, n_resamples, seed(rng)
-    )
-    return Choice._of(found)
 
 
 def test_normality(

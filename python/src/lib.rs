@@ -51,8 +51,8 @@ mod _rocking {
     use crate::peak::peak;
     #[pymodule_export]
     use crate::procedures::{
-        choose_distribution, compare, contrast, fit, fit_stripes, lognormal,
-        summarise, test_normality,
+        compare, contrast, fit, fit_stripes, lognormal, summarise,
+        test_normality,
     };
 
     #[pymodule_export]

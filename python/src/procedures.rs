@@ -7,10 +7,9 @@ use pyo3::prelude::*;
 use rocking::procedures::comparison::Named;
 use rocking::procedures::contrast::Drawn;
 use rocking::procedures::{
-    Draws, FitOptions, NormalityOptions, choose as choose_family,
-    compare as compare_pairs, contrast as contrast_suites, fit_sample,
-    fit_stripes as fit_counts, summarise as summarise_sample,
-    test_normality as test,
+    Draws, FitOptions, NormalityOptions, compare as compare_pairs,
+    contrast as contrast_suites, fit_sample, fit_stripes as fit_counts,
+    summarise as summarise_sample, test_normality as test,
 };
 use rocking::statistics::lognormal::{FitMethod, Stripe};
 use rocking::statistics::{
@@ -109,19 +108,6 @@ pub fn fit_stripes(
         .map(|(im, exceeded, n)| Stripe { im, exceeded, n })
         .collect();
     answer(py, || fit_counts(&stripes, shift))
-}
-
-/// Families of distributions side by side.
-#[pyfunction]
-pub fn choose_distribution(
-    py: Python<'_>,
-    sample: GivenSample<'_>,
-    shift: f64,
-    replicates: usize,
-    seed: u64,
-) -> PyResult<String> {
-    let sample = sample_of(&sample)?;
-    answer(py, || choose_family(&sample, shift, Draws { replicates, seed }))
 }
 
 /// Tests of normality, of the logarithms above a shift where one is given.

@@ -257,11 +257,6 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
             {"sample": VALUES},
             fit,
         ),
-        "choose": (
-            rk.choose,
-            {"sample": VALUES, **few},
-            {"shift": 1.0, "n_resamples": 21, "rng": 1},
-        ),
         "test_normality": (
             rk.test_normality,
             {"sample": VALUES},

@@ -54,7 +54,6 @@ def made() -> list[object]:
         rk.assess(rk.Object("a", BLOCK), SUITE, n_resamples=9).objects[0],
         rk.BlockFragility(block=BLOCK, fit=fit, im="pga"),
         rk.fit_stripes([(1.0, 1, 10), (2.0, 5, 10), (4.0, 9, 10)]),
-        rk.choose(VALUES, n_resamples=9),
         rk.compare(*pairs),
         rk.contrast(VALUES, VALUES, n_resamples=9),
         ida.summarise(),

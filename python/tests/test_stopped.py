@@ -174,12 +174,6 @@ def risk(given: Given) -> Call:
 
 
 @long
-def choose(given: Given) -> Call:
-    sample = given.ida.capacities(0.5)
-    return lambda: rk.choose(sample, n_resamples=1_000_000)
-
-
-@long
 def read_ida(given: Given) -> Call:
     path = given.folder / "ida.csv"
     given.ida.to_csv(path)

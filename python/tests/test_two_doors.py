@@ -153,15 +153,6 @@ def fit_of_stripes_of_the_same_records(house: House) -> Pair:
     return Pair(found, words)
 
 
-@pair("choose")
-def choice(house: House) -> Pair:
-    values = [1.2, 1.5, 1.9, 2.4, 3.8, 5.0, 6.5, 9.0]
-    sample = house.file("choice.txt", [repr(x) for x in values])
-    words = ["fragility", "choose", "--sample", sample, "--shift", 1]
-    words += ["--bootstrap", 30]
-    return Pair(rk.choose(values, shift=1.0, n_resamples=30), words)
-
-
 @pair("test_normality")
 def normality_by_the_table(house: House) -> Pair:
     words = ["lilliefors", "--sample", house.sample, "--shift", 1]

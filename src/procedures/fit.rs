@@ -184,10 +184,7 @@ pub enum ProcedureError {
     #[error("level {0}: expected a number between 0 and 1")]
     Level(f64),
     /// A third fitted parameter has another null distribution.
-    #[error(
-        "a free shift: expected a number, not negative, or min; a choice of \
-         distributions tests a fitted shift"
-    )]
+    #[error("a free shift: expected a number, not negative, or min")]
     FreeShiftTested,
     /// A free shift maximises a likelihood.
     #[error("shift free with method {0}: expected the method mle")]

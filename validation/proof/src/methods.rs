@@ -90,7 +90,6 @@ pub const METHODS: &[(&str, Run)] = &[
     ("lilliefors-largest", statistics::largest),
     ("lilliefors-published", statistics::published),
     ("normal-draws", statistics::draws),
-    ("choice", statistics::choice),
     ("fits", statistics::fits),
     ("quantiles", statistics::quantiles),
     ("tests-of-normality", statistics::tests),

@@ -1,6 +1,5 @@
 //! `rocking fragility`: lognormal fragilities, one subcommand a source.
 
-mod choose;
 pub mod counts;
 mod export;
 pub(super) mod fit;
@@ -20,7 +19,6 @@ use crate::failure::Failure;
     rocking fragility fit --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
     rocking fragility fit --sample capacities.txt --shift 1 \
     --bootstrap 1000\n  \
-    rocking fragility choose --sample capacities.txt\n  \
     rocking fragility counts --counts counts.csv\n  \
     rocking fragility transform --shift 1 --im50 2.5 --beta 0.4\n  \
     rocking fragility surface --alpha 0.15 --p 3\n  \
@@ -34,7 +32,6 @@ pub struct Args {
 #[derive(Subcommand)]
 enum Source {
     Fit(Box<fit::Args>),
-    Choose(choose::Args),
     Counts(counts::Args),
     Transform(transform::Args),
     Surface(surface::Args),
@@ -48,7 +45,6 @@ enum Source {
 pub fn run(args: &Args) -> Result<(), Failure> {
     match &args.source {
         Source::Fit(args) => fit::run(args),
-        Source::Choose(args) => choose::run(args),
         Source::Counts(args) => counts::run(args),
         Source::Transform(args) => transform::run(args),
         Source::Surface(args) => surface::run(args),

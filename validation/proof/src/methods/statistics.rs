@@ -2,7 +2,6 @@
 //! published critical values, other packages, and simulated truths.
 
 mod calibration;
-mod choice;
 mod earthquakes;
 mod equations;
 mod fits;
@@ -17,7 +16,6 @@ mod truths;
 mod two_samples;
 
 pub(super) use calibration::{bias, coverage, rejection};
-pub(super) use choice::choice;
 pub(super) use earthquakes::{other_packages, rates};
 pub(super) use equations::transforms;
 pub(super) use fits::{fits, paired, quantiles, tests};

@@ -9,14 +9,12 @@ use rocking::statistics::normality::{
 use rocking::statistics::paired::{
     SignTest, equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking::statistics::rivals::{self, Family};
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};
 
 const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
-const RIVALS: Csv = csv!("oracles/rivals.csv");
 const NORMALITY: Csv = csv!("oracles/normality.csv");
 const PAIRED: Csv = csv!("oracles/paired.csv");
 const QUANTILES: Csv = csv!("oracles/quantiles.csv");
@@ -25,26 +23,13 @@ const QUANTILES: Csv = csv!("oracles/quantiles.csv");
 pub fn fits(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
-        /// As it stands in the files: a fit of the lognormal, or a rival.
+        /// Its name in the file.
         method: String,
     }
     let sample = ExtendedSample::try_new(&sample)?;
     let number = context.or(WrongModel::OtherQuantileType, 7, 5);
     let quantile_type = QuantileType::try_new(number)?;
     let unit = context.or(WrongModel::HalfTheShift, 0.5, 1.0);
-    if let Ok(family) = method.parse::<Family>() {
-        for row in RIVALS.rows(&method)? {
-            let shift = unit * row.number(1)?;
-            let fit = rivals::fit(&sample, shift, family)?;
-            let quantities = [
-                ("shape", fit.shape),
-                ("scale", fit.scale),
-                ("log-likelihood", fit.log_likelihood),
-            ];
-            row.put(answer, 2, &quantities)?;
-        }
-        return Ok(());
-    }
     let swapped = match (context.wrong, method.parse()?) {
         (Some(WrongModel::OtherDivisor), FitMethod::MaximumLikelihood) => {
             FitMethod::Moment

@@ -43,7 +43,6 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
     ("validation/report/Cargo.toml", &["validation/report/src"]),
     ("validation/study/Cargo.toml", &["validation/study/src"]),
     ("web/Cargo.toml", &["web/src"]),
-    ("web/unpack/Cargo.toml", &["web/unpack/src"]),
 ];
 
 /// Folders of sources that follow the same rules.
@@ -57,7 +56,6 @@ const SOURCES: [&str; 10] = [
     "tests",
     "benches",
     "web/src",
-    "web/unpack/src",
 ];
 
 /// Dependencies of the core that everybody gets who uses it.
@@ -68,8 +66,7 @@ const CORE_OPTIONS: &[&str] =
     &["nalgebra", "rand", "rayon", "serde", "sha2", "statrs"];
 
 /// The only files with `unsafe` begin so.
-const UNSAFE: [&str; 3] =
-    ["src/number/dispatch", "web/src/abi.rs", "web/unpack/src/abi.rs"];
+const UNSAFE: [&str; 2] = ["src/number/dispatch", "web/src/abi.rs"];
 
 /// Most lines of a file. A file holds one concept; one that comes near the
 /// limit may hold two.

@@ -9,7 +9,7 @@ use rocking::integrator::{
     Certified, Certify, Model, Response, Solver, certify, uplift_threshold,
 };
 use rocking::record::{Accelerogram, ReadOptions, read_all};
-use rocking::units::AccelerationUnit;
+use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking::{Block, Excitation, Observe, Restitution, respond};
 use rocking_surrogate::{SurfaceFragility, Surrogate};
 use serde::{Deserialize, Serialize};
@@ -17,9 +17,6 @@ use serde::{Deserialize, Serialize};
 use crate::bits::Bits;
 
 type Answer<T> = Result<T, Box<dyn Error>>;
-
-/// Standard gravity, m/s2.
-const GRAVITY_M_S2: f64 = rocking::units::STANDARD_GRAVITY_M_S2;
 
 /// A block by its two parameters, or by its lengths.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -35,9 +32,11 @@ impl Shape {
             Self::Parameters { alpha_rad, p_rad_s } => {
                 Block::try_new(alpha_rad, p_rad_s)?
             }
-            Self::Lengths { width_m, height_m } => {
-                Block::from_dimensions(width_m, height_m, GRAVITY_M_S2)?
-            }
+            Self::Lengths { width_m, height_m } => Block::from_dimensions(
+                width_m,
+                height_m,
+                STANDARD_GRAVITY_M_S2,
+            )?,
         })
     }
 }
@@ -165,9 +164,7 @@ pub struct Responded {
     width_m: f64,
     height_m: f64,
     pga_g: f64,
-    intensity: f64,
     bits: String,
-    outcome: &'static str,
     response: Response,
     certified: Certified,
     interval_s: f64,
@@ -229,8 +226,7 @@ impl Scene {
     pub fn response(&self) -> Answer<Responded> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
-        let lengths = block.dimensions(GRAVITY_M_S2)?;
-        let onset_g = uplift_threshold(&block, Model::Nonlinear);
+        let lengths = block.dimensions(STANDARD_GRAVITY_M_S2)?;
         self.at(block, &motion, self.intensity, |scene, pga_g| {
             let interval_s = match &motion {
                 Motion::Record(record) => record.dt_s(),
@@ -268,9 +264,7 @@ impl Scene {
                 width_m: lengths.width_m,
                 height_m: lengths.height_m,
                 pga_g,
-                intensity: pga_g / onset_g,
                 bits,
-                outcome: response.outcome_name(),
                 interval_s,
                 ratio,
                 ground_g: ground_g.collect(),
@@ -338,7 +332,6 @@ impl Scene {
 /// The surrogate's answer, and the probability at the intensity.
 #[derive(Serialize)]
 pub struct Overturning {
-    intensity: f64,
     /// Suite and probability.
     probability: Vec<(&'static str, f64)>,
     fragility: SurfaceFragility,
@@ -349,5 +342,5 @@ pub fn fragility(shape: &Shape, intensity: f64) -> Answer<Overturning> {
     let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
     let own = fragility.suites.iter();
     let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));
-    Ok(Overturning { intensity, probability: own.collect(), fragility })
+    Ok(Overturning { probability: own.collect(), fragility })
 }

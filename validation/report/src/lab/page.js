@@ -2,17 +2,17 @@
 (async () => {
 const $ = (id) => document.getElementById(id);
 
-// Bytes in, bytes out, by the two buffers of a WebAssembly module.
-function call({ room, answer, answer_start, memory }, bytes) {
-  const at = room(bytes.length);
-  new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
-  const length = answer();
-  return new Uint8Array(memory.buffer, answer_start(), length);
-}
 // An engine in a worker of its own: a question in, an answer out.
-function worker(call) {
+function worker() {
   let module, ready;
   const start = () => { ready = WebAssembly.instantiate(module, {}); };
+  // Bytes in, bytes out, by the two buffers of a WebAssembly module.
+  const call = ({ room, answer, answer_start, memory }, bytes) => {
+    const at = room(bytes.length);
+    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+    const length = answer();
+    return new Uint8Array(memory.buffer, answer_start(), length);
+  };
   onmessage = async ({ data }) => {
     if (data.module) { module = data.module; start(); return; }
     let answer;
@@ -28,7 +28,7 @@ function worker(call) {
   };
 }
 const source = URL.createObjectURL(
-  new Blob([`(${worker})(${call})`], { type: "text/javascript" }));
+  new Blob([`(${worker})()`], { type: "text/javascript" }));
 
 // Some engines that share a queue of questions.
 class Engines {
@@ -70,20 +70,18 @@ class Engines {
   }
 }
 
-const bytes = (id) =>
-  Uint8Array.from(atob($(id).textContent.trim()), (c) => c.charCodeAt(0));
-const unpacked = async () => {
-  const small = new Blob([bytes("unpacker")]).stream()
+const native = JSON.parse($("native").textContent);
+const compiled = async () => {
+  if (!globalThis.DecompressionStream) throw new Error("this browser has no " +
+    "DecompressionStream, which unpacks it. A newer browser has one.");
+  const packed = Uint8Array.from(atob($("engine").textContent),
+    (c) => c.charCodeAt(0));
+  const engine = new Blob([packed]).stream()
     .pipeThrough(new DecompressionStream("gzip"));
-  const unpacker = await WebAssembly.instantiate(
-    await new Response(small).arrayBuffer(), {});
-  const part = (id) => call(unpacker.instance.exports, bytes(id));
-  const native = JSON.parse(new TextDecoder().decode(part("native")));
-  return [native, await WebAssembly.compile(part("engine"))];
+  return WebAssembly.compile(await new Response(engine).arrayBuffer());
 };
-const [native, module] = await unpacked().catch((error) => {
+const module = await compiled().catch((error) => {
   $("state").textContent = `The engine cannot start: ${error.message}`;
-  return [];
 });
 if (!module) return;
 const cores = Math.min(4, Math.max(1, navigator.hardwareConcurrency || 1));
@@ -125,8 +123,7 @@ async function run({ id }) {
   line.result.textContent = "running";
   try {
     const found = await many.ask({ ask: "case", id });
-    const first = found.checks[0];
-    line.here.textContent = `${first.observed[0] ?? "none"}`;
+    line.here.textContent = found.first;
     line.bits.textContent = found.bits;
     const result = found.bits !== native.cases[id].bits ? "differs"
       : found.holds ? "equal" : "fails";
@@ -155,7 +152,7 @@ for (const [family, cases] of Object.entries(
     "Bits of the program", "Result"];
   const body = cases.map(({ id, claim }) => {
     const due = native.cases[id];
-    const cells = ["", `${due.name} ${due.first}`, "", due.bits, "not run"]
+    const cells = ["", `${due.quantity} ${due.first}`, "", due.bits, "not run"]
       .map((text, k) => make("td", text, { "data-label": heads[k + 1] }));
     const [here, , bits, , result] = cells;
     lines.set(id, { here, bits, result });

@@ -7,7 +7,7 @@ use crate::failure::{At as _, Failure};
 use crate::terminal::note;
 use rocking_report::lab;
 
-/// Compiles the engine, and prints in which folder it lies.
+/// Compiles the engine, and prints the path of the packed file.
 const BUILD: &str = "web/build";
 
 /// The page; none where `web/build` says that something is missing.
@@ -19,14 +19,7 @@ pub fn made() -> Result<Option<Vec<u8>>, Failure> {
         note(&format!("{} is left as it is", lab::LAB));
         return Ok(None);
     }
-    let folder = String::from_utf8_lossy(&built.stdout).trim().to_owned();
-    let part = |name: &str| {
-        let path = format!("{folder}/{name}");
-        fs::read(&path).at(&path)
-    };
-    let engine = lab::Engine {
-        unpacker: part("unpack.wasm.gz")?,
-        packed: part("engine.wasm.lzma")?,
-    };
+    let path = String::from_utf8_lossy(&built.stdout).trim().to_owned();
+    let engine = fs::read_to_string(&path).at(&path)?;
     Ok(Some(lab::page(&engine)?.into_bytes()))
 }

@@ -46,7 +46,7 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
 ];
 
 /// Folders of sources that follow the same rules.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 9] = [
     "src",
     "exchange/src",
     "score/src",
@@ -54,7 +54,6 @@ const SOURCES: [&str; 10] = [
     "synthesis/src",
     "validation",
     "tests",
-    "benches",
     "web/src",
 ];
 
@@ -74,7 +73,7 @@ const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
 const FOLDERS: &str = "src exchange score surrogate synthesis \
-    validation tests benches examples fixtures reports .ci docs python/src \
+    validation tests examples fixtures reports .ci docs python/src \
     python/rocking python/tests python/notebooks web";
 
 /// The page that explains every dependency.
@@ -281,7 +280,7 @@ fn the_core_s_names_are_spelled_once() {
         .chain(methods[..2].iter().map(|method| method.name()))
         .chain([Model::Linearized.name(), Overturning::HalfPi.name()])
         .chain([InversionRule::Monotone.name(), "pgv-d575"]);
-    let folders = [&SOURCES[..6], &["python/src", "benches"]].concat();
+    let folders = [&SOURCES[..6], &["python/src"]].concat();
     let texts: Vec<(String, String)> = sources(&folders)
         .into_iter()
         .filter(|path| !path.ends_with("tests.rs"))
@@ -319,7 +318,7 @@ fn every_dependency_is_used_and_explained() {
     let mut packages: Vec<(Vec<String>, &[&str])> = vec![
         (core_all, &["src"]),
         (core_tests, &["src", "tests"]),
-        (harness_all, &["validation/src", "tests", "benches"]),
+        (harness_all, &["validation/src", "tests"]),
     ];
     for (path, folders) in LIBRARIES {
         let library = manifest(path);
@@ -439,7 +438,7 @@ fn nothing_is_unsafe_unfinished_or_skipped() {
 #[test]
 fn the_harness_stands_on_the_public_core() {
     let mut problems = Vec::new();
-    for path in sources(&["validation", "tests", "benches"]) {
+    for path in sources(&["validation", "tests"]) {
         let text = read(&path);
         let tokens = tokens(&text);
         let sources = format!("../{}/", "src");

@@ -175,8 +175,7 @@ pub fn is_file_name(name: &str) -> bool {
 
 /// A record as AT2, five numbers of 25 characters a line: 17 digits, which
 /// give every double back.
-#[must_use]
-pub fn at2(motion: &Accelerogram) -> String {
+fn at2(motion: &Accelerogram) -> String {
     let samples = motion.samples_g();
     let mut text = format!(
         "Written by rocking\nACCELERATION TIME SERIES IN UNITS OF G\n\

@@ -202,7 +202,7 @@ pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
 
 /// The kernel of the lanes with hardly anything else: blocks rock freely
 /// after a push, in long flights with many samples.
-pub struct Kernel {
+struct Kernel {
     record: [NormalisedRecord; 1],
     chains: Vec<Analysis>,
     samples: u64,
@@ -210,10 +210,7 @@ pub struct Kernel {
 
 impl Kernel {
     /// Of samples of `step` in 1/p, at an order if one is given.
-    ///
-    /// # Errors
-    /// None in practice: block and record are in range.
-    pub fn new(
+    fn new(
         model: Model,
         order: Option<Order>,
         step: f64,
@@ -252,10 +249,7 @@ impl Kernel {
     }
 
     /// Flies once, by instructions of a level.
-    ///
-    /// # Errors
-    /// As [`Job::measure`].
-    pub fn measure(&self, work: &str, isa: Isa) -> anyhow::Result<Throughput> {
+    fn measure(&self, work: &str, isa: Isa) -> anyhow::Result<Throughput> {
         let Self { record, chains, samples } = self;
         let way = Execution::Lanes(isa);
         let job = Job { analyses: chains, records: record, way, threads: 1 };
@@ -264,10 +258,10 @@ impl Kernel {
     }
 }
 
-/// A kernel's least time of three.
+/// A kernel's least time of three; samples have a length of `step` in 1/p.
 ///
 /// # Errors
-/// As [`Kernel::new`].
+/// None in practice: block and record are in range.
 pub fn kernel(
     work: &str,
     model: Model,
@@ -299,7 +293,7 @@ pub struct AgainstLoop {
 /// Kernel and loop of Eq. 1 at order 8, at each level with lanes.
 ///
 /// # Errors
-/// As [`Kernel::new`].
+/// As [`kernel`].
 pub fn against_loop() -> anyhow::Result<Vec<AgainstLoop>> {
     const TURNS: usize = 7;
     const FLIGHTS: u32 = 100;

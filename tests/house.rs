@@ -222,6 +222,7 @@ fn what_runs_in_parallel_and_may_be_stopped_has_a_fuse() {
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
 struct Manifest {
+    package: Package,
     #[serde(default)]
     dependencies: BTreeMap<String, toml::Value>,
     #[serde(default)]
@@ -233,6 +234,13 @@ struct Manifest {
     lints: Option<toml::Value>,
     #[serde(default)]
     test: Vec<Target>,
+}
+
+#[derive(Deserialize)]
+struct Package {
+    name: String,
+    license: Option<toml::Value>,
+    publish: Option<bool>,
 }
 
 #[derive(Deserialize)]

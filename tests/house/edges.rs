@@ -165,7 +165,7 @@ const STUDY: Edges = "
         runs sensitivities stripes
     normality
     questions analyses contents distributions estimates fits inference kept \
-        normality results runs stripes ties
+        normality results runs ties
     results analyses distributions inference sensitivities
     runs certainty
     sensitivities analyses runs

@@ -74,7 +74,6 @@ impl Results<'_> {
         Ok(match name {
             "answers" => self.answers(&basis)?,
             "accuracy" => Timings::kept()?.error(),
-            "surface" => listed(answer(self.findings, name)?),
             "contents" => {
                 let recorded = basis.recorded().context("other settings")?;
                 format!(

@@ -9,8 +9,8 @@ pub use plan::Plan;
 pub(crate) use plan::no_arm;
 pub use single::HISTORY_INTERVAL_S;
 pub use suite::{
-    Apart, ArmCurves, Facts, OWN_PERIODS, SPECTRUM_PERIODS_S, ShownHistory,
-    SingleRecords, StripeDemands, SuiteResults, Work, facts,
+    Apart, ArmCurves, Facts, SPECTRUM_PERIODS_S, ShownHistory, SingleRecords,
+    StripeDemands, SuiteResults, Work, facts,
 };
 
 use indicatif::ProgressBar;

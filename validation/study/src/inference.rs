@@ -18,7 +18,7 @@ use rocking_common::findings::{
 };
 use rocking_common::paper::{Arm, Verdict};
 
-pub use drawn::{at_once, by_cell};
+pub use drawn::by_cell;
 pub use draws::{
     Draw, Draws, LEAST_DECIDING, MORE, Measure, REPLICATES, Replicated,
     SUBSAMPLES, Scheme,

@@ -3,18 +3,13 @@
 
 mod answer;
 mod contents;
-mod equivalence;
 mod grid;
-mod inversion;
 mod levels;
-mod measures;
 mod nulls;
 mod options;
 mod power;
 mod recorded;
-mod robustness;
 mod suites;
-mod surface;
 mod trimming;
 
 pub use answer::Answer;
@@ -30,18 +25,10 @@ use rocking_common::findings::Question;
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Answer>> {
     Ok(vec![
         grid::answer(results)?,
-        nulls::answer(results)?,
-        levels::answer(results)?,
         power::answer(results)?,
-        robustness::answer(results)?,
-        equivalence::answer(results)?,
-        inversion::answer(results)?,
         options::answer(results)?,
-        trimming::answer(results)?,
         suites::answer(results)?,
         recorded::answer(results)?,
-        surface::answer(results)?,
-        measures::answer(results, draws)?,
         contents::answer(results, draws)?,
     ])
 }

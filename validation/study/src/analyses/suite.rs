@@ -9,17 +9,13 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use crate::certainty::Certainty;
 use rocking_common::findings::RecordName;
-use rocking_common::paper::{Arm, FREQUENCIES_RAD_S, SuiteKind};
+use rocking_common::paper::{Arm, SuiteKind};
 use rocking_common::suites::{Motion, Source};
 
 /// Periods of the response spectra, in s.
 pub const SPECTRUM_PERIODS_S: [f64; 14] = [
     0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
 ];
-
-/// Periods T of a block's own spectrum, as p T: half an octave apart.
-pub const OWN_PERIODS: [f64; 10] =
-    [0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.2];
 
 /// What a study knows of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +31,6 @@ pub struct Facts {
     /// Intensity measures of the component applied, its spectrum at
     /// [`SPECTRUM_PERIODS_S`].
     pub measures: Measures,
-    /// Spectral acceleration in g, 5 % damping, by frequency parameter p,
-    /// then by period T with p T from [`OWN_PERIODS`].
-    pub own_spectra_g: [Vec<f64>; 3],
 }
 
 /// What the chains of a suite took.
@@ -182,13 +175,9 @@ impl SingleRecords {
 pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
     let study = &motion.study;
     let pga_g = study.pga_g();
-    let own = FREQUENCIES_RAD_S.map(|p| OWN_PERIODS.map(|t| t / p));
-    let periods_s = [&SPECTRUM_PERIODS_S[..], own.as_flattened()].concat();
+    let periods_s = SPECTRUM_PERIODS_S.to_vec();
     let settings = Settings::try_new(STANDARD_GRAVITY_M_S2, 0.05, periods_s)?;
-    let mut measures = Measures::of(study, &settings)?;
-    let spectrum = &mut measures.spectral_acceleration_g;
-    let own = spectrum.split_off(SPECTRUM_PERIODS_S.len());
-    let mut own = own.chunks(OWN_PERIODS.len()).map(<[f64]>::to_vec);
+    let measures = Measures::of(study, &settings)?;
     Ok(Facts {
         name: study.name().to_owned(),
         pga_g,
@@ -198,6 +187,5 @@ pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
             .as_ref()
             .map(|other| (other.pga_g() / pga_g).sqrt()),
         measures,
-        own_spectra_g: std::array::from_fn(|_| own.next().unwrap_or_default()),
     })
 }

@@ -4,9 +4,8 @@
 use rayon::prelude::*;
 
 use super::draws::{Draws, Replicated};
-use super::known::{Caution, Known};
-use super::refuted::refuted;
-use rocking_common::findings::{LEVEL, Measured, Region, Tested};
+use super::known::Known;
+use rocking_common::findings::{LEVEL, Measured, Tested};
 
 /// Level of a band that is drawn and decides nothing.
 const BAND: f64 = 0.95;
@@ -43,23 +42,4 @@ pub fn by_cell(
     let known = Known::new(draws, tested, range, measured);
     let count = measured.points.len();
     (0..count).map(|k| known.shown(k, known.drawn(k, LEVEL))).collect()
-}
-
-/// How many cells are shown to lie below a limit, and how many above, all of
-/// them at once.
-#[must_use]
-pub fn at_once(
-    draws: &Draws,
-    tested: Tested,
-    limit: f64,
-    measured: &Replicated,
-) -> (usize, usize) {
-    let any = (f64::NEG_INFINITY, f64::INFINITY);
-    let known = Known::new(draws, tested, any, measured);
-    let none = vec![false; measured.points.len()];
-    let outside = |region| {
-        let found = refuted(&known, region, &none, Caution::FULL);
-        found.out.iter().filter(|out| **out).count()
-    };
-    (outside(Region::Above(limit)), outside(Region::Below(limit)))
 }

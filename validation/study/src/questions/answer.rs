@@ -41,6 +41,18 @@ impl Answer {
     }
 }
 
+/// One of several tables that answer a question.
+pub struct Part {
+    /// Short name, also of the CSV.
+    pub id: &'static str,
+    /// What it adds to the answer.
+    pub words: String,
+    /// What the page shows.
+    pub table: PlainTable,
+    /// The numbers.
+    pub csv: String,
+}
+
 /// Rows for a CSV and a table of the page at once: each cell stands beside
 /// the name of its column.
 #[derive(Default)]
@@ -82,10 +94,23 @@ impl Rows {
         title: &str,
         reading: &str,
     ) -> Answer {
-        let reading = format!("{answer} {reading} All rows: {id}.csv.");
-        let table = self.table(format!("table-{id}"), title, reading);
-        let (csv, tables) = (self.csv(), vec![table]);
+        let reading = format!("{answer} {reading}");
+        let Part { table, csv, .. } = self.part(id, "", title, &reading);
+        let tables = vec![table];
         Answer { csv, tables, ..Answer::new(id, question, answer) }
+    }
+
+    /// A part of an answer, with these rows under a title.
+    pub fn part(
+        self,
+        id: &'static str,
+        words: impl Into<String>,
+        title: &str,
+        reading: &str,
+    ) -> Part {
+        let reading = format!("{reading} All rows: {id}.csv.");
+        let table = self.table(format!("table-{id}"), title, reading);
+        Part { id, words: words.into(), table, csv: self.csv() }
     }
 
     /// A table of the page with the rows shown.

@@ -1,4 +1,4 @@
-//! What does an accepted share of levels that share records mean?
+//! Accepted shares of levels that share their records.
 
 use rayon::prelude::*;
 use rocking::statistics::acceptance::{AcceptedShare, NullBand};
@@ -6,48 +6,42 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::answer::{Answer, Cell, Rows, count, number, word};
+use super::answer::{Cell, Part, Rows, both, count, number, word};
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
 use crate::results::Results;
-use rocking_common::paper::SuiteKind;
 use rocking_common::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn part(results: &Results) -> Part {
     let mut table = Rows::default();
     let mut words = Vec::new();
-    let batteries = SuiteKind::BOTH.map(|kind| {
-        let size = results.suite(kind).records.len();
-        (kind, Battery::simulate(size, REPLICATES, 0).ok())
+    let batteries = both(results).map(|suite| {
+        Battery::simulate(suite.records.len(), REPLICATES, 0).ok()
     });
     for (suite, found) in results.common() {
-        let battery = batteries.iter().find(|b| b.0 == suite.kind);
-        let battery = battery.and_then(|b| b.1.as_ref());
-        let intensity = found.intensity;
+        let battery = usize::from(suite.kind == results.pulse.kind);
+        let battery = batteries[battery].as_ref();
         let mut low = [0_usize; 2];
         let mut shares: [Vec<f64>; 4] = Default::default();
         for block in &found.blocks {
-            for (shifted, tests) in
-                [&block.original, &block.shifted].into_iter().enumerate()
-            {
+            let samples =
+                [("original", &block.original), ("shifted", &block.shifted)];
+            for (shifted, (kind, tests)) in samples.into_iter().enumerate() {
                 let row =
                     Row::new(tests, block.bands[shifted].as_ref(), battery);
                 low[shifted] += usize::from(row.p_of_share < LEVEL);
                 if shifted == 1 {
-                    shares
-                        .iter_mut()
-                        .zip(row.shares)
-                        .for_each(|(all, x)| all.push(x));
+                    let all = shares.iter_mut().zip(row.shares);
+                    all.for_each(|(all, x)| all.push(x));
                 }
-                let kind = ["original", "shifted"][shifted];
                 let mut cells = vec![
                     ("suite", word(suite.kind.name())),
-                    ("im", word(intensity.name())),
+                    ("im", word(found.intensity.name())),
                     ("sample", word(kind)),
                     ("p_rad_s", number(block.p_rad_s, 0)),
                     ("alpha_rad", number(block.alpha_rad, 2)),
@@ -57,30 +51,31 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             }
         }
         let [d, a, w, s] = shares.map(mean);
+        let [original, shifted] = low.map(|n| match n {
+            0 => "none".to_owned(),
+            n => n.to_string(),
+        });
+        let blocks = found.blocks.len();
         words.push(format!(
             "{}, {}: the accepted share is lower than lognormal \
              capacities with the same dependence between levels allow \
-             (p < 0.05) for {} of {} original and {} shifted samples; \
-             mean accepted share of the shifted ones {d:.2} by \
-             Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
-             Mises, {s:.2} by Shapiro-Wilk.",
+             (p < 0.05) for {original} of {blocks} original and {shifted} of \
+             {blocks} shifted samples; mean accepted share of the shifted \
+             ones {d:.2} by Lilliefors, {a:.2} by Anderson-Darling, {w:.2} \
+             by Cramer-von Mises, {s:.2} by Shapiro-Wilk.",
             capital(suite.kind.name()),
-            intensity.name().to_uppercase(),
-            low[0],
-            found.blocks.len(),
-            low[1],
+            found.intensity.name().to_uppercase(),
         ));
     }
-    Ok(table.answer(
+    table.part(
         "levels",
-        "What does an accepted share of levels that share records mean?",
         words.join(" "),
         "Accepted shares, their null bands and adjusted counts",
         "Band: central 95 % of the Gaussian-score bootstrap; effective \
          levels: (sum of eigenvalues)^2 over the sum of their squares, of \
          the correlation between levels; Holm and Benjamini-Hochberg at \
          5 % over 200 levels; the other tests at 5 % by simulation.",
-    ))
+    )
 }
 
 /// One sample of a block: its cells, the p-value of its accepted share, and
@@ -97,10 +92,11 @@ impl Row {
         band: Option<&NullBand>,
         battery: Option<&Battery>,
     ) -> Self {
+        let with_step = |stride: usize| -> Vec<Assessment> {
+            every(tests, stride).cloned().collect()
+        };
         let accepted = accepted_share(tests);
-        let stands: Vec<Assessment> =
-            every(tests, BAND_STRIDE).cloned().collect();
-        let observed = accepted_share(&stands);
+        let stands = with_step(BAND_STRIDE);
         let ratios = mean(stands.iter().map(over_critical));
         let p_values: Vec<f64> =
             tests.iter().filter_map(|t| Some(t.p_value?.value)).collect();
@@ -112,18 +108,13 @@ impl Row {
             matches!(t.verdict, Err(Inapplicable::Ties { .. }))
         };
         let share = |x: f64| number(x, 3);
-        let with_step = |stride: usize| {
-            let kept: Vec<Assessment> =
-                every(tests, stride).cloned().collect();
-            share(accepted_share(&kept))
-        };
         let of_band =
             |of: &dyn Fn(&NullBand) -> f64| band.map_or(f64::NAN, of);
         let (low, high) = band.and_then(ends).unwrap_or((f64::NAN, f64::NAN));
-        let p_of_share = of_band(&|b| b.p_value(observed));
+        let p_of_share = of_band(&|b| b.p_value(accepted_share(&stands)));
         let p_of_mean = of_band(&|b| b.p_value_of_mean_ratio(ratios));
         let effective = of_band(&|b| b.effective_levels);
-        let [a, w, s] = battery.map_or([f64::NAN; 3], |b| others(tests, b));
+        let [a, w, s] = battery.map_or([f64::NAN; 3], |b| others(&stands, b));
         let cells = vec![
             ("accepted_share", share(accepted)),
             ("band_low", share(low)),
@@ -138,9 +129,9 @@ impl Row {
                 below(benjamini_hochberg(&p_values)),
             ),
             ("ties_decide", count(tests.iter().filter(tied).count())),
-            ("share_step_0.01", with_step(2)),
-            ("share_step_0.02", with_step(4)),
-            ("share_step_0.05", with_step(10)),
+            ("share_step_0.01", share(accepted_share(&with_step(2)))),
+            ("share_step_0.02", share(accepted_share(&with_step(4)))),
+            ("share_step_0.05", share(accepted_share(&with_step(10)))),
             ("share_from_0.1", share(accepted_share(&tests[19..]))),
             ("accepted_anderson_darling", share(a)),
             ("accepted_cramer_von_mises", share(w)),
@@ -150,11 +141,9 @@ impl Row {
     }
 }
 
-/// Accepted shares of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk,
-/// at every eighth level.
+/// Accepted shares of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk.
 fn others(tests: &[Assessment], battery: &Battery) -> [f64; 3] {
-    let stands: Vec<&Assessment> = every(tests, BAND_STRIDE).collect();
-    let accepted: Vec<[Option<bool>; 3]> = stands
+    let accepted: Vec<[Option<bool>; 3]> = tests
         .par_iter()
         .map(|test| {
             let values = test.tested.as_ref();
@@ -165,9 +154,7 @@ fn others(tests: &[Assessment], battery: &Battery) -> [f64; 3] {
         })
         .collect();
     [0, 1, 2].map(|k: usize| {
-        let decided: Vec<bool> =
-            accepted.iter().filter_map(|a| a[k]).collect();
-        let yes = decided.iter().filter(|a| **a).count();
-        yes as f64 / decided.len() as f64
+        let share = accepted.iter().filter_map(|a| a[k]);
+        mean(share.map(|accepted| f64::from(u8::from(accepted))))
     })
 }

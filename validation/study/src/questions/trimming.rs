@@ -1,4 +1,4 @@
-//! When does trimming help Eq. 7?
+//! Where trimming brings Eq. 7 nearer.
 
 use rayon::prelude::*;
 use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
@@ -6,7 +6,7 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::answer::{self, Answer, Cell, Rows, number, word};
+use super::answer::{self, Cell, Part, Rows, number, word};
 use crate::estimates::mean;
 use crate::normality::every;
 use crate::results::Results;
@@ -26,7 +26,7 @@ const DRAWS: u64 = 1000;
 #[derive(Clone, Copy, Default)]
 struct Count([usize; 4]);
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn part(results: &Results) -> anyhow::Result<Part> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     for (suite, found) in results.common() {
@@ -43,26 +43,25 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             })
             .collect();
         let counts = count(&rows);
+        let mut shares = Vec::new();
         for (class, by_constant) in counts.iter().enumerate() {
+            let skewness = class_words(class);
             for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
                 let (suite, im) = (suite.kind.name(), intensity.name());
-                let cells = count.cells(suite, im, &class_words(class), c);
+                let cells = count.cells(suite, im, &skewness, c);
                 table.row_if(c == 0.25 || c == 1.0, cells);
             }
+            let [low, .., high] = by_constant;
+            if high.samples() > 0 {
+                shares.push(format!(
+                    "{} for skewness {skewness} ({} samples; {} at c = 0.25)",
+                    percent(high.share(), 0),
+                    high.samples(),
+                    percent(low.share(), 0),
+                ));
+            }
         }
-        if intensity == Intensity::Pga {
-            let shares: Vec<String> = (0..=EDGES.len())
-                .map(|class| {
-                    let [low, .., high] = counts[class];
-                    format!(
-                        "{} for skewness {} ({} samples; {} at c = 0.25)",
-                        percent(high.share(), 0),
-                        class_words(class),
-                        high.samples(),
-                        percent(low.share(), 0),
-                    )
-                })
-                .collect();
+        if intensity == Intensity::Pga && !shares.is_empty() {
             words.push(format!(
                 "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
                  empirical fragility in {}.",
@@ -83,9 +82,8 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         percent(truth[3].share(), 0),
         percent(truth[0].share(), 0),
     ));
-    Ok(table.answer(
+    Ok(table.part(
         "trimming",
-        "When does trimming help Eq. 7?",
         words.join(" "),
         "Trimming and Eq. 7",
         "USFL7 from the trimmed sample's moments against that from the \
@@ -104,18 +102,14 @@ enum Outcome {
 }
 
 impl Count {
-    fn of(&self, outcome: Outcome) -> usize {
-        self.0[outcome as usize]
-    }
-
     fn samples(&self) -> usize {
         self.0.iter().sum()
     }
 
     /// Samples in which the trimmed fragility is nearer, or the only one.
     fn share(&self) -> f64 {
-        let nearer = self.of(Outcome::Helps) + self.of(Outcome::OnlyTrimmed);
-        nearer as f64 / self.samples() as f64
+        let [helps, _, only, _] = self.0;
+        (helps + only) as f64 / self.samples() as f64
     }
 
     fn cells(
@@ -125,16 +119,16 @@ impl Count {
         skewness: &str,
         c: f64,
     ) -> Vec<(&'static str, Cell)> {
-        let of = |outcome| answer::count(self.of(outcome));
+        let [helps, _, only, neither] = self.0.map(answer::count);
         vec![
             ("suite", word(suite)),
             ("im", word(im)),
             ("skewness", word(skewness)),
             ("c", number(c, 2)),
             ("samples", answer::count(self.samples())),
-            ("trimmed_is_nearer", of(Outcome::Helps)),
-            ("only_trimmed_is_defined", of(Outcome::OnlyTrimmed)),
-            ("neither_is_defined", of(Outcome::Neither)),
+            ("trimmed_is_nearer", helps),
+            ("only_trimmed_is_defined", only),
+            ("neither_is_defined", neither),
             ("share_helped", number(self.share(), 3)),
         ]
     }
@@ -181,17 +175,16 @@ fn outcomes(
 /// Samples of a shifted lognormal, judged by the truth itself.
 fn simulated(n: usize) -> anyhow::Result<[Count; 4]> {
     let streams = Streams::new("study/trimming", 0);
-    let truth = Lognormal::try_new(1.0, 0.0, 0.6).ok();
+    let truth = Lognormal::try_new(1.0, 0.0, 0.6)?;
     let rows: Vec<(usize, [Outcome; 4])> = (0..DRAWS)
         .into_par_iter()
         .filter_map(|index| {
-            let truth = truth.as_ref()?;
             let mut stream = streams.stream(index);
             let values: Vec<f64> = (0..n)
                 .map(|_| 1.0 + libm::exp(0.6 * standard_normal(&mut stream)))
                 .collect();
             let sample = ExtendedSample::try_new(&values).ok()?;
-            Some((0, outcomes(&sample, 1.0, Some(truth))))
+            Some((0, outcomes(&sample, 1.0, Some(&truth))))
         })
         .collect();
     Ok(count(&rows)[0])
@@ -201,19 +194,12 @@ fn simulated(n: usize) -> anyhow::Result<[Count; 4]> {
 /// standard deviation (divisor n).
 fn skewness(values: &[f64], shift: f64) -> Option<f64> {
     let logs: Vec<f64> = values.iter().map(|x| libm::log(x - shift)).collect();
-    if logs.iter().any(|y| !y.is_finite()) {
-        return None;
-    }
     let centre = mean(logs.iter().copied());
-    let moment = |power: i32| {
-        let term = |y: &f64| {
-            let d = y - centre;
-            if power == 2 { d * d } else { d * d * d }
-        };
-        mean(logs.iter().map(term))
-    };
-    let square = moment(2);
-    (square > 0.0).then(|| moment(3) / (square * square.sqrt()))
+    let off = || logs.iter().map(|y| y - centre);
+    let square = mean(off().map(|d| d * d));
+    let cube = mean(off().map(|d| d * d * d));
+    let finite = logs.iter().all(|y| y.is_finite());
+    (finite && square > 0.0).then(|| cube / (square * square.sqrt()))
 }
 
 fn class(skewness: f64) -> usize {

@@ -4,11 +4,11 @@
 use rocking::capacity::{CapacityError, InversionRule};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Overturned, REFINEMENT, curves};
-use rocking::record::{ReadOptions, Suite};
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
-use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::{Block, Restitution};
+use rocking_records::{ReadOptions, Suite};
+use rocking_statistics::ExtendedSample;
+use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::lognormal::{FitMethod, fit};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).ok_or("expected a folder")?;

@@ -5,21 +5,20 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use rocking::fragility::hazard::{Hazard, HazardOptions, Site};
-use rocking::intensity::Intensity;
-use rocking::record::{
-    self, Format, ReadOptions, Record, RecordError, Suite, SuiteError,
-    SuiteMember,
-};
-use rocking::statistics::Lognormal;
 use rocking::units::AccelerationUnit;
 use rocking_cli::cli::fragility::counts;
 use rocking_cli::cli::{blocks, floors};
 use rocking_common::suites::inputs;
 use rocking_exchange::ida::IdaTable;
 use rocking_exchange::sample::SampleFile;
+use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking_proof::cases;
+use rocking_records::intensity::Intensity;
+use rocking_records::{
+    Format, ReadOptions, Record, RecordError, Suite, SuiteError, SuiteMember,
+};
 use rocking_score::Answers;
+use rocking_statistics::Lognormal;
 
 /// Accepts the bytes, or says why not.
 pub type Target = fn(&[u8]) -> Result<(), String>;
@@ -74,11 +73,11 @@ fn options(format: Option<Format>) -> ReadOptions {
 
 fn format(format: Format, bytes: &[u8]) -> Result<(), String> {
     let options = options(Some(format));
-    hold(bytes, record::read_as(format, "x", bytes, &options))
+    hold(bytes, rocking_records::read_as(format, "x", bytes, &options))
 }
 
 fn any(bytes: &[u8]) -> Result<(), String> {
-    hold(bytes, record::read_all("x", bytes, &options(None)))
+    hold(bytes, rocking_records::read_all("x", bytes, &options(None)))
 }
 
 fn hold(
@@ -100,14 +99,14 @@ fn hold(
     }
     // Every sample was written: with a character for it, at least.
     assert!(!records.is_empty() && samples <= bytes.len());
-    let _ = record::remarks(&records[0].accelerogram);
+    let _ = rocking_records::remarks(&records[0].accelerogram);
     Ok(())
 }
 
 fn index(bytes: &[u8]) -> Result<(), String> {
     let motion = b"0\n0.2\n-0.1\n";
     let options = options(Some(Format::Column));
-    let _ = record::is_index(bytes);
+    let _ = rocking_records::is_index(bytes);
     let suite =
         Suite::from_index("x.csv", bytes, &options, |_| Ok(motion.to_vec()));
     hold_suite(suite.map_err(|error| error.to_string())?)

@@ -1,14 +1,15 @@
 //! One component of ground acceleration, checked once, and the names that
 //! results can carry.
 
-pub(crate) mod name;
+mod name;
 
 use thiserror::Error;
 
+pub use name::{EXPECTED, Escaped, are_places};
 pub use name::{NameError, SuiteNameError, result_name, suite_names};
 
 /// Mean of samples, summed in their order.
-pub(crate) fn mean(samples: &[f64]) -> f64 {
+pub fn mean(samples: &[f64]) -> f64 {
     let mut sum = 0.0;
     for sample in samples {
         sum += sample;
@@ -51,13 +52,13 @@ pub enum AccelerogramError {
 /// before the first and after the last it is zero (a jump, if they are not).
 ///
 /// ```
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// let record = Accelerogram::try_new("hand", 0.5, vec![0.0, 0.2, -0.4, 0.0])?;
 /// assert_eq!(record.pga_g(), 0.4);
 /// assert_eq!(record.duration_s(), 1.5);
 /// // Cumulative trapezoid with v(0) = 0: 0.05, 0.0, -0.1 (in g s).
 /// assert!((record.pgv_g_s() - 0.1).abs() < 1e-15);
-/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accelerogram {
@@ -84,10 +85,7 @@ impl Accelerogram {
     }
 
     /// What makes samples an accelerogram, whatever their unit.
-    pub(crate) fn check(
-        dt_s: f64,
-        samples: &[f64],
-    ) -> Result<(), AccelerogramError> {
+    pub fn check(dt_s: f64, samples: &[f64]) -> Result<(), AccelerogramError> {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return Err(AccelerogramError::SamplingInterval(dt_s));
         }
@@ -165,7 +163,7 @@ impl Accelerogram {
     /// between them.
     ///
     /// ```
-    /// use rocking::record::Accelerogram;
+    /// use rocking::accelerogram::Accelerogram;
     /// let record = Accelerogram::try_new("step", 0.5, vec![0.1; 3])?;
     /// let (velocity, displacement) = record.integrals(10.0);
     /// // a t and a t^2/2 of 1 m/s2 after 1 s.

@@ -7,13 +7,9 @@
 
 mod crossings;
 mod curve;
-#[cfg(feature = "statistics")]
-mod stripes;
 
 pub use crossings::{Capacity, Crossings, InversionRule};
 pub use curve::{CapacityError, ResponseCurve};
-#[cfg(feature = "statistics")]
-pub use stripes::{demands, inversion_discrepancy};
 
 #[cfg(test)]
 mod tests;

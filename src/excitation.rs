@@ -63,7 +63,7 @@ impl<'a> ScaledRecord<'a> {
     /// let samples_m_s2 = [0.0, 2.5, -3.0, 0.0];
     /// let record = ScaledRecord::try_new_si(&samples_m_s2, 0.1, 9.81)?;
     /// assert_eq!(record.factor::<f64>(), 1.0 / 9.81);
-    /// # Ok::<(), rocking::record::AccelerogramError>(())
+    /// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
     /// ```
     pub fn try_new_si(
         samples_m_s2: &'a [f64],
@@ -132,12 +132,12 @@ impl<'a> ScaledRecord<'a> {
 ///
 /// ```
 /// use rocking::excitation::NormalisedRecord;
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// let record = Accelerogram::try_new("hand", 0.1, vec![0.1, -0.3, 0.2])?;
 /// let unit = NormalisedRecord::new(&record);
 /// assert_eq!(unit.samples()[1], -1.0);
 /// assert_eq!(unit.pga_g(), 0.3);
-/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct NormalisedRecord {

@@ -209,7 +209,7 @@ pub enum IdaError {
 /// use rocking::block::{Block, Restitution};
 /// use rocking::excitation::NormalisedRecord;
 /// use rocking::ida::{Analysis, curve};
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// // One triangular lobe of half a second, 0.2 g high.
 /// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
 /// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
@@ -273,7 +273,7 @@ pub fn demand_at(
 /// use rocking::{Block, Restitution};
 /// use rocking::excitation::NormalisedRecord;
 /// use rocking::ida::{Analysis, forces_at};
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
 /// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
 /// let record = NormalisedRecord::new(&record);

@@ -105,7 +105,7 @@ named!(Order, "order", { Four = "4", Six = "6", Eight = "8", Ten = "10" });
 /// use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
 /// use rocking::excitation::{NormalisedRecord, ScaledRecord};
 /// use rocking::integrator::Solver;
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// // A second of shaking, then nine that hardly move the ground.
 /// let sample = |k: u32| match k {
 ///     0..100 => 0.15 * libm::sin(0.1 * f64::from(k)),

@@ -49,32 +49,17 @@
 
 #![deny(missing_docs)]
 // Parts of the kernel serve one feature alone.
-#![cfg_attr(
-    not(all(feature = "lanes", feature = "records", feature = "statistics")),
-    allow(dead_code, unused_imports)
-)]
+#![cfg_attr(not(feature = "lanes"), allow(dead_code, unused_imports))]
 
 pub mod accelerogram;
 pub mod block;
 pub mod capacity;
 pub mod excitation;
-pub mod floor;
-#[cfg(feature = "statistics")]
-pub mod fragility;
 pub mod ida;
 pub mod integrator;
-pub mod intensity;
 pub mod names;
 pub mod number;
-#[cfg(all(feature = "lanes", feature = "records", feature = "statistics"))]
-pub mod procedures;
-#[cfg(feature = "records")]
-pub mod record;
-#[cfg(feature = "statistics")]
-pub mod statistics;
 pub mod stop;
-#[cfg(feature = "statistics")]
-pub mod streams;
 pub mod units;
 
 pub use block::{Block, Restitution};

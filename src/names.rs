@@ -14,7 +14,6 @@ use thiserror::Error;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{what} {found:?}: expected one of {}", expected.join(", "))]
-#[non_exhaustive]
 pub struct UnknownName {
     /// What was to be named.
     pub what: &'static str,
@@ -25,7 +24,7 @@ pub struct UnknownName {
 }
 
 /// The value among `all` that has this name, in upper or lower case.
-pub(crate) fn find<T: Copy>(
+pub fn find<T: Copy>(
     what: &'static str,
     found: &str,
     all: &[T],
@@ -42,6 +41,7 @@ pub(crate) fn find<T: Copy>(
 
 /// Gives each variant of an enumeration its name: in `ALL`, `name`,
 /// `Display` and `FromStr`.
+#[macro_export]
 macro_rules! named {
     ($enum:ident, $what:literal, {
         $($variant:ident = $name:literal),+ $(,)?
@@ -82,6 +82,7 @@ macro_rules! named {
 }
 
 /// Serialises a type as the text of its `Display`, which its `FromStr` reads.
+#[macro_export]
 macro_rules! as_text {
     ($type:ty) => {
         #[cfg(feature = "serde")]
@@ -107,4 +108,4 @@ macro_rules! as_text {
     };
 }
 
-pub(crate) use {as_text, named};
+pub use crate::{as_text, named};

@@ -9,7 +9,7 @@
 pub mod dispatch;
 pub mod double;
 mod fused;
-pub(crate) mod lanes;
+pub mod lanes;
 pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

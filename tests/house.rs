@@ -8,8 +8,8 @@ use rocking::capacity::InversionRule;
 use rocking::excitation::PulseName;
 use rocking::ida::Adjust;
 use rocking::integrator::{Model, Overturning};
-use rocking::statistics::QuantileType;
-use rocking::statistics::lognormal::FitMethod;
+use rocking_statistics::QuantileType;
+use rocking_statistics::lognormal::FitMethod;
 use serde::Deserialize;
 
 #[path = "house/edges.rs"]

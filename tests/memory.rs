@@ -9,8 +9,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use peak_alloc::PeakAlloc;
-use rocking::record::{Processing, Profile, ReadOptions, Suite};
 use rocking_common::suites::inputs;
+use rocking_records::{Processing, Profile, ReadOptions, Suite};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 

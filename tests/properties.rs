@@ -8,7 +8,7 @@ use rocking::block::{Block, Restitution};
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, curve};
-use rocking::statistics::{ExtendedSample, QuantileType};
+use rocking_statistics::{ExtendedSample, QuantileType};
 
 #[path = "properties/drawn.rs"]
 mod drawn;

@@ -5,9 +5,9 @@ use std::fs;
 use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
-use rocking::record::{self, ReadOptions, Remark};
-use rocking::streams::{Streams, below};
 use rocking::units::AccelerationUnit;
+use rocking_records::{ReadOptions, Remark};
+use rocking_statistics::streams::{Streams, below};
 
 #[path = "../fuzz/targets.rs"]
 mod targets;
@@ -92,9 +92,11 @@ fn channels(target: &str, bytes: &[u8]) -> Option<(Vec<Vec<f64>>, bool)> {
     let unit = unitless.then_some(AccelerationUnit::Gravity);
     let dt_s = column.then_some(0.01);
     let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
-    let records = record::read_all("x", bytes, &options).ok()?;
-    let samples = |r: &record::Record| r.accelerogram.samples_g().to_vec();
-    let cut = |r: &record::Record| r.remarks.contains(&Remark::LastLine);
+    let records = rocking_records::read_all("x", bytes, &options).ok()?;
+    let samples =
+        |r: &rocking_records::Record| r.accelerogram.samples_g().to_vec();
+    let cut =
+        |r: &rocking_records::Record| r.remarks.contains(&Remark::LastLine);
     let cut = records.iter().any(cut);
     Some((records.iter().map(samples).collect(), cut))
 }

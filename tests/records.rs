@@ -4,9 +4,9 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use rocking::record::{self, ReadOptions, Suite};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_common::suites::inputs;
+use rocking_records::{ReadOptions, Suite};
 
 use super::support::{self, answer, failure, json, outcome, refused, run};
 
@@ -72,7 +72,7 @@ fn real_files_that_lost_something_are_refused() {
         let unit = column.then_some(AccelerationUnit::Gravity);
         let dt_s = column.then(|| cells[3].parse().unwrap());
         let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
-        let whole = record::read("x", &bytes, &options).unwrap();
+        let whole = rocking_records::read("x", &bytes, &options).unwrap();
         let count = whole.accelerogram.samples_g().len();
         let from = bytes.len() / 2;
         for _ in 0..4 {
@@ -81,7 +81,7 @@ fn real_files_that_lost_something_are_refused() {
             let mut cut = bytes.clone();
             let lost = cut.remove(at);
             if cells[1] != "column" && !lost.is_ascii_whitespace() {
-                let refused = record::read("x", &cut, &options);
+                let refused = rocking_records::read("x", &cut, &options);
                 let error = refused.expect_err(cells[0]);
                 assert!(error.line().is_some() && error.column().is_some());
             }
@@ -93,7 +93,7 @@ fn real_files_that_lost_something_are_refused() {
                 .unwrap_or(0);
             let mut cut = bytes.clone();
             cut.drain(start..=start + length);
-            match record::read("x", &cut, &options) {
+            match rocking_records::read("x", &cut, &options) {
                 Err(_) => assert_ne!(cells[1], "column"),
                 Ok(record) => {
                     assert_eq!(cells[1], "column");

@@ -4,6 +4,7 @@
 
 use rayon::prelude::*;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, Resurrections, curves};
@@ -11,9 +12,8 @@ use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Scene, Solver, uplift_threshold,
 };
 use rocking::number::dispatch::Isa;
-use rocking::record::Accelerogram;
-use rocking::streams::Streams;
 use rocking_common::suites::inputs::sha256_hex;
+use rocking_statistics::streams::Streams;
 
 use super::compare::hold;
 

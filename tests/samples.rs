@@ -3,7 +3,7 @@
 //! The declared cases prove the numbers; here one value of each command shows
 //! that the command asks for what it prints.
 
-use rocking::statistics::normal;
+use rocking_statistics::normal;
 use serde_json::Value;
 
 use super::support::{answer, close, folder, json, refused};

@@ -3,23 +3,24 @@
 
 use std::fmt::Debug;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, curve, curves};
 use rocking::integrator::{
     Certify, Observe, Scene, certify, respond, respond_precise,
 };
-use rocking::intensity::{Measures, PairMeasures, Settings};
 use rocking::number::double::DoubleDouble;
-use rocking::procedures::{Draws, FitOptions, fit_sample};
-use rocking::record::{Accelerogram, ReadOptions, read};
-use rocking::statistics::CensoredSample;
-use rocking::statistics::acceptance::NullBand;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::lilliefors::{NullDistribution, ShiftedNull};
-use rocking::statistics::normality::Battery;
-use rocking::statistics::paired::hodges_lehmann;
 use rocking::stop::{Stop, StopError};
+use rocking_procedures::{Draws, FitOptions, fit_sample};
+use rocking_records::intensity::{Measures, PairMeasures, Settings};
+use rocking_records::{ReadOptions, read};
+use rocking_statistics::CensoredSample;
+use rocking_statistics::acceptance::NullBand;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::lilliefors::{NullDistribution, ShiftedNull};
+use rocking_statistics::normality::Battery;
+use rocking_statistics::paired::hodges_lehmann;
 
 use super::compare::same;
 

@@ -10,12 +10,12 @@ use std::path::Path;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Order;
-use rocking::record::{Processing, ReadOptions};
 use rocking_common::paper::BLOCKS;
 use rocking_common::paper::SuiteKind;
 use rocking_common::suites::StudySuite;
 use rocking_proof::cases::WrongModel;
 use rocking_proof::trials::{Judgement, Reading, Stratum, findings, trial};
+use rocking_records::{Processing, ReadOptions};
 
 #[path = "trials/orders.rs"]
 mod orders;

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use rocking::block::Restitution;
-use rocking::floor::Floor;
-use rocking::procedures::assess::NamedFloor;
-use rocking::procedures::{AssessOptions, Draws, Object, assess as procedure};
-use rocking::record::Accelerogram;
-use rocking::statistics::Clusters;
+use rocking_records::floor::Floor;
+use rocking_procedures::assess::NamedFloor;
+use rocking_procedures::{AssessOptions, Draws, Object, assess as procedure};
+use rocking::accelerogram::Accelerogram;
+use rocking_statistics::Clusters;
 use rocking_assessment::{About, files, set_surfaces};
 
 use crate::exchange::{Written, read};

@@ -1,12 +1,12 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking::fragility::hazard::{Hazard, HazardMeasure, HazardOptions, Site};
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::{
+use rocking_procedures::fragility::hazard::{Hazard, HazardMeasure, HazardOptions, Site};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_procedures::{
     Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
 };
-use rocking::statistics::Lognormal;
+use rocking_statistics::Lognormal;
 use rocking_exchange::{
     BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
 };

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
-use rocking::record::{
-    self, Accelerogram, Given, ReadOptions, RecordError, Remark, Remarked,
-    Suite, remarks, remarks_together,
-};
+use rocking::accelerogram::Accelerogram;
+use rocking_records::{Given, ReadOptions, RecordError, Remark, Remarked, Suite, remarks, remarks_together};
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
 use crate::given::{choose, refuse, remarked, unit};
@@ -66,7 +64,7 @@ pub fn read_record<'py>(
 ) -> PyResult<Read<'py>> {
     let options = options(dt, units, gravity)?;
     let read = || {
-        let read = record::read_file(&path, &options)?;
+        let read = rocking_records::read_file(&path, &options)?;
         let found = remarks(&read.accelerogram);
         Ok::<_, RecordError>((read, found))
     };

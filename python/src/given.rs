@@ -11,9 +11,10 @@ use pyo3::prelude::*;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Pulse, PulseName, PulseParameter};
 use rocking::integrator::{self, Model, Overturning};
-use rocking::intensity::IntensityMeasure;
-use rocking::record::sampling::{Digits, interval};
-use rocking::record::{Accelerogram, Remark, remarks, suite_names};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_records::sampling::{Digits, interval};
+use rocking::accelerogram::{Accelerogram, suite_names};
+use rocking_records::{Remark, remarks};
 use rocking::units::AccelerationUnit;
 
 use crate::work;

@@ -15,16 +15,16 @@ use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
-use rocking::intensity::{
+use rocking_records::intensity::{
     AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
 };
-use rocking::procedures::counts::Outcome;
-use rocking::procedures::ranking::{Candidate, Covariate};
-use rocking::procedures::{
+use rocking_procedures::counts::Outcome;
+use rocking_procedures::ranking::{Candidate, Covariate};
+use rocking_procedures::{
     Draws, FitOptions, ProcedureError, capacities, fit_levels, fit_outcomes,
     pivot_forces, rank, stripes, summarise_ida,
 };
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 use rocking::stop;
 use rocking_exchange::ida::{self as tables, Curves, Row};
 

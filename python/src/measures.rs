@@ -1,8 +1,8 @@
 //! Intensity measures of records, as the JSON of their fields.
 
 use pyo3::prelude::*;
-use rocking::intensity::velocity_pulse::{candidates, pulse};
-use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
+use rocking_records::intensity::velocity_pulse::{candidates, pulse};
+use rocking_records::intensity::{IntensityError, Measures, PairMeasures, Settings};
 
 use crate::given::{Given, record_of, refuse};
 use crate::procedures::answer;

@@ -9,7 +9,7 @@ use rocking::integrator::{
     Assessment, Certify, Observe, Outcome, SceneError, certify,
     uplift_threshold,
 };
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 use rocking::{Excitation, Response, Scene, integrator};
 
 use crate::given::{Given, Ground, Physics, block_of, choose, refuse};

@@ -4,15 +4,15 @@ use std::fmt::Display;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use rocking::procedures::comparison::Named;
-use rocking::procedures::contrast::Drawn;
-use rocking::procedures::{
+use rocking_procedures::comparison::Named;
+use rocking_procedures::contrast::Drawn;
+use rocking_procedures::{
     Draws, FitOptions, NormalityOptions, compare as compare_pairs,
     contrast as contrast_suites, fit_sample, fit_stripes as fit_counts,
     summarise as summarise_sample, test_normality as test,
 };
-use rocking::statistics::lognormal::{FitMethod, Stripe};
-use rocking::statistics::{
+use rocking_statistics::lognormal::{FitMethod, Stripe};
+use rocking_statistics::{
     CensoredSample, Clusters, ExtendedSample, Lognormal, QuantileType,
 };
 use rocking::stop;

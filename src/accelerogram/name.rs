@@ -17,7 +17,7 @@ use thiserror::Error;
 pub struct NameError(String);
 
 /// What every result can carry.
-pub(crate) const EXPECTED: &str = "no control character, and no =, +, - or @ at the start, which makes a spreadsheet compute the cell";
+pub const EXPECTED: &str = "no control character, and no =, +, - or @ at the start, which makes a spreadsheet compute the cell";
 
 /// The name of a record, or a cell of an index, if every result can carry
 /// it: without a control character, and no formula for a spreadsheet.
@@ -26,7 +26,7 @@ pub(crate) const EXPECTED: &str = "no control character, and no =, +, - or @ at 
 /// [`NameError`] with the text.
 ///
 /// ```
-/// use rocking::record::result_name;
+/// use rocking::accelerogram::result_name;
 /// assert_eq!(result_name("RSN1_A-090"), Ok("RSN1_A-090"));
 /// assert_eq!(result_name("-118.25"), Ok("-118.25"));
 /// for name in ["a\nb", "\u{1b}[31m", "=1+1", "@a", "-a", "+1-1"] {
@@ -66,12 +66,12 @@ pub enum SuiteNameError {
 /// without a name among others that have one.
 ///
 /// ```
-/// use rocking::record::suite_names;
+/// use rocking::accelerogram::suite_names;
 /// assert_eq!(suite_names(&["a", "b"])?, ["a", "b"]);
 /// assert_eq!(suite_names(&["", ""])?, ["1", "2"]);
 /// assert!(suite_names(&["a", "a"]).is_err());
 /// assert!(suite_names(&["a", ""]).is_err());
-/// # Ok::<(), rocking::record::SuiteNameError>(())
+/// # Ok::<(), rocking::accelerogram::SuiteNameError>(())
 /// ```
 pub fn suite_names<'a>(
     given: &[&'a str],
@@ -92,14 +92,14 @@ pub fn suite_names<'a>(
 
 /// Whether the names are the places that [`suite_names`] gives records
 /// without a name.
-pub(crate) fn are_places<S: AsRef<str>>(names: &[S]) -> bool {
+pub fn are_places<S: AsRef<str>>(names: &[S]) -> bool {
     let is_place =
         |(i, name): (usize, &S)| name.as_ref() == (i + 1).to_string();
     !names.is_empty() && names.iter().enumerate().all(is_place)
 }
 
 /// A file's name in a message, each control character as `\u001b`.
-pub(crate) struct Escaped<'a>(pub(crate) &'a str);
+pub struct Escaped<'a>(pub &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

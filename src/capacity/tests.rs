@@ -134,35 +134,3 @@ fn bad_curves_are_refused_with_what_was_found() {
     }
     assert!(e2().crossings(0.0).is_err() && e2().crossings(f64::NAN).is_err());
 }
-
-#[test]
-fn stripes_and_inversion_agree_where_no_curve_turns_back() {
-    let straight = curve(&[(1.0, 0.0), (2.0, 0.9)], Some(2.1));
-    let curves = [straight.clone(), straight.scaled(1.3).unwrap()];
-    for level in [0.1, 0.5, 1.0] {
-        let gap = inversion_discrepancy(&curves, level, InversionRule::Median);
-        assert_eq!(gap, Ok(0.0));
-    }
-}
-
-#[test]
-fn stripes_and_inversion_differ_where_one_does() {
-    // E2 at 0.18 exceeds from 1.09 to 1.38 and from 1.412 on; its median
-    // point is 1.38, its first 1.09. E7 at 0.18 exceeds from 1.09 to 1.44.
-    let curves = [e2(), e7()];
-    let by = |rule| inversion_discrepancy(&curves, 0.18, rule).unwrap();
-    // Up to 1.38 both exceed and neither capacity is reached.
-    assert_eq!(by(InversionRule::Median), 1.0);
-    // Past 1.44 E7 stands below the level again, for ever.
-    assert_eq!(by(InversionRule::First), 0.5);
-    assert!(inversion_discrepancy(&[], 0.5, InversionRule::First).is_err());
-}
-
-#[test]
-fn demands_need_every_curve() {
-    let sample = demands(&[e2(), e3()], 1.15).unwrap();
-    assert!(close(sample.sorted()[0], 0.3) && sample.censored() == 0);
-    assert_eq!(demands(&[e2(), e3()], 1.7).unwrap().censored(), 1);
-    let beyond = CapacityError::Beyond { number: 1, im: 1.65 };
-    assert_eq!(demands(&[e2(), e3()], 1.65), Err(beyond));
-}

@@ -47,7 +47,7 @@ impl fmt::Debug for Batch<'_> {
 /// use rocking::{Block, Restitution};
 /// use rocking::excitation::NormalisedRecord;
 /// use rocking::ida::{Analysis, Batch, curves};
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
 /// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
 /// let records = [NormalisedRecord::new(&record)];
@@ -91,7 +91,7 @@ pub fn curves(
 /// use rocking::{Block, Restitution};
 /// use rocking::excitation::NormalisedRecord;
 /// use rocking::ida::{Analysis, Batch, for_each_curve};
-/// use rocking::record::Accelerogram;
+/// use rocking::accelerogram::Accelerogram;
 /// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
 /// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
 /// let restitution = Restitution::constant(0.92)?;

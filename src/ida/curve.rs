@@ -99,7 +99,7 @@ impl IdaCurve {
     /// use rocking::capacity::InversionRule;
     /// use rocking::excitation::NormalisedRecord;
     /// use rocking::ida::{Analysis, Overturned, curve};
-    /// use rocking::record::Accelerogram;
+    /// use rocking::accelerogram::Accelerogram;
     /// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
     /// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
     /// let block = Block::try_new(0.1, 3.0)?;

@@ -37,7 +37,7 @@ enum Level {
 ///
 /// Everything that `run` calls on its hot path must be `#[inline(always)]`:
 /// code that is not inlined keeps the baseline instruction set.
-pub(crate) trait Kernel {
+pub trait Kernel {
     /// What the work gives.
     type Output;
 
@@ -47,7 +47,7 @@ pub(crate) trait Kernel {
 
 /// A piece of work that [`Isa::run_wide`] compiles once for each level, with
 /// the level's own numbers in lanes.
-pub(crate) trait WithSimd {
+pub trait WithSimd {
     /// What the work gives.
     type Output;
 
@@ -111,7 +111,7 @@ impl Isa {
 
     /// Runs `work` on one number at a time with this level's instructions.
     #[inline]
-    pub(crate) fn run<W: Kernel>(self, work: W) -> W::Output {
+    pub fn run<W: Kernel>(self, work: W) -> W::Output {
         match self.0 {
             Level::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]
@@ -124,7 +124,7 @@ impl Isa {
     /// Runs `work` on several numbers at once with this level's
     /// instructions; none where that [is not faster](Self::is_wide).
     #[inline]
-    pub(crate) fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
+    pub fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
             #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
             Level::Baseline => Some(work.run::<Lanes>()),

@@ -9,11 +9,11 @@ use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 use crate::number::{Number, sin_cos_polynomials};
 
 /// Numbers in as many lanes.
-pub(crate) const WIDTH: usize = 8;
+pub const WIDTH: usize = 8;
 
 /// Numbers in lanes, on which every operation acts one by one: each has the
 /// bits that it would have alone.
-pub(crate) trait Simd: Number {
+pub trait Simd: Number {
     /// A truth in every lane.
     type Mask: Mask<Self>;
 
@@ -56,7 +56,7 @@ pub(crate) trait Simd: Number {
 }
 
 /// A truth in every lane.
-pub(crate) trait Mask<N>: Copy {
+pub trait Mask<N>: Copy {
     /// True in the lanes whose bits are set.
     fn of(bits: u8) -> Self;
 
@@ -97,7 +97,7 @@ pub(crate) trait Mask<N>: Copy {
 /// Numbers in lanes where no instruction set is known to have them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Lanes(pub [f64; WIDTH]);
+pub struct Lanes(pub [f64; WIDTH]);
 
 impl Lanes {
     /// The same number in every lane.
@@ -205,7 +205,7 @@ fn ones(truth: bool) -> u64 {
 /// A truth in every lane, as all its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(align(64))]
-pub(crate) struct LaneMask([u64; WIDTH]);
+pub struct LaneMask([u64; WIDTH]);
 
 impl Mask<Lanes> for LaneMask {
     #[inline(always)]

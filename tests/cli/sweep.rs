@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking_statistics::bootstrap::{Bootstrap, estimate};
 
 use super::support::{
     answer, at2, close, folder, json, motion, refused_for, rocking,

@@ -1,12 +1,12 @@
 //! Closed forms written out here, and refusals.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     Assessment, Model, Observe, Outcome, Overturning, Scene, SceneError, Side,
     respond, uplift_threshold,
 };
-use rocking::record::Accelerogram;
 
 use super::compare::near;
 

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
@@ -13,7 +14,6 @@ use rocking::integrator::{
     respond, respond_precise, uplift_threshold,
 };
 use rocking::number::double::DoubleDouble;
-use rocking::record::Accelerogram;
 
 use super::compare::near;
 

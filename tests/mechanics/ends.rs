@@ -3,13 +3,13 @@
 
 use std::cell::Cell;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     Arithmetic, Assessment, Certify, Decision, Model, Observe, Outcome,
     Overturning, Response, Scene, certify, respond,
 };
-use rocking::record::Accelerogram;
 
 const ALPHA: f64 = 0.25;
 

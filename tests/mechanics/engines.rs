@@ -1,5 +1,6 @@
 //! Fates that double precision misses, doubtful runs, where a curve begins.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
@@ -8,7 +9,6 @@ use rocking::ida::{Adjust, Analysis, curve};
 use rocking::integrator::{
     Arithmetic, Certify, Model, Observe, Overturning, Scene, certify, respond,
 };
-use rocking::record::Accelerogram;
 
 fn scene<'a>(model: Model, excitation: Excitation<'a>) -> Scene<'a> {
     Scene {

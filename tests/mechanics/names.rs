@@ -3,15 +3,17 @@
 use std::fmt::{Debug, Display};
 use std::str::FromStr;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::capacity::InversionRule;
 use rocking::excitation::{PulseKind, PulseName, PulseParameter};
 use rocking::ida::Adjust;
 use rocking::integrator::{Model, Order, Overturning};
-use rocking::intensity::{Intensity, IntensityMeasure, Measures, Settings};
 use rocking::names::UnknownName;
-use rocking::record::Accelerogram;
-use rocking::statistics::QuantileType;
-use rocking::statistics::lognormal::FitMethod;
+use rocking_records::intensity::{
+    Intensity, IntensityMeasure, Measures, Settings,
+};
+use rocking_statistics::QuantileType;
+use rocking_statistics::lognormal::FitMethod;
 
 /// The texts of values; each text reads as its value again.
 fn texts<T>(values: impl IntoIterator<Item = T>) -> Vec<String>

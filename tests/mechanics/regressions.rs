@@ -1,12 +1,12 @@
 //! What a run says about itself, as it is: a change of these numbers is to be
 //! meant.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     Model, Observe, Overturning, Response, Scene, respond,
 };
-use rocking::record::Accelerogram;
 
 use super::compare::hold;
 

@@ -1,11 +1,11 @@
 //! Equality at the uplift threshold, jumps, and what a run takes.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Response, Scene, Work, respond,
 };
-use rocking::record::Accelerogram;
 
 use super::compare::near;
 

@@ -6,8 +6,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
+use rocking::accelerogram::Accelerogram;
 use rocking::integrator::{Model, Overturning};
-use rocking::record::Accelerogram;
 
 pub fn config(cases: u32) -> Config {
     static SEED: LazyLock<u64> = LazyLock::new(|| {

@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Observe, Response, Scene, respond};
-use rocking::record::Accelerogram;
 
 use super::drawn::Body;
 

@@ -1,7 +1,8 @@
 //! Suites written as files, and read back.
 
-use rocking::record::{Accelerogram, ReadOptions};
+use rocking::accelerogram::Accelerogram;
 use rocking_common::suites::inputs;
+use rocking_records::ReadOptions;
 
 use super::{answer, folder, refused};
 

@@ -1,9 +1,9 @@
 //! Intensity measures and velocity pulses of files.
 
 use rayon::prelude::*;
-use rocking::intensity::velocity_pulse::{candidates, pulse};
-use rocking::record::Suite;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::Suite;
+use rocking_records::intensity::velocity_pulse::{candidates, pulse};
 
 use super::{answer, folder, json, options, real, refused};
 

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use rocking::record::{Accelerogram, Format, Processing, ReadOptions};
+use rocking::accelerogram::Accelerogram;
 use rocking_common::suites::inputs;
+use rocking_records::{Format, Processing, ReadOptions};
 use sha2::{Digest as _, Sha256};
 
 use super::{answer, failure, folder, json};

@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use rocking::intensity::Intensity;
 use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
+use rocking_records::intensity::Intensity;
 
 use crate::failure::{At as _, Failure};
 use crate::terminal::note;

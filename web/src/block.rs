@@ -3,14 +3,15 @@
 use std::error::Error;
 use std::mem::take;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::excitation::{NormalisedRecord, Pulse, PulseKind, ScaledRecord};
 use rocking::ida::{self, Analysis, Grid, Overturned};
 use rocking::integrator::{
     Certified, Certify, Model, Response, Solver, certify, uplift_threshold,
 };
-use rocking::record::{Accelerogram, ReadOptions, read_all};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking::{Block, Excitation, Observe, Restitution, respond};
+use rocking_records::{ReadOptions, read_all};
 use rocking_surrogate::{SurfaceFragility, Surrogate};
 use serde::{Deserialize, Serialize};
 

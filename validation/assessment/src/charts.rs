@@ -1,14 +1,14 @@
 //! The drawings of an assessment.
 
 use maud::{Markup, html};
-use rocking::procedures::StripeResponses;
-use rocking::procedures::assess::{Assessed, Assessment};
 use rocking_draw::colour::{Fill, Ink, Pen};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Look, Mark, Series,
 };
 use rocking_draw::markup;
 use rocking_draw::panel::Marker;
+use rocking_procedures::StripeResponses;
+use rocking_procedures::assess::{Assessed, Assessment};
 
 use crate::words::{measure, short};
 

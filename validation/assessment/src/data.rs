@@ -1,13 +1,13 @@
 //! The numbers of an assessment as files.
 
-use rocking::fragility::risk::Contribution;
-use rocking::procedures::assess::{Alternative, Answer, Assessed, Assessment};
-use rocking::procedures::counts::Bounds;
 use rocking_common::table::columns::{
     ASSESSED_CAPACITIES, ASSESSED_FRAGILITIES, ASSESSED_RESPONSES,
 };
 use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, Format, Id, LimitState};
+use rocking_procedures::assess::{Alternative, Answer, Assessed, Assessment};
+use rocking_procedures::counts::Bounds;
+use rocking_procedures::fragility::risk::Contribution;
 use serde::Serialize;
 
 use crate::About;

@@ -12,12 +12,12 @@ use std::collections::BTreeMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking::integrator::{Model, uplift_threshold};
-use rocking::procedures::assess::{
-    Alternative, Assessed, Assessment, Damage, Object,
-};
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::Format;
+use rocking_procedures::assess::{
+    Alternative, Assessed, Assessment, Damage, Object,
+};
 use rocking_surrogate::Surrogate;
 use rocking_synthesis::SuiteKind;
 
@@ -187,7 +187,7 @@ fn together(found: &Assessment) -> Markup {
     heads.extend(risk_heads(found));
     heads.push(format!("{im} of 5 %, {unit}"));
     heads.push(format!("{im} of 50 %, {unit}"));
-    let row = |row: &rocking::procedures::assess::Together| {
+    let row = |row: &rocking_procedures::assess::Together| {
         let first = format!("{} or more", row.at_least);
         let mut cells = vec![first];
         cells.extend(answer_cells(&row.answer));

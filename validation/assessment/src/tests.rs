@@ -6,14 +6,14 @@
 
 use std::collections::BTreeMap;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::excitation::NormalisedRecord;
-use rocking::fragility::hazard::{Hazard, HazardOptions};
 use rocking::ida::{Analysis, REFINEMENT, curve, forces_at};
-use rocking::procedures::Draws;
-use rocking::procedures::assess::{AssessOptions, Assessment, Object, assess};
-use rocking::record::Accelerogram;
-use rocking::statistics::Clusters;
 use rocking::{Block, Restitution};
+use rocking_procedures::Draws;
+use rocking_procedures::assess::{AssessOptions, Assessment, Object, assess};
+use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
+use rocking_statistics::Clusters;
 use serde_json::Value;
 
 use crate::{About, files, text};

@@ -1,9 +1,9 @@
 //! The numbers of an assessment in words.
 
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::assess::{Answer, Assessed, Assessment, Damage};
-use rocking::procedures::counts::Bounds;
 use rocking_common::words::{percent, rounded};
+use rocking_procedures::assess::{Answer, Assessed, Assessment, Damage};
+use rocking_procedures::counts::Bounds;
+use rocking_records::intensity::IntensityMeasure;
 
 /// A number in three significant digits.
 pub(crate) fn short(x: f64) -> String {

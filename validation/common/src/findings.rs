@@ -12,7 +12,7 @@ use std::fmt;
 
 use rocking::block::Block;
 use rocking::integrator::Overturning;
-use rocking::statistics::multiple::{benjamini_hochberg, benjamini_yekutieli};
+use rocking_statistics::multiple::{benjamini_hochberg, benjamini_yekutieli};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use std::fmt;
 
 use libm::sin;
 use rocking::block::Block;
-pub use rocking::intensity::Intensity;
+pub use rocking_records::intensity::Intensity;
 pub use rocking_synthesis::SuiteKind;
 use serde::{Deserialize, Serialize};
 

@@ -8,11 +8,10 @@ use crate::paper::SuiteKind;
 use std::fmt;
 use std::path::Path;
 
-use rocking::record::{
-    Accelerogram, Processing, ReadOptions, SetAside, SuiteMember,
-};
-use rocking::statistics::Clusters;
-use rocking::statistics::clusters::Unit;
+use rocking::accelerogram::Accelerogram;
+use rocking_records::{Processing, ReadOptions, SetAside, SuiteMember};
+use rocking_statistics::Clusters;
+use rocking_statistics::clusters::Unit;
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 
@@ -204,7 +203,10 @@ pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
 }
 
 /// Sampling interval and samples, added to a hash.
-fn hash(record: &rocking::record::Accelerogram, mut sum: Sha256) -> Sha256 {
+fn hash(
+    record: &rocking::accelerogram::Accelerogram,
+    mut sum: Sha256,
+) -> Sha256 {
     sum.update(record.dt_s().to_le_bytes());
     for a in record.samples_g() {
         sum.update(a.to_le_bytes());

@@ -11,10 +11,10 @@ use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
 use std::slice;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::excitation::PulseParameter as P;
 pub use rocking::excitation::{PulseKind, PulseName};
 pub use rocking::integrator::{Impact, Model, Overturning};
-use rocking::record::Accelerogram;
 use thiserror::Error;
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.

@@ -21,7 +21,7 @@ pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
 pub use summary::{Judgement, SHARES, Summary};
 
 use rayon::prelude::*;
-use rocking::streams::Streams;
+use rocking_statistics::streams::Streams;
 
 use crate::scene::EngineError;
 pub(crate) use draw::Draw;

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use indicatif::ProgressBar;
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
-use rocking::record::{Processing, ReadOptions, SetAside};
-use rocking::statistics::Clusters;
+use rocking_records::{Processing, ReadOptions, SetAside};
+use rocking_statistics::Clusters;
 
 use crate::answers;
 use crate::basis::{self, Basis};

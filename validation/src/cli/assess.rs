@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
+use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
-use rocking::floor::Floor;
-use rocking::fragility::hazard::Hazard;
-use rocking::procedures::assess::NamedFloor;
-use rocking::procedures::{AssessOptions, Assessment, Object, assess};
-use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
+use rocking_procedures::assess::NamedFloor;
+use rocking_procedures::fragility::hazard::Hazard;
+use rocking_procedures::{AssessOptions, Assessment, Object, assess};
+use rocking_records::floor::Floor;
 
 use super::blocks::{self, Row};
 use super::floors;

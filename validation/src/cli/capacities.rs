@@ -5,13 +5,13 @@ use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::{InversionRule, ResponseCurve};
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::capacities::{
-    LevelCapacities, LevelCrossings, crossings, levels,
-};
-use rocking::record::SetAside;
 use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
+use rocking_procedures::capacities::{
+    LevelCapacities, LevelCrossings, crossings, levels,
+};
+use rocking_records::SetAside;
+use rocking_records::intensity::IntensityMeasure;
 use serde::Serialize;
 
 use super::measure::GroundArgs;

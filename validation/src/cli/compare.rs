@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use rocking::procedures::compare;
-use rocking::procedures::comparison::{Named, Side};
+use rocking_procedures::compare;
+use rocking_procedures::comparison::{Named, Side};
 
 use super::shared::JsonArg;
 use crate::failure::Failure;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use rocking::procedures::contrast;
-use rocking::procedures::contrast::Drawn;
+use rocking_procedures::contrast;
+use rocking_procedures::contrast::Drawn;
 
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
 use crate::failure::Failure;

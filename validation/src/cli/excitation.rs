@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
+use rocking::accelerogram::Accelerogram;
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, PulseName, PulseParameter,
     ScaledRecord,
 };
-use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
+use rocking_records::{Record, Remarked, SetAside, read_file};
 
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-use rocking::floor::Floor;
 use rocking_exchange::Id;
 use rocking_exchange::read::{no_csv, reader};
+use rocking_records::floor::Floor;
 use serde::Deserialize;
 
 use super::blocks::Row;

@@ -14,11 +14,11 @@ use rocking::ida::{
     Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit, uplift_threshold};
-use rocking::intensity::Intensity;
-use rocking::procedures::{
+use rocking_procedures::{
     IdaSummary, PivotForces, StripeResponses, summarise_ida,
 };
-use rocking::record::{Profile, Remarked, SetAside, Suite, SuiteMember};
+use rocking_records::intensity::Intensity;
+use rocking_records::{Profile, Remarked, SetAside, Suite, SuiteMember};
 use serde::Serialize;
 
 use self::forces::ForcesArgs;

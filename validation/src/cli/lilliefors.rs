@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::procedures::normality::NullSource;
-use rocking::procedures::{NormalityOptions, Shift, test_normality};
-use rocking::statistics::lilliefors::{
-    CriticalValue, NullDistribution, Table,
-};
+use rocking_procedures::normality::NullSource;
+use rocking_procedures::{NormalityOptions, Shift, test_normality};
+use rocking_statistics::lilliefors::{CriticalValue, NullDistribution, Table};
 use serde::Serialize;
 
 use super::shared::{JsonArg, ThreadsArg};

@@ -6,11 +6,13 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::integrator::uplift_threshold;
-use rocking::intensity::{AtUplift, IntensityMeasure, Measures, Settings};
-use rocking::procedures::ranking::Candidate;
-use rocking::record::{SetAside, SuiteMember};
 use rocking_exchange::ida::IdaTable;
 use rocking_exchange::read::{no_csv, reader};
+use rocking_procedures::ranking::Candidate;
+use rocking_records::intensity::{
+    AtUplift, IntensityMeasure, Measures, Settings,
+};
+use rocking_records::{SetAside, SuiteMember};
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;

@@ -4,8 +4,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rocking::capacity::InversionRule;
 use rocking::ida::Adjust;
 use rocking::integrator::{Model, Order, Overturning};
-use rocking::statistics::QuantileType;
-use rocking::statistics::lognormal::FitMethod;
+use rocking_statistics::QuantileType;
+use rocking_statistics::lognormal::FitMethod;
 
 use rocking_common::paper::{Arm, Intensity, SuiteKind};
 

@@ -1,6 +1,6 @@
 //! Flags that change records before they are used.
 
-use rocking::record::Processing;
+use rocking_records::Processing;
 
 use crate::failure::{At as _, Failure};
 

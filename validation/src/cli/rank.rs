@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 use rocking::capacity::InversionRule;
-use rocking::intensity::{Intensity, IntensityMeasure as M};
-use rocking::procedures::capacities::intervals;
-use rocking::procedures::ranking::Covariate;
-use rocking::procedures::{Ranking, rank};
-use rocking::record::SetAside;
+use rocking_procedures::capacities::intervals;
+use rocking_procedures::ranking::Covariate;
+use rocking_procedures::{Ranking, rank};
+use rocking_records::SetAside;
+use rocking_records::intensity::{Intensity, IntensityMeasure as M};
 use serde::Serialize;
 
 use super::measure::{Ground, GroundArgs};

@@ -1,8 +1,8 @@
 //! Flags that say what the caller knows of record files, and what becomes of
 //! remarks on them.
 
-use rocking::record::{ReadOptions, SetAside};
 use rocking::units::AccelerationUnit;
+use rocking_records::{ReadOptions, SetAside};
 
 use crate::failure::Failure;
 use crate::terminal::note;

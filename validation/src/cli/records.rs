@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use rocking::record::{
-    self, Fault, Format, Given, ReadOptions, RecordError, Remark, Remarked,
+use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
+use rocking_records::{
+    Fault, Format, Given, ReadOptions, RecordError, Remark, Remarked,
     SetAside, Suite, SuiteMember,
 };
-use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde::Serialize;
 
 use super::processing::{ProcessingArgs, words};
@@ -56,7 +56,7 @@ struct Listed {
     file: String,
     format: Format,
     unit: AccelerationUnit,
-    motion: record::Accelerogram,
+    motion: rocking::accelerogram::Accelerogram,
     pair: Option<String>,
     /// Whether the study uses it, in a suite.
     study_component: Option<bool>,
@@ -279,11 +279,11 @@ impl Listing {
             return self.add_survey(path, options);
         }
         let file = path.display().to_string();
-        let bytes = match record::file_bytes(path) {
+        let bytes = match rocking_records::file_bytes(path) {
             Ok(bytes) => bytes,
             Err(error) => return self.refused.push(Finding::from(&error)),
         };
-        if record::is_index(&bytes) {
+        if rocking_records::is_index(&bytes) {
             return self.add_survey(path, options);
         }
         match self.read(&file, &bytes, options) {
@@ -313,8 +313,8 @@ impl Listing {
         file: &str,
         bytes: &[u8],
         options: ReadOptions,
-    ) -> Result<Vec<record::Record>, RecordError> {
-        let error = match record::read_all(file, bytes, &options) {
+    ) -> Result<Vec<rocking_records::Record>, RecordError> {
+        let error = match rocking_records::read_all(file, bytes, &options) {
             Ok(records) => return Ok(records),
             Err(error) => error,
         };
@@ -355,7 +355,7 @@ impl Listing {
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
-        let refused = |error: &record::SuiteError| Finding {
+        let refused = |error: &rocking_records::SuiteError| Finding {
             file: error.file().to_owned(),
             code: error.code(),
             line: error.line(),
@@ -401,7 +401,7 @@ impl Listing {
     fn remark(&mut self) {
         let records: Vec<_> =
             self.records.iter().map(Listed::remarked).collect();
-        let found = record::remarks_together(&records);
+        let found = rocking_records::remarks_together(&records);
         for (listed, remarks) in self.records.iter_mut().zip(found) {
             listed.remarks = remarks;
         }

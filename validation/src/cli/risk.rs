@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::fragility::hazard::{Hazard, HazardOptions, Site};
-use rocking::procedures::{Exposed, FitOptions, Shift, risk};
-use rocking::statistics::{Lognormal, QuantileType};
+use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
+use rocking_procedures::{Exposed, FitOptions, Shift, risk};
+use rocking_statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::{Source, SourceArgs};
@@ -188,7 +188,7 @@ fn given(
             "--shift min or free: expected a number with --median",
         ));
     };
-    let log_mean = rocking::fragility::eq5(median, shift)?;
+    let log_mean = rocking_procedures::fragility::eq5(median, shift)?;
     let law = Lognormal::try_new(shift, log_mean, beta)?;
     Ok(vec![Exposed::known(kind(&law), law)])
 }

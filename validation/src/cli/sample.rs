@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use rocking::procedures::summarise;
-use rocking::statistics::QuantileType;
+use rocking_procedures::summarise;
+use rocking_statistics::QuantileType;
 
 use super::shared::JsonArg;
 use crate::failure::Failure;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use rocking::procedures::Draws;
 use rocking_common::files::{Output, Outputs};
+use rocking_procedures::Draws;
 use serde::Serialize;
 
 use super::show::show;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Model;
 use rocking::number::dispatch::Isa;
-use rocking::record::{ReadOptions, SetAside};
+use rocking_records::{ReadOptions, SetAside};
 use serde::Serialize;
 
 use super::shared::JsonArg;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 use rocking::capacity::ResponseCurve;
-use rocking::procedures::counts::Outcome;
-use rocking::procedures::{StripeResponses, stripes};
+use rocking_procedures::counts::Outcome;
+use rocking_procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
 use super::capacities::Levels;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use rocking::record::SetAside;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::SetAside;
 use serde::Serialize;
 
 use super::processing::{ProcessingArgs, words};

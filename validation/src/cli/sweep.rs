@@ -4,8 +4,8 @@ use std::env;
 use std::path::PathBuf;
 
 use clap::Subcommand;
-use rocking::record::{Processing, Profile, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::{Processing, Profile, Suite};
 
 use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, REFINEMENT};
-use rocking::record::{Processing, Profile, ReadOptions, Suite, read};
-use rocking::statistics::Clusters;
 use rocking_exchange::Id;
+use rocking_records::{Processing, Profile, ReadOptions, Suite, read};
+use rocking_statistics::Clusters;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::{At as _, Failure};

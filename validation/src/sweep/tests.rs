@@ -1,8 +1,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use rocking::record::{Processing, Profile, ReadOptions, Suite};
 use rocking::stop::{Stop, StopError};
+use rocking_records::{Processing, Profile, ReadOptions, Suite};
 
 use super::tile::{State, read};
 use super::*;

@@ -4,10 +4,10 @@ use std::fs;
 
 use rocking::capacity::InversionRule;
 use rocking::ida::{Batch, IdaCurve, Overturned, curves};
-use rocking::intensity::Intensity;
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking_records::intensity::Intensity;
+use rocking_statistics::ExtendedSample;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
 use super::plan::{Given, Plan, Planned, REPLICATES};

@@ -149,9 +149,9 @@ fn shift(mut found: Vec<f64>, mut flipped: Vec<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rocking::accelerogram::Accelerogram;
     use rocking::block::{Block, Restitution};
     use rocking::integrator::Overturning;
-    use rocking::record::Accelerogram;
 
     use super::*;
 

@@ -6,8 +6,8 @@
 //! would tie values, and ties break the test.
 
 use libm::log;
-use rocking::statistics::acceptance::distances;
-use rocking::statistics::lilliefors::{Assessment, Table};
+use rocking_statistics::acceptance::distances;
+use rocking_statistics::lilliefors::{Assessment, Table};
 
 use crate::distributions::{BlockSamples, factors, scaled};
 use crate::estimates::mean;

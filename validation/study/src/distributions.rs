@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 use rocking::capacity::{InversionRule, ResponseCurve};
-use rocking::statistics::acceptance::NullBand;
-use rocking::statistics::lilliefors::Assessment;
+use rocking_statistics::acceptance::NullBand;
+use rocking_statistics::lilliefors::Assessment;
 
 use crate::analyses::SuiteResults;
 use crate::normality::{accepted_share, along, null_band};

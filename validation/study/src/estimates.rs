@@ -2,9 +2,9 @@
 //! paired ratios.
 
 use rocking::capacity::InversionRule;
-use rocking::statistics::boxplot::median_interval;
-use rocking::statistics::paired::Pairs;
-use rocking::statistics::{ExtendedSample, QuantileType};
+use rocking_statistics::boxplot::median_interval;
+use rocking_statistics::paired::Pairs;
+use rocking_statistics::{ExtendedSample, QuantileType};
 
 use crate::analyses::no_arm;
 use crate::analyses::{Apart, SuiteResults};

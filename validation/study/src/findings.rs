@@ -1,7 +1,7 @@
 //! Everything that a study found, as [`Findings`].
 
-use rocking::record::{AsideCount, SetAside};
-use rocking::statistics::Proportion;
+use rocking_records::{AsideCount, SetAside};
+use rocking_statistics::Proportion;
 
 use crate::analyses::SuiteResults;
 use crate::estimates;

@@ -1,8 +1,8 @@
 //! The lognormals that the paper compares.
 
-use rocking::fragility::transform;
-use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking_procedures::fragility::transform;
+use rocking_statistics::lognormal::{FitMethod, fit, fit_intervals};
+use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
 /// Demand thresholds of Figures 15 to 17.
 pub(crate) const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];

@@ -1,9 +1,9 @@
 //! Lilliefors' test along the demand.
 
 use rayon::prelude::*;
-use rocking::statistics::acceptance::{AcceptedShare, NullBand};
-use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
-use rocking::statistics::{ExtendedSample, SampleError};
+use rocking_statistics::acceptance::{AcceptedShare, NullBand};
+use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::{ExtendedSample, SampleError};
 
 /// Level of the tests.
 pub const LEVEL: f64 = 0.05;
@@ -90,7 +90,7 @@ mod tests {
         let scores: Vec<f64> = (1..=86)
             .map(|i| {
                 let p = (f64::from(i) - 0.5) / 86.0;
-                1.0 + libm::exp(rocking::statistics::normal::quantile(p))
+                1.0 + libm::exp(rocking_statistics::normal::quantile(p))
             })
             .collect();
         let clusters: Vec<f64> = (0..86)

@@ -1,6 +1,6 @@
 //! Demands on stripes of equal intensity, and their pairs.
 
-use rocking::statistics::paired::Pairs;
+use rocking_statistics::paired::Pairs;
 
 use crate::analyses::{Facts, StripeDemands, SuiteResults};
 use rocking_common::paper::{

@@ -3,10 +3,10 @@
 
 use libm::{exp, log, tan};
 use rayon::prelude::*;
-use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
-use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
-use rocking::streams::{Streams, standard_normal};
+use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::streams::{Streams, standard_normal};
+use rocking_statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
 
 use crate::distributions::BlockSamples;
 use crate::normality::LEVEL;

@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use rocking::record::sha256_hex;
+use rocking_records::sha256_hex;
 
 use super::sums::{SUMS, listed, sums};
 use super::system::{self, Lock};

@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::{Component, Path};
 
-use rocking::record::sha256_hex;
+use rocking_records::sha256_hex;
 use thiserror::Error;
 
 use super::unfinished::moving;

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use anyhow::bail;
-use rocking::record::{Accelerogram, Suite, SuiteMember};
+use rocking::accelerogram::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::{Suite, SuiteMember};
 use rocking_synthesis::Pair;
 
 use super::inputs::sha256_hex;
@@ -210,7 +211,7 @@ fn fixed(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use rocking::record::{ReadOptions, read};
+    use rocking_records::{ReadOptions, read};
 
     use super::*;
 

@@ -5,10 +5,11 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-pub use rocking::record::sha256_hex;
-use rocking::record::{
-    Accelerogram, Motion, Processing, ProcessingError, Profile, ReadOptions,
-    RecordError, Suite, SuiteError, SuiteMember, Survey,
+use rocking::accelerogram::Accelerogram;
+pub use rocking_records::sha256_hex;
+use rocking_records::{
+    Motion, Processing, ProcessingError, Profile, ReadOptions, RecordError,
+    Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 

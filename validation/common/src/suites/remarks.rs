@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use rocking::record::{Motion, Remark, Remarked, Suite, remarks_together};
+use rocking_records::{Motion, Remark, Remarked, Suite, remarks_together};
 use serde::{Serialize, Serializer};
 
 /// Codes of remarks, the gravest first.
@@ -164,7 +164,7 @@ impl Serialize for Remarks {
 
 #[cfg(test)]
 mod tests {
-    use rocking::record::Accelerogram;
+    use rocking::accelerogram::Accelerogram;
 
     use super::*;
 

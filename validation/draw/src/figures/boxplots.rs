@@ -2,7 +2,7 @@
 
 use super::common;
 use super::heading::Heading;
-use rocking::statistics::Boxplot;
+use rocking_statistics::Boxplot;
 
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};

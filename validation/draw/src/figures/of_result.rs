@@ -1,9 +1,9 @@
 //! Charts of the result of one command, each a function of that result.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
-use rocking::intensity::{IntensityMeasure, Measures};
-use rocking::procedures::Ranking;
-use rocking::record::Accelerogram;
+use rocking_procedures::Ranking;
+use rocking_records::intensity::{IntensityMeasure, Measures};
 use rocking_score::{Code, Score};
 
 use super::{

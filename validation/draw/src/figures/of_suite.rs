@@ -2,9 +2,9 @@
 //! which is asked for its values at the intensities that are drawn.
 
 use rocking::capacity::ResponseCurve;
-use rocking::fragility::hazard::{Hazard, HazardMeasure};
-use rocking::intensity::IntensityMeasure as M;
-use rocking::procedures::{Exposed, StripeResponses};
+use rocking_procedures::fragility::hazard::{Hazard, HazardMeasure};
+use rocking_procedures::{Exposed, StripeResponses};
+use rocking_records::intensity::IntensityMeasure as M;
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, Look, Mark, Series, common,

@@ -3,6 +3,7 @@
 
 use anyhow::{Context as _, Result};
 use rayon::prelude::*;
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
@@ -13,7 +14,6 @@ use rocking::integrator::{
 use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
-use rocking::record::Accelerogram;
 
 use super::memo::Memo;
 use super::method::{Answer, Context, WrongModel};

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use rayon::prelude::*;
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
-use rocking::streams::Streams;
+use rocking_statistics::streams::Streams;
 
 use super::method::{Answer, Context, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};

@@ -1,8 +1,8 @@
 //! Motions of floors against matrix exponentials and limits.
 
 use anyhow::Result;
-use rocking::floor::Floor;
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
+use rocking_records::floor::Floor;
 
 use super::cells::{Csv, csv};
 use super::method::{Answer, Context, WrongModel};

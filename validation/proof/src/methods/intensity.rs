@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use anyhow::{Context as _, Result, bail};
-use rocking::intensity::{Measures, PairMeasures, Settings};
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::intensity::{Measures, PairMeasures, Settings};
 use serde::Deserialize;
 
 use super::cells::{Csv, csv};

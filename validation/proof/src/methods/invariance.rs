@@ -2,7 +2,7 @@
 //! units; and how Eq. 1 departs from similarity.
 
 use anyhow::{Result, bail};
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 use serde::Deserialize;
 
 use super::method::{Answer, Context, SPEEDS};

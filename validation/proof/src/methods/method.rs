@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use anyhow::{Context as _, Result};
 use rocking::integrator::{HistoryPoint, Observe};
-use rocking::statistics::Clusters;
+use rocking_statistics::Clusters;
 use serde::de::DeserializeOwned;
 
 use crate::cases::Case;

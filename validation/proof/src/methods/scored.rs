@@ -5,11 +5,11 @@
 use anyhow::{Result, anyhow};
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
-use rocking::streams::{Streams, standard_normal};
 use rocking_score::{
     Answers, Diagnosis, Engine as Run, Excitation, Item, Scene as Asked,
     Value, Verdict, answers_of, diagnose, reference,
 };
+use rocking_statistics::streams::{Streams, standard_normal};
 
 use super::method::{Answer, Context, WrongModel};
 use crate::arithmetic::{RoundedConstants, Wide, decimal};

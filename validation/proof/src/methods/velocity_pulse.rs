@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use anyhow::Result;
-use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::intensity::velocity_pulse::{
+    Candidate, candidates, pulse,
+};
 use serde::Deserialize;
 
 use super::cells::{Csv, csv};

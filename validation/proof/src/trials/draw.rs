@@ -1,6 +1,6 @@
 //! Draws from one stream.
 
-use rocking::streams::{Stream, below, standard_normal};
+use rocking_statistics::streams::{Stream, below, standard_normal};
 
 /// A stream, and what is drawn from it.
 pub(crate) struct Draw(pub Stream);

@@ -1,7 +1,7 @@
 //! The checks that a reader asks for first, as tables: pulses against closed
 //! forms, and critical values beside published ones.
 
-use rocking::statistics::lilliefors::{LillieforsError, Table};
+use rocking_statistics::lilliefors::{LillieforsError, Table};
 use serde::Deserialize;
 
 use rocking_common::table::{PlainTable, digits};

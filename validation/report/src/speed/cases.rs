@@ -1,11 +1,11 @@
 //! Thirty single analyses: every block once under a record of either
 //! embedded suite.
 
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, curve};
 use rocking::integrator::{Model, Overturning, Scene};
-use rocking::record::Accelerogram;
 
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;

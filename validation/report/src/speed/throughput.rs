@@ -2,6 +2,7 @@
 //! at a time, and what a sample takes.
 
 use rayon::prelude::*;
+use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
@@ -9,8 +10,7 @@ use rocking::integrator::{
     BareSteps, Model, Observe, Order, Overturning, Scene, Solver, WorkLimit,
 };
 use rocking::number::dispatch::Isa;
-use rocking::record::Accelerogram;
-use rocking::statistics::lilliefors::NullDistribution;
+use rocking_statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
 
 use super::cases::ETA;

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
 use indexmap::IndexMap;
-use rocking::procedures::counts::Outcome;
-use rocking::procedures::{
+use rocking_procedures::counts::Outcome;
+use rocking_procedures::{
     CountsFragility, Draws, Exposed, ProcedureError, Sampled, fit_outcomes,
     fit_stripes, sample_outcomes,
 };
-use rocking::statistics::Clusters;
-use rocking::statistics::lognormal::Stripe;
+use rocking_statistics::Clusters;
+use rocking_statistics::lognormal::Stripe;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{At as _, Failure};

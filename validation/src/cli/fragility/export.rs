@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking::statistics::QuantileType;
 use rocking_exchange::{Format, Id};
+use rocking_statistics::QuantileType;
 use serde::Serialize;
 
 use super::fit::FitArgs;

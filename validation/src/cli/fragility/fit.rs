@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::fit::Band;
-use rocking::procedures::{
+use rocking_procedures::fit::Band;
+use rocking_procedures::{
     Draws, Exposed, FitOptions, FragilityFit, LevelFit, Shift, capacities,
     fit_levels, fit_sample,
 };
-use rocking::statistics::lognormal::FitMethod;
-use rocking::statistics::{CensoredSample, Lognormal, QuantileType};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::lognormal::FitMethod;
+use rocking_statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
 use super::source::{self, IdaArgs};

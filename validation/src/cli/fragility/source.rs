@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::Block;
 use rocking::capacity::InversionRule;
-use rocking::fragility::hazard::HazardMeasure;
 use rocking::integrator::Model;
-use rocking::intensity::{Intensity, IntensityMeasure};
-use rocking::procedures::{
-    FitOptions, Sampled, Shift, capacities, fit_sample, fit_stripes,
-};
-use rocking::statistics::lognormal::FitMethod;
-use rocking::statistics::{CensoredSample, Clusters, Lognormal};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
+use rocking_procedures::fragility::hazard::HazardMeasure;
+use rocking_procedures::{
+    FitOptions, Sampled, Shift, capacities, fit_sample, fit_stripes,
+};
+use rocking_records::intensity::{Intensity, IntensityMeasure};
+use rocking_statistics::lognormal::FitMethod;
+use rocking_statistics::{CensoredSample, Clusters, Lognormal};
 use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
 use super::counts::{self, Counted};

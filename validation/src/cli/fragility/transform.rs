@@ -1,7 +1,7 @@
 //! `rocking fragility transform`: Eqs. 5 to 7 of given numbers.
 
 use clap::Args as ClapArgs;
-use rocking::procedures::fit::Transformed;
+use rocking_procedures::fit::Transformed;
 
 use crate::cli::shared::JsonArg;
 use crate::failure::Failure;

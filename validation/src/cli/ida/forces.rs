@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, IdaCurve, IdaError};
-use rocking::procedures::{PivotForces, pivot_forces};
+use rocking_procedures::{PivotForces, pivot_forces};
 
 use crate::cli::shared::positive;
 use rocking_common::table::{Table, columns::FORCES};

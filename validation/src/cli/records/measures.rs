@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use rocking::intensity::velocity_pulse::{Candidate, candidates};
-use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
+use rocking_records::intensity::velocity_pulse::{Candidate, candidates};
+use rocking_records::intensity::{
+    IntensityError, Measures, PairMeasures, Settings,
+};
 use serde::Serialize;
 
 use super::{Finding, Listed};

@@ -2,10 +2,10 @@
 
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
-use rocking::intensity::{Measures, Settings};
-use rocking::record::SetAside;
-use rocking::statistics::Clusters;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_records::SetAside;
+use rocking_records::intensity::{Measures, Settings};
+use rocking_statistics::Clusters;
 
 use crate::certainty::Certainty;
 use rocking_common::findings::RecordName;

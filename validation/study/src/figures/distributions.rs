@@ -1,6 +1,6 @@
 //! Figures 11, 12 and 14: capacities, and shares of accepted levels.
 
-use rocking::statistics::lilliefors::Assessment;
+use rocking_statistics::lilliefors::Assessment;
 
 use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;

@@ -5,7 +5,7 @@ mod thresholds;
 
 pub(super) use thresholds::thresholds;
 
-use rocking::statistics::ExtendedSample;
+use rocking_statistics::ExtendedSample;
 
 use curves::{KEYS, NUMBERS, along, empirical, exceedance, fitted, most_of};
 

@@ -1,6 +1,6 @@
 //! Figures 6, 7 and 9: paired ratios by stripe.
 
-use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
+use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::estimates::median;

@@ -1,8 +1,8 @@
 //! Figure 13: the test along the demand, and histograms at one level.
 
-use rocking::statistics::QuantileType;
-use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::normal;
+use rocking_statistics::QuantileType;
+use rocking_statistics::lilliefors::Assessment;
+use rocking_statistics::normal;
 
 use crate::normality::{accepted_share, over_critical};
 use crate::results::Results;

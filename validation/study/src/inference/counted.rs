@@ -1,6 +1,6 @@
 //! Cells that are counts of records.
 
-use rocking::statistics::Proportion;
+use rocking_statistics::Proportion;
 
 use super::draws::{Replicated, Scheme};
 

@@ -1,9 +1,9 @@
 //! Draws of the records, and what a measure gives in them.
 
 use rayon::prelude::*;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::resampling::{Ranked, Subsampling};
-use rocking::statistics::{Clusters, Proportion};
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::resampling::{Ranked, Subsampling};
+use rocking_statistics::{Clusters, Proportion};
 
 use rocking_common::findings::Tested;
 use rocking_common::paper::SuiteKind;

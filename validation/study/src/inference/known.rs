@@ -2,16 +2,16 @@
 //! far other draws would move their ends.
 
 use rayon::prelude::*;
-use rocking::statistics::boxplot::median_interval;
-use rocking::statistics::confidence::Confidence;
-use rocking::statistics::{Clusters, ExtendedSample, power};
+use rocking_statistics::boxplot::median_interval;
+use rocking_statistics::confidence::Confidence;
+use rocking_statistics::{Clusters, ExtendedSample, power};
 
 use super::draws::{Draws, LEAST_DECIDING, REPLICATES, Replicated, Scheme};
-use rocking::statistics::resampling::Subsampling;
 use rocking_common::findings::{
     ERROR, Interval, LEVEL, Measured, Power, Region, Tested,
 };
 use rocking_common::paper::Verdict;
+use rocking_statistics::resampling::Subsampling;
 
 /// An interval; the standard error of each end over sets of draws; the ends
 /// that the value cannot cross.

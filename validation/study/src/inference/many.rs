@@ -11,12 +11,12 @@ use super::draws::Scheme;
 use super::known::{Caution, Ends, Known, clipped, p_of, p_value, power_of};
 use super::refuted::refuted;
 use super::rule::{Cell, Rule};
-use rocking::statistics::confidence::Confidence;
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, ERROR, Interval, LEVEL, Measured,
     Quantifier, Region, Unit,
 };
 use rocking_common::paper::Verdict;
+use rocking_statistics::confidence::Confidence;
 
 /// A cell that decides: its place, and its own interval.
 struct Deciding {

@@ -1,8 +1,8 @@
 //! Which of many cells are shown to lie outside their region, all of them at
 //! once.
 
-use rocking::statistics::normal;
-use rocking::statistics::step_down::StepDown;
+use rocking_statistics::normal;
+use rocking_statistics::step_down::StepDown;
 
 use super::draws::{Replicated, Scheme};
 use super::known::Ends;

@@ -1,10 +1,10 @@
-use rocking::statistics::resampling::Ranked;
+use rocking_statistics::resampling::Ranked;
 
 use super::*;
-use rocking::statistics::{Clusters, Proportion};
 use rocking_common::findings::Unit;
 use rocking_common::findings::{ERROR, Interval};
 use rocking_common::paper::SuiteKind;
+use rocking_statistics::{Clusters, Proportion};
 
 /// Draws of suites without earthquakes.
 fn drawn(sizes: [usize; 2]) -> Draws {

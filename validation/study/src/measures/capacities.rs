@@ -14,12 +14,12 @@ use crate::inference::{Cell, Draw, Replicated};
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
 use crate::stripes::of_arm;
-use rocking::statistics::Proportion;
-use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, STRIPES,
     demand_index, position,
 };
+use rocking_statistics::Proportion;
+use rocking_statistics::resampling::Ranked;
 
 /// Demands at which intensities are compared.
 pub const DEMANDS: [f64; 10] =

@@ -2,17 +2,17 @@
 //! fragilities, p = 3, alpha = 0.20.
 
 use libm::log;
-use rocking::fragility::risk::HazardCurve;
-use rocking::statistics::resampling::Subsampling;
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking_procedures::fragility::risk::HazardCurve;
+use rocking_statistics::resampling::Subsampling;
+use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::source::{Found, Prepared, Source};
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
-use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{Intensity, demand_index};
+use rocking_statistics::resampling::Ranked;
 
 /// Dispersion of a lognormal sample over that of the same sample without its
 /// largest twentieth: 1/sqrt(variance of a standard normal cut at its 95 %

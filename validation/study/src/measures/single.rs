@@ -5,10 +5,10 @@ use crate::analyses::{Apart, SuiteResults};
 use crate::estimates::mean;
 use crate::inference::{Cell, LEAST_DECIDING};
 use crate::stripes::of_arm;
-use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, position,
 };
+use rocking_statistics::resampling::Ranked;
 
 /// A frequency parameter at an intensity: what a record's histories or peaks
 /// differ by, mean over the slendernesses.

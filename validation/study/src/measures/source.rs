@@ -1,6 +1,6 @@
 //! What the measures read, and what they give.
 
-use rocking::statistics::resampling::Ranked;
+use rocking_statistics::resampling::Ranked;
 
 use crate::distances::Distances;
 use crate::estimates::mean;

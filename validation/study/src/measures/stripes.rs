@@ -8,13 +8,13 @@ use crate::analyses::{StripeDemands, SuiteResults};
 use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
 use crate::results::Results;
 use crate::stripes::{adjusted_slenderness, of_arm};
-use rocking::statistics::Proportion;
-use rocking::statistics::resampling::Ranked;
 use rocking_common::findings::Tested;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, SuiteKind,
     closed_form, position,
 };
+use rocking_statistics::Proportion;
+use rocking_statistics::resampling::Ranked;
 
 /// Ratios of one cell of Figure 6, 7 or 9, by record.
 struct Ratios {

@@ -1,8 +1,8 @@
 //! How much of the rejections is the grid of 0.01 g?
 
 use rocking::capacity::ResponseCurve;
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::lilliefors::{Assessment, Inapplicable};
+use rocking_statistics::ExtendedSample;
+use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 
 use super::answer::{Answer, Rows, both, count, number, word};
 use crate::analyses::no_arm;

@@ -1,10 +1,10 @@
 //! Accepted shares of levels that share their records.
 
 use rayon::prelude::*;
-use rocking::statistics::acceptance::{AcceptedShare, NullBand};
-use rocking::statistics::lilliefors::{Assessment, Inapplicable};
-use rocking::statistics::multiple::{benjamini_hochberg, holm};
-use rocking::statistics::normality::Battery;
+use rocking_statistics::acceptance::{AcceptedShare, NullBand};
+use rocking_statistics::lilliefors::{Assessment, Inapplicable};
+use rocking_statistics::multiple::{benjamini_hochberg, holm};
+use rocking_statistics::normality::Battery;
 
 use super::answer::{Cell, Part, Rows, both, count, number, word};
 use crate::estimates::mean;

@@ -1,6 +1,6 @@
 //! Critical values where the shift is estimated from the same records.
 
-use rocking::statistics::lilliefors::{ShiftedNull, Table};
+use rocking_statistics::lilliefors::{ShiftedNull, Table};
 
 use super::answer::{Part, Rows, count, number, word};
 use crate::analyses::SuiteResults;

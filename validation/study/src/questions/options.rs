@@ -8,12 +8,12 @@ use summary::{MLE, Summary, trimmed};
 
 use rayon::prelude::*;
 use rocking::block::Block;
-use rocking::fragility::options::{Centre, Recipe};
 use rocking::integrator::Model;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
+use rocking_procedures::fragility::options::{Centre, Recipe};
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::distributions::BlockSamples;

@@ -2,12 +2,12 @@
 
 use libm::{exp, log1p};
 use rayon::prelude::*;
-use rocking::statistics::Sample;
-use rocking::statistics::lilliefors::{Statistic, Table};
-use rocking::statistics::normality::{
+use rocking_statistics::Sample;
+use rocking_statistics::lilliefors::{Statistic, Table};
+use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
-use rocking::streams::{Streams, standard_normal};
+use rocking_statistics::streams::{Streams, standard_normal};
 
 use super::answer::{Answer, Rows, both, count, number};
 use super::{levels, nulls, trimming};

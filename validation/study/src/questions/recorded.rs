@@ -6,8 +6,8 @@ use std::io::Cursor;
 use rocking::block::Block;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Model, Observe, Scene, respond};
-use rocking::intensity::{Measures, Settings};
-use rocking::record::{Processing, ReadOptions, Suite, SuiteError};
+use rocking_records::intensity::{Measures, Settings};
+use rocking_records::{Processing, ReadOptions, Suite, SuiteError};
 
 use super::answer::{Answer, Rows, number, word};
 use crate::results::Results;

@@ -268,9 +268,9 @@ mod tests {
     use super::row::Side;
     use super::*;
     use crate::analyses::facts;
-    use rocking::statistics::ExtendedSample;
-    use rocking::statistics::QuantileType;
     use rocking_common::suites::StudySuite;
+    use rocking_statistics::ExtendedSample;
+    use rocking_statistics::QuantileType;
 
     /// A row of capacities with intervals of the ratio of medians and of
     /// the difference of dispersions, about a recorded dispersion of 0.5.

@@ -1,10 +1,10 @@
 //! Where trimming brings Eq. 7 nearer.
 
 use rayon::prelude::*;
-use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
-use rocking::statistics::lognormal::FitMethod;
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
-use rocking::streams::{Streams, standard_normal};
+use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
+use rocking_statistics::lognormal::FitMethod;
+use rocking_statistics::streams::{Streams, standard_normal};
+use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::answer::{self, Cell, Part, Rows, number, word};
 use crate::estimates::mean;
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn trimming_helps_a_sample_with_a_long_right_tail() {
-        let z = rocking::statistics::normal::quantile;
+        let z = rocking_statistics::normal::quantile;
         let values: Vec<f64> = (0..86)
             .map(|i| {
                 let x = libm::exp(0.6 * z((f64::from(i) + 0.5) / 86.0));

@@ -1,6 +1,6 @@
 //! Tests of the chains.
 
-use rocking::record::Accelerogram;
+use rocking::accelerogram::Accelerogram;
 
 use super::*;
 

@@ -3,7 +3,7 @@
 
 mod chart;
 
-use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
+use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::figures::*;
 pub use chart::chart;

@@ -7,18 +7,18 @@
 
 use anyhow::{Context as _, Result, bail};
 use libm::{exp, lgamma, log};
-use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
-use rocking::statistics::boxplot::median_interval;
-use rocking::statistics::lilliefors::{ShiftedNull, Statistic, Table};
-use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::normal;
-use rocking::statistics::normality::{
+use rocking_statistics::bootstrap::{Bootstrap, accelerated, estimate};
+use rocking_statistics::boxplot::median_interval;
+use rocking_statistics::lilliefors::{ShiftedNull, Statistic, Table};
+use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::normal;
+use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
-use rocking::statistics::paired::{
+use rocking_statistics::paired::{
     equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking::statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
+use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 
 use super::truths::{Truth, share};
 use crate::methods::method::{Answer, Context, WrongModel};

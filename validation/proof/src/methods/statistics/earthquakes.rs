@@ -8,14 +8,14 @@
 use anyhow::{Result, anyhow};
 use libm::exp;
 use rayon::prelude::*;
-use rocking::fragility::hazard::{Hazard, HazardOptions};
-use rocking::procedures::counts::Outcome;
-use rocking::procedures::{
+use rocking_procedures::counts::Outcome;
+use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
+use rocking_procedures::{
     Draws, Exposed, FitOptions, fit_outcomes, fit_sample, risk,
 };
-use rocking::statistics::regression::mixed;
-use rocking::statistics::{CensoredSample, Clusters, Lognormal};
-use rocking::streams::{Streams, standard_normal};
+use rocking_statistics::regression::mixed;
+use rocking_statistics::streams::{Streams, standard_normal};
+use rocking_statistics::{CensoredSample, Clusters, Lognormal};
 use serde::Deserialize;
 
 use super::truths::{Shape, share};

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use libm::{exp, log};
-use rocking::fragility::{c_max, eq5, eq6, eq7};
+use rocking_procedures::fragility::{c_max, eq5, eq6, eq7};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};

@@ -1,15 +1,15 @@
 //! Fits, quantiles, tests and paired procedures against other packages.
 
 use anyhow::Result;
-use rocking::statistics::lilliefors::Statistic;
-use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::normality::{
+use rocking_statistics::lilliefors::Statistic;
+use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
-use rocking::statistics::paired::{
+use rocking_statistics::paired::{
     SignTest, equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking::statistics::{ExtendedSample, QuantileType, Sample};
+use rocking_statistics::{ExtendedSample, QuantileType, Sample};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};

@@ -10,18 +10,18 @@
 use anyhow::Result;
 use libm::{exp, log, sqrt};
 use rayon::prelude::*;
-use rocking::statistics::acceptance::{AcceptedShare, distances};
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
-use rocking::statistics::boxplot::median_interval;
-use rocking::statistics::confidence::Confidence;
-use rocking::statistics::lilliefors::Table;
-use rocking::statistics::resampling::{Ranked, Subsampling};
-use rocking::statistics::step_down::StepDown;
-use rocking::statistics::{
+use rocking_common::findings::{ERROR, LEVEL};
+use rocking_statistics::acceptance::{AcceptedShare, distances};
+use rocking_statistics::bootstrap::{Bootstrap, estimate};
+use rocking_statistics::boxplot::median_interval;
+use rocking_statistics::confidence::Confidence;
+use rocking_statistics::lilliefors::Table;
+use rocking_statistics::resampling::{Ranked, Subsampling};
+use rocking_statistics::step_down::StepDown;
+use rocking_statistics::streams::{Stream, Streams, standard_normal};
+use rocking_statistics::{
     Clusters, ExtendedSample, Proportion, Sample, normal,
 };
-use rocking::streams::{Stream, Streams, standard_normal};
-use rocking_common::findings::{ERROR, LEVEL};
 use serde::Deserialize;
 
 use super::truths::{Shape, share};

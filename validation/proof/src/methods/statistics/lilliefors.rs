@@ -4,9 +4,9 @@ use anyhow::{Context as _, Result, bail};
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
-use rocking::statistics::lilliefors::{Statistic, Table};
-use rocking::statistics::{Sample, normal};
-use rocking::streams::{Streams, standard_normal};
+use rocking_statistics::lilliefors::{Statistic, Table};
+use rocking_statistics::streams::{Streams, standard_normal};
+use rocking_statistics::{Sample, normal};
 
 use super::truths::Words;
 use crate::methods::cells::{Csv, csv};

@@ -1,7 +1,7 @@
 //! NIST's univariate data sets.
 
 use anyhow::Result;
-use rocking::statistics::Sample;
+use rocking_statistics::Sample;
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};

@@ -2,11 +2,11 @@
 
 use libm::sqrt;
 use rayon::prelude::*;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::confidence::Confidence;
-use rocking::statistics::power::Power;
-use rocking::streams::{Streams, standard_normal};
 use rocking_common::findings::LEVEL;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::confidence::Confidence;
+use rocking_statistics::power::Power;
+use rocking_statistics::streams::{Streams, standard_normal};
 
 use anyhow::Result;
 

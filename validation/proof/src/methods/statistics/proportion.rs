@@ -1,7 +1,7 @@
 //! A probability from a count.
 
 use anyhow::Result;
-use rocking::statistics::{Proportion, normal};
+use rocking_statistics::{Proportion, normal};
 
 use crate::methods::cells::{Csv, Row, csv};
 use crate::methods::method::{Answer, Context, WrongModel};

@@ -3,10 +3,10 @@
 
 use anyhow::{Context as _, Result};
 use libm::{exp, log};
-use rocking::fragility::risk::HazardCurve;
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
-use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::{ExtendedSample, Lognormal, normal};
+use rocking_procedures::fragility::risk::HazardCurve;
+use rocking_statistics::bootstrap::{Bootstrap, estimate};
+use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::{ExtendedSample, Lognormal, normal};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Answer, Context, WrongModel};

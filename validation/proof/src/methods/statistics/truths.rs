@@ -7,8 +7,8 @@ use libm::{exp, log, log1p, tan};
 use rand::TryRng;
 use rand_distr::{Distribution as _, Exp1, Gamma};
 use rayon::prelude::*;
-use rocking::statistics::Clusters;
-use rocking::streams::{Stream, Streams, below, standard_normal};
+use rocking_statistics::Clusters;
+use rocking_statistics::streams::{Stream, Streams, below, standard_normal};
 use serde::Deserialize;
 
 /// A stream as a generator of `rand_distr`.

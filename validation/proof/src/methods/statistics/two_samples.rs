@@ -1,8 +1,8 @@
 //! Two samples against each other.
 
 use anyhow::Result;
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::two_sample::kolmogorov_smirnov;
+use rocking_statistics::ExtendedSample;
+use rocking_statistics::two_sample::kolmogorov_smirnov;
 
 use crate::methods::method::{Answer, Context, WrongModel};
 

@@ -1,6 +1,6 @@
 //! What the fragilities' figures draw, and the columns of their CSV.
 
-use rocking::statistics::Lognormal;
+use rocking_statistics::Lognormal;
 
 use rocking_common::paper::Intensity;
 use rocking_common::table::number;

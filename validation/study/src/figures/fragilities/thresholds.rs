@@ -1,6 +1,6 @@
 //! Figures 15 to 17: the fragilities with the bands that decide the claims.
 
-use rocking::statistics::Lognormal;
+use rocking_statistics::Lognormal;
 
 use super::curves::{
     KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,

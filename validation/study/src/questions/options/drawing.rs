@@ -1,8 +1,8 @@
 //! The figure of the options.
 
-use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
-use rocking::statistics::QuantileType;
-use rocking::statistics::lognormal::FitMethod;
+use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
+use rocking_statistics::QuantileType;
+use rocking_statistics::lognormal::FitMethod;
 
 use super::summary::{MLE, Summary, trimmed};
 use rocking_common::paper::{Arm, Intensity};

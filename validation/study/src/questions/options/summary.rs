@@ -1,9 +1,9 @@
 //! What a recipe does over all blocks.
 
-use rocking::fragility::options::Recipe;
-use rocking::statistics::QuantileType;
-use rocking::statistics::lognormal::FitMethod;
 use rocking_common::paper::Intensity;
+use rocking_procedures::fragility::options::Recipe;
+use rocking_statistics::QuantileType;
+use rocking_statistics::lognormal::FitMethod;
 
 /// One recipe over all blocks and thresholds.
 pub struct Summary {

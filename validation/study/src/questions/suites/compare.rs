@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
-use rocking::statistics::Clusters;
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::two_sample::kolmogorov_smirnov;
+use rocking_statistics::Clusters;
+use rocking_statistics::ExtendedSample;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::two_sample::kolmogorov_smirnov;
 
 use super::row::{Group, Interval, Row, Side};
 use crate::analyses::no_arm;

@@ -1,0 +1,201 @@
+//! Fragilities as files of other programs.
+
+mod nrml;
+mod pelicun;
+mod tables;
+
+pub use tables::Pact;
+
+use rocking_procedures::fragility::points::PointsError;
+use rocking_statistics::lognormal::LognormalError;
+use thiserror::Error;
+
+use crate::fragility::{BlockFragility, Id};
+use crate::table::number;
+
+/// Largest error in probability of a shifted fragility that is written as
+/// points: a tenth of what one record in two hundred is worth.
+pub const TOLERANCE: f64 = 5e-4;
+
+/// Probability that is cut off at either end of a range of intensities.
+const TAIL: f64 = 1e-4;
+
+/// How far the probability of a limit state may lie above that of the one
+/// before it. OpenQuake ends a calculation whose damages, which are the
+/// differences, go below minus this; pelicun draws all limit states from one
+/// number and takes the last one that is reached.
+const CROSSING: f64 = 1e-6;
+
+/// Why fragilities cannot be written in a format.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExchangeError {
+    /// PACT's fragilities have no shift.
+    #[error(
+        "{id}: PACT has no shifted lognormal: expected no shift; the \
+         unshifted fit is what FEMA P-58 takes"
+    )]
+    Shifted {
+        /// The fragility.
+        id: Id,
+    },
+    /// A measure that the other program does not know.
+    #[error("{id}: {format} has no measure {im}: expected {expected}")]
+    Measure {
+        /// The fragility.
+        id: Id,
+        /// The format.
+        format: &'static str,
+        /// The measure.
+        im: String,
+        /// Measures that it has.
+        expected: &'static str,
+    },
+    /// A block without a limit state.
+    #[error("{id}: no limit state: expected at least one")]
+    NoState {
+        /// The fragility.
+        id: Id,
+    },
+    /// Blocks with different limit states in a format that has one list.
+    #[error(
+        "{id}: limit states {found}: expected {expected}, as of the first \
+         block, since NRML has one list for all"
+    )]
+    Mixed {
+        /// The fragility.
+        id: Id,
+        /// Its limit states.
+        found: String,
+        /// Those of the first block.
+        expected: String,
+    },
+    /// Limit states whose curves cross.
+    #[error(
+        "{id}: near {im} the limit state {next} is more probable than {name} \
+         before it, and the reader would misread them: expected curves that \
+         do not cross, such as those of one dispersion"
+    )]
+    Crossing {
+        /// The fragility.
+        id: Id,
+        /// The limit state.
+        name: Id,
+        /// That of greater damage.
+        next: Id,
+        /// The intensity with its unit.
+        im: String,
+    },
+    /// Points that pelicun takes for one.
+    #[error(
+        "{id}: points closer than 1e-8 {unit}, which pelicun takes for one: \
+         expected a larger dispersion"
+    )]
+    Narrow {
+        /// The fragility.
+        id: Id,
+        /// Unit of the intensity.
+        unit: &'static str,
+    },
+    /// Points that are none.
+    #[error(transparent)]
+    Points(#[from] PointsError),
+    /// Parameters that a change of unit makes none.
+    #[error(transparent)]
+    Lognormal(#[from] LognormalError),
+}
+
+/// A format of another program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// OpenQuake's NRML 0.5.
+    Nrml,
+    /// pelicun's library: a CSV and a JSON.
+    Pelicun,
+    /// Medians and dispersions for FEMA P-58's PACT.
+    Pact,
+    /// All parameters, as CSV.
+    Csv,
+}
+
+/// Texts of a format: the main file, and one beside it with its extension.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Texts {
+    /// The main file.
+    pub main: String,
+    /// Extension and text of a second file.
+    pub beside: Option<(&'static str, String)>,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Nrml, Self::Pelicun, Self::Pact, Self::Csv];
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nrml => "nrml",
+            Self::Pelicun => "pelicun",
+            Self::Pact => "pact",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// Extension of a second file beside the main one.
+    #[must_use]
+    pub fn beside(self) -> Option<&'static str> {
+        (self == Self::Pelicun).then_some("json")
+    }
+
+    /// The fragilities in this format.
+    ///
+    /// # Errors
+    /// [`ExchangeError`] for a fragility that the format cannot hold, and,
+    /// but in CSV, for limit states whose curves cross.
+    pub fn texts(
+        self,
+        fragilities: &[BlockFragility],
+    ) -> Result<Texts, ExchangeError> {
+        for one in fragilities {
+            self.check(one)?;
+        }
+        let alone = |main| Texts { main, beside: None };
+        match self {
+            Self::Nrml => Ok(alone(nrml::text(fragilities)?)),
+            Self::Pelicun => {
+                let main = pelicun::csv(fragilities)?;
+                let json = pelicun::json(fragilities);
+                Ok(Texts { main, beside: Some(("json", json)) })
+            }
+            Self::Pact => Ok(alone(tables::pact(fragilities)?)),
+            Self::Csv => Ok(alone(tables::csv(fragilities))),
+        }
+    }
+
+    /// Whether there are limit states, in the right order.
+    fn check(self, one: &BlockFragility) -> Result<(), ExchangeError> {
+        let id = one.id.clone();
+        if one.limit_states.is_empty() {
+            return Err(ExchangeError::NoState { id });
+        }
+        let crossed = one.limit_states.windows(2).find_map(|pair| {
+            pair[0].crossed_by(&pair[1], CROSSING).map(|im| (im, pair))
+        });
+        match crossed {
+            Some((im, pair)) if self != Self::Csv => {
+                Err(ExchangeError::Crossing {
+                    id,
+                    name: pair[0].name.clone(),
+                    next: pair[1].name.clone(),
+                    im: format!("{} {}", number(im), one.im.unit()),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,163 @@
+//! OpenQuake's fragility models, NRML 0.5, as version 3.26 reads them.
+//!
+//! - Its `mean` and `stddev` are of the intensity, not of its logarithm.
+//! - Its lognormal has no shift, and `noDamageLimit` cuts a curve, it does
+//!   not move it: a shifted fragility is written as points.
+//! - A level below `minIML` is raised to it before it is compared with
+//!   `noDamageLimit`: `minIML` may not be above that.
+//! - One list of limit states holds for all functions, and a function has one
+//!   list of levels for all its limit states.
+//! - Its average spectral acceleration does not say its periods.
+//! - A model has one description: it states each origin once, and of many
+//!   origins the first.
+
+use maud::{Markup, PreEscaped, html};
+use rocking_procedures::fragility::points::points;
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Lognormal;
+
+use super::{ExchangeError, TAIL, TOLERANCE};
+use crate::fragility::BlockFragility;
+use crate::table::number;
+
+const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+const SPACE: &str = "http://openquake.org/xmlns/nrml/0.5";
+
+/// Origins that a description states.
+const MOST_ORIGINS: usize = 5;
+
+pub(super) fn text(
+    fragilities: &[BlockFragility],
+) -> Result<String, ExchangeError> {
+    let names = fragilities.first().map_or(String::new(), states);
+    let mut functions = Vec::new();
+    for one in fragilities {
+        let found = states(one);
+        if found != names {
+            let (id, expected) = (one.id.clone(), names);
+            return Err(ExchangeError::Mixed { id, found, expected });
+        }
+        functions.push(function(one)?);
+    }
+    let line = PreEscaped("\n");
+    let model = html! {
+        nrml xmlns=(SPACE) { (line)
+            fragilityModel id="rocking_blocks" assetCategory="contents"
+                lossCategory="contents" { (line)
+                description { (description(fragilities)) } (line)
+                limitStates { (names) } (line)
+                @for function in functions { (function) (line) }
+            } (line)
+        } (line)
+    };
+    Ok(format!("{HEAD}{}", model.into_string()))
+}
+
+/// Names of the limit states.
+fn states(one: &BlockFragility) -> String {
+    let names = one.limit_states.iter().map(|state| state.name.to_string());
+    names.collect::<Vec<_>>().join(" ")
+}
+
+/// Each origin once, or the first and the number of the others.
+fn description(fragilities: &[BlockFragility]) -> String {
+    let mut origins: Vec<&str> = Vec::new();
+    for one in fragilities {
+        if !origins.contains(&one.origin.as_str()) {
+            origins.push(&one.origin);
+        }
+    }
+    match origins.len() {
+        0..=MOST_ORIGINS => origins.join("; "),
+        n => format!("{}; and {} other origins", origins[0], n - 1),
+    }
+}
+
+/// OpenQuake's name of a measure, and the number of its units in one of ours.
+fn measure(
+    one: &BlockFragility,
+) -> Result<(String, Option<f64>), ExchangeError> {
+    Ok(match &one.im {
+        IntensityMeasure::Pga => ("PGA".into(), None),
+        // OpenQuake's PGV is in cm/s.
+        IntensityMeasure::Pgv => ("PGV".into(), Some(100.0)),
+        IntensityMeasure::Sa(period_s) => (format!("SA({period_s:?})"), None),
+        IntensityMeasure::AverageSa(_) => ("AvgSA".into(), None),
+        other => {
+            return Err(ExchangeError::Measure {
+                id: one.id.clone(),
+                format: "NRML",
+                im: other.to_string(),
+                expected: "pga, pgv, sa:T or avgsa:T1,T2,..",
+            });
+        }
+    })
+}
+
+fn function(one: &BlockFragility) -> Result<Markup, ExchangeError> {
+    let (imt, units) = measure(one)?;
+    let mut laws = Vec::new();
+    for state in &one.limit_states {
+        let law = state.fragility;
+        let law = units.map_or(Ok(law), |units| law.scaled(units))?;
+        laws.push((&state.name, law));
+    }
+    let line = PreEscaped("\n");
+    if laws.iter().any(|(_, law)| law.shift() > 0.0) {
+        let (levels, curves) = discrete(laws.iter().map(|(_, law)| law))?;
+        return Ok(html! {
+            fragilityFunction id=(one.id) format="discrete" { (line)
+                imls imt=(imt) noDamageLimit=(number(levels[0])) {
+                    (words(&levels))
+                } (line)
+                @for ((name, _), curve) in laws.iter().zip(&curves) {
+                    poes ls=(name) { (words(curve)) } (line)
+                }
+            }
+        });
+    }
+    let ends = |p: f64| laws.iter().map(move |(_, law)| law.quantile(p));
+    let least = ends(TAIL).fold(f64::INFINITY, f64::min);
+    let most = ends(1.0 - TAIL).fold(0.0, f64::max);
+    Ok(html! {
+        fragilityFunction id=(one.id) format="continuous" shape="logncdf" {
+            (line)
+            imls imt=(imt) noDamageLimit=(number(least))
+                minIML=(number(least)) maxIML=(number(most)) {} (line)
+            @for (name, law) in &laws {
+                params ls=(name) mean=(number(law.mean()))
+                    stddev=(number(law.standard_deviation())) {} (line)
+            }
+        }
+    })
+}
+
+fn words(numbers: &[f64]) -> String {
+    let words: Vec<String> = numbers.iter().map(|x| number(*x)).collect();
+    words.join(" ")
+}
+
+/// The levels of all curves' own points, and the probabilities of each curve
+/// there; the last is certainty.
+fn discrete<'a>(
+    laws: impl Iterator<Item = &'a Lognormal> + Clone,
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), ExchangeError> {
+    let mut levels = Vec::new();
+    for law in laws.clone() {
+        levels.extend(points(law, TOLERANCE)?.iter().map(|point| point.0));
+    }
+    // Nine digits are written, and levels rise strictly; a level of nothing
+    // is none to OpenQuake.
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by_key(|level| number(*level));
+    levels.retain(|level| *level > 0.0);
+    let last = levels.last().copied();
+    let at = |law: &Lognormal, level: f64| match Some(level) == last {
+        true => 1.0,
+        false => law.cdf(level),
+    };
+    let curves =
+        laws.map(|law| levels.iter().map(|level| at(law, *level)).collect());
+    let curves = curves.collect();
+    Ok((levels, curves))
+}

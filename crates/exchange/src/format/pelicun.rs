@@ -1,0 +1,127 @@
+//! Libraries of pelicun, as version 3.10 reads them: a CSV with the
+//! parameters, and a JSON that describes them.
+//!
+//! - A shifted lognormal is a `multilinear_CDF`, "x1,x2,..|p1,p2,..", which
+//!   begins with probability 0, ends with 1, and whose steps exceed 1e-8.
+//! - A limit state `LSk` is followed by `LSk+1`; the damage states `DSk` are
+//!   counted through all of them.
+//! - A name with `-` is split at it wherever a component is named by it.
+//! - `Demand-Directional` is 1: for a component without direction pelicun
+//!   multiplies the larger of two demands by 1.2, and the intensity here is
+//!   that of the component applied.
+
+use rocking_procedures::fragility::points::points;
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Lognormal;
+use serde_json::{Map, json};
+
+use super::{ExchangeError, TOLERANCE};
+use crate::fragility::BlockFragility;
+use crate::table::{Table, number};
+
+/// Steps that pelicun distinguishes from none.
+const LEAST_STEP: f64 = 1e-8;
+
+pub(super) fn csv(
+    fragilities: &[BlockFragility],
+) -> Result<String, ExchangeError> {
+    let states = fragilities.iter().map(|one| one.limit_states.len());
+    let states = states.max().unwrap_or(0);
+    let mut header = String::from(
+        "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,\
+         Demand-Directional",
+    );
+    for k in 1..=states {
+        for part in ["Family", "Theta_0", "Theta_1", "DamageStateWeights"] {
+            header += &format!(",LS{k}-{part}");
+        }
+    }
+    let mut table = Table::headed(&header);
+    for one in fragilities {
+        let (demand, unit) = demand(one)?;
+        let mut row = vec![one.id.to_string(), "0".into(), demand];
+        row.extend([unit, "0", "1"].map(String::from));
+        for state in &one.limit_states {
+            row.extend(law(one, &state.fragility)?);
+            row.push(String::new());
+        }
+        row.resize(6 + 4 * states, String::new());
+        table.row(row);
+    }
+    Ok(table.finish())
+}
+
+/// Type and unit of the demand.
+fn demand(
+    one: &BlockFragility,
+) -> Result<(String, &'static str), ExchangeError> {
+    Ok(match &one.im {
+        IntensityMeasure::Pga => ("Peak Ground Acceleration".into(), "g"),
+        IntensityMeasure::Pgv => ("Peak Ground Velocity".into(), "mps"),
+        IntensityMeasure::Sa(period_s) => {
+            (format!("Spectral Acceleration|{period_s:?}"), "g")
+        }
+        other => {
+            return Err(ExchangeError::Measure {
+                id: one.id.clone(),
+                format: "pelicun",
+                im: other.to_string(),
+                expected: "pga, pgv or sa:T",
+            });
+        }
+    })
+}
+
+/// Family and parameters.
+fn law(
+    one: &BlockFragility,
+    fragility: &Lognormal,
+) -> Result<[String; 3], ExchangeError> {
+    if fragility.shift() > 0.0 {
+        let points = points(fragility, TOLERANCE)?;
+        let wide = |pair: &[(f64, f64)]| pair[1].0 - pair[0].0 > LEAST_STEP;
+        if !points.windows(2).all(wide) {
+            let unit = one.im.unit();
+            return Err(ExchangeError::Narrow { id: one.id.clone(), unit });
+        }
+        let join = |each: fn(&(f64, f64)) -> f64| {
+            let words: Vec<String> =
+                points.iter().map(|point| number(each(point))).collect();
+            words.join(",")
+        };
+        let both = format!("{}|{}", join(|p| p.0), join(|p| p.1));
+        return Ok(["multilinear_CDF".into(), both, String::new()]);
+    }
+    let (median, beta) = (fragility.median(), fragility.dispersion());
+    Ok(["lognormal".into(), number(median), number(beta)])
+}
+
+pub(super) fn json(fragilities: &[BlockFragility]) -> String {
+    let mut library = Map::new();
+    for one in fragilities {
+        let (alpha, p) =
+            (one.block.slenderness_rad(), one.block.frequency_rad_s());
+        let states = one.limit_states.iter().zip(1..).map(|(state, k)| {
+            let description = state.name.to_string();
+            let damage = json!({
+                "Description": description,
+                "RepairAction": "Not stated",
+            });
+            let name = format!("DS{k}");
+            (format!("LS{k}"), json!({ name: damage }))
+        });
+        let entry = json!({
+            "Description": format!(
+                "Free-standing rigid block, alpha {} rad, p {} rad/s",
+                number(alpha),
+                number(p),
+            ),
+            "Comments": one.origin,
+            "SuggestedComponentBlockSize": "1 EA",
+            "RoundUpToIntegerQuantity": "True",
+            "LimitStates": states.collect::<Map<_, _>>(),
+        });
+        library.insert(one.id.to_string(), entry);
+    }
+    format!("{:#}\n", serde_json::Value::Object(library))
+}

@@ -1,0 +1,115 @@
+//! Tables of parameters: for PACT, and for any program.
+
+use rocking_records::intensity::{Intensity, IntensityMeasure};
+use rocking_statistics::Lognormal;
+
+use super::ExchangeError;
+use crate::columns::FRAGILITIES;
+use crate::fragility::BlockFragility;
+use crate::table::{Table, number, optional};
+
+/// Median and dispersion in the form in which FEMA P-58's PACT takes them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pact {
+    /// What of the ground motion: PGA or PGV.
+    pub demand: &'static str,
+    /// Unit of the median: g or m/s.
+    pub unit: &'static str,
+    /// Median.
+    pub median: f64,
+    /// Standard deviation of the logarithm.
+    pub dispersion: f64,
+}
+
+impl Pact {
+    /// Of a fragility in g or m/s; none where it has a shift, which PACT does
+    /// not know.
+    ///
+    /// ```
+    /// use rocking_statistics::Lognormal;
+    /// use rocking_records::intensity::Intensity;
+    /// use rocking_exchange::Pact;
+    /// let fitted = Lognormal::try_new(0.0, 0.0, 0.5)?;
+    /// let pact = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
+    /// assert_eq!((pact.demand, pact.unit), ("PGV", "m/s"));
+    /// assert_eq!((pact.median, pact.dispersion), (1.0, 0.5));
+    /// let shifted = Lognormal::try_new(0.1, 0.0, 0.5)?;
+    /// assert_eq!(Pact::of(Intensity::Pgv, &shifted), None);
+    /// # Ok::<(), rocking_statistics::lognormal::LognormalError>(())
+    /// ```
+    #[must_use]
+    pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
+        let (demand, unit) = match intensity {
+            Intensity::Pga => ("PGA", IntensityMeasure::Pga.unit()),
+            Intensity::Pgv => ("PGV", IntensityMeasure::Pgv.unit()),
+        };
+        (fragility.shift() == 0.0).then(|| Self {
+            demand,
+            unit,
+            median: fragility.median(),
+            dispersion: fragility.dispersion(),
+        })
+    }
+}
+
+pub(super) fn pact(
+    fragilities: &[BlockFragility],
+) -> Result<String, ExchangeError> {
+    let mut table = Table::new(&[
+        "id",
+        "damage_state",
+        "demand",
+        "unit",
+        "directional",
+        "median",
+        "dispersion",
+    ]);
+    for one in fragilities {
+        let id = &one.id;
+        let intensity =
+            one.im.dimensionless().ok_or_else(|| ExchangeError::Measure {
+                id: id.clone(),
+                format: "PACT",
+                im: one.im.to_string(),
+                expected: "pga or pgv",
+            })?;
+        for state in &one.limit_states {
+            let pact = Pact::of(intensity, &state.fragility)
+                .ok_or_else(|| ExchangeError::Shifted { id: id.clone() })?;
+            table.row([
+                id.to_string(),
+                state.name.to_string(),
+                pact.demand.into(),
+                pact.unit.into(),
+                "yes".into(),
+                number(pact.median),
+                number(pact.dispersion),
+            ]);
+        }
+    }
+    Ok(table.finish())
+}
+
+/// All parameters, with units.
+pub(super) fn csv(fragilities: &[BlockFragility]) -> String {
+    let mut table = Table::of(&FRAGILITIES);
+    for one in fragilities {
+        for state in &one.limit_states {
+            let fragility = &state.fragility;
+            table.row([
+                one.id.to_string(),
+                number(one.block.slenderness_rad()),
+                number(one.block.frequency_rad_s()),
+                optional(one.eta),
+                state.name.to_string(),
+                one.im.to_string(),
+                one.im.unit().into(),
+                number(fragility.shift()),
+                number(fragility.median()),
+                number(fragility.dispersion()),
+                one.origin.clone(),
+            ]);
+        }
+    }
+    table.finish()
+}

@@ -1,0 +1,197 @@
+//! A fragility of one block, in the unit of the ground motion.
+//!
+//! A fragility in PGA or PGV is dimensionless in the statistics. Other
+//! programs take one block's own PGA or PGV, each in the unit that it expects:
+//! OpenQuake PGA in g and PGV in cm/s, pelicun and PACT in g and m/s.
+
+use std::fmt;
+use std::str::FromStr;
+
+use rocking::block::Block;
+use rocking::integrator::{Model, uplift_threshold};
+use rocking_records::intensity::{Intensity, IntensityMeasure};
+use rocking_statistics::Lognormal;
+use serde::{Deserialize, Serialize};
+
+/// Most characters of a name that OpenQuake takes.
+const LONGEST: usize = 75;
+
+/// A name that every reader takes: ASCII letters, digits, `_` and `:`, at
+/// most 75. OpenQuake takes no dot and no slash in a name, and pelicun splits
+/// one at `-`.
+///
+/// ```
+/// use rocking_exchange::Id;
+/// assert!("BLOCK_p300_a015".parse::<Id>().is_ok());
+/// assert!("BLOCK-p300-a015".parse::<Id>().is_err());
+/// assert!("BLOCK/p3.0/a0.15".parse::<Id>().is_err());
+/// ```
+#[derive(
+    Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
+#[serde(try_from = "String", into = "String")]
+pub struct Id(String);
+
+impl TryFrom<String> for Id {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl AsRef<str> for Id {
+    fn as_ref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl From<Id> for String {
+    fn from(id: Id) -> Self {
+        id.0
+    }
+}
+
+impl FromStr for Id {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let taken = |c: char| c.is_ascii_alphanumeric() || "_:".contains(c);
+        if text.is_empty() || text.len() > LONGEST || !text.chars().all(taken)
+        {
+            return Err(format!(
+                "found `{text}`: expected a name of at most {LONGEST} ASCII \
+                 letters, digits, _ and :"
+            ));
+        }
+        Ok(Self(text.to_owned()))
+    }
+}
+
+impl fmt::Display for Id {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.0)
+    }
+}
+
+impl Id {
+    /// The name of a block by its parameters, in all their digits, so that
+    /// two blocks never share one.
+    ///
+    /// ```
+    /// use rocking::Block;
+    /// use rocking_exchange::Id;
+    /// let block = Block::try_new(0.15, 3.0)?;
+    /// assert_eq!(Id::of(&block)?.to_string(), "block_a0_15_p3");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where the digits make it too long.
+    pub fn of(block: &Block) -> Result<Self, String> {
+        let digits = |x: f64| x.to_string().replace('.', "_");
+        let alpha = digits(block.slenderness_rad());
+        let p = digits(block.frequency_rad_s());
+        format!("block_a{alpha}_p{p}").parse()
+    }
+}
+
+/// The fragilities of one block, one a limit state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockFragility {
+    /// Its name.
+    pub id: Id,
+    /// The block.
+    pub block: Block,
+    /// Coefficient of restitution, where it is known.
+    pub eta: Option<f64>,
+    /// The intensity measure of the ground motion.
+    pub im: IntensityMeasure,
+    /// Limit states in the order of rising damage.
+    pub limit_states: Vec<LimitState>,
+    /// Where they come from, in words.
+    pub origin: String,
+}
+
+/// A degree of damage, and how probable it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitState {
+    /// Its name.
+    pub name: Id,
+    /// Probability of reaching it, in the unit of the block's own intensity
+    /// measure: g for PGA, m/s for PGV.
+    pub fragility: Lognormal,
+}
+
+/// Steps in the score at which two curves are compared.
+const STEPS: i32 = 1000;
+
+/// Largest score at which two curves are compared.
+const LARGEST_SCORE: f64 = 8.0;
+
+impl LimitState {
+    /// The intensity at which the probability of `next`, a state of greater
+    /// damage, is most above that of this state, where it is above it by more
+    /// than `tolerance`.
+    pub(crate) fn crossed_by(
+        &self,
+        next: &Self,
+        tolerance: f64,
+    ) -> Option<f64> {
+        let both = [&self.fragility, &next.fragility];
+        let step = LARGEST_SCORE / f64::from(STEPS);
+        let all = both.into_iter().flat_map(|law| {
+            (-STEPS..=STEPS).map(move |k| {
+                let score = f64::from(k) * step;
+                let log = law.log_mean() + law.dispersion() * score;
+                law.shift() + libm::exp(log)
+            })
+        });
+        let above = |im: f64| next.fragility.cdf(im) - self.fragility.cdf(im);
+        let worst = all.max_by(|a, b| above(*a).total_cmp(&above(*b)))?;
+        (above(worst) > tolerance).then_some(worst)
+    }
+}
+
+/// The number of g (PGA) or of m/s (PGV) that makes a dimensionless
+/// intensity of 1: tan alpha, and g tan alpha/p; Eq. 2 has alpha in place of
+/// tan alpha.
+///
+/// ```
+/// use rocking::Block;
+/// use rocking::integrator::Model;
+/// use rocking_records::intensity::Intensity;
+/// use rocking_exchange::unit_intensity;
+/// let block = Block::try_new(0.15, 3.0)?;
+/// let pgv = unit_intensity(Intensity::Pgv, &block, Model::Nonlinear, 9.81);
+/// assert!((pgv - 9.81 * 0.151_135_218_058 / 3.0).abs() < 1e-11);
+/// # Ok::<(), rocking::block::BlockError>(())
+/// ```
+#[must_use]
+pub fn unit_intensity(
+    intensity: Intensity,
+    block: &Block,
+    model: Model,
+    gravity_m_s2: f64,
+) -> f64 {
+    let threshold_g = uplift_threshold(block, model);
+    match intensity {
+        Intensity::Pga => threshold_g,
+        Intensity::Pgv => threshold_g * gravity_m_s2 / block.frequency_rad_s(),
+    }
+}
+
+/// Where a fragility comes from, if the size and the measure of its sample
+/// alone are known.
+///
+/// ```
+/// use rocking_records::intensity::IntensityMeasure;
+/// use rocking_exchange::unstated_origin;
+/// let words = unstated_origin(86, &IntensityMeasure::Pga);
+/// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
+/// ```
+#[must_use]
+pub fn unstated_origin(capacities: usize, im: &IntensityMeasure) -> String {
+    let measure = im.words();
+    format!("{capacities} capacities in {measure}, response level not stated")
+}

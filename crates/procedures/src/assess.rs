@@ -1,0 +1,489 @@
+//! From objects and records to which object is damaged first, and how often.
+
+mod answers;
+mod ground;
+
+use std::fmt;
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use self::ground::{Found, Ground};
+use super::counts::Bounds;
+use super::risk::FragilityRisk;
+use super::{
+    Draws, FragilityFit, ProcedureError, Ranking, RiskError, StripeResponses,
+};
+use crate::fragility::hazard::Hazard;
+use crate::fragility::risk::Contribution;
+use rocking::accelerogram::Accelerogram;
+use rocking::block::{Block, BlockError, Restitution};
+use rocking::capacity::CapacityError;
+use rocking::ida::{Analysis, IdaError, ResolutionCounts};
+use rocking_records::floor::{Floor, FloorError};
+use rocking_records::intensity::{IntensityError, IntensityMeasure};
+use rocking_statistics::{Clusters, Lognormal};
+
+/// Coefficients of restitution beside the object's own.
+const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
+
+/// The fewest records that an assessment takes.
+const LEAST_RECORDS: usize = 3;
+
+/// A free-standing object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Its name.
+    pub id: String,
+    /// The block that it is taken for.
+    pub block: Block,
+    /// Coefficient of restitution.
+    pub restitution: Restitution,
+    /// Coefficient of friction of the floor, where known.
+    pub friction: Option<f64>,
+    /// Rotation over slenderness that must not be exceeded, in (0, 1); none:
+    /// the object must not overturn.
+    pub limit_ratio: Option<f64>,
+    /// The floor of a building on which it stands; none on the ground.
+    pub floor: Option<NamedFloor>,
+    /// Overturning fragility in PGA in g that other motions gave, such as a
+    /// fitted surface, to stand beside.
+    pub surface: Option<Lognormal>,
+}
+
+/// A floor with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFloor {
+    /// The name.
+    pub name: String,
+    /// The floor.
+    pub floor: Floor,
+}
+
+/// How objects are assessed.
+#[derive(Clone, Copy, Debug)]
+pub struct AssessOptions<'a> {
+    /// Gravity in m/s2.
+    pub gravity_m_s2: f64,
+    /// Hazard curve of the site, in an intensity measure of the ground.
+    pub hazard: Option<&'a Hazard>,
+    /// Years of the probabilities.
+    pub years: f64,
+    /// Draws of the bootstrap.
+    pub draws: Draws,
+    /// Whether each fate is resolved in the arithmetic that it needs.
+    pub certify: bool,
+}
+
+/// What counts as damage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Damage {
+    /// The object overturns.
+    Overturning,
+    /// Its rotation exceeds this part of the slenderness.
+    Rotation(f64),
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Overturning => f.write_str("overturning"),
+            Self::Rotation(ratio) => write!(f, "rotation above {ratio} alpha"),
+        }
+    }
+}
+
+impl Damage {
+    fn edp(self) -> f64 {
+        match self {
+            Self::Overturning => f64::INFINITY,
+            Self::Rotation(ratio) => ratio,
+        }
+    }
+}
+
+/// Objects under a suite, the one that needs attention first before all.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Assessment {
+    /// Intensity measure of all intensities here.
+    pub im: IntensityMeasure,
+    /// Unit of all intensities here: that of the hazard curve.
+    pub unit: &'static str,
+    /// Such units in one of the measure itself (g, m/s).
+    pub units_per_im_unit: f64,
+    /// Level of the intervals.
+    pub level: f64,
+    /// Number of records.
+    pub records: usize,
+    /// What the intervals draw.
+    pub drawn: Clusters,
+    /// Years of the probabilities.
+    pub years: f64,
+    /// By falling annual frequency of damage, or by rising intensity of 5 %
+    /// damage where there is no hazard curve.
+    pub objects: Vec<Assessed>,
+    /// At least one, two, .. objects damaged by the same earthquake.
+    pub together: Vec<Together>,
+    /// Correlation of the logarithms of the intensities of damage of two
+    /// objects over the records: the least, the median and the largest of
+    /// all pairs; none where no pair has three records that damage both.
+    pub correlation: Option<Bounds>,
+}
+
+/// One object.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Assessed {
+    /// Its name.
+    pub id: String,
+    /// The block that it is taken for.
+    pub block: Block,
+    /// Name of the floor that it stands on; none on the ground.
+    pub floor: Option<String>,
+    /// Width in m.
+    pub width_m: f64,
+    /// Height in m.
+    pub height_m: f64,
+    /// Slenderness in rad.
+    pub alpha_rad: f64,
+    /// Frequency parameter in rad/s.
+    pub p_rad_s: f64,
+    /// Coefficient of restitution.
+    pub eta: f64,
+    /// What counts as damage.
+    pub damage: Damage,
+    /// Peak acceleration in g, of the ground or of its floor, at which the
+    /// object begins to rock.
+    pub uplift_pga_g: f64,
+    /// The intensities at which the records damage it, and their lognormal
+    /// fit with its band.
+    pub fragility: FragilityFit,
+    /// What follows of the fit.
+    pub answer: Answer,
+    /// Annual frequency of damage by motions between two intensities of the
+    /// hazard curve.
+    pub contributions: Vec<Contribution>,
+    /// Responses at rising PGA in g: 16, 50 and 84 %.
+    pub ida: Vec<StripeResponses>,
+    /// Intensities of damage by record, ascending; records that do not
+    /// damage the object follow, by the intensity up to which they were run.
+    pub by_record: Vec<RecordCapacity>,
+    /// Intensity measures by the dispersion that they leave.
+    pub ranking: Ranking,
+    /// The answer under other assumptions.
+    pub alternatives: Vec<Alternative>,
+    /// Share of records that ask for more friction than there is before they
+    /// damage the object; none where no friction is given.
+    pub slides_first: Option<f64>,
+    /// How many analyses each arithmetic resolved.
+    pub resolution: ResolutionCounts,
+    /// Share of the draws in which this object comes first.
+    pub first_in_draws: f64,
+}
+
+/// What a fragility says of an object; no interval where it was not drawn.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Answer {
+    /// The fitted distribution.
+    pub fitted: Lognormal,
+    /// Intensity that damages the object with probability 0.5.
+    pub median_im: Bounds,
+    /// Intensity that damages it with probability 0.05.
+    pub small_im: Bounds,
+    /// Annual frequency and probability in T years.
+    pub risk: Option<FragilityRisk>,
+}
+
+impl Answer {
+    /// Annual frequency of damage in 1/year, the lower bound of truncation;
+    /// none without a hazard curve.
+    #[must_use]
+    pub fn annual_frequency(&self) -> Option<Bounds> {
+        let risk = self.risk.as_ref()?;
+        let drawn = risk.sampling.as_ref();
+        Some(Bounds {
+            point: risk.annual_frequency_truncation_lower,
+            low: drawn.map(|drawn| drawn.annual_frequency_low),
+            high: drawn.map(|drawn| drawn.annual_frequency_high),
+        })
+    }
+
+    /// Mean return period of damage in years, the reciprocal of the annual
+    /// frequency; none without a hazard curve.
+    #[must_use]
+    pub fn return_period_years(&self) -> Option<Bounds> {
+        let frequency = self.annual_frequency()?;
+        Some(Bounds {
+            point: frequency.point.recip(),
+            low: frequency.high.map(f64::recip),
+            high: frequency.low.map(f64::recip),
+        })
+    }
+
+    /// Probability of damage in the years of the assessment; none without a
+    /// hazard curve.
+    #[must_use]
+    pub fn probability(&self) -> Option<Bounds> {
+        let risk = self.risk.as_ref()?;
+        let drawn = risk.sampling.as_ref();
+        Some(Bounds {
+            point: risk.probability_truncation_lower,
+            low: drawn.map(|drawn| drawn.probability_low),
+            high: drawn.map(|drawn| drawn.probability_high),
+        })
+    }
+}
+
+/// What one record does to an object.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RecordCapacity {
+    /// The record.
+    pub record: String,
+    /// Intensity of damage, or up to which there is none.
+    pub im: f64,
+    /// Whether the record damages the object.
+    pub damages: bool,
+}
+
+/// An assumption beside the one that is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Assumption {
+    /// Another coefficient of restitution.
+    Restitution(f64),
+    /// A fragility without a shift.
+    NoShift,
+    /// Intervals as if each record were an earthquake of its own.
+    RecordsAsUnit,
+    /// Each intensity counted by itself, up to twice that of the first
+    /// overturning: a stronger motion may leave the block standing.
+    Resurrections,
+    /// The fragility of a fitted surface, which makes no analysis.
+    Surface,
+}
+
+impl fmt::Display for Assumption {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Restitution(eta) => {
+                write!(f, "coefficient of restitution {eta}")
+            }
+            Self::NoShift => f.write_str("fragility without a shift"),
+            Self::RecordsAsUnit => f.write_str("records drawn one by one"),
+            Self::Resurrections => f.write_str(
+                "each intensity counted by itself (a stronger motion may \
+                 leave the object standing)",
+            ),
+            Self::Surface => f.write_str(
+                "fitted surface of overturning fragilities, no analysis",
+            ),
+        }
+    }
+}
+
+/// The answer under another assumption.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Alternative {
+    /// The assumption.
+    pub assumption: Assumption,
+    /// The answer.
+    pub answer: Answer,
+}
+
+/// Several objects under the same earthquake.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Together {
+    /// So many objects or more are damaged.
+    pub at_least: usize,
+    /// What follows of the fit to the intensities at which each record
+    /// damages so many.
+    pub answer: Answer,
+}
+
+/// Why objects were not assessed.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum AssessError {
+    /// There is nothing to assess.
+    #[error("no object: expected at least one")]
+    NoObject,
+    /// Too few records to estimate the scatter of intensities.
+    #[error(
+        "{0} records: expected at least {LEAST_RECORDS}, to estimate the \
+         scatter of intensities of damage"
+    )]
+    Records(usize),
+    /// A limit is a part of the slenderness.
+    #[error("{id}: limit_ratio {found}: expected a number between 0 and 1")]
+    Limit {
+        /// The object.
+        id: String,
+        /// Its limit.
+        found: f64,
+    },
+    /// The hazard curve has a measure that is no record's.
+    #[error(
+        "hazard curve in {0}: expected pga_g, pgv_m_s, pgv_cm_s or a \
+         spectral acceleration"
+    )]
+    Measure(String),
+    /// An analysis was refused.
+    #[error(transparent)]
+    Analysis(#[from] IdaError),
+    /// The forces at an object's pivot were refused.
+    #[error("{id}: {source}")]
+    Ida {
+        /// The object.
+        id: String,
+        /// Why.
+        source: IdaError,
+    },
+    /// An object's capacities make no fit.
+    #[error("{id}: {source}")]
+    Fit {
+        /// The object.
+        id: String,
+        /// Why.
+        source: ProcedureError,
+    },
+    /// An object's capacities make no fit under another assumption.
+    #[error("{id}, {assumption}: {source}")]
+    Alternative {
+        /// The object.
+        id: String,
+        /// The assumption.
+        assumption: Assumption,
+        /// Why.
+        source: ProcedureError,
+    },
+    /// A record has no measures.
+    #[error("record {record}: {source}")]
+    Record {
+        /// The record.
+        record: String,
+        /// Why.
+        source: IntensityError,
+    },
+    /// A record does not move a floor.
+    #[error("record {record}, floor {floor}: {source}")]
+    Floor {
+        /// The record.
+        record: String,
+        /// The floor.
+        floor: String,
+        /// Why.
+        source: FloorError,
+    },
+    /// A curve has no capacities.
+    #[error(transparent)]
+    Capacity(#[from] CapacityError),
+    /// A coefficient is out of range.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// A time is out of range.
+    #[error(transparent)]
+    Risk(#[from] RiskError),
+}
+
+/// Assesses objects under the records of one suite, whose earthquakes are
+/// `clusters`.
+///
+/// Each object is a rigid block that rocks (Eq. 1) under each record, scaled
+/// up until it overturns ([`curves`](rocking::ida::curves), levels 0.01 g apart, the first
+/// overturning bisected). The intensities of damage are fitted by a lognormal
+/// distribution: in PGA above the intensity g tan(alpha) at which the object
+/// begins to rock, in other measures, and on a floor, from 0. On a
+/// [floor](Floor) the object rocks under the floor's motion; intensities stay
+/// those of the ground. Intervals are of the bootstrap,
+/// which draws earthquakes. The objects damaged together are counted record
+/// by record, since one earthquake moves all.
+///
+/// ```
+/// use rocking_procedures::assess::{AssessOptions, Object, assess};
+/// use rocking_procedures::Draws;
+/// use rocking::accelerogram::Accelerogram;
+/// use rocking_statistics::Clusters;
+/// use rocking::{Block, Restitution};
+/// let lobe = |name: &str, half: i32| {
+///     let rise = (0..=2 * half).map(|k| 0.2 - 0.2 / f64::from(half)
+///         * f64::from((k - half).abs()));
+///     Accelerogram::try_new(name, 0.01, rise.collect()).unwrap()
+/// };
+/// let records = [lobe("a", 25), lobe("b", 30), lobe("c", 40)];
+/// let cabinet = Object {
+///     id: "cabinet".into(),
+///     block: Block::from_dimensions(0.5, 1.8, 9.81)?,
+///     restitution: Restitution::constant(0.92)?,
+///     friction: None,
+///     limit_ratio: None,
+///     floor: None,
+///     surface: None,
+/// };
+/// let options = AssessOptions {
+///     gravity_m_s2: 9.81,
+///     hazard: None,
+///     years: 50.0,
+///     draws: Draws { replicates: 100, seed: 0 },
+///     certify: true,
+/// };
+/// let clusters = Clusters::singletons(3);
+/// let found = assess(&[cabinet], &records, &clusters, &options)?;
+/// // No motion overturns it that does not lift it: g tan(alpha) = 0.28 g.
+/// assert!(found.objects[0].answer.median_im.point > 0.5 / 1.8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`AssessError`] for no object, fewer than three records, a limit outside
+/// (0, 1), a hazard curve in another unit, and an object that makes no fit,
+/// such as one that fewer than two records damage.
+pub fn assess(
+    objects: &[Object],
+    records: &[Accelerogram],
+    clusters: &Clusters,
+    options: &AssessOptions<'_>,
+) -> Result<Assessment, AssessError> {
+    if objects.is_empty() {
+        return Err(AssessError::NoObject);
+    }
+    let ground = Ground::of(objects, records, clusters, options)?;
+    let mut analyses = Vec::new();
+    for object in objects {
+        if let Some(found) = object.limit_ratio
+            && !(found > 0.0 && found < 1.0)
+        {
+            return Err(AssessError::Limit { id: object.id.clone(), found });
+        }
+        let mut own = vec![Analysis {
+            resurrections: ground.resurrections(object),
+            ..ground.analysis(object, object.restitution)
+        }];
+        for eta in RESTITUTIONS {
+            let other = Restitution::constant(eta)?;
+            own.push(ground.analysis(object, other));
+        }
+        analyses.push(own);
+    }
+    let made = ground.curves(objects, &analyses)?;
+    let each = objects.par_iter().zip(&analyses).zip(&made).panic_fuse();
+    let each =
+        each.map(|((one, analyses), made)| ground.object(one, analyses, made));
+    let found = each.collect::<Result<Vec<_>, AssessError>>()?;
+    let together = ground.together(&found)?;
+    Ok(Assessment {
+        unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
+        units_per_im_unit: ground.unit,
+        level: ground::LEVEL,
+        im: ground.im,
+        records: records.len(),
+        drawn: clusters.clone(),
+        years: options.years,
+        correlation: ground::correlation(&found),
+        objects: Found::sorted(found),
+        together,
+    })
+}

@@ -1,0 +1,562 @@
+//! The records of an assessment, and what they make of each object.
+
+use rayon::prelude::*;
+use statrs::statistics::Statistics as _;
+
+use super::{
+    Alternative, AssessError, AssessOptions, Assessed, Assumption, Damage,
+    LEAST_RECORDS, NamedFloor, Object, RecordCapacity, Together,
+};
+use crate::counts::Bounds;
+use crate::fragility::hazard::{Hazard, HazardMeasure};
+use crate::pivot::needs_more;
+use crate::ranking::Candidate;
+use crate::{ProcedureError, Ranking, StripeResponses, capacities, rank};
+use rocking::accelerogram::Accelerogram;
+use rocking::block::Restitution;
+use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{
+    Analysis, Batch, IdaCurve, IdaError, Overturned, REFINEMENT,
+    ResolutionCounts, Resurrections, curves,
+};
+use rocking::integrator::uplift_threshold;
+use rocking_records::floor::Floor;
+use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
+use rocking_statistics::Clusters;
+use rocking_statistics::lognormal::{Stripe, fit_counts_alone};
+
+/// Level of the intervals.
+pub(super) const LEVEL: f64 = 0.95;
+
+/// Intensities at which a curve is drawn.
+const POINTS: usize = 40;
+
+/// Probability of damage up to which curves go.
+const LAST: f64 = 0.98;
+
+/// Levels above the first overturning end at so many times it.
+const REACH: f64 = 2.0;
+
+/// Spacing of the levels in g.
+const STEP_G: f64 = 0.01;
+
+/// The motions of the ground, or of one floor, under all records.
+struct Moved {
+    floor: Option<Floor>,
+    normalised: Vec<NormalisedRecord>,
+    pga_g: Vec<f64>,
+}
+
+impl Moved {
+    fn of(
+        records: &[Accelerogram],
+        floor: Option<&NamedFloor>,
+    ) -> Result<Self, AssessError> {
+        let moved = records.par_iter().panic_fuse().map(|record| {
+            let Some(on) = floor else {
+                return Ok((NormalisedRecord::new(record), record.pga_g()));
+            };
+            let refused = |source| AssessError::Floor {
+                record: record.name().to_owned(),
+                floor: on.name.clone(),
+                source,
+            };
+            let motion = on.floor.motion(record).map_err(refused)?;
+            Ok((NormalisedRecord::new(&motion), motion.pga_g()))
+        });
+        let moved = moved.collect::<Result<Vec<_>, AssessError>>()?;
+        let (normalised, pga_g) = moved.into_iter().unzip();
+        Ok(Self { floor: floor.map(|on| on.floor), normalised, pga_g })
+    }
+}
+
+/// The records of one assessment, measured.
+pub(super) struct Ground<'a> {
+    names: Vec<&'a str>,
+    moved: Vec<Moved>,
+    measures: Vec<Measures>,
+    settings: Settings,
+    pub(super) clusters: &'a Clusters,
+    pub(super) im: IntensityMeasure,
+    /// Units of the hazard curve in one of the measure.
+    pub(super) unit: f64,
+    pub(super) options: AssessOptions<'a>,
+}
+
+/// One object, and what is needed to set it beside the others.
+pub(super) struct Found {
+    pub(super) assessed: Assessed,
+    /// Its intensities of damage by record: (value, value), or (limit,
+    /// infinity).
+    pub(super) intervals: Vec<(f64, f64)>,
+    /// What objects are sorted by.
+    pub(super) key: f64,
+    /// What objects are sorted by, of each draw.
+    keys: Vec<f64>,
+}
+
+impl Found {
+    /// Sorts objects, and counts in how many draws each comes first.
+    pub(super) fn sorted(mut all: Vec<Self>) -> Vec<Assessed> {
+        all.sort_by(|a, b| a.key.total_cmp(&b.key));
+        let draws = all.first().map_or(0, |one| one.keys.len());
+        let mut first = vec![0usize; all.len()];
+        for draw in 0..draws {
+            let keys = all.iter().enumerate();
+            let keys = keys.map(|(k, one)| (one.keys[draw], k));
+            if let Some((_, k)) = keys.min_by(|a, b| a.0.total_cmp(&b.0)) {
+                first[k] += 1;
+            }
+        }
+        let counted = all.into_iter().zip(first);
+        counted
+            .map(|(one, count)| Assessed {
+                first_in_draws: count as f64 / draws as f64,
+                ..one.assessed
+            })
+            .collect()
+    }
+}
+
+impl<'a> Ground<'a> {
+    pub(super) fn of(
+        objects: &[Object],
+        records: &'a [Accelerogram],
+        clusters: &'a Clusters,
+        options: &AssessOptions<'a>,
+    ) -> Result<Self, AssessError> {
+        if records.len() < LEAST_RECORDS {
+            return Err(AssessError::Records(records.len()));
+        }
+        let (im, unit) = match options.hazard {
+            None => (IntensityMeasure::Pga, 1.0),
+            Some(Hazard {
+                im: HazardMeasure::Of(im),
+                units_per_im_unit,
+                ..
+            }) if !matches!(im, IntensityMeasure::Column(_)) => {
+                (im.clone(), *units_per_im_unit)
+            }
+            Some(hazard) => {
+                let name = hazard.im.name();
+                let found = name.unwrap_or_else(|| hazard.unit().to_owned());
+                return Err(AssessError::Measure(found));
+            }
+        };
+        let mut periods: Vec<f64> = Vec::new();
+        let usual = IntensityMeasure::usual();
+        for period in usual.iter().chain([&im]).flat_map(|m| m.periods_s()) {
+            if !periods.contains(period) {
+                periods.push(*period);
+            }
+        }
+        let measured = |source| AssessError::Record {
+            record: "settings".to_owned(),
+            source,
+        };
+        let damping = Settings::default().damping_ratio();
+        let settings =
+            Settings::try_new(options.gravity_m_s2, damping, periods)
+                .map_err(measured)?;
+        let measures = records.par_iter().panic_fuse().map(|record| {
+            Measures::of(record, &settings).map_err(|source| {
+                AssessError::Record { record: record.name().into(), source }
+            })
+        });
+        let mut moved: Vec<Moved> = Vec::new();
+        for object in objects {
+            let floor = object.floor.as_ref();
+            let known = floor.map(|on| on.floor);
+            if moved.iter().all(|moved| moved.floor != known) {
+                moved.push(Moved::of(records, floor)?);
+            }
+        }
+        Ok(Self {
+            names: records.iter().map(Accelerogram::name).collect(),
+            moved,
+            measures: measures.collect::<Result<_, _>>()?,
+            settings,
+            clusters,
+            im,
+            unit,
+            options: *options,
+        })
+    }
+
+    pub(super) fn analysis(
+        &self,
+        object: &Object,
+        restitution: Restitution,
+    ) -> Analysis {
+        Analysis {
+            refine: Some(REFINEMENT),
+            certify: self.options.certify,
+            ..Analysis::paper(object.block, restitution)
+        }
+    }
+
+    /// The motions of what an object stands on.
+    fn under(&self, object: &Object) -> &Moved {
+        let floor = object.floor.as_ref().map(|on| on.floor);
+        let own = self.moved.iter().find(|moved| moved.floor == floor);
+        own.unwrap_or(&self.moved[0])
+    }
+
+    /// The curves of all analyses, object by object.
+    pub(super) fn curves(
+        &self,
+        objects: &[Object],
+        analyses: &[Vec<Analysis>],
+    ) -> Result<Vec<Vec<Vec<IdaCurve>>>, AssessError> {
+        let mut made = vec![Vec::new(); objects.len()];
+        for moved in &self.moved {
+            let on = |k: &usize| {
+                let floor = objects[*k].floor.as_ref();
+                floor.map(|on| on.floor) == moved.floor
+            };
+            let here: Vec<usize> = (0..objects.len()).filter(on).collect();
+            let all = here.iter().flat_map(|k| analyses[*k].iter().copied());
+            let all: Vec<Analysis> = all.collect();
+            let mut found =
+                curves(&moved.normalised, &all, &Batch::default())?
+                    .into_iter();
+            for k in here {
+                made[k] = found.by_ref().take(analyses[k].len()).collect();
+            }
+        }
+        Ok(made)
+    }
+
+    /// The measure of the ground of each record where the PGA of what the
+    /// object stands on is 1 g.
+    fn per_pga(&self, moved: &Moved, im: &IntensityMeasure) -> Vec<f64> {
+        let periods_s = self.settings.periods_s();
+        let of = |(measures, pga_g): (&Measures, &f64)| {
+            let value = pga_g.recip();
+            let scale = if im.is_squared() { value * value } else { value };
+            im.value(measures, periods_s).map_or(f64::NAN, |v| scale * v)
+        };
+        self.measures.iter().zip(&moved.pga_g).map(of).collect()
+    }
+
+    /// What the records make of one object.
+    pub(super) fn object(
+        &self,
+        object: &Object,
+        analyses: &[Analysis],
+        made: &[Vec<IdaCurve>],
+    ) -> Result<Found, AssessError> {
+        let id = &object.id;
+        let refused = |source: ProcedureError| {
+            let id = id.clone();
+            AssessError::Fit { id, source }
+        };
+        let damage =
+            object.limit_ratio.map_or(Damage::Overturning, Damage::Rotation);
+        let threshold = uplift_threshold(&object.block, analyses[0].model);
+        let moved = self.under(object);
+        let per_pga = self.per_pga(moved, &self.im);
+        let of = |curves: &[IdaCurve]| {
+            let own = response(curves)?;
+            let edp = damage.edp();
+            let all = capacities::intervals(&own, edp, InversionRule::Median);
+            let all = all.map_err(refused)?.into_iter().zip(&per_pga);
+            let scaled = all.map(|((low, high), per)| {
+                let scale = |im: f64| self.scaled(im * threshold, *per);
+                (scale(low), scale(high))
+            });
+            Ok::<Vec<(f64, f64)>, AssessError>(scaled.collect())
+        };
+        let onset = capacities::intervals(
+            &response(&made[0])?,
+            damage.edp(),
+            InversionRule::Median,
+        );
+        let onset = onset.map_err(refused)?;
+        let intervals = of(&made[0])?;
+        let shift = match self.im {
+            IntensityMeasure::Pga if object.floor.is_none() => threshold,
+            _ => 0.0,
+        };
+        let (own, keys) =
+            self.drawn(&intervals, shift, self.clusters).map_err(refused)?;
+        let key = self.key(&own.fitted);
+        let mut alternatives = Vec::new();
+        let mut beside = |assumption, answer| {
+            alternatives.push(Alternative { assumption, answer });
+        };
+        for (curves, analysis) in made.iter().zip(analyses).skip(1) {
+            let eta = analysis.restitution.velocity_ratio();
+            let assumption = Assumption::Restitution(eta);
+            let fitted = Self::fitted(&of(curves)?, shift);
+            let fitted = fitted.map_err(|source| {
+                AssessError::Alternative { id: id.clone(), assumption, source }
+            })?;
+            beside(assumption, self.point(fitted));
+        }
+        if shift > 0.0 {
+            let fitted = Self::fitted(&intervals, 0.0).map_err(refused)?;
+            beside(Assumption::NoShift, self.point(fitted));
+        }
+        if !self.clusters.is_singletons() {
+            let single = Clusters::singletons(self.names.len());
+            let drawn = self.drawn(&intervals, shift, &single);
+            beside(Assumption::RecordsAsUnit, drawn.map_err(refused)?.0);
+        }
+        if analyses[0].resurrections.is_some() {
+            let last = own.fitted.quantile(LAST);
+            let stripes = resurrected(&made[0], threshold, last);
+            let assumption = Assumption::Resurrections;
+            let fitted = fit_counts_alone(&stripes, shift).map_err(|e| {
+                let (id, source) = (id.clone(), e.into());
+                AssessError::Alternative { id, assumption, source }
+            })?;
+            beside(assumption, self.point(fitted));
+        }
+        if let Some(surface) = object.surface
+            && self.counts_overturning_in_pga(object)
+        {
+            beside(Assumption::Surface, self.point(surface));
+        }
+        let fragility = self
+            .fit(&intervals, shift, own.fitted.quantile(LAST))
+            .map_err(refused)?;
+        let slides_first = match object.friction {
+            None => None,
+            Some(mu) => Some(self.slides(
+                object,
+                &made[0],
+                &analyses[0],
+                mu,
+                &onset,
+            )?),
+        };
+        let mut resolution = ResolutionCounts::default();
+        for curve in &made[0] {
+            resolution.add(&curve.resolution);
+        }
+        let size = object.block.dimensions(self.options.gravity_m_s2)?;
+        Ok(Found {
+            assessed: Assessed {
+                id: id.clone(),
+                block: object.block,
+                floor: object.floor.as_ref().map(|on| on.name.clone()),
+                width_m: size.width_m,
+                height_m: size.height_m,
+                alpha_rad: object.block.slenderness_rad(),
+                p_rad_s: object.block.frequency_rad_s(),
+                eta: object.restitution.velocity_ratio(),
+                damage,
+                uplift_pga_g: threshold,
+                contributions: self.options.hazard.map_or(Vec::new(), |h| {
+                    h.curve.contributions(&own.fitted)
+                }),
+                ida: self.ida(&made[0], threshold).map_err(refused)?,
+                by_record: self.by_record(&intervals),
+                ranking: self
+                    .ranking(moved, &made[0], damage, threshold)?
+                    .map_err(refused)?,
+                fragility,
+                answer: own,
+                alternatives,
+                slides_first,
+                resolution,
+                first_in_draws: f64::NAN,
+            },
+            intervals,
+            key,
+            keys,
+        })
+    }
+
+    /// The measure at a PGA in g of a record that has `per` at 1 g.
+    fn scaled(&self, pga_g: f64, per: f64) -> f64 {
+        let scale = if self.im.is_squared() { pga_g * pga_g } else { pga_g };
+        scale * per * self.unit
+    }
+
+    fn ida(
+        &self,
+        curves: &[IdaCurve],
+        threshold: f64,
+    ) -> Result<Vec<StripeResponses>, ProcedureError> {
+        let mut found = StripeResponses::over(&response(curves)?, POINTS)?;
+        for stripe in &mut found {
+            stripe.intensity *= threshold;
+        }
+        Ok(found)
+    }
+
+    fn by_record(&self, values: &[(f64, f64)]) -> Vec<RecordCapacity> {
+        let named = self.names.iter().zip(values);
+        let mut all: Vec<RecordCapacity> = named
+            .map(|(name, (low, high))| RecordCapacity {
+                record: (*name).to_owned(),
+                im: *low,
+                damages: high.is_finite(),
+            })
+            .collect();
+        all.sort_by(|a, b| {
+            let falls = b.damages.cmp(&a.damages);
+            falls.then(a.im.total_cmp(&b.im))
+        });
+        all
+    }
+
+    fn ranking(
+        &self,
+        moved: &Moved,
+        curves: &[IdaCurve],
+        damage: Damage,
+        threshold: f64,
+    ) -> Result<Result<Ranking, ProcedureError>, AssessError> {
+        let own = response(curves)?;
+        let all =
+            capacities::intervals(&own, damage.edp(), InversionRule::Median);
+        let candidate = |im: &IntensityMeasure| {
+            let squared = im.is_squared();
+            let scale =
+                if squared { threshold * threshold } else { threshold };
+            let per = self.per_pga(moved, im).into_iter();
+            let at_uplift = per.map(|per| per * scale).collect();
+            Candidate { im: im.to_string(), at_uplift, squared }
+        };
+        let measures = IntensityMeasure::usual();
+        let candidates: Vec<Candidate> =
+            measures.iter().map(candidate).collect();
+        let draws = self.options.draws;
+        Ok(all.and_then(|all| {
+            rank(&all, &candidates, &[], self.clusters, draws)
+        }))
+    }
+
+    /// Whether overturning is counted, in the PGA of what the object stands
+    /// on.
+    fn counts_overturning_in_pga(&self, object: &Object) -> bool {
+        object.limit_ratio.is_none()
+            && object.floor.is_none()
+            && self.im == IntensityMeasure::Pga
+    }
+
+    /// How far above the first overturning an object is looked at.
+    pub(super) fn resurrections(
+        &self,
+        object: &Object,
+    ) -> Option<Resurrections> {
+        self.counts_overturning_in_pga(object)
+            .then_some(Resurrections::Multiple(REACH))
+    }
+
+    /// Share of records that ask for more friction than `friction` before
+    /// they damage the object; `onset` are the intensities of damage of the
+    /// curves.
+    fn slides(
+        &self,
+        object: &Object,
+        curves: &[IdaCurve],
+        analysis: &Analysis,
+        friction: f64,
+        onset: &[(f64, f64)],
+    ) -> Result<f64, AssessError> {
+        let each =
+            self.under(object).normalised.par_iter().zip(curves).zip(onset);
+        let each = each.map(|((record, curve), (low, high))| {
+            let below = if high.is_finite() { *low } else { f64::INFINITY };
+            needs_more(record, curve, analysis, friction, below)
+        });
+        let found: Result<Vec<bool>, IdaError> = each.panic_fuse().collect();
+        let found = found.map_err(|source| {
+            let id = object.id.clone();
+            AssessError::Ida { id, source }
+        })?;
+        let count = found.iter().filter(|more| **more).count();
+        Ok(count as f64 / curves.len() as f64)
+    }
+
+    /// So many objects or more damaged by the same record.
+    pub(super) fn together(
+        &self,
+        found: &[Found],
+    ) -> Result<Vec<Together>, AssessError> {
+        let own = found.iter().map(|one| one.assessed.uplift_pga_g);
+        let mut uplifts: Vec<f64> = own.collect();
+        uplifts.sort_by(f64::total_cmp);
+        let on_ground = found.iter().all(|one| one.assessed.floor.is_none());
+        let several = (1..=found.len()).filter(|_| found.len() > 1);
+        let mut all = Vec::new();
+        for at_least in several {
+            let of_record = |r: usize| {
+                let least = |end: fn(&(f64, f64)) -> f64| {
+                    let mut ends: Vec<f64> = found
+                        .iter()
+                        .map(|one| end(&one.intervals[r]))
+                        .collect();
+                    ends.sort_by(f64::total_cmp);
+                    ends[at_least - 1]
+                };
+                let (low, high) = (least(|v| v.0), least(|v| v.1));
+                if low == high { (low, high) } else { (low, f64::INFINITY) }
+            };
+            let values: Vec<(f64, f64)> =
+                (0..self.names.len()).map(of_record).collect();
+            let shift = match self.im {
+                IntensityMeasure::Pga if on_ground => uplifts[at_least - 1],
+                _ => 0.0,
+            };
+            let answer = self.drawn(&values, shift, self.clusters);
+            let answer = answer.map_err(|source| AssessError::Fit {
+                id: format!("{at_least} objects or more"),
+                source,
+            })?;
+            all.push(Together { at_least, answer: answer.0 });
+        }
+        Ok(all)
+    }
+}
+
+fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {
+    curves.iter().map(|curve| curve.response(Overturned::Refined)).collect()
+}
+
+/// How many of the records overturn the object at each level of the grid up
+/// to `last` in g: each level by itself, as far as it was looked at.
+fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
+    let level = |im: f64| (im * threshold / STEP_G).round() as usize;
+    let stands = |curve: &IdaCurve, k: usize| {
+        let first = curve.overturning.map(|first| level(first.scanned_im));
+        let above = curve.above.iter().find(|point| level(point.im) == k);
+        match above {
+            Some(point) => !point.outcome.is_overturned(),
+            None => first.is_none_or(|first| k < first),
+        }
+    };
+    let levels = level(1.0) + 1..(last / STEP_G) as usize;
+    let stripe = |k: usize| {
+        let standing = curves.iter().filter(|c| stands(c, k)).count();
+        let exceeded = (curves.len() - standing) as u32;
+        Stripe { im: STEP_G * k as f64, exceeded, n: curves.len() as u32 }
+    };
+    levels.map(stripe).collect()
+}
+
+/// The correlation of the logarithms of the intensities of damage of two
+/// objects: the least, the median and the largest of all pairs.
+pub(super) fn correlation(found: &[Found]) -> Option<Bounds> {
+    let pair = |a: &Found, b: &Found| {
+        let both = a.intervals.iter().zip(&b.intervals);
+        let both = both.filter(|(a, b)| a.1.is_finite() && b.1.is_finite());
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            both.map(|(a, b)| (libm::log(a.0), libm::log(b.0))).unzip();
+        let spread = || (&x).std_dev() * (&y).std_dev();
+        (x.len() > 2).then(|| (&x).covariance(&y) / spread())
+    };
+    let pairs = found.iter().enumerate();
+    let pairs =
+        pairs.flat_map(|(k, a)| found[..k].iter().map(move |b| (a, b)));
+    let mut all: Vec<f64> = pairs.filter_map(|(a, b)| pair(a, b)).collect();
+    all.sort_by(f64::total_cmp);
+    let (low, high) = (all.first().copied(), all.last().copied());
+    let point = *all.get(all.len() / 2)?;
+    Some(Bounds { point, low, high })
+}

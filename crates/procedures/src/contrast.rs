@@ -1,0 +1,381 @@
+//! Two samples over different records.
+
+use std::collections::BTreeSet;
+
+use libm::{exp, log};
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::{Draws, ProcedureError};
+use rocking::accelerogram::are_places;
+use rocking::stop;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::two_sample::kolmogorov_smirnov;
+use rocking_statistics::{
+    CensoredSample, Clusters, ExtendedSample, QuantileType, SampleError,
+    normal,
+};
+
+/// Level of the interval.
+const LEVEL: f64 = 0.95;
+
+/// Most values of a sample: the time of the exact p-value grows with the
+/// product of both numbers.
+const MOST: usize = 3000;
+
+/// Why a contrast was refused, or has no interval.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ContrastError {
+    /// A value that is not positive.
+    #[error("value {number} is {value}: expected a positive number, or inf")]
+    Value {
+        /// Place in its sample, from 1.
+        number: usize,
+        /// The value.
+        value: f64,
+    },
+    /// More values than the test and the draws are made for.
+    #[error("{0} values: expected at most {MOST}")]
+    Many(usize),
+    /// Earthquakes and values differ in number.
+    #[error(
+        "{events} earthquakes for {values} values: expected one per value"
+    )]
+    Events {
+        /// Number of earthquakes.
+        events: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A record twice in a sample.
+    #[error(
+        "record {0} is twice in a sample: expected each record once in it"
+    )]
+    Twice(String),
+    /// A record in both samples.
+    #[error(
+        "record {0} is in both samples: expected samples of different \
+         records; a comparison pairs samples of the same records"
+    )]
+    Shared(String),
+    /// The draws are refused.
+    #[error(transparent)]
+    Draws(#[from] ProcedureError),
+    /// No value is left.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A median that censored values leave open.
+    #[error("a median is censored: the ratio is not known")]
+    Open,
+    /// Too few clusters for a bootstrap.
+    #[error(
+        "{0} records or earthquakes on a side: expected at least 2 for an \
+         interval"
+    )]
+    Few(usize),
+    /// The test is one of independent values.
+    #[error(
+        "records of shared earthquakes are not independent: no p-value; the \
+         interval draws earthquakes"
+    )]
+    Dependent,
+}
+
+/// One of two samples, and what is known about its records.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn<'a, S> {
+    /// One positive value per record, infinite if censored.
+    pub sample: &'a CensoredSample,
+    /// Names of the records; empty if they are not known.
+    pub records: &'a [S],
+    /// Earthquakes of the records; empty if they are not known.
+    pub events: &'a [S],
+}
+
+/// Ratio of the medians of two samples over different records, and the
+/// distance of their distributions.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Contrast {
+    /// The first sample.
+    pub a: Half,
+    /// The second sample.
+    pub b: Half,
+    /// Ratio of the medians, first sample over second, with its bootstrap
+    /// interval.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    pub median_ratio: Result<MedianRatio, ContrastError>,
+    /// Kolmogorov and Smirnov's comparison.
+    pub kolmogorov_smirnov: Distance,
+    /// Draws of the bootstrap.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+}
+
+/// One sample of a contrast.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Half {
+    /// Size, censored values included.
+    pub n: usize,
+    /// Number of censored values.
+    pub censored: usize,
+    /// Median (type 5); none if censored values leave it open.
+    pub median: Option<f64>,
+    /// What the bootstrap draws.
+    pub drawn: Clusters,
+}
+
+/// A ratio of medians with its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MedianRatio {
+    /// The ratio.
+    pub point: f64,
+    /// Lower end; none if draws leave it open.
+    pub low: Option<f64>,
+    /// Upper end; none if draws leave it open.
+    pub high: Option<f64>,
+    /// Level of the interval.
+    pub level: f64,
+    /// Draws in which censored values leave the ratio open; they count as
+    /// below the lower and above the upper end.
+    pub open: usize,
+}
+
+/// Distance of two empirical distributions.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Distance {
+    /// Largest difference of the distributions.
+    pub distance: f64,
+    /// Compared up to the least limit of a censored value, if one is known.
+    pub up_to: Option<f64>,
+    /// Exact p-value of independent records; an upper bound with ties.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    pub p_value: Result<f64, ContrastError>,
+}
+
+/// Contrasts two samples over different records.
+///
+/// The interval comes from a bootstrap (percentiles of type 7 of the
+/// logarithm). The bootstrap draws the records of each sample or, if they are
+/// known, the earthquakes with all their records; an earthquake with records
+/// in both samples is drawn for both. Deviations from the ratio are widened by
+/// [`Clusters::half_width`] over the normal quantile, the larger of the two.
+///
+/// ```
+/// use rocking_procedures::contrast::{Drawn, contrast};
+/// use rocking_procedures::Draws;
+/// use rocking_statistics::CensoredSample;
+/// let sample = |values: &[f64]| CensoredSample::try_new(values, &[]);
+/// let (pulse, ordinary) =
+///     (sample(&[1.1, 1.3, 1.4, 1.8])?, sample(&[2.2, 2.6, 2.8, 3.6, 9.0])?);
+/// fn all(sample: &CensoredSample) -> Drawn<'_, &str> {
+///     Drawn { sample, records: &[], events: &[] }
+/// }
+/// let draws = Draws { replicates: 200, seed: 0 };
+/// let found = contrast(all(&pulse), all(&ordinary), draws)?;
+/// let ratio = found.median_ratio?;
+/// assert!((ratio.point - 1.35 / 2.8).abs() < 1e-12);
+/// assert!(ratio.high.is_some_and(|high| high < 1.0));
+/// // Two of the 126 orders of 4 and 5 values separate the samples.
+/// let p_value = found.kolmogorov_smirnov.p_value?;
+/// assert!((p_value - 2.0 / 126.0).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ContrastError`] for a value that is not positive, more than 3000 values,
+/// a record that is twice in a sample or in both, and draws that are refused.
+pub fn contrast<S: AsRef<str>>(
+    a: Drawn<'_, S>,
+    b: Drawn<'_, S>,
+    draws: Draws,
+) -> Result<Contrast, ContrastError> {
+    draws.check()?;
+    let (a, b) = (&a, &b);
+    a.check()?;
+    b.check()?;
+    refuse_shared(a, b)?;
+    let (of_a, of_b) = (a.half(), b.half());
+    let independent = of_a.drawn.is_singletons() && of_b.drawn.is_singletons();
+    let median_ratio = match (of_a.median, of_b.median) {
+        (Some(x), Some(y)) => {
+            let wider = wider(&of_a.drawn, &of_b.drawn);
+            wider.and_then(|wider| ratio((x, y), wider, (a, b), draws))
+        }
+        _ => Err(ContrastError::Open),
+    };
+    let limits = [a, b].into_iter().flat_map(|of| of.sample.limits());
+    let up_to = limits.flatten().copied().reduce(f64::min);
+    let cut = |of: &Drawn<'_, S>| {
+        let most = up_to.unwrap_or(f64::INFINITY);
+        let cut = |x: &f64| if *x <= most { *x } else { f64::INFINITY };
+        let values: Vec<f64> = of.sample.values().iter().map(cut).collect();
+        ExtendedSample::try_new(&values)
+    };
+    let found = kolmogorov_smirnov(&cut(a)?, &cut(b)?);
+    let p_value = independent.then_some(found.p_value);
+    Ok(Contrast {
+        a: of_a,
+        b: of_b,
+        median_ratio,
+        kolmogorov_smirnov: Distance {
+            distance: found.statistic,
+            up_to,
+            p_value: p_value.ok_or(ContrastError::Dependent),
+        },
+        draws,
+    })
+}
+
+impl<S: AsRef<str>> Drawn<'_, S> {
+    fn check(&self) -> Result<(), ContrastError> {
+        let values = self.sample.values();
+        if values.len() > MOST {
+            return Err(ContrastError::Many(values.len()));
+        }
+        if let Some(place) = values.iter().position(|x| !(*x > 0.0)) {
+            let (number, value) = (place + 1, values[place]);
+            return Err(ContrastError::Value { number, value });
+        }
+        let (events, values) = (self.events.len(), values.len());
+        if events > 0 && events != values {
+            return Err(ContrastError::Events { events, values });
+        }
+        let mut seen = BTreeSet::<&str>::new();
+        let mut names = self.records.iter().map(AsRef::as_ref);
+        match names.find(|name| !seen.insert(*name)) {
+            Some(name) => Err(ContrastError::Twice(name.to_owned())),
+            None => Ok(()),
+        }
+    }
+
+    fn half(&self) -> Half {
+        let events = self.events.iter().map(AsRef::as_ref);
+        Half {
+            n: self.sample.len(),
+            censored: self.sample.censored(),
+            median: median(self.sample),
+            drawn: match self.events {
+                [] => Clusters::singletons(self.sample.len()),
+                _ => Clusters::from_labels(events.collect::<Vec<&str>>()),
+            },
+        }
+    }
+}
+
+/// Refuses samples with a record in common; places do not count as names.
+fn refuse_shared<S: AsRef<str>>(
+    a: &Drawn<'_, S>,
+    b: &Drawn<'_, S>,
+) -> Result<(), ContrastError> {
+    if are_places(a.records) || are_places(b.records) {
+        return Ok(());
+    }
+    let names = |of: &Drawn<'_, S>| -> BTreeSet<String> {
+        of.records.iter().map(|name| name.as_ref().to_owned()).collect()
+    };
+    match names(a).intersection(&names(b)).next() {
+        None => Ok(()),
+        Some(name) => Err(ContrastError::Shared(name.clone())),
+    }
+}
+
+/// The median, if it is a number.
+fn median(sample: &CensoredSample) -> Option<f64> {
+    let median = sample.quantile(QuantileType::default(), 0.5);
+    median.filter(|median| median.is_finite())
+}
+
+/// How much wider few clusters make the interval.
+fn wider(a: &Clusters, b: &Clusters) -> Result<f64, ContrastError> {
+    let fewest = a.count().min(b.count());
+    if fewest < 2 {
+        return Err(ContrastError::Few(fewest));
+    }
+    let half_width = a.half_width(LEVEL).max(b.half_width(LEVEL));
+    Ok(half_width / normal::quantile(0.5 + 0.5 * LEVEL))
+}
+
+/// The ratio of two medians with its interval.
+fn ratio<S: AsRef<str>>(
+    (x, y): (f64, f64),
+    wider: f64,
+    (a, b): (&Drawn<'_, S>, &Drawn<'_, S>),
+    draws: Draws,
+) -> Result<MedianRatio, ContrastError> {
+    let Draws { replicates, seed } = draws;
+    let n = a.sample.len();
+    // Earthquakes of the first sample, of the second, and of both.
+    let events = |of: &Drawn<'_, S>| -> BTreeSet<String> {
+        of.events.iter().map(|event| event.as_ref().to_owned()).collect()
+    };
+    let (own, others) = (events(a), events(b));
+    let mut parts: [(Vec<usize>, Vec<String>); 3] = Default::default();
+    for (side, of) in [a, b].into_iter().enumerate() {
+        for i in 0..of.sample.len() {
+            let event = of.events.get(i).map(AsRef::as_ref);
+            let is_shared =
+                event.is_some_and(|e| own.contains(e) && others.contains(e));
+            let part = &mut parts[if is_shared { 2 } else { side }];
+            part.0.push(side * n + i);
+            part.1.push(event.map_or_else(|| i.to_string(), str::to_owned));
+        }
+    }
+    let names = ["contrast/a", "contrast/b", "contrast/both"];
+    let drawn = names.into_iter().zip(parts);
+    let drawn: Vec<(Vec<usize>, Bootstrap)> = drawn
+        .filter(|(_, (places, _))| !places.is_empty())
+        .map(|(name, (places, labels))| {
+            let clusters = Clusters::from_labels(labels);
+            (places, Bootstrap::of(name, seed, &clusters, replicates))
+        })
+        .collect();
+    let (first, second) = (a.sample, b.sample);
+    let point = log(x / y);
+    let deviation = |index: u64| -> Option<f64> {
+        stop::point();
+        let places = drawn.iter().flat_map(|(places, draws)| {
+            draws.draw(index).into_iter().map(move |i| places[i])
+        });
+        let (of_a, of_b): (Vec<usize>, Vec<usize>) =
+            places.partition(|place| *place < n);
+        if of_a.is_empty() || of_b.is_empty() {
+            return None;
+        }
+        let of_b: Vec<usize> = of_b.iter().map(|place| place - n).collect();
+        let x = median(&first.at(&of_a))?;
+        let y = median(&second.at(&of_b))?;
+        Some(wider * (log(x / y) - point))
+    };
+    let found = (0..replicates as u64).into_par_iter().panic_fuse();
+    let found: Vec<Option<f64>> = found.map(deviation).collect();
+    let open = found.iter().filter(|x| x.is_none()).count();
+    let end = |if_open: f64, p: f64| {
+        let deviations = found.iter().map(|x| x.unwrap_or(if_open));
+        let mut deviations: Vec<f64> = deviations.collect();
+        deviations.sort_by(f64::total_cmp);
+        let place = p * (replicates - 1) as f64;
+        let [below, above] = [place.floor(), place.ceil()];
+        let [x, y] = [below, above].map(|place| deviations[place as usize]);
+        let found = f64::mul_add(place - below, y - x, x);
+        found.is_finite().then(|| exp(point + found))
+    };
+    Ok(MedianRatio {
+        point: x / y,
+        low: end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL),
+        high: end(f64::INFINITY, 0.5 + 0.5 * LEVEL),
+        level: LEVEL,
+        open,
+    })
+}
+
+#[cfg(test)]
+mod tests;

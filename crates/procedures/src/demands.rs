@@ -1,0 +1,73 @@
+//! Many curves at one intensity or one level: EDP given IM against IM given
+//! EDP.
+
+use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking_statistics::ExtendedSample;
+
+/// EDPs of all curves at an intensity: 0 where nothing rocks, infinite where
+/// overturned. All records count.
+///
+/// ```
+/// use rocking::capacity::ResponseCurve;
+/// use rocking_procedures::demands;
+/// let stands = ResponseCurve::try_new(&[(1.0, 0.0), (2.0, 0.5)], None)?;
+/// let falls = ResponseCurve::try_new(&[(1.0, 0.0)], Some(1.2))?;
+/// let sample = demands(&[stands, falls], 1.5)?;
+/// assert_eq!(sample.sorted(), [0.25, f64::INFINITY]);
+/// # Ok::<(), rocking::capacity::CapacityError>(())
+/// ```
+///
+/// # Errors
+/// [`CapacityError::Beyond`] where a curve says nothing of the intensity,
+/// [`CapacityError::Empty`] for no curve.
+pub fn demands(
+    curves: &[ResponseCurve],
+    im: f64,
+) -> Result<ExtendedSample, CapacityError> {
+    let demand = |(i, curve): (usize, &ResponseCurve)| {
+        let beyond = CapacityError::Beyond { number: i + 1, im };
+        curve.edp_at(im).ok_or(beyond)
+    };
+    let values: Vec<f64> =
+        curves.iter().enumerate().map(demand).collect::<Result<_, _>>()?;
+    ExtendedSample::try_new(&values).map_err(|_| CapacityError::Empty)
+}
+
+/// How far an inversion is from the stripes at a level: the largest
+/// difference, over intensities, between the share of curves whose capacity
+/// is reached and the share that exceed the level there.
+///
+/// The latter, the stripe fragility, counts crossings upwards less crossings
+/// downwards, and falls where curves turn back; the former cannot fall.
+///
+/// # Errors
+/// [`CapacityError`] for a level that is not positive, or no curve.
+pub fn inversion_discrepancy(
+    curves: &[ResponseCurve],
+    level: f64,
+    rule: InversionRule,
+) -> Result<f64, CapacityError> {
+    if curves.is_empty() {
+        return Err(CapacityError::Empty);
+    }
+    // Steps of (reached by capacity) - (exceeding on the stripe).
+    let mut steps: Vec<(f64, i32)> = Vec::new();
+    for curve in curves {
+        let crossings = curve.crossings(level)?;
+        steps.push((crossings.capacity(rule).im(), 1));
+        for (k, im) in crossings.all().iter().enumerate() {
+            steps.push((*im, if k % 2 == 0 { -1 } else { 1 }));
+        }
+    }
+    steps.retain(|(im, _)| im.is_finite());
+    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut difference, mut largest) = (0_i32, 0_u32);
+    for equal in steps.chunk_by(|a, b| a.0 == b.0) {
+        difference += equal.iter().map(|(_, step)| step).sum::<i32>();
+        largest = largest.max(difference.unsigned_abs());
+    }
+    Ok(f64::from(largest) / curves.len() as f64)
+}
+
+#[cfg(test)]
+mod tests;

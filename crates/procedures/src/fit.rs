@@ -1,0 +1,556 @@
+//! Fragilities fitted to samples of capacities.
+
+mod intervals;
+mod precision;
+mod remark;
+
+use std::fmt;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
+pub use precision::Needed;
+pub use remark::FitRemark;
+
+use crate::capacities;
+use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
+use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking_statistics::lilliefors::LillieforsError;
+use rocking_statistics::lognormal::{
+    FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
+};
+use rocking_statistics::regression::RegressionError;
+use rocking_statistics::{
+    CensoredSample, Clusters, Lognormal, QuantileType, SampleError,
+};
+
+/// The shift IM_R of a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shift {
+    /// This number, not negative.
+    Given(f64),
+    /// The smallest value of the sample, which is left out of the fit.
+    Smallest,
+    /// The shift of the highest profile likelihood.
+    Free,
+}
+
+/// A text that says no shift.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("found `{0}`: expected a number, not negative, or `min` or `free`")]
+pub struct ShiftError(String);
+
+impl FromStr for Shift {
+    type Err = ShiftError;
+
+    fn from_str(text: &str) -> Result<Self, ShiftError> {
+        match text {
+            "min" => Ok(Self::Smallest),
+            "free" => Ok(Self::Free),
+            number => {
+                let shift = number.parse().ok();
+                let shift = shift.filter(|x: &f64| *x >= 0.0 && x.is_finite());
+                shift
+                    .map(Self::Given)
+                    .ok_or_else(|| ShiftError(number.to_owned()))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Shift {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Given(shift) => write!(f, "{shift}"),
+            Self::Smallest => f.write_str("min"),
+            Self::Free => f.write_str("free"),
+        }
+    }
+}
+
+impl Shift {
+    /// The shift for a sample, and the values that enter above it: all but
+    /// the smallest for [`Shift::Smallest`].
+    ///
+    /// # Errors
+    /// [`FitError`] where the likelihood has no maximum over a free shift.
+    pub fn split(
+        self,
+        sample: &CensoredSample,
+    ) -> Result<(f64, CensoredSample), FitError> {
+        Ok(match self {
+            Self::Given(shift) => (shift, sample.clone()),
+            Self::Smallest => sample.above_smallest(),
+            Self::Free => {
+                let found = profile_shift(&sample.extended())?;
+                (found.fit.distribution.shift(), sample.clone())
+            }
+        })
+    }
+}
+
+/// Draws of a bootstrap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Draws {
+    /// Number of samples drawn, 2 to 1,000,000.
+    pub replicates: usize,
+    /// Repetition: another number gives other draws.
+    pub seed: u64,
+}
+
+/// How a sample is fitted, and what is asked beside the fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    /// How the lognormal distribution is fitted.
+    pub method: FitMethod,
+    /// The shift IM_R.
+    pub shift: Shift,
+    /// Type of the sample's quantiles.
+    pub quantile_type: QuantileType,
+    /// Constant c of Eq. 7.
+    pub c: f64,
+    /// Bootstrap for intervals; none for no interval.
+    pub draws: Option<Draws>,
+    /// Earthquakes of the sample's values, which are then drawn; none draws
+    /// records.
+    pub clusters: Option<Clusters>,
+    /// Intensities at which the probability gets a band, in the unit of the
+    /// sample; needs `draws`.
+    pub band: Vec<f64>,
+}
+
+impl Default for FitOptions {
+    /// Maximum likelihood without a shift, quantiles of type 5, c = 1, no
+    /// intervals.
+    fn default() -> Self {
+        Self {
+            method: FitMethod::MaximumLikelihood,
+            shift: Shift::Given(0.0),
+            quantile_type: QuantileType::default(),
+            c: 1.0,
+            draws: None,
+            clusters: None,
+            band: Vec::new(),
+        }
+    }
+}
+
+/// Why a procedure on a sample was refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ProcedureError {
+    /// The values make no fit.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The values make no sample.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A curve that has no capacity at a level.
+    #[error(transparent)]
+    Capacity(#[from] CapacityError),
+    /// A line through points that make none.
+    #[error(transparent)]
+    Line(#[from] RegressionError),
+    /// Capacities in one measure that make no fit.
+    #[error("{im}: {source}")]
+    Measure {
+        /// The intensity measure.
+        im: String,
+        /// Why there is no fit.
+        source: FitError,
+    },
+    /// One value a record.
+    #[error("{name}: {found} values: expected {expected}, one a record")]
+    Length {
+        /// What has another length.
+        name: String,
+        /// Its length.
+        found: usize,
+        /// Number of records.
+        expected: usize,
+    },
+    /// No record was run up to an intensity.
+    #[error("intensity {0}: no record was run so far")]
+    NotRun(f64),
+    /// An EDP level is positive.
+    #[error("EDP level {0}: expected a positive number, or inf")]
+    EdpLevel(f64),
+    /// A test that is refused.
+    #[error(transparent)]
+    Test(#[from] LillieforsError),
+    /// A level of a test.
+    #[error("level {0}: expected a number between 0 and 1")]
+    Level(f64),
+    /// A third fitted parameter has another null distribution.
+    #[error("a free shift: expected a number, not negative, or min")]
+    FreeShiftTested,
+    /// A free shift maximises a likelihood.
+    #[error("shift free with method {0}: expected the method mle")]
+    FreeShift(FitMethod),
+    /// The smallest value has no bootstrap.
+    #[error(
+        "a bootstrap with shift min: a bootstrap of the smallest value gives \
+         no interval, its 95 % hold the dispersion in one sample of five; \
+         expected a shift that is known, such as 1"
+    )]
+    SmallestDrawn,
+    /// A free shift has a likelihood interval.
+    #[error(
+        "a bootstrap with shift free: expected no bootstrap, since the \
+         likelihood gives the interval of the shift"
+    )]
+    FreeDrawn,
+    /// Censored values leave the smallest one in doubt.
+    #[error(
+        "{0} values censored at limits of their own with shift min: expected \
+         a shift that is known, such as 1"
+    )]
+    SmallestLimited(usize),
+    /// A bootstrap needs at least two draws.
+    #[error("a bootstrap of {0} samples: expected 2 to 1000000")]
+    Replicates(usize),
+    /// A band rests on a bootstrap.
+    #[error(
+        "a band without a bootstrap: expected a number of samples to draw"
+    )]
+    BandWithoutDraws,
+}
+
+/// A lognormal fragility fitted to a sample, and what the unshifted
+/// statistics give instead.
+///
+/// All intensities are in the unit of the sample.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FragilityFit {
+    /// Size of the sample, censored values included.
+    pub n: usize,
+    /// Values that entered the fit as such.
+    pub n_kept: usize,
+    /// Censored values.
+    pub n_censored: usize,
+    /// Censored values whose limit is known.
+    pub n_limited: usize,
+    /// Values left out because they equal the shift `min`.
+    pub n_left_out: usize,
+    /// Weaknesses of the fit.
+    pub remarks: Vec<FitRemark>,
+    /// How the distribution was fitted.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
+    pub method: FitMethod,
+    /// The fitted distribution (SSFL with a shift, USFL without).
+    pub fitted: Lognormal,
+    /// 95 % likelihood interval of a free shift.
+    pub shift_interval: Option<ShiftInterval>,
+    /// Log-likelihood of the fit; none where the method has none.
+    pub log_likelihood: Option<f64>,
+    /// Kolmogorov distance to the sample; none for values with limits.
+    pub ks_distance: Option<f64>,
+    /// Mean distance in probability to the sample.
+    pub area_distance: Option<f64>,
+    /// Type of the sample's quantiles.
+    pub quantile_type: u8,
+    /// 16 % quantile of the sample; none where censoring leaves it open.
+    pub im16: Option<f64>,
+    /// Median of the sample.
+    pub im50: Option<f64>,
+    /// 84 % quantile of the sample.
+    pub im84: Option<f64>,
+    /// The fit by the same method without a shift (USFL).
+    pub unshifted: Option<Lognormal>,
+    /// What Eqs. 5 to 7 make of the unshifted statistics.
+    pub transformed: Transformed,
+    /// How many records a precision needs; none where censored values of
+    /// shared earthquakes leave the design effect open.
+    pub needed: Option<Needed>,
+    /// Bootstrap intervals, where draws were asked for.
+    pub bootstrap: Option<FitIntervals>,
+    /// Probabilities with their band, where asked for.
+    pub band: Option<Band>,
+}
+
+/// Ends of the likelihood interval of a shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ShiftInterval {
+    /// Lower end; 0 where the likelihood falls too little down to there.
+    pub low: f64,
+    /// Upper end; none where the likelihood rises towards the smallest value.
+    pub high: Option<f64>,
+    /// Level of the interval.
+    pub level: f64,
+}
+
+/// Eqs. 5 to 7 of unshifted statistics; none where a number is not known.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Transformed {
+    /// The shift IM_R.
+    pub shift: f64,
+    /// The constant c of Eq. 7.
+    pub c: f64,
+    /// Where Eq. 7 ends.
+    pub c_max: Option<f64>,
+    /// Eq. 5 of the median.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    pub eq5: Option<Result<f64, FragilityError>>,
+    /// Eq. 6 of the 16 and 84 % quantiles.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    pub eq6: Option<Result<f64, FragilityError>>,
+    /// Eq. 7 of the median and the dispersion.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    pub eq7: Option<Result<f64, FragilityError>>,
+}
+
+impl Transformed {
+    /// Eqs. 5 to 7 of an unshifted median and dispersion, and of unshifted
+    /// 16 and 84 % quantiles, above `shift`, all intensities in one unit.
+    #[must_use]
+    pub fn of(
+        (median, dispersion): (Option<f64>, Option<f64>),
+        (im16, im84): (Option<f64>, Option<f64>),
+        shift: f64,
+        c: f64,
+    ) -> Self {
+        let both = median.zip(dispersion);
+        Self {
+            shift,
+            c,
+            c_max: both.and_then(|(m, beta)| c_max(m, beta, shift).ok()),
+            eq5: median.map(|median| eq5(median, shift)),
+            eq6: im16.zip(im84).map(|(low, high)| eq6(low, high, shift)),
+            eq7: both.map(|(median, beta)| eq7(median, beta, shift, c)),
+        }
+    }
+}
+
+/// The distributions fitted to the draws of a sample.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sampled {
+    /// The draws of the bootstrap.
+    pub draws: Draws,
+    /// What was drawn.
+    pub clusters: Clusters,
+    /// One a draw; none where it makes no fit.
+    pub fitted: Vec<Option<Lognormal>>,
+}
+
+impl Sampled {
+    /// All of them in a unit of which one of theirs has `factor`.
+    ///
+    /// # Errors
+    /// [`LognormalError`] for a factor that is no positive number.
+    pub fn scaled(mut self, factor: f64) -> Result<Self, LognormalError> {
+        for fitted in self.fitted.iter_mut().flatten() {
+            *fitted = fitted.scaled(factor)?;
+        }
+        Ok(self)
+    }
+}
+
+/// One fit of one sample: what every replicate of a bootstrap repeats.
+struct Fitted {
+    fit: LognormalFit,
+    unshifted: Option<Lognormal>,
+    transformed: Transformed,
+    left_out: usize,
+}
+
+impl FitOptions {
+    fn check(&self, sample: &CensoredSample) -> Result<(), ProcedureError> {
+        let mle = FitMethod::MaximumLikelihood;
+        if self.shift == Shift::Free && self.method != mle {
+            return Err(ProcedureError::FreeShift(self.method));
+        }
+        if self.shift == Shift::Smallest && sample.limited() > 0 {
+            let limited = sample.limited();
+            return Err(ProcedureError::SmallestLimited(limited));
+        }
+        if let Some(clusters) = &self.clusters
+            && clusters.records() != sample.len()
+        {
+            return Err(ProcedureError::Length {
+                name: "earthquakes".to_owned(),
+                found: clusters.records(),
+                expected: sample.len(),
+            });
+        }
+        match (self.draws, self.shift) {
+            (None, _) if !self.band.is_empty() => {
+                Err(ProcedureError::BandWithoutDraws)
+            }
+            (None, _) => Ok(()),
+            (Some(_), Shift::Smallest) => Err(ProcedureError::SmallestDrawn),
+            (Some(_), Shift::Free) => Err(ProcedureError::FreeDrawn),
+            (Some(draws), _) => draws.check(),
+        }
+    }
+
+    /// The distributions fitted to the draws of a sample; none where the
+    /// options ask for no draws.
+    ///
+    /// # Errors
+    /// As of [`fit_sample`].
+    pub fn sampled(
+        &self,
+        sample: &CensoredSample,
+    ) -> Result<Option<Sampled>, ProcedureError> {
+        self.check(sample)?;
+        let Some(draws) = self.draws else { return Ok(None) };
+        let clusters = self.clusters(sample);
+        let drawn = intervals::replicates(sample, self, &clusters);
+        let fitted = drawn.into_iter().map(|(_, fitted)| fitted).collect();
+        Ok(Some(Sampled { draws, clusters, fitted }))
+    }
+
+    /// The records of a sample, by earthquake where these are known.
+    fn clusters(&self, sample: &CensoredSample) -> Clusters {
+        let records = || Clusters::singletons(sample.len());
+        self.clusters.clone().unwrap_or_else(records)
+    }
+
+    fn once(&self, sample: &CensoredSample) -> Result<Fitted, FitError> {
+        let (shift, above) = self.shift.split(sample)?;
+        let fit = above.fit(shift, self.method)?;
+        let unshifted = sample.fit(0.0, self.method).ok();
+        let unshifted = unshifted.map(|fit| fit.distribution);
+        let own =
+            (unshifted.map(|u| u.median()), unshifted.map(|u| u.dispersion()));
+        let at = |p| sample.quantile(self.quantile_type, p);
+        let quantiles = (at(0.16), at(0.84));
+        let transformed = Transformed::of(own, quantiles, shift, self.c);
+        let left_out = sample.len() - above.len();
+        Ok(Fitted { fit, unshifted, transformed, left_out })
+    }
+}
+
+impl Draws {
+    /// Whether the number of draws is one.
+    ///
+    /// # Errors
+    /// [`ProcedureError::Replicates`] unless it lies from 2 to 1,000,000.
+    pub fn check(&self) -> Result<(), ProcedureError> {
+        if (2..=1_000_000).contains(&self.replicates) {
+            return Ok(());
+        }
+        Err(ProcedureError::Replicates(self.replicates))
+    }
+}
+
+/// Fits a lognormal fragility to a sample of capacities.
+///
+/// With a shift IM_R, the logarithmic mean and the dispersion are those of
+/// the intensities above it (SSFL). Beside the fit stand Eqs. 5 to 7 of the
+/// unshifted statistics: Eq. 5 and Eq. 7 of the same method's unshifted fit,
+/// Eq. 6 of the sample's 16 and 84 % quantiles.
+///
+/// ```
+/// use rocking_procedures::{FitOptions, Shift, fit_sample};
+/// use rocking_statistics::CensoredSample;
+/// let sample = CensoredSample::try_new(&[1.5, 2.0, 3.0], &[])?;
+/// let shift = Shift::Given(1.0);
+/// let options = FitOptions { shift, ..FitOptions::default() };
+/// let found = fit_sample(&sample, &options)?;
+/// assert!((found.fitted.median() - 2.0).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ProcedureError`] for options that exclude each other, or a sample that
+/// makes no fit.
+pub fn fit_sample(
+    sample: &CensoredSample,
+    options: &FitOptions,
+) -> Result<FragilityFit, ProcedureError> {
+    options.check(sample)?;
+    let found = options.once(sample)?;
+    let fitted = found.fit.distribution;
+    let whole = sample.extended();
+    let shift_interval = match options.shift {
+        Shift::Free => {
+            let profile = profile_shift(&whole)?;
+            let low = profile.low.unwrap_or(0.0);
+            Some(ShiftInterval { low, high: profile.high, level: 0.95 })
+        }
+        _ => None,
+    };
+    let at = |p| sample.quantile(options.quantile_type, p);
+    let clusters = options.clusters(sample);
+    let replicates = intervals::replicates(sample, options, &clusters);
+    let bootstrap = options.draws.map(|draws| {
+        let own = (draws, &clusters);
+        FitIntervals::of(sample, options, own, &found, &replicates)
+    });
+    let band = options.draws.filter(|_| !options.band.is_empty());
+    let band = band.map(|draws| {
+        let laws = replicates.iter().map(|(_, fitted)| *fitted).collect();
+        let clusters = clusters.clone();
+        let sampled = Sampled { draws, clusters, fitted: laws };
+        Band::of(sample, options, &fitted, &sampled)
+    });
+    // The empirical distribution is that of values with one limit.
+    let ks_distance =
+        (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));
+    Ok(FragilityFit {
+        n: sample.len(),
+        n_kept: found.fit.n_kept,
+        n_censored: sample.censored(),
+        n_limited: sample.limited(),
+        n_left_out: found.left_out,
+        remarks: FitRemark::of(sample, found.left_out),
+        method: options.method,
+        fitted,
+        shift_interval,
+        log_likelihood: found.fit.log_likelihood,
+        ks_distance,
+        area_distance: fitted.area_distance(&whole),
+        quantile_type: options.quantile_type.number(),
+        im16: at(0.16),
+        im50: at(0.5),
+        im84: at(0.84),
+        unshifted: found.unshifted,
+        transformed: found.transformed,
+        needed: Needed::of(sample, &fitted, &clusters),
+        bootstrap,
+        band,
+    })
+}
+
+/// The fit of the capacities at one level.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LevelFit {
+    /// The EDP level (peak |theta|/alpha, infinite for overturning).
+    pub edp: f64,
+    /// The fit.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub fit: FragilityFit,
+}
+
+/// Fits a fragility at each EDP level of an IDA.
+///
+/// A record that does not reach a level is censored at the intensity up to
+/// which it was run.
+///
+/// # Errors
+/// [`ProcedureError`] as of [`fit_sample`], or for a level that is no
+/// positive number.
+pub fn fit_levels(
+    curves: &[ResponseCurve],
+    levels: &[f64],
+    rule: InversionRule,
+    options: &FitOptions,
+) -> Result<Vec<LevelFit>, ProcedureError> {
+    let at = |&edp: &f64| {
+        let sample = capacities::sample(curves, edp, rule)?;
+        Ok(LevelFit { edp, fit: fit_sample(&sample, options)? })
+    };
+    levels.iter().map(at).collect()
+}

@@ -1,0 +1,76 @@
+//! How many records a precision needs.
+
+use libm::log;
+
+use rocking_statistics::{CensoredSample, Clusters, Lognormal, normal};
+
+/// The relative precision that is asked for.
+const PRECISION: f64 = 0.1;
+
+/// The level at which it is to hold.
+const LEVEL: f64 = 0.9;
+
+/// How many records bring the median above the shift, and the dispersion, to
+/// a precision, if the fitted dispersion and the shares of records by
+/// earthquake stay as they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Needed {
+    /// Half the width of the interval, relative to the value: 0.1.
+    pub precision: f64,
+    /// Level of the interval: 0.9.
+    pub level: f64,
+    /// Records for the median.
+    pub for_median: f64,
+    /// Records for the dispersion.
+    pub for_dispersion: f64,
+    /// Share of the variance of the logarithms that lies between
+    /// earthquakes; none where no earthquake has two records.
+    pub intraclass_correlation: Option<f64>,
+    /// Number of records that are worth one independent record.
+    pub design_effect: f64,
+}
+
+impl Needed {
+    /// Of the fit of a sample of these clusters; none where censored values
+    /// of shared earthquakes leave the design effect open.
+    ///
+    /// With z = 1.645, the dispersion beta and the design effect D, the
+    /// median needs (z beta/ln 1.1)^2 D records, the dispersion (z/ln 1.1)^2
+    /// D/2. D = 1 + (m - 1) rho, m = sum n_g^2/n the mean size of a record's
+    /// own earthquake and rho the intraclass correlation (Kish, Survey
+    /// Sampling, 1965).
+    pub(super) fn of(
+        sample: &CensoredSample,
+        fitted: &Lognormal,
+        clusters: &Clusters,
+    ) -> Option<Self> {
+        let n = clusters.records() as f64;
+        let shared = (!clusters.is_singletons()).then(|| {
+            let complete = sample.censored() == 0;
+            let logs = sample.values().iter();
+            let logs: Vec<f64> =
+                logs.map(|x| log(x - fitted.shift())).collect();
+            complete.then(|| clusters.intraclass(&logs)).flatten()
+        });
+        let correlation = match shared {
+            None => None,
+            Some(known) => Some(known?),
+        };
+        let size = n / clusters.effective();
+        let design_effect = 1.0 + (size - 1.0) * correlation.unwrap_or(0.0);
+        let z = normal::quantile(0.5 + 0.5 * LEVEL);
+        let each = z / log(1.0 + PRECISION);
+        let square = each * each * design_effect;
+        let beta = fitted.dispersion();
+        Some(Self {
+            precision: PRECISION,
+            level: LEVEL,
+            for_median: (square * beta * beta).ceil(),
+            for_dispersion: (0.5 * square).ceil(),
+            intraclass_correlation: correlation,
+            design_effect,
+        })
+    }
+}

@@ -1,0 +1,60 @@
+//! Weaknesses of a fit.
+
+use std::fmt;
+
+use rocking_statistics::CensoredSample;
+
+/// A weakness of a fit.
+///
+/// ```
+/// use rocking_procedures::{FitOptions, FitRemark, fit_sample};
+/// use rocking_statistics::CensoredSample;
+/// let values = [1.2, f64::INFINITY, f64::INFINITY];
+/// let limits = [None, Some(1.5), Some(2.0)];
+/// let sample = CensoredSample::try_new(&values, &limits)?;
+/// let found = fit_sample(&sample, &FitOptions::default())?;
+/// assert_eq!(found.remarks, [FitRemark::OneValue { censored: 2 }]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FitRemark {
+    /// Only one value is not censored.
+    OneValue {
+        /// Number of censored values.
+        censored: usize,
+    },
+}
+
+impl FitRemark {
+    /// Remarks on the fit to a sample, `left_out` of whose values are left
+    /// out.
+    pub(super) fn of(sample: &CensoredSample, left_out: usize) -> Vec<Self> {
+        let censored = sample.censored();
+        match sample.len() - censored - left_out {
+            1 => vec![Self::OneValue { censored }],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl fmt::Display for FitRemark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::OneValue { censored } = self;
+        write!(
+            f,
+            "1 value and {censored} censored: median and dispersion rest on \
+             one observation"
+        )
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for FitRemark {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}

@@ -1,0 +1,181 @@
+//! A fragility as points between which a reader interpolates.
+
+use libm::exp;
+use thiserror::Error;
+
+use rocking_statistics::{Lognormal, normal};
+
+/// Intervals tried before a tolerance is called too small.
+const MOST_INTERVALS: u32 = 1 << 14;
+
+/// Halvings in the search of the largest error of a chord.
+const HALVINGS: u32 = 60;
+
+/// Why a fragility has no points.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PointsError {
+    /// A tolerance that points can hold.
+    #[error(
+        "tolerance {0} in probability: expected a number from 1e-8 to 0.1"
+    )]
+    Tolerance(f64),
+}
+
+/// Points (x, F(x)) of a fragility, so many that straight lines between
+/// them differ from F by at most a tolerance in probability.
+///
+/// `fragility` above shift r, x in its unit; `tolerance` t from 1e-8 to 0.1.
+/// The first point is (r, 0), the last has probability 1, and both
+/// coordinates rise strictly. Between the scores of t/4 and 1 - t/4 the
+/// points stand at equal steps of the score (ln(x - r) - mu)/beta on either
+/// side of the mode, which is a point too: so F is convex or concave between
+/// two points, and the error of a chord is greatest where F has its slope.
+///
+/// ```
+/// use rocking_procedures::fragility::points::points;
+/// use rocking_statistics::Lognormal;
+/// let fragility = Lognormal::try_new(1.0, 0.4, 0.7)?;
+/// let found = points(&fragility, 5e-4)?;
+/// assert_eq!(found[0], (1.0, 0.0));
+/// assert_eq!(found[found.len() - 1].1, 1.0);
+/// assert!(found.len() < 100);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`PointsError::Tolerance`] for a tolerance out of range.
+pub fn points(
+    fragility: &Lognormal,
+    tolerance: f64,
+) -> Result<Vec<(f64, f64)>, PointsError> {
+    let refused = PointsError::Tolerance(tolerance);
+    if !(1e-8..=0.1).contains(&tolerance) {
+        return Err(refused);
+    }
+    let mut intervals = 8;
+    while intervals <= MOST_INTERVALS {
+        let found = at_equal_scores(fragility, 0.25 * tolerance, intervals);
+        if largest_error(fragility, &found) <= tolerance {
+            return Ok(found);
+        }
+        // A quarter more: close to the least number that will do.
+        intervals += intervals / 4;
+    }
+    Err(refused)
+}
+
+/// Points at about `intervals` equal steps of the score, with the mode.
+fn at_equal_scores(
+    fragility: &Lognormal,
+    tail: f64,
+    intervals: u32,
+) -> Vec<(f64, f64)> {
+    let (shift, beta) = (fragility.shift(), fragility.dispersion());
+    let last = -normal::quantile(tail);
+    let place = |z: f64| {
+        let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));
+        (shift + excess, normal::cdf(z))
+    };
+    // The density is greatest at the score -beta.
+    let mode = (-beta).clamp(-last, last);
+    let step = 2.0 * last / f64::from(intervals);
+    let mut found = vec![(shift, 0.0)];
+    let mut add = |(x, p): (f64, f64)| {
+        // Two scores may lie closer than doubles tell.
+        if found.last().is_none_or(|before| x > before.0 && p > before.1) {
+            found.push((x, p));
+        }
+    };
+    for (from, to) in [(-last, mode), (mode, last)] {
+        let count = ((to - from) / step).ceil();
+        for k in 0..count as u32 {
+            add(place(from + (to - from) * f64::from(k) / count));
+        }
+    }
+    add((place(last).0, 1.0));
+    found
+}
+
+/// The largest difference between F and straight lines between the points,
+/// which F crosses no inflection between; F is 1 - tail beyond the last.
+fn largest_error(fragility: &Lognormal, points: &[(f64, f64)]) -> f64 {
+    let end = points[points.len() - 1];
+    let mut largest = fragility.survival(end.0);
+    for pair in points.windows(2) {
+        let ((a, p), (b, q)) = (pair[0], pair[1]);
+        let slope = (q - p) / (b - a);
+        let error =
+            |x: f64| (fragility.cdf(x) - slope.mul_add(x - a, p)).abs();
+        let steeper = |x: f64| exp(fragility.ln_pdf(x)) > slope;
+        // The density rises or falls throughout: bisect for the slope.
+        let (mut low, mut high) = (a, b);
+        let at_the_low_end = steeper(low);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if steeper(middle) == at_the_low_end {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        largest = largest.max(error(low)).max(error(b));
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Largest difference to linear interpolation at many intensities.
+    fn difference(fragility: &Lognormal, points: &[(f64, f64)]) -> f64 {
+        let end = points[points.len() - 1].0;
+        (0..=20_000).map(|k| 1.2 * end * f64::from(k) / 2e4).fold(
+            0.0,
+            |worst: f64, x| {
+                let after = points.partition_point(|point| point.0 <= x);
+                let read = match after {
+                    0 => 0.0,
+                    n if n == points.len() => 1.0,
+                    n => {
+                        let ((a, p), (b, q)) = (points[n - 1], points[n]);
+                        p + (q - p) * (x - a) / (b - a)
+                    }
+                };
+                worst.max((fragility.cdf(x) - read).abs())
+            },
+        )
+    }
+
+    #[test]
+    fn straight_lines_hold_the_tolerance_and_not_much_more() {
+        for (shift, beta) in
+            [(0.0, 0.4), (0.15, 0.713), (1.0, 0.2), (1.0, 1.5), (0.3, 4.5)]
+        {
+            let fragility = Lognormal::try_new(shift, -0.3, beta).unwrap();
+            for tolerance in [1e-2, 5e-4, 1e-5] {
+                let found = points(&fragility, tolerance).unwrap();
+                let error = difference(&fragility, &found);
+                assert!(error <= tolerance, "{shift} {beta}: {error:e}");
+                let rising = found
+                    .windows(2)
+                    .all(|w| w[0].0 < w[1].0 && w[0].1 < w[1].1);
+                assert!(rising);
+                // Three points in four of them do not do.
+                let fewer: Vec<(f64, f64)> =
+                    found.iter().copied().step_by(4).collect();
+                assert!(difference(&fragility, &fewer) > tolerance);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tolerance_out_of_range_is_refused() {
+        let fragility = Lognormal::try_new(1.0, 0.0, 0.5).unwrap();
+        for tolerance in [0.0, -1e-3, 1e-9, 0.2, f64::NAN] {
+            let error = points(&fragility, tolerance).unwrap_err();
+            assert!(matches!(error, PointsError::Tolerance(_)));
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! What one asks of a sample or a suite: functions with typed results.
+//!
+//! Each procedure takes checked inputs and an options type, and gives one
+//! result. The command line, the Python package, the study and the report
+//! call these functions and show their results; none of them computes. A
+//! result says its units in the names of its fields, carries its intervals,
+//! and is written by `serde` where the feature `serde` is on: a number that
+//! is not finite then becomes `null` in JSON.
+
+pub mod assess;
+pub mod capacities;
+pub mod comparison;
+pub mod contrast;
+pub mod counts;
+mod demands;
+pub mod fit;
+pub mod fragility;
+pub mod ida_summary;
+pub mod normality;
+pub mod pivot;
+pub mod ranking;
+pub mod risk;
+pub mod stripes;
+pub mod summary;
+
+pub use assess::{AssessOptions, Assessment, Object, assess};
+pub use comparison::{Comparison, ComparisonError, compare};
+pub use contrast::{Contrast, ContrastError, contrast};
+pub use counts::{
+    CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
+};
+pub use demands::{demands, inversion_discrepancy};
+pub use fit::{
+    Draws, FitOptions, FitRemark, FragilityFit, LevelFit, ProcedureError,
+    Sampled, Shift, fit_levels, fit_sample,
+};
+pub use ida_summary::{IdaSummary, summarise_ida};
+pub use normality::{Normality, NormalityOptions, test_normality};
+pub use pivot::{PivotForces, pivot_forces};
+pub use ranking::{Ranking, rank};
+pub use risk::{Exposed, Risk, RiskError, risk};
+pub use stripes::{StripeResponses, stripes};
+pub use summary::{Summary, summarise};
+
+/// Writes a value, or why there is none as `{"reason": "..."}`.
+#[cfg(feature = "serde")]
+pub(crate) fn or_reason<T: serde::Serialize, E: std::fmt::Display, S>(
+    found: &Result<T, E>,
+    to: S,
+) -> Result<S::Ok, S::Error>
+where
+    S: serde::Serializer,
+{
+    use serde::ser::SerializeMap as _;
+    match found {
+        Ok(value) => value.serialize(to),
+        Err(error) => {
+            let mut map = to.serialize_map(Some(1))?;
+            map.serialize_entry("reason", &error.to_string())?;
+            map.end()
+        }
+    }
+}
+
+/// Writes a value by its name.
+#[cfg(feature = "serde")]
+pub(crate) fn name<T: std::fmt::Display, S: serde::Serializer>(
+    value: &T,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_str(value)
+}
+
+/// Writes nothing, a value, or why there is none.
+#[cfg(feature = "serde")]
+pub(crate) fn if_known<T: serde::Serialize, E: std::fmt::Display, S>(
+    found: &Option<Result<T, E>>,
+    to: S,
+) -> Result<S::Ok, S::Error>
+where
+    S: serde::Serializer,
+{
+    match found {
+        None => to.serialize_none(),
+        Some(found) => or_reason(found, to),
+    }
+}

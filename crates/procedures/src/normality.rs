@@ -1,0 +1,261 @@
+//! Is a sample normal, or lognormal above a shift?
+
+use std::fmt;
+
+use super::{ProcedureError, Shift};
+use rocking_statistics::lilliefors::{
+    Assessment, Inapplicable, LillieforsError, Null, NullDistribution, PValue,
+    Scale, ShiftedNull, Statistic, Table, Verdict,
+};
+use rocking_statistics::normality::{
+    Battery, anderson_darling, cramer_von_mises, shapiro_wilk,
+};
+use rocking_statistics::{CensoredSample, ExtendedSample, Sample};
+
+/// Samples simulated beyond the table, where none are asked for.
+const REPLICATES_BEYOND: u64 = 100_000;
+
+/// What is tested, and how its null distribution is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalityOptions {
+    /// The logarithms above this shift are tested; none tests the values
+    /// themselves. A free shift is refused.
+    pub log_above: Option<Shift>,
+    /// Level of the tests, in (0, 1).
+    pub level: f64,
+    /// Samples to simulate; none takes the table where it reaches.
+    pub replicates: Option<u64>,
+    /// Repetition of the simulation.
+    pub seed: u64,
+}
+
+impl Default for NormalityOptions {
+    /// The values themselves at level 0.05, by the table.
+    fn default() -> Self {
+        Self { log_above: None, level: 0.05, replicates: None, seed: 0 }
+    }
+}
+
+/// Lilliefors' test of a sample, and other tests beside it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Normality {
+    /// Size of the sample, censored values included.
+    pub n: usize,
+    /// Distinct values among those tested.
+    pub distinct: Option<usize>,
+    /// Size of the largest tie.
+    pub largest_tie: Option<usize>,
+    /// Lilliefors' statistic.
+    pub statistic: Option<Statistic>,
+    /// Its p-value.
+    pub p_value: Option<PValue>,
+    /// How the p-value was found.
+    pub method: Option<NullSource>,
+    /// Simulated samples behind the p-value; none for the table.
+    pub replicates: Option<usize>,
+    /// Critical value of the statistic at the level.
+    pub critical_value: Option<f64>,
+    /// The level.
+    pub level: f64,
+    /// The verdict; none where the test does not apply.
+    pub verdict: Option<Verdict>,
+    /// Why the test does not apply.
+    pub reason: Option<String>,
+    /// Anderson and Darling's A2.
+    pub anderson_darling: Option<OtherTest>,
+    /// Cramer and von Mises' W2.
+    pub cramer_von_mises: Option<OtherTest>,
+    /// Shapiro and Wilk's W.
+    pub shapiro_wilk: Option<OtherTest>,
+}
+
+/// Where a null distribution comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NullSource {
+    /// The project's own Monte Carlo table.
+    Table,
+    /// A simulation of the same size.
+    Simulation,
+    /// A simulation that takes the smallest value of each draw as its shift.
+    SmallestValue,
+}
+
+impl fmt::Display for NullSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Table => "table",
+            Self::Simulation => "simulation",
+            Self::SmallestValue => "simulation, smallest value as shift",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for NullSource {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
+
+/// A test beside Lilliefors'.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct OtherTest {
+    /// The statistic.
+    pub statistic: f64,
+    /// Its p-value: simulated where replicates were asked for, else from a
+    /// published approximation.
+    pub p_value: f64,
+    /// Lower end of the 95 % interval of a simulated p-value.
+    pub p_low: Option<f64>,
+    /// Upper end.
+    pub p_high: Option<f64>,
+    /// The verdict of a simulated p-value.
+    pub verdict: Option<Verdict>,
+}
+
+impl OtherTest {
+    fn published(statistic: f64, p_value: f64) -> Self {
+        let (p_low, p_high, verdict) = (None, None, None);
+        Self { statistic, p_value, p_low, p_high, verdict }
+    }
+
+    fn simulated(statistic: f64, p: PValue, level: f64) -> Self {
+        Self {
+            statistic,
+            p_value: p.value,
+            p_low: Some(p.low),
+            p_high: Some(p.high),
+            verdict: Some(p.verdict(level)),
+        }
+    }
+}
+
+/// Tests whether a sample is normal, or lognormal above a shift.
+///
+/// The p-value of Lilliefors' test comes from the project's Monte Carlo table
+/// (n = 4 to 1000), or from a simulation where replicates are asked for or n
+/// is larger; then those of the other tests are simulated, too.
+///
+/// ```
+/// use rocking_procedures::{NormalityOptions, test_normality};
+/// use rocking_statistics::{CensoredSample, lilliefors::Verdict};
+/// let values: Vec<f64> = (1..=40).map(f64::from).collect();
+/// let sample = CensoredSample::try_new(&values, &[])?;
+/// let found = test_normality(&sample, &NormalityOptions::default())?;
+/// assert_eq!(found.verdict, Some(Verdict::NotRejected));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ProcedureError`] for a level outside (0, 1), a free shift, or a
+/// simulation that is refused; a test that does not apply is a result.
+pub fn test_normality(
+    sample: &CensoredSample,
+    options: &NormalityOptions,
+) -> Result<Normality, ProcedureError> {
+    let level = options.level;
+    if !(level > 0.0 && level < 1.0) {
+        return Err(ProcedureError::Level(level));
+    }
+    let (scale, tested) = match options.log_above {
+        None => (Scale::Linear, sample.extended()),
+        Some(Shift::Free) => return Err(ProcedureError::FreeShiftTested),
+        Some(shift) => {
+            let (shift, above) = shift.split(sample)?;
+            let above = ExtendedSample::try_new(above.values())?;
+            (Scale::Logarithmic { shift }, above)
+        }
+    };
+    let simulated = simulated(sample, &tested, options)?;
+    let null = simulated.as_ref();
+    let source =
+        null.map_or(Null::Table(Table::embedded()), |s| Null::Simulated(&s.1));
+    let found = Assessment::new(&tested, scale, level, source);
+    if let Err(Inapplicable::Test(error @ LillieforsError::Level { .. })) =
+        found.verdict
+    {
+        return Err(error.into());
+    }
+    let [anderson_darling, cramer_von_mises, shapiro_wilk] =
+        others(found.tested.as_ref(), options)?;
+    let method = null.map_or(NullSource::Table, |s| s.0);
+    let (verdict, reason) = match found.verdict {
+        Ok(verdict) => (Some(verdict), None),
+        Err(reason) => (None, Some(reason.to_string())),
+    };
+    Ok(Normality {
+        n: found.n,
+        distinct: found.tested.as_ref().map(Sample::distinct),
+        largest_tie: found.tested.as_ref().map(Sample::largest_tie),
+        statistic: found.statistic,
+        p_value: found.p_value,
+        method: found.p_value.map(|_| method),
+        replicates: found.p_value.and(null.map(|s| s.1.sorted().len())),
+        critical_value: found.critical_value,
+        level,
+        verdict,
+        reason,
+        anderson_darling,
+        cramer_von_mises,
+        shapiro_wilk,
+    })
+}
+
+/// The null distribution to simulate; none where the table answers.
+fn simulated(
+    sample: &CensoredSample,
+    tested: &ExtendedSample,
+    options: &NormalityOptions,
+) -> Result<Option<(NullSource, NullDistribution)>, LillieforsError> {
+    let (n, seed) = (tested.len(), options.seed);
+    if n < 4 || tested.censored() > 0 {
+        return Ok(None);
+    }
+    if options.log_above == Some(Shift::Smallest) {
+        let replicates = options.replicates.unwrap_or(REPLICATES_BEYOND);
+        let values = sample.values();
+        let null = ShiftedNull::smallest_value(values, replicates, seed)?.null;
+        return Ok(Some((NullSource::SmallestValue, null)));
+    }
+    let is_beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
+    let own = is_beyond.then_some(REPLICATES_BEYOND);
+    let Some(replicates) = options.replicates.or(own) else {
+        return Ok(None);
+    };
+    let null = NullDistribution::simulate(n, replicates, seed)?;
+    Ok(Some((NullSource::Simulation, null)))
+}
+
+/// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk: simulated with
+/// replicates, unless the shift is the sample's own or the sample is larger
+/// than Shapiro and Wilk's test takes.
+fn others(
+    tested: Option<&Sample>,
+    options: &NormalityOptions,
+) -> Result<[Option<OtherTest>; 3], ProcedureError> {
+    let Some(tested) = tested else { return Ok([None; 3]) };
+    let known = options.log_above != Some(Shift::Smallest)
+        && (4..=Battery::MOST_VALUES).contains(&tested.len());
+    if let Some(replicates) = options.replicates.filter(|_| known) {
+        let battery =
+            Battery::simulate(tested.len(), replicates, options.seed)?;
+        return Ok(battery.assess(tested).map_or([None; 3], |tests| {
+            tests.map(|t| {
+                let (d, p) = (t.statistic, t.p_value);
+                Some(OtherTest::simulated(d, p, options.level))
+            })
+        }));
+    }
+    Ok([anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
+        let test = test(tested).ok()?;
+        Some(OtherTest::published(test.statistic, test.p_value))
+    }))
+}

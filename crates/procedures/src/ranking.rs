@@ -1,0 +1,217 @@
+//! Intensity measures side by side: efficiency and sufficiency.
+
+use libm::log;
+
+use super::{Draws, ProcedureError};
+use rocking_statistics::Clusters;
+use rocking_statistics::bootstrap::{Bootstrap, Estimate};
+use rocking_statistics::lognormal::fit_intervals;
+use rocking_statistics::regression::{Line, mixed};
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
+
+/// An intensity measure, and its values of the records of a suite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Its name.
+    pub im: String,
+    /// Its value for each record, scaled to PGA/(g tan alpha) = 1.
+    pub at_uplift: Vec<f64>,
+    /// Whether it grows with the square of the acceleration, as Arias
+    /// intensity does; then its root is ranked.
+    pub squared: bool,
+}
+
+/// A property of the records that an intensity measure may leave out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Covariate {
+    /// Its name, such as `magnitude` or `ln distance`.
+    pub name: String,
+    /// One value a record.
+    pub values: Vec<f64>,
+}
+
+impl Covariate {
+    /// Magnitudes.
+    #[must_use]
+    pub fn magnitude(values: Vec<f64>) -> Self {
+        Self { name: "magnitude".into(), values }
+    }
+
+    /// The logarithms of distances.
+    #[must_use]
+    pub fn ln_distance(distances: Vec<f64>) -> Self {
+        let values = distances.into_iter().map(log).collect();
+        Self { name: "ln distance".into(), values }
+    }
+}
+
+/// Intensity measures in the order in which they were asked for.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Ranking {
+    /// Number of records.
+    pub n: usize,
+    /// Records that do not reach the level; they enter by the intensity up
+    /// to which they were run.
+    pub censored: usize,
+    /// Level of the intervals.
+    pub level: f64,
+    /// Draws of the bootstrap, the same for all measures.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+    /// What was drawn.
+    pub drawn: Clusters,
+    /// Why there is no slope, where a covariate was given and there is none.
+    pub remark: Option<String>,
+    /// The measures.
+    pub measures: Vec<Ranked>,
+}
+
+/// What was found of one intensity measure.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Ranked {
+    /// Its name, behind `root of` where its root is ranked.
+    pub im: String,
+    /// Median of the capacities, in the unit of the measure.
+    pub median: f64,
+    /// Dispersion of the capacities: the efficiency, small is good.
+    pub dispersion: Option<Estimate>,
+    /// Dispersion over that of the first measure.
+    pub ratio_to_first: Option<Estimate>,
+    /// Slopes of ln(capacity) on each covariate: the sufficiency, a small
+    /// p-value is bad.
+    pub slopes: Vec<Slope>,
+}
+
+/// A slope on a covariate.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Slope {
+    /// The covariate.
+    pub on: String,
+    /// The line: with a random intercept for each earthquake, by least
+    /// squares where no earthquake has two records.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub line: Line,
+}
+
+/// Ranks intensity measures by the capacities of a suite.
+///
+/// `capacities` holds one interval a record, in PGA/(g tan alpha): both ends
+/// equal where the record reaches the level, (limit, infinity) where it was
+/// run up to the limit and did not. The capacity in another measure is its
+/// value at that scale. Efficiency is the dispersion of a lognormal fitted by
+/// maximum likelihood, censored records by their limits (Luco and Cornell,
+/// Earthquake Spectra 23 (2007) 357); sufficiency the slope of ln(capacity)
+/// on a covariate, where no record is censored, with a random intercept for
+/// each earthquake ([`mixed`]). `clusters` are the earthquakes of the
+/// records: these are drawn.
+///
+/// ```
+/// use rocking_procedures::{Draws, ranking::{Candidate, rank}};
+/// use rocking_statistics::Clusters;
+/// let capacities = [(1.0, 1.0), (2.0, 2.0), (4.0, f64::INFINITY)];
+/// let pga = Candidate {
+///     im: "pga".into(),
+///     at_uplift: vec![1.0; 3],
+///     squared: false,
+/// };
+/// let draws = Draws { replicates: 100, seed: 0 };
+/// let records = Clusters::singletons(3);
+/// let found = rank(&capacities, &[pga], &[], &records, draws)?;
+/// assert_eq!((found.n, found.censored), (3, 1));
+/// # Ok::<(), rocking_procedures::ProcedureError>(())
+/// ```
+///
+/// # Errors
+/// [`ProcedureError`] for a measure or covariate of another length than the
+/// capacities, and for capacities that make no fit.
+pub fn rank(
+    capacities: &[(f64, f64)],
+    candidates: &[Candidate],
+    covariates: &[Covariate],
+    clusters: &Clusters,
+    draws: Draws,
+) -> Result<Ranking, ProcedureError> {
+    draws.check()?;
+    let n = capacities.len();
+    let named = candidates
+        .iter()
+        .map(|c| (&c.im, c.at_uplift.len()))
+        .chain(covariates.iter().map(|c| (&c.name, c.values.len())));
+    let earthquakes = "earthquakes".to_owned();
+    let named = named.chain([(&earthquakes, clusters.records())]);
+    for (name, found) in named {
+        if found != n {
+            let name = name.clone();
+            return Err(ProcedureError::Length { name, found, expected: n });
+        }
+    }
+    let own = |candidate: &Candidate| -> Vec<(f64, f64)> {
+        let root = |x: f64| if candidate.squared { x.sqrt() } else { x };
+        let all = capacities.iter().zip(&candidate.at_uplift);
+        all.map(|((low, high), factor)| {
+            (root(*factor) * low, root(*factor) * high)
+        })
+        .collect()
+    };
+    let all: Vec<Vec<(f64, f64)>> = candidates.iter().map(own).collect();
+    let censored = capacities.iter().filter(|c| c.1.is_infinite()).count();
+    let dispersion = |capacities: &[(f64, f64)]| {
+        let fit = fit_intervals(capacities, 0.0);
+        fit.map_or(f64::NAN, |fit| fit.distribution.dispersion())
+    };
+    let Draws { replicates, seed } = draws;
+    let drawn = Bootstrap::of("rank", seed, clusters, replicates);
+    let drawn = drawn.map(|places| {
+        let pick = |capacities: &Vec<(f64, f64)>| {
+            let own: Vec<_> = places.iter().map(|&i| capacities[i]).collect();
+            dispersion(&own)
+        };
+        all.iter().map(pick).collect::<Vec<f64>>()
+    });
+    let first = all.first().map_or(f64::NAN, |first| dispersion(first));
+    let measure = |(i, candidate): (usize, &Candidate)| {
+        let root = if candidate.squared { "root of " } else { "" };
+        let im = format!("{root}{}", candidate.im);
+        let fit = fit_intervals(&all[i], 0.0).map_err(|source| {
+            ProcedureError::Measure { im: im.clone(), source }
+        })?;
+        let point = fit.distribution.dispersion();
+        let column: Vec<f64> = drawn.iter().map(|row| row[i]).collect();
+        let ratios: Vec<f64> =
+            drawn.iter().map(|row| row[i] / row[0]).collect();
+        let slope = |covariate: &Covariate| {
+            let y: Vec<f64> = all[i].iter().map(|c| log(c.0)).collect();
+            let on = covariate.name.clone();
+            Ok(Slope { on, line: mixed(&covariate.values, &y, clusters)? })
+        };
+        let used = covariates.iter().filter(|_| censored == 0);
+        Ok(Ranked {
+            im,
+            median: fit.distribution.median(),
+            dispersion: clusters.estimate(point, &column, LEVEL),
+            ratio_to_first: clusters.estimate(point / first, &ratios, LEVEL),
+            slopes: used.map(slope).collect::<Result<_, ProcedureError>>()?,
+        })
+    };
+    let measures = candidates.iter().enumerate().map(measure);
+    let remark = (censored > 0 && !covariates.is_empty()).then(|| {
+        format!("no slopes: {censored} censored capacities have no value")
+    });
+    Ok(Ranking {
+        n,
+        censored,
+        level: LEVEL,
+        draws,
+        drawn: clusters.clone(),
+        remark,
+        measures: measures.collect::<Result<_, ProcedureError>>()?,
+    })
+}

@@ -1,0 +1,123 @@
+//! AFAD's text (Turkey, until 2018): lines `KEY : value`, a line that names
+//! the columns, then a line of three samples in gal for each time.
+//!
+//! ```text
+//! STRONG GROUND MOTION RECORDS OF TURKIYE
+//! NUMBER OF DATA          : 5456
+//! SAMPLING INTERVAL (sec) : 0.01
+//! RAW PGA VALUES (gal)    : (N-S) 0.316125 (E-W) 0.331524 (U-D) 0.363887
+//!        N-S          E-W          U-D
+//! ```
+//!
+//! The peaks are those of the samples as they are written, and are checked.
+//! What AFAD gives out today is ESM's format.
+
+use super::fields::one_number;
+use super::number::{self, Form, Reading};
+use super::text::{Text, excerpt};
+use super::{Channel, Direction, Fault, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+const COUNT: &str = "NUMBER OF DATA";
+const INTERVAL: &str = "SAMPLING INTERVAL (sec)";
+const PEAKS: &str = "RAW PGA VALUES (gal)";
+const COLUMNS: [&str; 3] = ["N-S", "E-W", "U-D"];
+
+/// Header lines among which that of the columns is sought.
+const HEADER_LINES: usize = 40;
+
+/// Whether the header has the format's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, INTERVAL).is_some() && keys::find(text, COUNT).is_some()
+}
+
+/// Reads the three components.
+pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+    let dt = keys::positive(text, INTERVAL, "")?;
+    let count = keys::count(text, COUNT)?;
+    let peaks = peaks(text)?;
+    let is_head =
+        |line: &str| line.split_ascii_whitespace().eq(COLUMNS.iter().copied());
+    let head = text.lines().take(HEADER_LINES).position(is_head);
+    let head = head.ok_or_else(|| {
+        text.at_end(Fault::Ends("a line `N-S E-W U-D` before the samples"))
+    })?;
+    let columns = samples(text, head + 1)?;
+    text.check_count(columns[0].len(), count)?;
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    let channel = |((samples, name), peak): ((Vec<f64>, &str), f64)| {
+        // Header and samples have the same decimals.
+        let (values, allowed) = (samples.iter().copied(), 1e-6 * peak.abs());
+        keys::check_peak(text, values, peak, allowed + 1e-6, unit)?;
+        Ok(Channel {
+            dt: Some(dt),
+            unit: Some(unit),
+            samples,
+            label: Some(name.to_owned()),
+            direction: Direction::of_words(name),
+            ..Channel::default()
+        })
+    };
+    columns.into_iter().zip(COLUMNS).zip(peaks).map(channel).collect()
+}
+
+/// The peaks, each after its column's name in round brackets.
+fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
+    let (index, found) = keys::value(text, PEAKS)?;
+    let mut words = found.split_ascii_whitespace();
+    let mut peaks = [0.0; 3];
+    for (peak, column) in peaks.iter_mut().zip(COLUMNS) {
+        let named = words.next().is_some_and(|word| {
+            word.strip_prefix('(').and_then(|w| w.strip_suffix(')'))
+                == Some(column)
+        });
+        match words.next().map(number::read) {
+            Some(Reading::Finite(value, _)) if named => *peak = value,
+            _ => {
+                let expected = "peaks such as (N-S) 1.2 (E-W) 1.3 (U-D) 0.9";
+                let found = excerpt(found);
+                let fault = Fault::Header { found, expected };
+                return Err(text.on_line(index, fault));
+            }
+        }
+    }
+    Ok(peaks)
+}
+
+/// The numbers of one line: where each ends, its value and its form.
+type Row = [(usize, f64, Form); 3];
+
+/// The columns from the line of index `first` on. All numbers have the first
+/// one's form and end where those of the first line do.
+fn samples(
+    text: &Text<'_>,
+    first: usize,
+) -> Result<[Vec<f64>; 3], RecordError> {
+    let mut columns = [const { Vec::new() }; 3];
+    let mut before: Option<Row> = None;
+    for (index, line) in text.lines().enumerate().skip(first) {
+        let row = row(text, index, line)?;
+        let like = *before.get_or_insert(row);
+        for ((column, found), first) in columns.iter_mut().zip(row).zip(like) {
+            if (found.0, found.2) != (first.0, like[0].2) {
+                let expected =
+                    "three numbers, written as on the first line of samples";
+                return Err(text.no_number(index, line, expected));
+            }
+            column.push(found.1);
+        }
+    }
+    Ok(columns)
+}
+
+fn row(text: &Text<'_>, index: usize, line: &str) -> Result<Row, RecordError> {
+    let mut row = Vec::with_capacity(COLUMNS.len());
+    for word in line.split_ascii_whitespace() {
+        // Both are parts of one text.
+        let end = word.as_ptr() as usize - line.as_ptr() as usize + word.len();
+        let (value, form) = one_number(text, index, word)?;
+        row.push((end, value, form));
+    }
+    let expected = "three numbers, one a component";
+    row.try_into().map_err(|_| text.no_number(index, line, expected))
+}

@@ -1,0 +1,200 @@
+//! PEER's AT2: a few lines of header, then fixed-width samples.
+//!
+//! Generations differ in the line that counts: `NPTS=  4096, DT= .0100 SEC`
+//! with or without commas, unit, filter poles and blanks, and the oldest
+//! `4096  .0100  NPTS, DT` with the values first. Lines without a digit after
+//! the samples (`*** End Data ***`) are left out.
+
+use super::csv::bracketed;
+use super::number::{self, Reading};
+use super::text::{self, Text, excerpt};
+use super::{Channel, Direction, Fault, RecordError, fields};
+use rocking::units::AccelerationUnit;
+
+/// Header lines among which the counting line is sought.
+const HEADER_LINES: usize = 20;
+
+const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
+
+/// Whether the content is AT2's.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    let named = |line: &str| {
+        text::contains(line, "STRONG MOTION DATABASE")
+            || text::contains(line, "STRONG-MOTION DATA")
+            || text::contains(line, "TIME SERIES IN UNITS OF")
+            || text::contains(line, "TIME HISTORY IN UNITS OF")
+    };
+    counting_line(text).is_some() || text.lines().take(4).any(named)
+}
+
+fn counting_line(text: &Text<'_>) -> Option<usize> {
+    text.lines()
+        .take(HEADER_LINES)
+        .position(|line| text::after_word(line, "NPTS").is_some())
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let Some(counting) = counting_line(text) else {
+        return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
+    };
+    let unit = unit(text, counting)?;
+    let (count, dt) = counts(text, counting)?;
+    let mut first = counting + 1;
+    while text.line(first).is_some_and(|line| line.trim().is_empty()) {
+        first += 1;
+    }
+    let end = text.end_of_numbers(first);
+    let layout = fields::infer(text, first, end, 0);
+    let samples = fields::read(text, first, end, layout)?;
+    text.check_count_at(end - 1, samples.len(), count)?;
+    let label = component(text);
+    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
+    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
+}
+
+/// The component, which ends the second line: event, date, station,
+/// component.
+fn component(text: &Text<'_>) -> Option<String> {
+    let mut parts = text.line(1)?.rsplit(',');
+    let last = parts.next()?.trim();
+    let named = parts.count() >= 2 && !last.is_empty() && last.len() <= 8;
+    named.then(|| last.to_owned())
+}
+
+/// The unit named before the counting line.
+fn unit(
+    text: &Text<'_>,
+    counting: usize,
+) -> Result<Option<AccelerationUnit>, RecordError> {
+    for (index, line) in text.lines().take(counting).enumerate() {
+        let Some(end) = after_units_of(line) else {
+            match in_unit(line) {
+                Some(Ok(unit)) => return Ok(Some(unit)),
+                Some(Err(_)) => return Err(text.quantity(index)),
+                None => continue,
+            }
+        };
+        let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
+        if other.iter().any(|name| text::contains(&line[..end], name)) {
+            return Err(text.quantity(index));
+        }
+        let named = line[end..]
+            .split_ascii_whitespace()
+            .next()
+            .unwrap_or("")
+            .trim_end_matches(['.', ',', ';', ':']);
+        return match AccelerationUnit::parse(named) {
+            Some(unit) => Ok(Some(unit)),
+            None => {
+                let rest = line[end..].trim_start();
+                let fault = Fault::Unit(excerpt(named));
+                Err(text.at(index, line.len() - rest.len(), fault))
+            }
+        };
+    }
+    Ok(None)
+}
+
+/// The unit of a line such as `ACCELERATION IN G`, `Accelerations (g)` or
+/// `The units are (g)`, or the unit of another quantity.
+fn in_unit(line: &str) -> Option<Result<AccelerationUnit, &str>> {
+    let named = |words: &[&str]| {
+        words.iter().find_map(|word| text::after_word(line, word))
+    };
+    let unit = |end: usize| {
+        let rest = &line[end..];
+        let word = text::after_word(rest, "IN").map(|from| &rest[from..]);
+        let word = word.and_then(|rest| rest.split_whitespace().next());
+        word.or_else(|| bracketed(rest).next())
+    };
+    let units = ["ACCELERATION", "ACCELERATIONS", "ACC", "UNITS", "UNIT"];
+    if let Some(end) = named(&units) {
+        let word = unit(end)?.trim_end_matches(['.', ',', ';', ':']);
+        return AccelerationUnit::parse(word).map(Ok);
+    }
+    let end = named(&["VELOCITY", "DISPLACEMENT"])?;
+    let word = unit(end)?.to_ascii_lowercase();
+    let length = ["cm", "m", "in", "mm"];
+    let other = word.split(['/', '.', ',']).next().unwrap_or("");
+    length.contains(&other).then_some(Err(line))
+}
+
+fn after_units_of(line: &str) -> Option<usize> {
+    let units = text::after_word(line, "UNITS")?;
+    let of = text::after_word(&line[units..], "OF")?;
+    Some(units + of)
+}
+
+/// Number of samples and sampling interval of the counting line.
+fn counts(
+    text: &Text<'_>,
+    index: usize,
+) -> Result<(usize, Option<f64>), RecordError> {
+    let line = text.line(index).unwrap_or("");
+    let header = |found: &str, expected| {
+        text.on_line(index, Fault::Header { found: excerpt(found), expected })
+    };
+    let after = |word| {
+        text::after_word(line, word).map(|end| {
+            line[end..].trim_start_matches([' ', '\t', '=', ':', ','])
+        })
+    };
+    let starts_number = |rest: &str| {
+        rest.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+    };
+    let npts = after("NPTS").unwrap_or("");
+    let dt = after("DT");
+    if starts_number(npts) {
+        let count = read_count(npts)
+            .ok_or_else(|| header(npts, "a number of samples"))?;
+        return match dt {
+            None => Ok((count, None)),
+            Some(dt) => read_interval(dt)
+                .map(|dt| (count, Some(dt)))
+                .map_err(|fault| text.on_line(index, fault)),
+        };
+    }
+    // The oldest generation: values before their names.
+    let mut values = line.split([' ', '\t', ',']).filter(|p| !p.is_empty());
+    let (first, second) = (values.next(), values.next());
+    let count = first
+        .and_then(read_count)
+        .ok_or_else(|| header(line, COUNTING_LINE))?;
+    if dt.is_none() {
+        return Ok((count, None));
+    }
+    read_interval(second.unwrap_or(""))
+        .map(|dt| (count, Some(dt)))
+        .map_err(|fault| text.on_line(index, fault))
+}
+
+/// The count at the beginning of a text, ended by a separator.
+fn read_count(rest: &str) -> Option<usize> {
+    let end = rest.find([' ', '\t', ',', ';']).unwrap_or(rest.len());
+    let digits = &rest[..end];
+    let plain = digits.bytes().all(|b| b.is_ascii_digit());
+    digits.parse().ok().filter(|_| plain)
+}
+
+/// The interval at the beginning of a text, in seconds if a unit follows.
+fn read_interval(rest: &str) -> Result<f64, Fault> {
+    let end = number::token_at(rest.as_bytes(), 0)
+        .map_or(rest.len(), |token| token.end);
+    let seconds = match number::read(&rest[..end]) {
+        Reading::Finite(value, _) if value > 0.0 => value,
+        _ => return Err(Fault::Interval(excerpt(rest))),
+    };
+    let unit: String = rest[end..]
+        .trim_start()
+        .chars()
+        .take_while(|c| c.is_alphanumeric())
+        .collect();
+    let known = ["", "S", "SEC", "SECS", "SECOND", "SECONDS", "NPTS"];
+    let plain = known.iter().any(|name| unit.eq_ignore_ascii_case(name));
+    // A pole count may follow directly where the unit is missing.
+    if plain || unit.bytes().all(|b| b.is_ascii_digit()) {
+        return Ok(seconds);
+    }
+    Err(Fault::Interval(excerpt(rest)))
+}

@@ -1,0 +1,114 @@
+//! BRI (Building Research Institute, Japan), `.ac`: a line for the record,
+//! then for each channel a line and its samples in 8F10.3, in cm/s2.
+//!
+//! `1993/01/15 20:06:08   3 100 15700 KSR: Kushiro` states channels, samples
+//! per second and samples per channel; `063-GL` in a channel's line is an
+//! azimuth and a place in or under the building. The peak behind it is checked.
+
+use super::fields::{self, Layout};
+use super::number::{self, Reading};
+use super::text::Text;
+use super::{Channel, Direction, Fault, RecordError};
+use rocking::units::AccelerationUnit;
+
+const LAYOUT: Layout = Layout::even(8, 10);
+
+/// What the first line states.
+struct Head<'a> {
+    event: String,
+    channels: usize,
+    per_second: usize,
+    count: usize,
+    station: &'a str,
+}
+
+/// Whether the first line is a date, a time and three counts.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    head(text).is_some()
+}
+
+fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
+    let line = text.line(0)?;
+    let mut words = line.split_ascii_whitespace();
+    let (date, time) = (words.next()?, words.next()?);
+    let shape = |word: &str, mark: u8, length: usize| {
+        let known = |b: u8| b.is_ascii_digit() || b == mark;
+        word.len() == length
+            && word.bytes().all(known)
+            && word.bytes().filter(|b| *b == mark).count() == 2
+    };
+    let mut count = || words.next()?.parse().ok().filter(|n: &usize| *n > 0);
+    let (channels, per_second, count) = (count()?, count()?, count()?);
+    let station = words.next().unwrap_or("").trim_end_matches(':');
+    let event = format!("{date} {time}");
+    (shape(date, b'/', 10) && shape(time, b':', 8)).then_some(Head {
+        event,
+        channels,
+        per_second,
+        count,
+        station,
+    })
+}
+
+/// Reads every channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+    let head = head(text).ok_or_else(|| {
+        text.header(0, "a date, a time and three counts of channels, samples")
+    })?;
+    let rows = head.count.div_ceil(LAYOUT.per_line);
+    let mut channels = Vec::new();
+    let mut index = 1;
+    while let Some(line) = text.line(index) {
+        if channels.len() == head.channels {
+            let expected = "the end of the last channel";
+            return Err(text.no_number(index, line, expected));
+        }
+        channels.push(channel(text, &head, index, rows)?);
+        index += rows + 1;
+    }
+    if channels.len() < head.channels {
+        return Err(text.at_end(Fault::Ends("a line for the next channel")));
+    }
+    Ok(channels)
+}
+
+/// Reads the channel whose line has index `index`.
+fn channel(
+    text: &Text<'_>,
+    head: &Head<'_>,
+    index: usize,
+    rows: usize,
+) -> Result<Channel, RecordError> {
+    let line = text.line(index).unwrap_or("");
+    let label = line.get(..10).unwrap_or(line).trim();
+    let peak = line.get(10..20).unwrap_or("").trim();
+    let (Reading::Finite(peak, _), false) =
+        (number::read(peak), label.is_empty() || label.contains('.'))
+    else {
+        let expected = "a channel's name and peak in 10 characters each";
+        return Err(text.header(index, expected));
+    };
+    let first = index + 1;
+    let end = first.saturating_add(rows).min(text.len());
+    let samples = fields::read(text, first, end, Some(LAYOUT))?;
+    text.check_count_at(end - 1, samples.len(), head.count)?;
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    let found = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    let expected = peak.abs();
+    // The peak has the digits of the samples.
+    if !((found - expected).abs() <= 1.5e-3) {
+        return Err(text.on_line(index, Fault::Peak { found, expected, unit }));
+    }
+    let (azimuth, place) = label.split_once('-').unwrap_or((label, ""));
+    let known = !head.station.is_empty() && !place.is_empty();
+    let site = format!("{} {} {place}", head.event, head.station);
+    Ok(Channel {
+        dt: Some(1.0 / head.per_second as f64),
+        unit: Some(unit),
+        samples,
+        label: Some(label.to_owned()),
+        site: Some(site).filter(|_| known),
+        direction: Direction::of_azimuth(azimuth),
+        ..Channel::default()
+    })
+}

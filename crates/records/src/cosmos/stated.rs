@@ -1,0 +1,194 @@
+//! What the header of a channel says of its series, held against the series.
+
+use super::super::number::{self, Reading};
+use super::super::text::{self, Text};
+use super::super::{Direction, Fault, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+/// Places of what COSMOS's real header says of the series, from 1 (COSMOS
+/// strong-motion format 1.20, Table 8).
+const INTERVAL_MS: usize = 62;
+const DURATION_S: usize = 63;
+const PEAK: usize = 64;
+
+/// Place in COSMOS's integer header of the sensor's orientation, from 1.
+const ORIENTATION: usize = 54;
+
+/// What stands for an unknown value.
+const UNKNOWN: f64 = -999.0;
+
+/// Share of a stated peak by which the samples may miss it: the header has
+/// three digits or more.
+const PEAK_SHARE: f64 = 2e-3;
+
+const SAME_COUNT: &str = "the number of points that announces the samples";
+const SAME_INTERVAL: &str = "the interval that announces the samples";
+
+/// The direction by COSMOS's integer header: an azimuth from 1 to 360, 400 to
+/// 402 for vertical sensors, 500 to 801 for radial, transverse, longitudinal
+/// and unoriented horizontal ones.
+pub(super) fn oriented(integers: &[f64]) -> Direction {
+    match integers.get(ORIENTATION - 1) {
+        Some(400.0..=402.0) => Direction::Vertical,
+        Some(1.0..=360.0 | 500.0..=801.0) => Direction::Horizontal,
+        _ => Direction::Unknown,
+    }
+}
+
+/// The lines of a channel's header.
+pub(super) struct Header<'t, 'a> {
+    pub(super) text: &'t Text<'a>,
+    /// Index of the first line.
+    pub(super) head: usize,
+    /// Index of the line that announces the samples.
+    pub(super) announced: usize,
+}
+
+/// A series as it was read.
+pub(super) struct Series<'s> {
+    pub(super) unit: Option<AccelerationUnit>,
+    /// Interval (s) that the announcing line states.
+    pub(super) dt_s: Option<f64>,
+    pub(super) samples: &'s [f64],
+}
+
+impl<'a> Header<'_, 'a> {
+    /// The header's lines.
+    pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
+        self.text.lines_from(self.head).take(self.announced - self.head)
+    }
+
+    fn differs(&self, at: usize, expected: &'static str) -> RecordError {
+        self.text.header(self.head + at, expected)
+    }
+
+    /// What follows `words` on the first line that has them, its place, and
+    /// the line.
+    fn after(&self, words: &str) -> Option<(usize, &'a str, &'a str)> {
+        self.lines().enumerate().find_map(|(at, line)| {
+            let from = line.to_ascii_lowercase().find(words)? + words.len();
+            let rest = line.get(from..)?.trim_start_matches([' ', '=']);
+            Some((at, rest, line))
+        })
+    }
+
+    /// Refuses another number of points. A corrected record's header has the
+    /// number of points before its correction too, in capitals.
+    pub(super) fn check_count(&self, count: usize) -> Result<(), RecordError> {
+        let raw = self.lines().next().is_some_and(|line| {
+            text::contains(line.trim_start().get(..4).unwrap_or(""), "unco")
+        });
+        let Some((at, rest, line)) = self.after("no. of points") else {
+            return Ok(());
+        };
+        let stated = rest.split_ascii_whitespace().next();
+        let same = stated.and_then(|n| n.parse().ok()) == Some(count);
+        if same || !(raw || line.trim_start().starts_with("No. of Points")) {
+            return Ok(());
+        }
+        Err(self.differs(at, SAME_COUNT))
+    }
+
+    /// The unit that announces the samples, or else the unit of the peak.
+    pub(super) fn unit(
+        &self,
+        announced: &str,
+    ) -> Result<Option<AccelerationUnit>, RecordError> {
+        if announced.is_empty() {
+            return Ok(self.peak().and_then(|(_, unit)| unit));
+        }
+        self.text.unit(self.announced, announced).map(Some)
+    }
+
+    /// CSMIP's peak of the corrected series, and its unit.
+    fn peak(&self) -> Option<(f64, Option<AccelerationUnit>)> {
+        let (_, rest, _) = self.after("peak acceleration")?;
+        let mut words = rest.split_ascii_whitespace();
+        let Reading::Finite(peak, _) = number::read(words.next()?) else {
+            return None;
+        };
+        Some((peak, words.next().and_then(AccelerationUnit::parse)))
+    }
+
+    /// The interval of a CSMIP series.
+    pub(super) fn of_csmip(
+        &self,
+        series: &Series<'_>,
+    ) -> Result<Option<f64>, RecordError> {
+        let dt_s = series.dt_s;
+        let stated = "equally-spaced intervals of";
+        if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
+            let word = rest.split_ascii_whitespace().next().unwrap_or("");
+            let same = matches!(number::read(word), Reading::Finite(x, _)
+                if (x - dt_s).abs() <= 1e-6 * dt_s);
+            if !same {
+                return Err(self.differs(at, SAME_INTERVAL));
+            }
+        }
+        match self.peak() {
+            Some((peak, unit)) if unit == series.unit => {
+                self.check_peak(series, peak)?;
+            }
+            _ => {}
+        }
+        Ok(dt_s)
+    }
+
+    /// The interval of a COSMOS series by its real header.
+    pub(super) fn of_cosmos(
+        &self,
+        reals: &[f64],
+        series: &Series<'_>,
+    ) -> Result<Option<f64>, RecordError> {
+        let value = |place: usize| {
+            reals.get(place - 1).copied().filter(|x| *x != UNKNOWN)
+        };
+        let dt_s = match value(INTERVAL_MS) {
+            None => None,
+            Some(ms) if ms > 0.0 => Some(ms / 1000.0),
+            Some(ms) => {
+                let found = format!("real header value {INTERVAL_MS}: {ms}");
+                let expected = "a positive interval in ms";
+                return Err(self.header(found, expected));
+            }
+        };
+        let line = self.text.line(self.announced).unwrap_or("");
+        let approx = text::after_word(line, "approx").and_then(|end| {
+            let word = line[end..].split_ascii_whitespace().next()?;
+            word.parse::<f64>().ok()
+        });
+        if let Some(dt_s) = dt_s {
+            let found_s = series.samples.len() as f64 * dt_s;
+            // The line has whole seconds, the header a sample more or less.
+            let stated = [(value(DURATION_S), 0.0), (approx, 1.0)];
+            for (expected_s, rounded_s) in stated {
+                let Some(expected_s) = expected_s else { continue };
+                let allowed = rounded_s + 1.5 * dt_s + 0.01 * expected_s;
+                if !((found_s - expected_s).abs() <= allowed) {
+                    let fault = Fault::Duration { found_s, expected_s };
+                    return Err(self.text.on_line(self.announced, fault));
+                }
+            }
+        }
+        if let Some(peak) = value(PEAK) {
+            self.check_peak(series, peak)?;
+        }
+        Ok(dt_s)
+    }
+
+    fn header(&self, found: String, expected: &'static str) -> RecordError {
+        let fault = Fault::Header { found, expected };
+        self.text.on_line(self.announced, fault)
+    }
+
+    fn check_peak(
+        &self,
+        series: &Series<'_>,
+        peak: f64,
+    ) -> Result<(), RecordError> {
+        let Some(unit) = series.unit else { return Ok(()) };
+        let samples = series.samples.iter().copied();
+        let allowed = PEAK_SHARE * peak.abs();
+        keys::check_peak(self.text, samples, peak, allowed, unit)
+    }
+}

@@ -1,0 +1,172 @@
+//! What a header line or a comment says of two columns.
+
+use crate::text::{Text, excerpt};
+use crate::{Fault, RecordError};
+use rocking::units::AccelerationUnit;
+
+/// Units of two columns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Units {
+    /// Units of the time column in one second.
+    pub(super) per_second: f64,
+    /// Unit of acceleration, where it is stated.
+    pub(crate) acceleration: Option<AccelerationUnit>,
+}
+
+impl Units {
+    const UNSTATED: Self = Self { per_second: 1.0, acceleration: None };
+
+    /// These units, or where another states them, the other's.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            per_second: self.per_second.max(other.per_second),
+            acceleration: other.acceleration.or(self.acceleration),
+        }
+    }
+}
+
+/// Units in brackets on lines that begin with `#`.
+///
+/// # Errors
+/// [`Fault::Unit`] for a unit of acceleration that is not known.
+pub(crate) fn comments(text: &Text<'_>) -> Result<Units, RecordError> {
+    let mut units = Units::UNSTATED;
+    let comments = text
+        .lines()
+        .enumerate()
+        .take_while(|(i, line)| line.starts_with('#') || *i == 0);
+    for (index, line) in comments {
+        let Some(line) = line.strip_prefix('#') else { continue };
+        let lower = line.to_ascii_lowercase();
+        let named = ["acc", "a(", "a [", "a (", "unit"];
+        if !named.iter().any(|name| lower.contains(name)) {
+            continue;
+        }
+        for name in bracketed(line) {
+            if let Some(unit) = AccelerationUnit::parse(name) {
+                units.acceleration = Some(unit);
+            } else if let Some(per_second) = per_second(name) {
+                units.per_second = per_second;
+            } else if is_unit(name) {
+                let fault = Fault::Unit(excerpt(name));
+                return Err(text.on_line(index, fault));
+            }
+        }
+    }
+    Ok(units)
+}
+
+/// Whether a text in brackets is meant as a unit of acceleration.
+fn is_unit(name: &str) -> bool {
+    name.contains("/s") || name.contains("s-2") || name.contains("s^-2")
+}
+
+/// Units of this name in one second.
+fn per_second(name: &str) -> Option<f64> {
+    let name = name.trim().to_ascii_lowercase();
+    match name.as_str() {
+        "s" | "sec" | "secs" | "second" | "seconds" => Some(1.0),
+        "ms" | "msec" | "millisecond" | "milliseconds" => Some(1000.0),
+        _ => None,
+    }
+}
+
+/// Names of a column of times, before its unit.
+const TIMES: [&str; 7] =
+    ["t", "time", "times", "sec", "secs", "second", "seconds"];
+
+/// Parts of names of columns that are no acceleration history.
+const OTHERS: [&str; 6] = ["vel", "disp", "spect", "psa", "psv", "fourier"];
+
+/// Units of the columns that a header line names.
+///
+/// # Errors
+/// [`Fault::Quantity`] for a first column that is no time, or a second one
+/// that is no acceleration; [`Fault::Unit`] and [`Fault::Interval`] for a
+/// unit that is not known.
+pub(super) fn header(
+    text: &Text<'_>,
+    index: usize,
+    cells: &[&str],
+) -> Result<Units, RecordError> {
+    let line = text.line(index).unwrap_or("");
+    let (time, value) = columns(line, cells);
+    let time = Name::of(&time);
+    let value = Name::of(&value);
+    if !TIMES.contains(&time.name.as_str()) {
+        let expected = "a first column of times, named t or time";
+        return Err(text.header(index, expected));
+    }
+    let spectrum = ["sa", "sv", "sd"].contains(&value.name.as_str());
+    if spectrum || OTHERS.iter().any(|other| value.name.contains(other)) {
+        return Err(text.quantity(index));
+    }
+    let in_seconds = |unit: &String| {
+        let refuse = || text.on_line(index, Fault::Interval(excerpt(unit)));
+        per_second(unit).ok_or_else(refuse)
+    };
+    let per_second = time.unit.as_ref().map_or(Ok(1.0), in_seconds)?;
+    let unit = value.unit.as_ref().map(|unit| text.unit(index, unit));
+    let acceleration = unit.transpose()?;
+    Ok(Units { per_second, acceleration })
+}
+
+/// The two names of a header line with these cells. Where blanks separate
+/// them, a unit in brackets belongs to the word before.
+fn columns(line: &str, cells: &[&str]) -> (String, String) {
+    if let [time, value] = cells {
+        let bare = |cell: &str| cell.replace('\'', "");
+        return (bare(time), bare(value));
+    }
+    let clean = line.replace(['"', '\''], "");
+    let mut words = clean.split_whitespace().peekable();
+    let mut time = words.next().unwrap_or("").to_owned();
+    if words.peek().is_some_and(|word| word.starts_with(['(', '['])) {
+        time.push_str(words.next().unwrap_or(""));
+    }
+    (time, words.collect::<Vec<_>>().join(" "))
+}
+
+/// A column's name in small letters, and its unit.
+struct Name {
+    name: String,
+    unit: Option<String>,
+}
+
+impl Name {
+    fn of(column: &str) -> Self {
+        let column = column.trim();
+        let lower = column.to_ascii_lowercase();
+        if let Some(unit) = bracketed(column).next() {
+            let end = column.find(['(', '[']).unwrap_or(column.len());
+            let name = lower[..end].trim().to_owned();
+            return Self { name, unit: Some(unit.to_owned()) };
+        }
+        let suffixes = [
+            ("_cm_s2", "cm/s2"),
+            ("_m_s2", "m/s2"),
+            ("_gal", "gal"),
+            ("_g", "g"),
+            ("_ms", "ms"),
+            ("_sec", "s"),
+            ("_s", "s"),
+        ];
+        let found = suffixes.iter().find_map(|(suffix, unit)| {
+            Some((lower.strip_suffix(suffix)?, *unit))
+        });
+        match found {
+            Some((name, unit)) => {
+                Self { name: name.to_owned(), unit: Some(unit.to_owned()) }
+            }
+            None => Self { name: lower, unit: None },
+        }
+    }
+}
+
+/// Texts in round or square brackets.
+pub(crate) fn bracketed(text: &str) -> impl Iterator<Item = &str> {
+    text.split(['(', '[']).skip(1).filter_map(|part| {
+        let end = part.find([')', ']'])?;
+        Some(part[..end].trim())
+    })
+}

@@ -1,0 +1,186 @@
+//! Where a sensor points: by what a format's header says of it, or else by
+//! the end of the file's name.
+//!
+//! Each reader says what its format's words mean. A bare number is an azimuth
+//! in AT2, COSMOS, CSMIP and SMC, a code in KiK-net, and the number of a
+//! channel or of a file elsewhere.
+
+use super::text;
+
+/// Where a sensor points.
+///
+/// ```
+/// use rocking_records::{Direction, ReadOptions};
+/// use rocking::units::AccelerationUnit;
+/// let options = ReadOptions {
+///     dt_s: Some(0.01),
+///     unit: Some(AccelerationUnit::Gravity),
+///     ..ReadOptions::default()
+/// };
+/// let direction = |file: &str| {
+///     rocking_records::read(file, b"0.0\n0.1\n-0.3\n", &options)
+///         .map(|record| record.direction)
+/// };
+/// assert_eq!(direction("hall-NS.txt")?, Direction::Horizontal);
+/// assert_eq!(direction("hall-UD.txt")?, Direction::Vertical);
+/// assert_eq!(direction("hall.txt")?, Direction::Unknown);
+/// # Ok::<(), rocking_records::RecordError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// A horizontal component.
+    Horizontal,
+    /// A vertical component.
+    Vertical,
+    /// Neither the header nor the file's name states it.
+    #[default]
+    Unknown,
+}
+
+/// Words for a horizontal component, hyphens left out.
+const HORIZONTAL: [&str; 23] = [
+    "LN", "TR", "NS", "SN", "EW", "WE", "H1", "H2", "HN", "HE", "N", "S", "E",
+    "W", "L", "T", "FN", "FP", "NORTH", "EAST", "RADIAL", "LONG", "TRAN",
+];
+
+/// Words for a vertical component, hyphens left out.
+const VERTICAL: [&str; 10] =
+    ["UP", "DWN", "DN", "DOWN", "UD", "V", "VER", "VERT", "Z", "U"];
+
+const SEPARATORS: [char; 3] = ['-', '_', '.'];
+
+impl Direction {
+    /// This direction, or where it is unknown, the other.
+    pub(super) fn or(self, other: impl FnOnce() -> Self) -> Self {
+        if self == Self::Unknown { other() } else { self }
+    }
+
+    /// The direction that one word names. A number names none.
+    pub(super) fn of_word(word: &str) -> Self {
+        let plain = word.replace('-', "");
+        let is = |name: &&str| plain.eq_ignore_ascii_case(name);
+        if VERTICAL.iter().any(is) {
+            return Self::Vertical;
+        }
+        if is_code(word) {
+            return match word.ends_with('Z') {
+                true => Self::Vertical,
+                false => Self::Horizontal,
+            };
+        }
+        match HORIZONTAL.iter().any(is) || is_bearing(word) {
+            true => Self::Horizontal,
+            false => Self::Unknown,
+        }
+    }
+
+    /// The direction by the last word of a header's text that names one, in a
+    /// format whose numbers are no azimuths.
+    pub(super) fn of_words(words: &str) -> Self {
+        Self::of_last(words, Self::of_word)
+    }
+
+    /// As [`Direction::of_words`], in a format whose numbers from 0 to 360
+    /// are azimuths (degrees).
+    pub(super) fn of_azimuth(words: &str) -> Self {
+        Self::of_last(words, |word| {
+            let number = word.trim_end_matches("deg");
+            match is_azimuth(number) {
+                true => Self::Horizontal,
+                false => Self::of_word(word),
+            }
+        })
+    }
+
+    fn of_last(words: &str, direction: impl Fn(&str) -> Self) -> Self {
+        if text::contains(words, "vert") {
+            return Self::Vertical;
+        }
+        let words = words.split([' ', ',', ':']).rev();
+        let mut known = words.map(direction).filter(|d| *d != Self::Unknown);
+        known.next().unwrap_or(Self::Unknown)
+    }
+
+    /// The direction by the name of a file without its ending. PEER names
+    /// AT2 files by azimuth (`azimuths`): the numbers of others are running
+    /// ones.
+    pub(super) fn of_name(name: &str, azimuths: bool) -> Self {
+        let end = name.rsplit(SEPARATORS).next().unwrap_or("");
+        let whole = end.len() == name.len();
+        let by_end = || match end.trim_end_matches(['1', '2']) {
+            // KiK-net's two sensors.
+            axis @ ("NS" | "EW" | "UD") => Self::of_word(axis),
+            _ => Self::of_word(end),
+        };
+        let known = if whole { Self::Unknown } else { by_end() };
+        known
+            .or(|| {
+                let mut parts = name.split('.');
+                let code = parts.find(|part| is_code(part));
+                code.map_or(Self::Unknown, Self::of_word)
+            })
+            .or(|| match glued(name) {
+                Some((_, end)) if !is_azimuth(end) => Self::of_word(end),
+                Some(_) if azimuths => Self::Horizontal,
+                _ => Self::Unknown,
+            })
+            .or(|| match azimuths && !whole && is_azimuth(end) {
+                true => Self::Horizontal,
+                false => Self::Unknown,
+            })
+    }
+}
+
+/// A code of band, instrument and component, as FDSN networks write it.
+pub(super) fn is_code(part: &str) -> bool {
+    matches!(
+        part.as_bytes(),
+        [
+            b'B' | b'C' | b'E' | b'H' | b'S',
+            b'G' | b'H' | b'L' | b'N',
+            b'E' | b'N' | b'Z' | b'1' | b'2' | b'3'
+        ]
+    )
+}
+
+/// A quadrant bearing such as `N08W`.
+fn is_bearing(word: &str) -> bool {
+    let bytes = word.as_bytes();
+    let (Some((first, rest)), true) =
+        (bytes.split_first(), (3..=4).contains(&bytes.len()))
+    else {
+        return false;
+    };
+    let (degrees, last) = rest.split_at(rest.len() - 1);
+    b"NS".contains(first)
+        && b"EW".contains(&last[0])
+        && degrees.iter().all(u8::is_ascii_digit)
+}
+
+/// One to three digits from 0 to 360.
+pub(super) fn is_azimuth(word: &str) -> bool {
+    (1..=3).contains(&word.len())
+        && word.bytes().all(|b| b.is_ascii_digit())
+        && word.parse::<u16>().is_ok_and(|degrees| degrees <= 360)
+}
+
+/// A name without and its orientation, where no separator stands before it:
+/// three digits, or two letters after a digit.
+pub(super) fn glued(name: &str) -> Option<(&str, &str)> {
+    let split = |n: usize| {
+        let at = name.len().checked_sub(n)?;
+        Some((name.get(..at)?, name.get(at..)?))
+    };
+    let (key, end) = split(3)?;
+    if is_azimuth(end) {
+        return Some((key, end));
+    }
+    let (key, end) = split(2)?;
+    let known = end.bytes().all(|b| b.is_ascii_alphabetic())
+        && Direction::of_word(end) != Direction::Unknown;
+    let after_digit = key.ends_with(|c: char| c.is_ascii_digit());
+    (known && after_digit).then_some((key, end))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,264 @@
+//! Why a file was refused: which file, where in it, what was found, what
+//! was expected.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use super::AccelerogramError;
+use super::codes::coded;
+use super::sampling::Uneven;
+use rocking::accelerogram::{Escaped, NameError};
+use rocking::units::AccelerationUnit;
+
+/// A record that was refused.
+///
+/// ```
+/// use rocking_records::ReadOptions;
+/// let cut = b"PEER NGA STRONG MOTION DATABASE RECORD\n\
+///     Nowhere, 1/1/2000, Station, 0\n\
+///     ACCELERATION TIME SERIES IN UNITS OF G\n\
+///     NPTS=      4, DT=   .0100 SEC\n\
+///     \x20  .1000000E-02   .2000000E-02  -.3000000E-02\n";
+/// let error = rocking_records::read("cut.AT2", cut, &ReadOptions::default());
+/// assert_eq!(
+///     error.unwrap_err().to_string(),
+///     "cut.AT2:5: 3 samples: expected 4, the number that the file states"
+/// );
+/// ```
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{file}{place}: {fault}", file = Escaped(file), place = Place(*line, *column))]
+pub struct RecordError {
+    pub(super) file: String,
+    pub(super) line: Option<usize>,
+    pub(super) column: Option<usize>,
+    pub(super) fault: Fault,
+}
+
+impl RecordError {
+    /// The error of a file whose bytes could not be had.
+    #[must_use]
+    pub fn unreadable(file: &str, reason: String) -> Self {
+        Fault::Unreadable(reason).whole(file)
+    }
+
+    /// The error of a file of an archive whose name leads out of it.
+    #[must_use]
+    pub fn outside(file: &str) -> Self {
+        Fault::Outside.whole(file)
+    }
+
+    /// Name of the file, as it was given.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Line of the fault, counted from 1.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        self.line
+    }
+
+    /// Character of the line, counted from 1.
+    #[must_use]
+    pub fn column(&self) -> Option<usize> {
+        self.column
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn fault(&self) -> &Fault {
+        &self.fault
+    }
+}
+
+struct Place(Option<usize>, Option<usize>);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(line) = self.0 else { return Ok(()) };
+        write!(f, ":{line}")?;
+        self.1.map_or(Ok(()), |column| write!(f, ":{column}"))
+    }
+}
+
+coded! {
+    /// What is wrong with a record.
+    #[derive(Clone, Debug, PartialEq, Error)]
+    #[non_exhaustive]
+    pub enum Fault {
+        /// The file could not be read.
+        #[error("cannot be read: {0}")]
+        Unreadable(String) = "unreadable",
+        /// There is nothing in it.
+        #[error("empty file: expected a record")]
+        Empty = "empty",
+        /// A byte that no text has.
+        #[error("byte {byte:#04x} at offset {offset}: expected text")]
+        NotText {
+            /// The byte.
+            byte: u8,
+            /// Where it is, from 0.
+            offset: usize,
+        } = "not-text",
+        /// A text in UTF-16 that cannot be read.
+        #[error("text in UTF-16 with {0}: expected UTF-8")]
+        Utf16(&'static str) = "utf-16",
+        /// No reader knows the content.
+        #[error(
+            "begins with {found:?}: expected a record in one of the formats {expected}"
+        )]
+        UnknownFormat {
+            /// Beginning of the first line that is not blank.
+            found: String,
+            /// Formats that can be read.
+            expected: &'static str,
+        } = "unknown-format",
+        /// A header that says something else than it should.
+        #[error("{found:?}: expected {expected}")]
+        Header {
+            /// What stands there.
+            found: String,
+            /// What should.
+            expected: &'static str,
+        } = "header",
+        /// The file ends before something it must have.
+        #[error("the file ends: expected {0}")]
+        Ends(&'static str) = "ends",
+        /// Velocity, displacement or a spectrum.
+        #[error("{0:?}: expected an acceleration history")]
+        Quantity(String) = "quantity",
+        /// A vertical component where horizontal ones are wanted.
+        #[error("{0:?} is a vertical component: expected a horizontal one")]
+        Vertical(String) = "vertical",
+        /// A name, of the file or in it, that results cannot carry.
+        #[error(transparent)]
+        Name(#[from] NameError) = "name",
+        /// A folder in a folder of records.
+        #[error("a folder in the folder of records: expected a file")]
+        Folder = "folder",
+        /// A link in a folder of records.
+        #[error("a link to nothing: expected a file")]
+        DeadLink = "dead-link",
+        /// Something in a folder of records that may never end.
+        #[error("a device, a pipe or a socket: expected a file")]
+        Device = "device",
+        /// One of two files of an archive.
+        #[error(
+            "its name comes again in the archive: expected each name once, and the last is read"
+        )]
+        Doubled = "doubled",
+        /// A file of an archive whose name leads out of it.
+        #[error(
+            "its name in the archive has a part `..`: expected a place inside"
+        )]
+        Outside = "outside",
+        /// A file beside an index that lists the suite.
+        #[error(
+            "not in the index of the folder: expected a row for each record of the suite"
+        )]
+        Unlisted = "unlisted",
+        /// A sensor in a borehole where one at the surface is wanted.
+        #[error(
+            "{0:?} is from a sensor in a borehole: expected one at the surface"
+        )]
+        Borehole(String) = "borehole",
+        /// A unit of acceleration that is not known.
+        #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
+        Unit(String) = "unit",
+        /// Neither the file nor the caller states a unit.
+        #[error(
+            "no unit in the file: expected it to be given, as --units g|m/s2|cm/s2 or in a column `units` of an index"
+        )]
+        UnitMissing = "unit-missing",
+        /// The caller's unit and the file's differ.
+        #[error(
+            "unit {given} was given: expected {stated}, which the file states"
+        )]
+        UnitConflict {
+            /// Unit in the file.
+            stated: AccelerationUnit,
+            /// Unit of the caller.
+            given: AccelerationUnit,
+        } = "unit-conflict",
+        /// Gravity must be positive and finite.
+        #[error("gravity {0} m/s2: expected a positive number")]
+        Gravity(f64) = "gravity",
+        /// Neither the file nor the caller states a sampling interval.
+        #[error(
+            "no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
+        )]
+        IntervalMissing = "interval-missing",
+        /// A sampling interval that is not positive and finite.
+        #[error("sampling interval {0:?}: expected a positive number of seconds")]
+        Interval(String) = "interval",
+        /// A sampling interval (s) that no record has.
+        #[error(
+            "sampling interval {0:?} s: expected 1e-6 to 10 s; what is longer or shorter is no interval or not in s"
+        )]
+        IntervalRange(f64) = "interval-range",
+        /// The caller's sampling interval and the file's differ.
+        #[error(
+            "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
+        )]
+        IntervalConflict {
+            /// Interval in the file in s.
+            stated_s: f64,
+            /// Interval of the caller in s.
+            given_s: f64,
+        } = "interval-conflict",
+        /// The number of samples is not the one that the file states.
+        #[error(
+            "{found} samples: expected {expected}, the number that the file states"
+        )]
+        Count {
+            /// Samples in the file.
+            found: usize,
+            /// Samples that the header promises.
+            expected: usize,
+        } = "count",
+        /// Count and interval contradict the duration in the header.
+        #[error(
+            "samples for {found_s} s: expected {expected_s} s, which the file states"
+        )]
+        Duration {
+            /// Number of samples times the interval, in s.
+            found_s: f64,
+            /// Duration in the header in s.
+            expected_s: f64,
+        } = "duration",
+        /// Something that is not the number expected there.
+        #[error("{found:?}: expected {expected}")]
+        Number {
+            /// What stands there.
+            found: String,
+            /// What should.
+            expected: String,
+        } = "number",
+        /// NaN, an infinity, or a number beyond the range of a double.
+        #[error("{0:?}: expected a finite number")]
+        NotFinite(String) = "not-finite",
+        /// Times that do not advance by one step.
+        #[error(transparent)]
+        Step(#[from] Uneven) = "step",
+        /// The samples contradict the peak in the header.
+        #[error(
+            "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"
+        )]
+        Peak {
+            /// Largest absolute sample.
+            found: f64,
+            /// Peak in the header.
+            expected: f64,
+            /// Unit of both.
+            unit: AccelerationUnit,
+        } = "peak",
+        /// The file holds several components where one was asked for.
+        #[error("{0} acceleration channels: expected one")]
+        SeveralChannels(usize) = "several-channels",
+        /// The samples make no accelerogram.
+        #[error(transparent)]
+        Samples(#[from] AccelerogramError) = "samples",
+    }
+}

@@ -1,0 +1,57 @@
+//! ESM and ITACA (the DYNA header, which AFAD uses today): lines
+//! `KEY: value`, then one sample a line.
+
+use super::fields::{Forms, one_number};
+use super::text::{self, Text};
+use super::{Channel, Direction, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+/// Whether the header has the format's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, "SAMPLING_INTERVAL_S").is_some()
+        && keys::find(text, "NDATA").is_some()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let dt = keys::positive(text, "SAMPLING_INTERVAL_S", "")?;
+    let count = keys::count(text, "NDATA")?;
+    let (index, quantity) = keys::value(text, "DATA_TYPE")?;
+    if !text::contains(quantity, "ACCELERATION")
+        || text::contains(quantity, "SPECTR")
+    {
+        return Err(text.quantity(index));
+    }
+    let (index, named) = keys::value(text, "UNITS")?;
+    let unit = text.unit(index, named)?;
+    let is_key = |line: &str| {
+        let key = line.split(':').next().unwrap_or("");
+        line.contains(':')
+            && key.starts_with(|c: char| c.is_ascii_uppercase())
+            && !key.contains(' ')
+    };
+    let header = text.lines().take_while(|l| is_key(l)).count();
+    let mut samples = Vec::with_capacity(text.len() - header);
+    let mut forms = Forms::default();
+    for (index, line) in text.lines().enumerate().skip(header) {
+        let (sample, form) = one_number(text, index, line)?;
+        forms.push(sample, form);
+        samples.push(sample);
+    }
+    let remarks = forms.check_ended(text)?;
+    text.check_count(samples.len(), count)?;
+    let peak = "PGA_CM/S^2";
+    let gal = unit == AccelerationUnit::CentimetrePerSecondSquared;
+    if gal && keys::find(text, peak).is_some_and(|(_, v)| !v.is_empty()) {
+        let (_, expected) = keys::number(text, peak, "")?;
+        // Files differ in the digits of header and samples.
+        let allowed = 1e-4 * expected.abs() + 1e-5;
+        let peaks = samples.iter().copied();
+        keys::check_peak(text, peaks, expected, allowed, unit)?;
+    }
+    let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
+    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
+    let (dt, unit) = (Some(dt), Some(unit));
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, direction, remarks, ..rest })
+}

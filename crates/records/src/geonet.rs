@@ -1,0 +1,245 @@
+//! GeoNet (New Zealand), V1A and V2A: three components, each with 16 lines of
+//! text, 40 integers (10I8), 60 reals (10F8) and samples in 10F8; V2A has
+//! velocity and displacement after the acceleration.
+//!
+//! ```text
+//! Uncorrected accelerogram 20160214_001343_NBLC_20 GNS Science
+//! Number of points  26385    Duration 131.92 s
+//! Raw readings in units of 1.00 mm/s/s  at intervals of 0.005 s
+//! Component S14E
+//! Acceleration:  Peak  -2080.5 mm/s/s at  23.28 s     RMS   145.6 mm/s/s
+//! ```
+//!
+//! Text and numbers of the header both state count, interval and duration;
+//! they must agree, and the peak must be that of the samples. Numbers have as
+//! many decimals as their field has room for.
+
+use super::fields::{self, Layout};
+use super::number::{self, Reading};
+use super::text::{self, Text};
+use super::{Channel, Direction, Fault, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+const TEXT_LINES: usize = 16;
+const INTEGER_LINES: usize = 4;
+const REAL_LINES: usize = 6;
+const LAYOUT: Layout = Layout::even(10, 8);
+const COMPONENTS: usize = 3;
+
+/// Places in the text, from 0.
+const POINTS: usize = 9;
+const INTERVAL: usize = 10;
+const COMPONENT: usize = 12;
+const PEAK: usize = 13;
+
+/// Places among the integers, from 1, of the numbers of samples of
+/// acceleration, velocity and displacement, and of the interval (s) among the
+/// reals.
+const COUNTS: [usize; 3] = [34, 35, 36];
+const INTERVAL_S: usize = 26;
+
+/// mm/s2 in one cm/s2.
+const PER_GAL: f64 = 10.0;
+
+/// Whether the first line is that of the format.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    text.line(0).is_some_and(is_first)
+}
+
+fn is_first(line: &str) -> bool {
+    text::contains(line, "corrected accelerogram")
+        && text::contains(line, "GNS Science")
+}
+
+/// Reads the three components.
+pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+    let mut channels = Vec::with_capacity(COMPONENTS);
+    let mut first = 0;
+    for _ in 0..COMPONENTS {
+        let (channel, end) = component(text, first)?;
+        channels.push(channel);
+        first = end;
+    }
+    match text.line(first) {
+        None => Ok(channels),
+        Some(_) => Err(text.header(first, "three components")),
+    }
+}
+
+/// The header of the component that begins on the line of index `first`.
+struct Header<'t, 'a> {
+    text: &'t Text<'a>,
+    first: usize,
+}
+
+impl Header<'_, '_> {
+    /// The line of place `place` in the text.
+    fn line(&self, place: usize) -> &str {
+        self.text.line(self.first + place).unwrap_or("")
+    }
+
+    fn refuse(&self, place: usize, expected: &'static str) -> RecordError {
+        self.text.header(self.first + place, expected)
+    }
+
+    /// The number that follows `word` on a line, and what follows it.
+    fn after(&self, place: usize, word: &str) -> Option<(f64, &str)> {
+        let line = self.line(place);
+        let end = text::after_word(line, word)?;
+        let rest = line[end..].trim_start();
+        let number = rest.split_ascii_whitespace().next()?;
+        match number::read(number) {
+            Reading::Finite(value, _) => Some((value, &rest[number.len()..])),
+            _ => None,
+        }
+    }
+}
+
+/// The component that begins on the line of index `first`, and the index of
+/// the line after it.
+fn component(
+    text: &Text<'_>,
+    first: usize,
+) -> Result<(Channel, usize), RecordError> {
+    let integers = first + TEXT_LINES;
+    let reals = integers + INTEGER_LINES;
+    let samples = reals + REAL_LINES;
+    if text.len() <= samples {
+        return Err(text.at_end(Fault::Ends("three components")));
+    }
+    let header = Header { text, first };
+    if !is_first(header.line(0)) {
+        return Err(header.refuse(0, "the first line of a component"));
+    }
+    let integers = fields::read(text, integers, reals, Some(LAYOUT))?;
+    let reals = fields::read_varied(text, reals, samples, LAYOUT)?;
+    let counts = counts(&header, &integers)?;
+    let dt = interval(&header, &reals, counts[0])?;
+    let mut end = samples;
+    let mut blocks = Vec::with_capacity(counts.len());
+    for count in counts {
+        let start = end;
+        end = start.saturating_add(count.div_ceil(LAYOUT.per_line));
+        if end > text.len() {
+            let found = text.len().saturating_sub(start) * LAYOUT.per_line;
+            let fault = Fault::Count { found, expected: count };
+            return Err(text.at_end(fault));
+        }
+        let values = fields::read_varied(text, start, end, LAYOUT)?;
+        text.check_count_at(end.max(1) - 1, values.len(), count)?;
+        blocks.push(values);
+    }
+    let mut samples = blocks.swap_remove(0);
+    for sample in &mut samples {
+        *sample /= PER_GAL;
+    }
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    let peak = peak(&header)? / PER_GAL;
+    // Large samples have fewer decimals than the text.
+    let allowed = 1e-4 * peak.abs() + 0.06 / PER_GAL;
+    keys::check_peak(text, samples.iter().copied(), peak, allowed, unit)?;
+    let name = header.line(COMPONENT);
+    let name = name.strip_prefix("Component").unwrap_or("").trim();
+    let label = name.split("  ").next().unwrap_or("");
+    let channel = Channel {
+        dt: Some(dt),
+        unit: Some(unit),
+        samples,
+        label: (!label.is_empty()).then(|| label.to_owned()),
+        direction: direction(label),
+        ..Channel::default()
+    };
+    Ok((channel, end))
+}
+
+/// The direction by the component: `Up`, `Down`, or a bearing such as `N28W`,
+/// `E90N` or `N`.
+fn direction(component: &str) -> Direction {
+    let bearing = component.starts_with(['N', 'E', 'S', 'W']);
+    match Direction::of_words(component) {
+        Direction::Unknown if bearing => Direction::Horizontal,
+        direction => direction,
+    }
+}
+
+/// The numbers of samples of acceleration, velocity and displacement.
+fn counts(
+    header: &Header<'_, '_>,
+    integers: &[f64],
+) -> Result<[usize; 3], RecordError> {
+    let count = |place: usize| {
+        let found = integers.get(place - 1).copied().unwrap_or(-1.0);
+        let fine = (0.0..1e9).contains(&found);
+        let line = TEXT_LINES + (place - 1) / LAYOUT.per_line;
+        let expected = "numbers of samples (integers 34 to 36)";
+        fine.then_some(found as usize)
+            .ok_or_else(|| header.refuse(line, expected))
+    };
+    let [points, velocity, displacement] = COUNTS;
+    let counts = [count(points)?, count(velocity)?, count(displacement)?];
+    match header.after(POINTS, "points") {
+        Some((stated, _)) if stated == counts[0] as f64 && stated > 0.0 => {
+            Ok(counts)
+        }
+        _ => Err(header.refuse(POINTS, "the number of points of integer 34")),
+    }
+}
+
+/// The interval (s) of `count` samples.
+fn interval(
+    header: &Header<'_, '_>,
+    reals: &[f64],
+    count: usize,
+) -> Result<f64, RecordError> {
+    let stated = match header.after(INTERVAL, "intervals of") {
+        Some((dt_s, unit)) => Some((dt_s, unit)),
+        None => header.after(INTERVAL, "at"),
+    };
+    let dt_s = match stated {
+        Some((dt_s, unit))
+            if dt_s > 0.0 && unit.trim_start().starts_with('s') =>
+        {
+            dt_s
+        }
+        _ => return Err(header.refuse(INTERVAL, "an interval in s")),
+    };
+    let same = |x: &f64| (x - dt_s).abs() <= 1e-6 * dt_s;
+    if !reals.get(INTERVAL_S - 1).is_some_and(same) {
+        return Err(header.refuse(INTERVAL, "the interval of real 26"));
+    }
+    let duration_s = header.after(POINTS, "duration");
+    let Some((expected_s, _)) = duration_s else {
+        return Err(header.refuse(POINTS, "a duration in s"));
+    };
+    let found_s = count as f64 * dt_s;
+    // It counts samples or intervals, and is rounded.
+    if !((found_s - expected_s).abs() <= 2.0 * dt_s + 0.01) {
+        let fault = Fault::Duration { found_s, expected_s };
+        return Err(header.text.on_line(header.first + POINTS, fault));
+    }
+    Ok(dt_s)
+}
+
+/// The peak acceleration in mm/s2.
+fn peak(header: &Header<'_, '_>) -> Result<f64, RecordError> {
+    let raw = text::after_word(header.line(INTERVAL), "units");
+    let fits = match (raw, header.after(INTERVAL, "units of")) {
+        (None, _) => true,
+        (Some(_), Some((factor, unit))) => {
+            factor == 1.0 && unit.trim_start().starts_with("mm/s/s")
+        }
+        (Some(_), None) => false,
+    };
+    if !fits {
+        return Err(header.refuse(INTERVAL, "readings in 1.00 mm/s/s"));
+    }
+    match header.after(PEAK, "peak") {
+        Some((peak, unit))
+            if unit.trim_start().starts_with("mm/s/s")
+                && text::contains(header.line(PEAK), "acceleration") =>
+        {
+            Ok(peak)
+        }
+        _ => Err(header.refuse(PEAK, "a peak acceleration in mm/s/s")),
+    }
+}

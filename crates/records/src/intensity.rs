@@ -1,0 +1,274 @@
+//! Intensity measures of ground motions: peaks, integrals, durations, mean
+//! period and response spectrum, of a component and of a pair.
+//!
+//! A record is linear between its samples and zero outside, as everywhere in
+//! this crate, and the measures are those of that function: integrals are
+//! exact, the oscillators' answers too. Nothing is corrected: where the
+//! baseline drifts, PGV and PGD drift with it.
+//!
+//! For two components there are three ways to one number: either component,
+//! the geometric mean of both, and RotD50, the median over all directions.
+
+mod energy;
+mod fourier;
+mod measure;
+pub(crate) mod oscillator;
+mod rotation;
+mod settings;
+pub mod velocity_pulse;
+
+pub use measure::{AtUplift, Intensity, IntensityMeasure};
+pub(crate) use settings::LEAST_PERIOD_S;
+pub use settings::{DEFAULT_PERIODS_S, Settings};
+
+use thiserror::Error;
+
+use energy::Husid;
+use fourier::Spectrum;
+use oscillator::Oscillator;
+use rocking::accelerogram::Accelerogram;
+use rocking::stop;
+
+/// Why intensity measures are refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum IntensityError {
+    /// Gravity must be positive and finite.
+    #[error("gravity {0} m/s2: expected a positive number")]
+    Gravity(f64),
+    /// A period is finite and at least 0.001 s: an oscillator takes steps in
+    /// proportion to its period.
+    #[error("period {0} s: expected at least 0.001 s")]
+    Period(f64),
+    /// The damping ratio must be at least 0 and below 1.
+    #[error("damping ratio {0}: expected a number from 0 to below 1")]
+    Damping(f64),
+    /// Samples too far apart for the shortest pulse.
+    #[error("sampling interval {0} s: expected at most 0.17 s")]
+    Coarse(f64),
+    /// Nothing moves: durations and periods do not exist.
+    #[error("every sample is zero: expected a motion")]
+    Silent,
+    /// The components of a pair have different sampling intervals.
+    #[error(
+        "sampling intervals {first_s} s and {second_s} s: expected the same for both components"
+    )]
+    Intervals {
+        /// Of the first component.
+        first_s: f64,
+        /// Of the second component.
+        second_s: f64,
+    },
+}
+
+/// The measures of one component, or one number for each from a pair.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Measures {
+    /// Peak ground acceleration in multiples of gravity.
+    pub pga_g: f64,
+    /// Peak ground velocity: largest |v| at a sample, v(0) = 0.
+    pub pgv_m_s: f64,
+    /// Peak ground displacement: largest |d| at a sample, d(0) = v(0) = 0,
+    /// exact for the acceleration between samples.
+    pub pgd_m: f64,
+    /// Arias intensity, pi/(2 g) times the integral of a^2 (Arias 1970).
+    pub arias_intensity_m_s: f64,
+    /// Cumulative absolute velocity, the integral of |a| (EPRI 1988).
+    pub cav_m_s: f64,
+    /// Time from 5 to 75 % of the Arias intensity (Trifunac and Brady 1975).
+    pub significant_duration_5_75_s: f64,
+    /// Time from 5 to 95 % of the Arias intensity.
+    pub significant_duration_5_95_s: f64,
+    /// Mean period T_m = sum(C^2/f)/sum(C^2) over the Fourier amplitudes C at
+    /// 0.25 Hz <= f <= 20 Hz (Rathje, Abrahamson and Bray 1998), of the
+    /// samples followed by zeros to a power of two and at least 20 s, so that
+    /// frequencies are at most 0.05 Hz apart (Rathje, Faraj, Russell and Bray
+    /// 2004). `None` where no frequency lies in the band.
+    pub mean_period_s: Option<f64>,
+    /// Pseudo-spectral acceleration (2 pi/T)^2 max|x| in multiples of
+    /// gravity at the periods of the [`Settings`], in their order: the
+    /// oscillator answers exactly, its peak is sought between samples and
+    /// after the record's end.
+    pub spectral_acceleration_g: Vec<f64>,
+}
+
+/// The largest PGD (m) of processed records of earthquakes, permanent
+/// offsets aside, is 4 m or so.
+const LARGEST_PGD_M: f64 = 5.0;
+
+impl Measures {
+    /// Whether a drifting baseline makes the displacement: PGD above 5 m,
+    /// which no processed record of an earthquake has.
+    #[must_use]
+    pub fn drifts(&self) -> bool {
+        !(self.pgd_m <= LARGEST_PGD_M)
+    }
+
+    /// The measures of one component.
+    ///
+    /// # Errors
+    /// [`IntensityError::Silent`] where every sample is zero.
+    ///
+    /// ```
+    /// use rocking_records::intensity::{Measures, Settings};
+    /// use rocking::accelerogram::Accelerogram;
+    /// // 0.1 g for two seconds.
+    /// let record = Accelerogram::try_new("step", 0.5, vec![0.1; 5])?;
+    /// let m = Measures::of(&record, &Settings::default())?;
+    /// assert!((m.cav_m_s - 0.2 * 9.80665).abs() < 1e-12);
+    /// assert!((m.significant_duration_5_75_s - 1.4).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(
+        record: &Accelerogram,
+        settings: &Settings,
+    ) -> Result<Self, IntensityError> {
+        let (samples, dt_s) = (record.samples_g(), record.dt_s());
+        let direct = Direct::of(samples, dt_s);
+        let [d5_75, d5_95] =
+            direct.durations_s.ok_or(IntensityError::Silent)?;
+        let period = Spectrum::of(samples, dt_s).mean_period_s();
+        let oscillators = settings.oscillators(dt_s);
+        let spectrum = oscillators.iter().map(|o| o.peak(samples)).collect();
+        let g = settings.gravity_m_s2();
+        Ok(Self {
+            pga_g: direct.pga,
+            pgv_m_s: g * direct.pgv,
+            pgd_m: g * direct.pgd,
+            arias_intensity_m_s: g * direct.arias,
+            cav_m_s: g * direct.cav,
+            significant_duration_5_75_s: d5_75,
+            significant_duration_5_95_s: d5_95,
+            mean_period_s: period,
+            spectral_acceleration_g: spectrum,
+        })
+    }
+
+    /// The geometric mean of each measure of two components.
+    #[must_use]
+    pub fn geometric_mean(&self, other: &Self) -> Self {
+        let of = |a: f64, b: f64| (a * b).sqrt();
+        let spectrum = self.spectral_acceleration_g.iter();
+        let spectrum = spectrum.zip(&other.spectral_acceleration_g);
+        Self {
+            pga_g: of(self.pga_g, other.pga_g),
+            pgv_m_s: of(self.pgv_m_s, other.pgv_m_s),
+            pgd_m: of(self.pgd_m, other.pgd_m),
+            arias_intensity_m_s: of(
+                self.arias_intensity_m_s,
+                other.arias_intensity_m_s,
+            ),
+            cav_m_s: of(self.cav_m_s, other.cav_m_s),
+            significant_duration_5_75_s: of(
+                self.significant_duration_5_75_s,
+                other.significant_duration_5_75_s,
+            ),
+            significant_duration_5_95_s: of(
+                self.significant_duration_5_95_s,
+                other.significant_duration_5_95_s,
+            ),
+            mean_period_s: self
+                .mean_period_s
+                .zip(other.mean_period_s)
+                .map(|(a, b)| of(a, b)),
+            spectral_acceleration_g: spectrum
+                .map(|(a, b)| of(*a, *b))
+                .collect(),
+        }
+    }
+}
+
+/// The measures of two horizontal components at right angles.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PairMeasures {
+    /// Of each component as recorded.
+    pub components: [Measures; 2],
+    /// The geometric mean of both.
+    pub geometric_mean: Measures,
+    /// The median over directions 0, 1, ... 179 degrees of the measure of
+    /// the rotated motion (RotD50, Boore 2010); the mean of the 90th and the
+    /// 91st in order.
+    pub rotd50: Measures,
+}
+
+impl PairMeasures {
+    /// The measures of a pair; the shorter component is followed by zeros.
+    ///
+    /// # Errors
+    /// [`IntensityError`] for sampling intervals that differ, or a silent
+    /// component.
+    ///
+    /// ```
+    /// use rocking_records::intensity::{PairMeasures, Settings};
+    /// use rocking::accelerogram::Accelerogram;
+    /// let a = Accelerogram::try_new("a", 0.5, vec![0.0, 0.2, 0.0])?;
+    /// let pair = PairMeasures::of(&a, &a, &Settings::default())?;
+    /// // Both the same: 0.2 sqrt(2) |cos| about 45 degrees, median 0.2.
+    /// assert!((pair.rotd50.pga_g - 0.2).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(
+        first: &Accelerogram,
+        second: &Accelerogram,
+        settings: &Settings,
+    ) -> Result<Self, IntensityError> {
+        let (first_s, second_s) = (first.dt_s(), second.dt_s());
+        if first_s != second_s {
+            return Err(IntensityError::Intervals { first_s, second_s });
+        }
+        let components =
+            [Measures::of(first, settings)?, Measures::of(second, settings)?];
+        let geometric_mean = components[0].geometric_mean(&components[1]);
+        let rotd50 = rotation::rotd50(first, second, settings)?;
+        Ok(Self { components, geometric_mean, rotd50 })
+    }
+}
+
+/// What one pass over the samples gives, in g and s.
+struct Direct {
+    pga: f64,
+    pgv: f64,
+    pgd: f64,
+    arias: f64,
+    cav: f64,
+    /// 5 to 75 % and 5 to 95 %; none where nothing moves.
+    durations_s: Option<[f64; 2]>,
+}
+
+impl Direct {
+    fn of(samples: &[f64], dt_s: f64) -> Self {
+        stop::point();
+        let mut direct = Self {
+            pga: samples.iter().fold(0.0, |p: f64, a| p.max(a.abs())),
+            pgv: 0.0,
+            pgd: 0.0,
+            arias: 0.0,
+            cav: 0.0,
+            durations_s: None,
+        };
+        // Velocity in dt/2, displacement in dt^2/6: then PGV has the bits of
+        // the accelerogram's own.
+        let (mut velocity, mut displacement) = (0.0, 0.0);
+        for pair in samples.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            displacement += 3.0 * velocity + (2.0 * a + b);
+            velocity += a + b;
+            direct.pgv = direct.pgv.max(f64::abs(velocity));
+            direct.pgd = direct.pgd.max(f64::abs(displacement));
+            direct.cav += energy::absolute(a, b);
+        }
+        direct.pgv *= 0.5 * dt_s;
+        direct.pgd *= dt_s * dt_s / 6.0;
+        direct.cav *= dt_s;
+        let husid = Husid::of(samples, dt_s);
+        direct.arias = std::f64::consts::FRAC_PI_2 * husid.total();
+        direct.durations_s = husid.durations_s();
+        direct
+    }
+}
+
+#[cfg(test)]
+mod tests;

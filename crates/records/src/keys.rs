@@ -1,0 +1,82 @@
+//! Headers of lines `key value` or `key : value`.
+
+use super::number::{self, Reading};
+use super::text::Text;
+use super::{Fault, RecordError};
+
+/// Lines among which header keys are sought.
+const HEADER_LINES: usize = 80;
+
+/// Index of the header line that begins with `key`, and what follows the
+/// key and a colon.
+pub(super) fn find<'a>(
+    text: &Text<'a>,
+    key: &str,
+) -> Option<(usize, &'a str)> {
+    let lines = text.lines().take(HEADER_LINES);
+    lines.enumerate().find_map(|(index, line)| {
+        let rest = line.trim_start().strip_prefix(key)?;
+        let rest = rest.trim_start();
+        Some((index, rest.strip_prefix(':').unwrap_or(rest).trim()))
+    })
+}
+
+/// The value of `key`.
+pub(super) fn value<'a>(
+    text: &Text<'a>,
+    key: &'static str,
+) -> Result<(usize, &'a str), RecordError> {
+    find(text, key).ok_or_else(|| text.at_end(Fault::Ends(key)))
+}
+
+/// The finite number at `key`, before `suffix`.
+pub(super) fn number(
+    text: &Text<'_>,
+    key: &'static str,
+    suffix: &str,
+) -> Result<(usize, f64), RecordError> {
+    let (index, found) = value(text, key)?;
+    let digits = found.strip_suffix(suffix).unwrap_or(found).trim_end();
+    match number::read(digits) {
+        Reading::Finite(x, _) => Ok((index, x)),
+        _ => Err(text.header(index, "a number")),
+    }
+}
+
+/// The positive number at `key`, before `suffix`.
+pub(super) fn positive(
+    text: &Text<'_>,
+    key: &'static str,
+    suffix: &str,
+) -> Result<f64, RecordError> {
+    match number(text, key, suffix)? {
+        (_, x) if x > 0.0 => Ok(x),
+        (index, _) => Err(text.header(index, "a positive number")),
+    }
+}
+
+/// The count at `key`.
+pub(super) fn count(
+    text: &Text<'_>,
+    key: &'static str,
+) -> Result<usize, RecordError> {
+    let (index, found) = value(text, key)?;
+    let count = found.parse().ok().filter(|n: &usize| *n > 0);
+    count.ok_or_else(|| text.header(index, "a number of samples"))
+}
+
+/// The peak of `samples` against the one that the header states.
+pub(super) fn check_peak(
+    text: &Text<'_>,
+    samples: impl Iterator<Item = f64>,
+    expected: f64,
+    allowed: f64,
+    unit: rocking::units::AccelerationUnit,
+) -> Result<(), RecordError> {
+    let found = samples.fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    let expected = expected.abs();
+    if (found - expected).abs() <= allowed {
+        return Ok(());
+    }
+    Err(text.at_end(Fault::Peak { found, expected, unit }))
+}

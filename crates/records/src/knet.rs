@@ -1,0 +1,102 @@
+//! K-NET and KiK-net ASCII: 17 lines of header, then integer counts in
+//! I8,7I9 or free fields, to be multiplied by a scale factor in gal.
+//!
+//! The counts carry the instrument's offset; it is read as it is and shows
+//! in the quality control. The header's maximum is that of the record
+//! without its mean, and is checked.
+
+use super::number::{self, Reading};
+use super::text::Text;
+use super::{Channel, Direction, Fault, RecordError, fields, keys};
+use rocking::accelerogram::mean;
+use rocking::units::AccelerationUnit;
+
+/// The key of the maximum, in two spellings.
+const MAXIMUM: [&str; 2] = ["Max. Acc. (gal)", "Max Acc. (gal)"];
+
+/// Whether the header has the format's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, "Scale Factor").is_some()
+        && keys::find(text, "Sampling Freq(Hz)").is_some()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let frequency_hz = keys::positive(text, "Sampling Freq(Hz)", "Hz")?;
+    let duration_s = keys::positive(text, "Duration Time(s)", "")?;
+    let scale = scale(text)?;
+    let (memo, _) = keys::value(text, "Memo.")?;
+    let first = memo + 1;
+    let infer = |missing| fields::infer(text, first, text.len(), missing);
+    let layout = infer(1).or_else(|| infer(0));
+    let mut samples = fields::read(text, first, text.len(), layout)?;
+    let expected = frequency_hz * duration_s;
+    if !(expected <= 1e9 && expected.fract() == 0.0) {
+        let fault = Fault::Header {
+            found: format!("{frequency_hz} Hz for {duration_s} s"),
+            expected: "a whole number of samples",
+        };
+        return Err(text.on_line(memo, fault));
+    }
+    text.check_count(samples.len(), expected as usize)?;
+    for count in &mut samples {
+        *count *= scale;
+    }
+    check_maximum(text, &samples)?;
+    let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
+    let (dt, dir) = (Some(1.0 / frequency_hz), keys::find(text, "Dir."));
+    let Sensor { label, direction, borehole } =
+        sensor(dir.map_or("", |(_, dir)| dir));
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, direction, borehole, ..rest })
+}
+
+/// A sensor by the header's `Dir.`.
+struct Sensor {
+    label: Option<String>,
+    direction: Direction,
+    borehole: bool,
+}
+
+/// K-NET names the direction. KiK-net numbers its six channels: 1 to 3 are
+/// those of the sensor in the borehole, 4 to 6 those of the one at the
+/// surface, each in the order N-S, E-W, U-D.
+fn sensor(dir: &str) -> Sensor {
+    let (label, direction, borehole) = match dir {
+        "1" => ("N-S borehole", Direction::Horizontal, true),
+        "2" => ("E-W borehole", Direction::Horizontal, true),
+        "3" => ("U-D borehole", Direction::Vertical, true),
+        "4" => ("N-S surface", Direction::Horizontal, false),
+        "5" => ("E-W surface", Direction::Horizontal, false),
+        "6" => ("U-D surface", Direction::Vertical, false),
+        word => (word, Direction::of_words(word), false),
+    };
+    let label = (!label.is_empty()).then(|| label.to_owned());
+    Sensor { label, direction, borehole }
+}
+
+/// The header's maximum acceleration against the samples less their mean.
+fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
+    let key = MAXIMUM.iter().find(|key| keys::find(text, key).is_some());
+    let Some(key) = key else { return Ok(()) };
+    let expected = keys::positive(text, key, "")?;
+    let mean = mean(samples);
+    let moving = samples.iter().map(|a| a - mean);
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    // The mean may be that of a part, and the maximum is rounded.
+    let allowed = 0.01 * expected + 0.001;
+    keys::check_peak(text, moving, expected, allowed, unit)
+}
+
+/// Gal per count: `7845(gal)/8223790`.
+fn scale(text: &Text<'_>) -> Result<f64, RecordError> {
+    let (index, found) = keys::value(text, "Scale Factor")?;
+    let number = |part: &str| match number::read(part.trim()) {
+        Reading::Finite(x, _) if x > 0.0 => Some(x),
+        _ => None,
+    };
+    let parts = found.split_once("(gal)/");
+    let ratio = parts.and_then(|(a, b)| Some(number(a)? / number(b)?));
+    let expected = "a scale factor such as 3920(gal)/6182761";
+    ratio.ok_or_else(|| text.header(index, expected))
+}

@@ -1,0 +1,116 @@
+//! What is kept of a motion whose samples stay in their file.
+
+use std::borrow::Cow;
+
+use super::{COMPARED_SAMPLES, FEW_SAMPLES, NearPeak, Remark};
+use super::{mean_of, remarks};
+use rocking::accelerogram::Accelerogram;
+
+/// What is kept of a motion whose samples stay in their file: enough to pair
+/// it, to remark on it, and to find it again. It takes about 5 kB.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    pub(super) name: String,
+    pub(super) dt_s: f64,
+    pub(super) samples: usize,
+    pub(super) remarks: Vec<Remark>,
+    /// Samples about the peak, over the peak.
+    pub(super) about_peak: Vec<f32>,
+    /// How many of them come before the peak.
+    pub(super) before: usize,
+}
+
+impl Profile {
+    /// The profile of a record.
+    ///
+    /// ```
+    /// use rocking::accelerogram::Accelerogram;
+    /// use rocking_records::Profile;
+    /// let record = Accelerogram::try_new("a", 0.01, vec![0.0, 0.2, -0.1])?;
+    /// let profile = Profile::of(&record);
+    /// assert_eq!(profile.name(), "a");
+    /// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
+    /// ```
+    #[must_use]
+    pub fn of(record: &Accelerogram) -> Self {
+        let samples = record.samples_g();
+        let mut peak = 0;
+        for (index, sample) in samples.iter().enumerate() {
+            if sample.abs() > samples[peak].abs() {
+                peak = index;
+            }
+        }
+        let from = peak.saturating_sub(COMPARED_SAMPLES);
+        let to = samples.len().min(peak + COMPARED_SAMPLES + 1);
+        let pga_g = record.pga_g();
+        let unit = if pga_g > 0.0 { pga_g } else { 1.0 };
+        let about = samples[from..to].iter().map(|a| (a / unit) as f32);
+        Self {
+            name: record.name().to_owned(),
+            dt_s: record.dt_s(),
+            samples: samples.len(),
+            remarks: remarks(record),
+            about_peak: about.collect(),
+            before: peak - from,
+        }
+    }
+
+    /// Name of the record.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The samples near the peak less their mean, of length 1; none where
+    /// they are too few.
+    pub(super) fn near_peak(&self) -> Option<NearPeak> {
+        let from = self.before.checked_sub(FEW_SAMPLES)?;
+        let near = self.about_peak.get(from..self.before + FEW_SAMPLES)?;
+        let mean = mean_of(near);
+        let square = |sum: f64, a: &f32| {
+            let part = f64::from(*a) - mean;
+            sum + part * part
+        };
+        let length = near.iter().fold(0.0, square).sqrt();
+        let mut unit = [0.0; 2 * FEW_SAMPLES];
+        for (unit, a) in unit.iter_mut().zip(near) {
+            *unit = ((f64::from(*a) - mean) / length) as f32;
+        }
+        Some(unit)
+    }
+}
+
+/// What a suite keeps of the motion of a record: the accelerogram, or a
+/// [`Profile`] of one that stays in its file.
+pub trait Motion: sealed::Sealed {
+    /// Name of the record.
+    fn name(&self) -> &str;
+    /// Its profile.
+    fn profile(&self) -> Cow<'_, Profile>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Accelerogram {}
+    impl Sealed for super::Profile {}
+}
+
+impl Motion for Accelerogram {
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn profile(&self) -> Cow<'_, Profile> {
+        Cow::Owned(Profile::of(self))
+    }
+}
+
+impl Motion for Profile {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn profile(&self) -> Cow<'_, Profile> {
+        Cow::Borrowed(self)
+    }
+}

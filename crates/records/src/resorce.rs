@@ -1,0 +1,50 @@
+//! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
+
+use super::fields::{self, Layout};
+use super::text::{self, Text};
+use super::{Channel, Direction, Fault, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+const HEADER_LINES: usize = 40;
+const LAYOUT: Layout = Layout::even(5, 14);
+
+/// Whether the header has RESORCE's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, "Time Increment (s)").is_some()
+        && keys::find(text, "Number of Data").is_some()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let dt = keys::positive(text, "Time Increment (s)", "")?;
+    let count = keys::count(text, "Number of Data")?;
+    let title = text
+        .lines()
+        .take(HEADER_LINES)
+        .position(|line| text::contains(line, "time series in"))
+        .ok_or_else(|| {
+            text.at_end(Fault::Ends("a line `Acceleration time series in`"))
+        })?;
+    let line = text.line(title).unwrap_or("");
+    // The database writes "Accelaration".
+    if !text::contains(line, "accel") {
+        return Err(text.quantity(title));
+    }
+    let named = line.split_ascii_whitespace().next_back().unwrap_or("");
+    let unit = text.unit(title, named)?;
+    let end = text.len();
+    let samples = fields::read(text, title + 1, end, Some(LAYOUT))?;
+    text.check_count(samples.len(), count)?;
+    let peak = "PGA (m/s/s)";
+    let si = unit == AccelerationUnit::MetrePerSecondSquared;
+    if si && keys::find(text, peak).is_some() {
+        let expected = keys::positive(text, peak, "")?;
+        // The header has the samples' digits.
+        let peaks = samples.iter().copied();
+        keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
+    }
+    let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
+    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
+    let (dt, unit) = (Some(dt), Some(unit));
+    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
+}

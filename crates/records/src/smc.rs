@@ -1,0 +1,138 @@
+//! USGS SMC: 11 lines of text, 48 integers (8I10), 50 reals (5E15.7),
+//! comments, then samples in 8E10.4, in cm/s2.
+//!
+//! The text names event, station and component; the reals 30 and 32 are the
+//! largest and the least sample, and are checked.
+
+use super::fields::{self, Layout};
+use super::text::Text;
+use super::{Channel, Direction, Fault, RecordError, keys};
+use rocking::units::AccelerationUnit;
+
+const TEXT_LINES: usize = 11;
+const INTEGERS: Layout = Layout::even(8, 10);
+const INTEGER_LINES: usize = 6;
+const REALS: Layout = Layout::even(5, 15);
+const REAL_LINES: usize = 10;
+const SAMPLES: Layout = Layout::even(8, 10);
+
+/// What real values stay below: the null value is 1.7e38.
+const NULL: f64 = 1e38;
+
+const KINDS: [&str; 6] = [
+    "1 UNCORRECTED ACCELEROGRAM",
+    "2 CORRECTED ACCELEROGRAM",
+    "3 VELOCITY",
+    "4 DISPLACEMENT",
+    "5 RESPONSE SPECTRA",
+    "6 FOURIER AMPLITUDE SPECTRA",
+];
+
+/// Whether the first line names one of the format's kinds.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    let line = first_line(text).trim_start().to_ascii_uppercase();
+    KINDS.iter().any(|kind| line.starts_with(kind))
+}
+
+fn first_line<'a>(text: &Text<'a>) -> &'a str {
+    text.line(0).unwrap_or("")
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let kind = first_line(text).trim_start().to_ascii_uppercase();
+    if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
+        return Err(text.quantity(0));
+    }
+    let reals = TEXT_LINES + INTEGER_LINES;
+    let comments = reals + REAL_LINES;
+    if text.len() <= comments {
+        return Err(text.at_end(Fault::Ends("27 header lines and samples")));
+    }
+    let integers = fields::read(text, TEXT_LINES, reals, Some(INTEGERS))?;
+    let count = |place: usize| {
+        let value = integers[place - 1];
+        // The null value is -32768.
+        let fine = (0.0..1e9).contains(&value) && value.fract() == 0.0;
+        fine.then_some(value as usize).ok_or_else(|| {
+            let index = TEXT_LINES + (place - 1) / INTEGERS.per_line;
+            let found = format!("integer {place} is {value}");
+            let expected = "a number of comments (16) or samples (17)";
+            text.on_line(index, Fault::Header { found, expected })
+        })
+    };
+    if integers.len() != INTEGER_LINES * INTEGERS.per_line {
+        let fault = Fault::Ends("48 integers");
+        return Err(text.on_line(reals - 1, fault));
+    }
+    let first = comments.saturating_add(count(16)?);
+    let expected = count(17)?;
+    let reals = fields::read(text, reals, comments, Some(REALS))?;
+    let dt = interval(text, &reals)?;
+    if first >= text.len() {
+        return Err(text.at_end(Fault::Count { found: 0, expected }));
+    }
+    let samples = fields::read(text, first, text.len(), Some(SAMPLES))?;
+    text.check_count(samples.len(), expected)?;
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    check_peak(text, &samples, &reals, unit)?;
+    let (label, site) = component(text);
+    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
+    let (dt, unit) = (Some(dt), Some(unit));
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, site, direction, ..rest })
+}
+
+/// The peak against the largest and the least sample in the header.
+fn check_peak(
+    text: &Text<'_>,
+    samples: &[f64],
+    reals: &[f64],
+    unit: AccelerationUnit,
+) -> Result<(), RecordError> {
+    let known = |place: usize| {
+        reals.get(place - 1).copied().filter(|x| x.abs() < NULL)
+    };
+    let (Some(largest), Some(least)) = (known(30), known(32)) else {
+        return Ok(());
+    };
+    let expected = largest.abs().max(least.abs());
+    // Samples have four digits.
+    let samples = samples.iter().copied();
+    keys::check_peak(text, samples, expected, 1e-3 * expected, unit)
+}
+
+/// The component, and event with station, by the lines `1989 10 18 ...` and
+/// `station = San Francisco component= up`.
+fn component(text: &Text<'_>) -> (Option<String>, Option<String>) {
+    let head = || text.lines().take(TEXT_LINES);
+    let Some((station, name)) = head().find_map(|line| {
+        let (station, name) = line.split_once("component=")?;
+        let station = station.trim_start().strip_prefix("station =")?;
+        Some((station.trim(), name.trim()))
+    }) else {
+        return (None, None);
+    };
+    let event = head().nth(3).unwrap_or("");
+    let words = |text: &str| {
+        text.split_ascii_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let site = format!("{} {}", words(event), words(station));
+    ((!name.is_empty()).then(|| name.to_owned()), Some(site))
+}
+
+/// The interval from the second real value, samples per second.
+fn interval(text: &Text<'_>, reals: &[f64]) -> Result<f64, RecordError> {
+    match reals.get(1) {
+        // The null value is 1.7e38.
+        Some(&rate) if rate > 0.0 && rate < 1e6 => Ok(1.0 / rate),
+        found => {
+            let index = TEXT_LINES + INTEGER_LINES;
+            let found =
+                found.map_or_else(String::new, |rate| format!("{rate:e}"));
+            let expected = "a positive number of samples per second";
+            let fault = Fault::Header { found, expected };
+            Err(text.at(index, REALS.width, fault))
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! What a folder or an archive holds beside the records of its suite.
+
+use std::fmt;
+
+use crate::codes::coded;
+use crate::{Fault, RecordError};
+use rocking::accelerogram::Escaped;
+
+coded! {
+    /// Why something in a folder or an archive is no record of the suite, and no
+    /// fault of the suite either.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum AsideReason {
+        /// A vertical component.
+        Vertical = "vertical",
+        /// A record of a sensor in a borehole.
+        Borehole = "borehole",
+        /// A text in no known format, or no text.
+        Format = "format",
+        /// A history of velocity or displacement, or a spectrum.
+        Quantity = "quantity",
+        /// A file that the index in the folder does not name.
+        Unlisted = "unlisted",
+        /// A file of an archive under a name that comes again.
+        Doubled = "doubled",
+        /// A file of an archive whose name leads out of it.
+        Outside = "outside",
+        /// A folder, which is not entered.
+        Folder = "folder",
+        /// A link to nothing.
+        Link = "link",
+        /// A device, a named pipe or a socket.
+        Device = "device",
+    }
+}
+
+impl AsideReason {
+    fn of(fault: &Fault) -> Option<Self> {
+        Some(match fault {
+            Fault::Vertical(_) => Self::Vertical,
+            Fault::Borehole(_) => Self::Borehole,
+            Fault::UnknownFormat { .. }
+            | Fault::NotText { .. }
+            | Fault::Utf16(_) => Self::Format,
+            Fault::Quantity(_) => Self::Quantity,
+            Fault::Unlisted => Self::Unlisted,
+            Fault::Doubled => Self::Doubled,
+            Fault::Outside => Self::Outside,
+            Fault::Folder => Self::Folder,
+            Fault::DeadLink => Self::Link,
+            Fault::Device => Self::Device,
+            _ => return None,
+        })
+    }
+
+    /// What `count` of them are, after the number.
+    fn words(self, count: usize) -> &'static str {
+        let one = count == 1;
+        match self {
+            Self::Vertical => "vertical",
+            Self::Borehole => "from a borehole",
+            Self::Format => "in no known format",
+            Self::Quantity => "of another quantity than acceleration",
+            Self::Unlisted => "not in the index",
+            Self::Doubled => "under a name that comes again",
+            Self::Outside => "named as outside the archive",
+            Self::Folder if one => "folder that is not entered",
+            Self::Folder => "folders that are not entered",
+            Self::Link if one => "link to nothing",
+            Self::Link => "links to nothing",
+            Self::Device if one => "device or pipe",
+            Self::Device => "devices or pipes",
+        }
+    }
+}
+
+/// One thing that was set aside.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Aside {
+    /// File, relative to the folder or archive.
+    pub file: String,
+    /// Why it is no record of the suite.
+    pub reason: AsideReason,
+    /// What was found, and what was expected.
+    pub error: RecordError,
+}
+
+impl Aside {
+    /// `file` of a folder or an archive, which was refused.
+    ///
+    /// # Errors
+    /// `error` itself, where it is a fault of the suite.
+    pub(super) fn of(
+        file: &str,
+        error: RecordError,
+    ) -> Result<Self, RecordError> {
+        match AsideReason::of(error.fault()) {
+            Some(reason) => Ok(Self { file: file.to_owned(), reason, error }),
+            None => Err(error),
+        }
+    }
+}
+
+/// How many were set aside for one reason.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct AsideCount<'a> {
+    /// The reason.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "code", serialize_with = "code")
+    )]
+    pub reason: AsideReason,
+    /// Number of files; of files with several channels, number of channels.
+    pub files: usize,
+    /// The first of them.
+    pub first: &'a str,
+}
+
+#[cfg(feature = "serde")]
+fn code<S: serde::Serializer>(
+    reason: &AsideReason,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.serialize_str(reason.code())
+}
+
+/// All that was set aside when a suite was read; in words, the number for
+/// each reason with the first file.
+///
+/// ```
+/// use rocking_records::{Suite, ReadOptions};
+/// let folder = std::env::temp_dir().join("rocking-doc-set-aside");
+/// std::fs::create_dir_all(folder.join("more"))?;
+/// let motion = "ACCELERATION TIME SERIES IN UNITS OF G\n\
+///     NPTS=      2, DT=   .0100 SEC\n\
+///     \x20  .1000000E-02   .2000000E-02\n";
+/// let head = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere\n";
+/// std::fs::write(folder.join("a.AT2"), format!("{head}{motion}"))?;
+/// std::fs::write(folder.join("notes.txt"), "read me\n")?;
+/// let suite = Suite::read(&folder, &ReadOptions::default())?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// assert_eq!(
+///     suite.set_aside().to_string(),
+///     "1 in no known format (first: notes.txt), \
+///      1 folder that is not entered (first: more)"
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SetAside(Vec<Aside>);
+
+impl SetAside {
+    /// Whether nothing was.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Everything, in the order in which it was met.
+    #[must_use]
+    pub fn all(&self) -> &[Aside] {
+        &self.0
+    }
+
+    /// The number for each reason, and its first file.
+    #[must_use]
+    pub fn counts(&self) -> Vec<AsideCount<'_>> {
+        let mut counts: Vec<AsideCount<'_>> = Vec::new();
+        for Aside { file, reason, .. } in &self.0 {
+            match counts.iter_mut().find(|count| count.reason == *reason) {
+                Some(count) => count.files += 1,
+                None => counts.push(AsideCount {
+                    reason: *reason,
+                    files: 1,
+                    first: file,
+                }),
+            }
+        }
+        counts.sort_by_key(|count| count.reason);
+        counts
+    }
+
+    pub(super) fn push(&mut self, aside: Aside) {
+        self.0.push(aside);
+    }
+}
+
+impl Extend<Aside> for SetAside {
+    fn extend<T: IntoIterator<Item = Aside>>(&mut self, more: T) {
+        self.0.extend(more);
+    }
+}
+
+/// The number of files, and for each reason its number and first file.
+#[cfg(feature = "serde")]
+impl serde::Serialize for SetAside {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut fields = to.serialize_struct("SetAside", 2)?;
+        fields.serialize_field("files", &self.0.len())?;
+        fields.serialize_field("codes", &self.counts())?;
+        fields.end()
+    }
+}
+
+impl fmt::Display for SetAside {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, count) in self.counts().into_iter().enumerate() {
+            let AsideCount { reason, files, first } = count;
+            let comma = if i == 0 { "" } else { ", " };
+            let (words, first) = (reason.words(files), Escaped(first));
+            write!(f, "{comma}{files} {words} (first: {first})")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

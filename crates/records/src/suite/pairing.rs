@@ -1,0 +1,119 @@
+//! Which two records are the components of one motion.
+
+use std::collections::BTreeMap;
+
+use super::{SuiteError, SuiteMember};
+use crate::direction::{glued, is_azimuth, is_code};
+use crate::{Direction, Motion, suite_names};
+
+const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
+
+/// A record's name without its orientation.
+///
+/// After a separator any of the names or one to three digits is one
+/// (`A_E`, `A-90`, `A--L`); without a separator three digits or two letters
+/// after a digit (`HEC090`, `65006EW`). KiK-net's `.EW2` keeps its digit, an
+/// instrument code (`HNE`) between dots its first two letters, and channels
+/// of one file share the file's name.
+pub(super) fn pair_key(name: &str) -> Option<String> {
+    if let Some((file, _)) = name.split_once(':') {
+        return Some(file.to_owned());
+    }
+    if let Some(code) = name.split('.').find(|part| is_code(part)) {
+        return Some(name.replacen(code, &code[..2], 1));
+    }
+    let end = name.rsplit('.').next().unwrap_or("");
+    if let Some(depth) = end.strip_prefix("EW").or(end.strip_prefix("NS"))
+        && matches!(depth, "1" | "2")
+    {
+        return Some(format!("{}{depth}", &name[..name.len() - 3]));
+    }
+    let key = match name.rsplit_once(SEPARATORS) {
+        Some((key, end)) if is_orientation(end) => key,
+        _ => glued(name).filter(|(_, end)| is_orientation(end))?.0,
+    };
+    let key = key.trim_end_matches(SEPARATORS);
+    (!key.is_empty()).then(|| key.to_owned())
+}
+
+/// Whether the end of a name is an orientation: a word for a horizontal
+/// component, or a number.
+fn is_orientation(end: &str) -> bool {
+    is_azimuth(end) || Direction::of_word(end) == Direction::Horizontal
+}
+
+/// Gives the two records that share event and station, or else a name but
+/// for its orientation, that as their pair; any other number of records stays
+/// unpaired.
+pub(super) fn pair_by_name<M: Motion>(members: &mut [SuiteMember<M>]) {
+    let key = |m: &SuiteMember<M>| {
+        m.site.clone().or_else(|| pair_key(m.accelerogram.name()))
+    };
+    let keys: Vec<_> = members.iter().map(key).collect();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for name in keys.iter().flatten() {
+        *counts.entry(name).or_default() += 1;
+    }
+    for (member, key) in members.iter_mut().zip(&keys) {
+        let pair = key.as_ref().filter(|name| counts[name.as_str()] == 2);
+        member.pair = pair.cloned();
+    }
+}
+
+/// Marks, in each pair, the component whose name sorts first; a record
+/// without a partner is marked too.
+pub(super) fn mark_first<M: Motion>(members: &mut [SuiteMember<M>]) {
+    let mut first: BTreeMap<String, String> = BTreeMap::new();
+    for member in members.iter() {
+        let Some(pair) = &member.pair else { continue };
+        let name = member.accelerogram.name();
+        let least = first.entry(pair.clone()).or_insert(name.to_owned());
+        if name < least.as_str() {
+            name.clone_into(least);
+        }
+    }
+    for member in members {
+        let name = member.accelerogram.name();
+        member.study_component = member
+            .pair
+            .as_ref()
+            .is_none_or(|pair| first.get(pair).is_some_and(|f| f == name));
+    }
+}
+
+/// Refuses a pair of more than two, and one without exactly one study
+/// component.
+pub(super) fn check_pairs<M>(
+    path: &str,
+    members: &[SuiteMember<M>],
+) -> Result<(), SuiteError> {
+    let mut pairs: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for member in members {
+        let Some(pair) = &member.pair else { continue };
+        let (components, study) = pairs.entry(pair).or_default();
+        *components += 1;
+        *study += usize::from(member.study_component);
+    }
+    for (pair, (components, study)) in pairs {
+        if components > 2 || study != 1 {
+            let (path, pair) = (path.to_owned(), pair.to_owned());
+            return Err(SuiteError::Pair { path, pair, components, study });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses records that results could not distinguish.
+pub(super) fn check_names<M: Motion>(
+    path: &str,
+    members: &[SuiteMember<M>],
+) -> Result<(), SuiteError> {
+    let names: Vec<&str> =
+        members.iter().map(|m| m.accelerogram.name()).collect();
+    match suite_names(&names) {
+        Ok(_) => Ok(()),
+        Err(source) => {
+            Err(SuiteError::Names { path: path.to_owned(), source })
+        }
+    }
+}

@@ -1,0 +1,404 @@
+//! Reading all that a folder or an index lists.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
+use super::{index, pairing};
+use crate::{
+    Direction, Fault, Given, Motion, ReadOptions, Record, RecordError, Remark,
+    Settled, file_bytes, is_record, name_of, result_name, settle, stem,
+};
+
+/// The index in a folder or archive as PEER's site delivers it.
+const PEER_RESULTS: &str = "_SearchResults.csv";
+
+/// What a folder or index holds, refused records included.
+///
+/// Of each record that was read it has what the caller kept: the whole
+/// [`SuiteMember`], its profile, or nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey<K = SuiteMember> {
+    /// The folder, index, archive or record, in messages.
+    path: String,
+    /// Name of the suite.
+    name: String,
+    members: Vec<Result<K, SuiteError>>,
+    set_aside: SetAside,
+    study_rule: StudyRule,
+    paired: bool,
+}
+
+impl Survey {
+    /// Reads every record of the folder or index at `path`, or the record
+    /// file there.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where the folder or index itself cannot be read.
+    pub fn read(
+        path: &Path,
+        options: &ReadOptions,
+    ) -> Result<Self, SuiteError> {
+        Self::visit(path, options, Ok)
+    }
+}
+
+impl<K> Survey<K> {
+    /// Reads every record of the folder or index at `path`, or the record
+    /// file there, one after the other in their order, and holds what `keep`
+    /// makes of each.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use rocking_records::{ReadOptions, SuiteError, Survey};
+    /// let folder = Path::new("no such folder");
+    /// let mut samples = 0;
+    /// let found = Survey::visit(folder, &ReadOptions::default(), |member| {
+    ///     samples += member.accelerogram.samples_g().len();
+    ///     Ok::<(), SuiteError>(())
+    /// });
+    /// assert!(found.is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// [`SuiteError`] where the folder or index itself cannot be read, and
+    /// the first error of `keep`.
+    pub fn visit<E: From<SuiteError>>(
+        path: &Path,
+        options: &ReadOptions,
+        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
+        let shown = path.display().to_string();
+        if path.is_dir() {
+            let (mut files, mut others) = Default::default();
+            contents(path, "", options.recursive, &mut files, &mut others)?;
+            others.sort_by(|a, b| a.file.cmp(&b.file));
+            let names: Vec<String> = files.keys().cloned().collect();
+            let bytes = |name: &str| {
+                let own = || path.join(name);
+                file_bytes(&files.get(name).cloned().unwrap_or_else(own))
+            };
+            let mut survey =
+                Self::of_files(&shown, &names, options, bytes, keep)?;
+            survey.set_aside.extend(others);
+            return Ok(survey);
+        }
+        let bytes = file_bytes(path).map_err(SuiteError::from)?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        if !index::is_index(&bytes) && is_record(&bytes) {
+            let base = base.display().to_string();
+            let names = [name_of(path)];
+            let read = |_: &str| Ok(bytes.clone());
+            let survey = Self::of_files(&base, &names, options, read, keep)?;
+            let name = stem(&shown).to_owned();
+            return Ok(Self { path: shown, name, ..survey });
+        }
+        let read = |file: &str| file_bytes(&base.join(file));
+        Self::of_index(&shown, &bytes, options, read, keep)
+    }
+
+    /// Reads every record among the files of a folder or archive, given by
+    /// its path, the files' names and a function that gives the bytes of
+    /// each, and holds what `keep` makes of it. If one of them is PEER's
+    /// `_SearchResults.csv`, that is the index. A name that comes twice is
+    /// read once.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where an index cannot be read, and the first error of
+    /// `keep`.
+    pub fn of_files<E: From<SuiteError>>(
+        path: &str,
+        names: &[String],
+        options: &ReadOptions,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
+        let mut known = BTreeSet::new();
+        let (names, doubled): (Vec<&String>, Vec<&String>) =
+            names.iter().partition(|name| known.insert(*name));
+        let mut survey =
+            Self::of_each(path, &names, options, file_bytes, keep)?;
+        for name in doubled {
+            let shown = format!("{path}/{name}");
+            survey.refuse(name, Fault::Doubled.whole(&shown));
+        }
+        Ok(survey)
+    }
+
+    /// Reads every record among files of different names.
+    fn of_each<E: From<SuiteError>>(
+        path: &str,
+        names: &[&String],
+        options: &ReadOptions,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
+        if let Some(results) = names.iter().find(|n| **n == PEER_RESULTS) {
+            let bytes = file_bytes(results).map_err(SuiteError::from)?;
+            let shown = format!("{path}/{results}");
+            let mut listed = BTreeSet::from([(*results).clone()]);
+            let read = |name: &str| {
+                listed.insert(name.to_owned());
+                file_bytes(name)
+            };
+            let survey = Self::of_index(&shown, &bytes, options, read, keep)?;
+            let name = container(path).to_owned();
+            let mut survey = Self { name, ..survey };
+            for name in names.iter().filter(|name| !listed.contains(**name)) {
+                let shown = format!("{path}/{name}");
+                survey.refuse(name, Fault::Unlisted.whole(&shown));
+            }
+            return Ok(survey);
+        }
+        let mut survey = Self {
+            path: path.to_owned(),
+            name: container(path).to_owned(),
+            members: Vec::new(),
+            set_aside: SetAside::default(),
+            study_rule: StudyRule::FirstName,
+            paired: false,
+        };
+        let mut given = Seen::default();
+        for name in names {
+            let shown = Path::new(path).join(name).display().to_string();
+            let records = file_bytes(name)
+                .and_then(|bytes| settle(&shown, &bytes, options));
+            let found = records.unwrap_or_else(|error| {
+                survey.refuse(name, error);
+                Vec::new()
+            });
+            let within = name.rsplit_once('/').map(|(within, _)| within);
+            let within = within.filter(|_| options.recursive);
+            for settled in found {
+                match horizontal(&shown, name, within, given.see(settled)) {
+                    Ok(member) => survey.members.push(Ok(keep(member)?)),
+                    Err(error) => survey.refuse(name, error),
+                }
+            }
+        }
+        survey.members.extend(given.unused());
+        Ok(survey)
+    }
+
+    /// Takes what was refused as set aside, or as a fault of the suite.
+    fn refuse(&mut self, name: &str, error: RecordError) {
+        match Aside::of(name, error) {
+            Ok(aside) => self.set_aside.push(aside),
+            Err(error) => self.members.push(Err(error.into())),
+        }
+    }
+
+    pub(super) fn of_index<E: From<SuiteError>>(
+        path: &str,
+        bytes: &[u8],
+        options: &ReadOptions,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    ) -> Result<Self, E> {
+        let index = index::Index::parse(path, bytes)?;
+        let paired = index.is_paired();
+        let study_rule = if index.has("study_component") {
+            StudyRule::Index
+        } else {
+            StudyRule::FirstName
+        };
+        let rows = index.into_rows();
+        let mut members = Vec::with_capacity(rows.len());
+        let mut given = Seen::default();
+        for row in rows {
+            let bytes = file_bytes(row.file()).map_err(SuiteError::from);
+            let member = bytes.and_then(|bytes| {
+                row.member(&bytes, options, |settled| given.see(settled))
+            });
+            members.push(match member {
+                Ok(member) => Ok(keep(member)?),
+                Err(error) => Err(error),
+            });
+        }
+        members.extend(given.unused());
+        // An index as PEER names it has its folder's name.
+        let folder = path.strip_suffix(PEER_RESULTS).map(container);
+        let name = folder.filter(|folder| !folder.is_empty());
+        Ok(Self {
+            path: path.to_owned(),
+            name: name.unwrap_or(stem(path)).to_owned(),
+            members,
+            set_aside: SetAside::default(),
+            study_rule,
+            paired,
+        })
+    }
+
+    /// Every record that was looked for, in the index's order or by file
+    /// name; pairs found by name are known to the suite only.
+    pub fn members(&self) -> &[Result<K, SuiteError>] {
+        &self.members
+    }
+
+    /// What the folder or archive holds beside the records.
+    #[must_use]
+    pub fn set_aside(&self) -> &SetAside {
+        &self.set_aside
+    }
+}
+
+impl<M: Motion> Survey<SuiteMember<M>> {
+    /// The suite, if no record was refused.
+    ///
+    /// # Errors
+    /// The first refused record; [`SuiteError::Empty`] without any; a name
+    /// that two records share; a pair that is none.
+    pub fn into_suite(self) -> Result<Suite<M>, SuiteError> {
+        let Self { path, name, members, set_aside, study_rule, paired } = self;
+        let mut members =
+            members.into_iter().collect::<Result<Vec<_>, _>>()?;
+        if members.is_empty() {
+            return Err(SuiteError::Empty { path, set_aside });
+        }
+        pairing::check_names(&path, &members)?;
+        if !paired {
+            pairing::pair_by_name(&mut members);
+        }
+        if study_rule == StudyRule::FirstName {
+            pairing::mark_first(&mut members);
+        }
+        pairing::check_pairs(&path, &members)?;
+        Ok(Suite { name, members, study_rule, set_aside })
+    }
+}
+
+/// How the files of a suite take what the caller gave: which of it any file
+/// took, and the first file that contradicts it.
+#[derive(Default)]
+struct Seen {
+    taken: Given,
+    dt: Option<RecordError>,
+    unit: Option<RecordError>,
+}
+
+impl Seen {
+    fn see(&mut self, settled: Settled) -> Record {
+        let Settled { record, dt, unit } = settled;
+        self.taken.dt |= record.given.dt;
+        self.taken.unit |= record.given.unit;
+        self.dt = self.dt.take().or(dt.err());
+        self.unit = self.unit.take().or(unit.err());
+        record
+    }
+
+    /// The first contradiction of what no file took.
+    fn unused<K>(self) -> impl Iterator<Item = Result<K, SuiteError>> {
+        let dt = self.dt.filter(|_| !self.taken.dt);
+        let unit = self.unit.filter(|_| !self.taken.unit);
+        dt.into_iter().chain(unit).map(|error| Err(error.into()))
+    }
+}
+
+/// Name of a folder, whole, or of a zip without its ending.
+fn container(path: &str) -> &str {
+    let path = path.trim_end_matches('/');
+    let name = path.rsplit('/').next().unwrap_or(path);
+    name.strip_suffix(".zip").unwrap_or(name)
+}
+
+/// A record of a folder as a member of the suite, unless it is vertical or
+/// from a borehole, or results cannot carry the file's name. The name of the
+/// folder `within` the suite's precedes the record's.
+fn horizontal(
+    shown: &str,
+    file: &str,
+    within: Option<&str>,
+    record: Record,
+) -> Result<SuiteMember, RecordError> {
+    let name = || record.accelerogram.name().to_owned();
+    if record.direction == Direction::Vertical {
+        return Err(Fault::Vertical(name()).whole(shown));
+    }
+    if record.borehole {
+        return Err(Fault::Borehole(name()).whole(shown));
+    }
+    let mut remarks = record.remarks;
+    if record.direction == Direction::Unknown {
+        remarks.push(Remark::Direction);
+    }
+    result_name(file).map_err(|error| Fault::Name(error).whole(shown))?;
+    let mut accelerogram = record.accelerogram;
+    if let Some(within) = within {
+        let name = format!("{within}/{}", accelerogram.name());
+        accelerogram = accelerogram
+            .named(name)
+            .map_err(|error| Fault::from(error).whole(shown))?;
+    }
+    Ok(SuiteMember {
+        accelerogram,
+        file: file.to_owned(),
+        format: record.format,
+        unit: record.unit,
+        site: record.site,
+        remarks,
+        pair: None,
+        study_component: false,
+        event: None,
+        given: record.given,
+        attributes: Vec::new(),
+    })
+}
+
+/// Adds the files of the folder `within` of `root` by their names from there,
+/// and what else is in it; hidden things are left out. Links to folders are
+/// not entered: they may lead back.
+fn contents(
+    root: &Path,
+    within: &str,
+    recursive: bool,
+    files: &mut BTreeMap<String, PathBuf>,
+    others: &mut Vec<Aside>,
+) -> Result<(), SuiteError> {
+    // Joined to nothing, it would end in a separator.
+    let path = &match within {
+        "" => root.to_owned(),
+        _ => root.join(within),
+    };
+    let fail = |error: std::io::Error| SuiteError::Unreadable {
+        path: path.display().to_string(),
+        reason: error.to_string(),
+    };
+    for entry in std::fs::read_dir(path).map_err(fail)? {
+        let file = entry.map_err(fail)?.path();
+        let name = name_of(&file);
+        if name.starts_with('.') {
+            continue;
+        }
+        let name = format!("{within}{name}");
+        let own = std::fs::symlink_metadata(&file);
+        if recursive && own.is_ok_and(|found| found.is_dir()) {
+            contents(root, &format!("{name}/"), recursive, files, others)?;
+            continue;
+        }
+        let fault = match std::fs::metadata(&file) {
+            Ok(found) if found.is_dir() => Some(Fault::Folder),
+            Ok(found) if !found.is_file() => Some(Fault::Device),
+            Err(_) if leads_nowhere(&file) => Some(Fault::DeadLink),
+            // A file that cannot be read is refused when it is read.
+            Ok(_) | Err(_) => None,
+        };
+        let shown = format!("{}/{name}", root.display());
+        let other = fault.map(|fault| Aside::of(&name, fault.whole(&shown)));
+        match other {
+            Some(Ok(aside)) => others.push(aside),
+            _ => {
+                files.insert(name, file);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether there is a link at `path`, and nothing where it leads.
+fn leads_nowhere(path: &Path) -> bool {
+    let is_link = std::fs::symlink_metadata(path)
+        .is_ok_and(|found| found.file_type().is_symlink());
+    let closed = std::io::ErrorKind::PermissionDenied;
+    let there = std::fs::metadata(path);
+    is_link && there.is_err_and(|error| error.kind() != closed)
+}

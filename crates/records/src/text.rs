@@ -1,0 +1,306 @@
+//! A file as numbered lines, and the faults found in them.
+
+use std::borrow::Cow;
+
+use super::{Fault, RecordError, number};
+use rocking::stop;
+use rocking::units::AccelerationUnit;
+
+/// Lines of one file; faults are built here, so that each carries its place.
+pub(super) struct Text<'a> {
+    file: &'a str,
+    text: &'a str,
+    /// Byte offset at which each line begins, and the end of the last line.
+    /// A `&str` per line would cost 16 bytes for lines as short as 2.
+    starts: Vec<u32>,
+    ended: bool,
+}
+
+/// Bytes as text: UTF-16 with its mark, UTF-8, else Latin-1 (station names);
+/// control characters mean that it is none.
+pub(super) fn decode<'a>(
+    file: &str,
+    bytes: &'a [u8],
+) -> Result<Cow<'a, str>, RecordError> {
+    if let Some(text) = utf_16(file, bytes)? {
+        let control = |c: char| c.is_ascii() && is_control(c as u8);
+        return match text.find(control) {
+            Some(at) => {
+                let (byte, offset) = (text.as_bytes()[at], 2 + 2 * at);
+                Err(Fault::NotText { byte, offset }.whole(file))
+            }
+            None => Ok(Cow::Owned(text)),
+        };
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    // Old systems end a text file with one or more Ctrl-Z.
+    let mut end = bytes.len();
+    while end > 0 && bytes[end - 1] == 0x1a {
+        end -= 1;
+    }
+    let bytes = &bytes[..end];
+    if let Some(offset) = bytes.iter().position(|&b| is_control(b)) {
+        if looks_like_utf_16(bytes) {
+            return Err(Fault::Utf16("no byte order mark").whole(file));
+        }
+        let fault = Fault::NotText { byte: bytes[offset], offset };
+        return Err(fault.whole(file));
+    }
+    Ok(match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(latin_1(bytes)),
+    })
+}
+
+/// A control character that no text file has.
+fn is_control(byte: u8) -> bool {
+    byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c)
+}
+
+/// A text in UTF-16 that says so by its byte order mark.
+fn utf_16(file: &str, bytes: &[u8]) -> Result<Option<String>, RecordError> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return Ok(None),
+    };
+    let (units, rest) = bytes[2..].as_chunks();
+    if !rest.is_empty() {
+        return Err(Fault::Utf16("half a character at the end").whole(file));
+    }
+    let text = char::decode_utf16(units.iter().map(|pair| unit(*pair)));
+    let text: Result<String, _> = text.collect();
+    let whole = |_| Fault::Utf16("half a pair of surrogates").whole(file);
+    text.map(Some).map_err(whole)
+}
+
+/// Whether the first characters are plain ones of two bytes.
+fn looks_like_utf_16(bytes: &[u8]) -> bool {
+    let zeros = |from: usize| {
+        bytes.iter().skip(from).step_by(2).take(4).all(|b| *b == 0)
+    };
+    bytes.len() >= 8 && zeros(0) != zeros(1)
+}
+
+fn latin_1(bytes: &[u8]) -> String {
+    let wide = bytes.iter().filter(|b| !b.is_ascii()).count();
+    let mut text = String::with_capacity(bytes.len() + wide);
+    text.extend(bytes.iter().map(|&b| char::from(b)));
+    text
+}
+
+impl Fault {
+    /// The fault of a file as a whole.
+    pub(super) fn whole(self, file: &str) -> RecordError {
+        let file = file.to_owned();
+        RecordError { file, line: None, column: None, fault: self }
+    }
+}
+
+impl<'a> Text<'a> {
+    /// Text with at least one line that is not blank.
+    pub(super) fn new(
+        file: &'a str,
+        text: &'a str,
+    ) -> Result<Self, RecordError> {
+        if u32::try_from(text.len()).is_err() {
+            let reason = "a text of more than 4 GiB".to_owned();
+            return Err(Fault::Unreadable(reason).whole(file));
+        }
+        let separator = if text.contains('\n') { b'\n' } else { b'\r' };
+        let kept = text.trim_end();
+        if kept.is_empty() {
+            return Err(Fault::Empty.whole(file));
+        }
+        // Counted first: a vector that grows takes three times the room.
+        let count = kept.bytes().filter(|b| *b == separator).count();
+        let mut starts = Vec::with_capacity(count + 2);
+        starts.push(0);
+        let ends = (1_u32..).zip(kept.bytes());
+        let ends = ends.filter(|(_, b)| *b == separator);
+        starts.extend(ends.map(|(i, _)| {
+            stop::point();
+            i
+        }));
+        // The last line's blanks belong to it.
+        let rest = &text.as_bytes()[kept.len()..];
+        let end = rest.iter().position(|b| *b == separator);
+        let end = kept.len() + end.map_or(rest.len(), |at| at + 1);
+        starts.extend(u32::try_from(end));
+        let ended = text.ends_with(['\n', '\r']);
+        Ok(Self { file, text, starts, ended })
+    }
+
+    /// Name of the file.
+    pub(super) fn file(&self) -> &'a str {
+        self.file
+    }
+
+    /// Number of lines; blank lines at the end of the file are left out.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Bytes of the lines `first..end`, their ends included.
+    pub(super) fn bytes(&self, first: usize, end: usize) -> usize {
+        let start = |index: usize| self.starts.get(index).copied();
+        let bytes = start(first).zip(start(end)).map(|(a, b)| b - a);
+        bytes.unwrap_or(0) as usize
+    }
+
+    /// The line of index `index`, line `index` + 1 of the file, without its
+    /// end; `None` after the last.
+    pub(super) fn line(&self, index: usize) -> Option<&'a str> {
+        stop::point();
+        let (start, end) =
+            (self.starts.get(index)?, self.starts.get(index + 1)?);
+        let line = &self.text[*start as usize..*end as usize];
+        Some(line.trim_end_matches(['\r', '\n']))
+    }
+
+    /// Lines from index `first` on.
+    pub(super) fn lines_from(
+        &self,
+        first: usize,
+    ) -> impl Iterator<Item = &'a str> {
+        (first..).map_while(|index| self.line(index))
+    }
+
+    /// All lines.
+    pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
+        self.lines_from(0)
+    }
+
+    /// Index of the line after the last one, from index `first` on, that has
+    /// a digit or is meant as a number: some programs write words after their
+    /// numbers.
+    pub(super) fn end_of_numbers(&self, first: usize) -> usize {
+        let number = |index: &usize| {
+            let line = self.line(*index).unwrap_or("");
+            line.bytes().any(|b| b.is_ascii_digit())
+                || line.split_whitespace().any(number::is_number)
+        };
+        let last = (first..self.len()).rev().find(number);
+        last.map_or(self.len(), |index| index + 1)
+    }
+
+    /// Whether the text ends with the end of a line.
+    pub(super) fn is_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// A fault on the line of index `index`.
+    pub(super) fn on_line(&self, index: usize, fault: Fault) -> RecordError {
+        let file = self.file.to_owned();
+        RecordError { file, line: Some(index + 1), column: None, fault }
+    }
+
+    /// A fault at byte `byte` of the line of index `index`.
+    pub(super) fn at(
+        &self,
+        index: usize,
+        byte: usize,
+        fault: Fault,
+    ) -> RecordError {
+        let column = Some(byte + 1);
+        RecordError { column, ..self.on_line(index, fault) }
+    }
+
+    /// A fault at the end of the file.
+    pub(super) fn at_end(&self, fault: Fault) -> RecordError {
+        self.on_line(self.len() - 1, fault)
+    }
+
+    /// A line that is not what its place asks for.
+    pub(super) fn header(
+        &self,
+        index: usize,
+        expected: &'static str,
+    ) -> RecordError {
+        let found = excerpt(self.line(index).unwrap_or(""));
+        self.on_line(index, Fault::Header { found, expected })
+    }
+
+    /// A line that announces another quantity than acceleration.
+    pub(super) fn quantity(&self, index: usize) -> RecordError {
+        let found = excerpt(self.line(index).unwrap_or(""));
+        self.on_line(index, Fault::Quantity(found))
+    }
+
+    /// What stands on a line where numbers belong.
+    pub(super) fn no_number(
+        &self,
+        index: usize,
+        found: &str,
+        expected: &str,
+    ) -> RecordError {
+        let (found, expected) = (excerpt(found), expected.to_owned());
+        self.on_line(index, Fault::Number { found, expected })
+    }
+
+    /// The unit that a line names.
+    pub(super) fn unit(
+        &self,
+        index: usize,
+        named: &str,
+    ) -> Result<AccelerationUnit, RecordError> {
+        let refuse = || self.on_line(index, Fault::Unit(excerpt(named)));
+        AccelerationUnit::parse(named).ok_or_else(refuse)
+    }
+
+    /// The number of samples found in the file against the stated one.
+    pub(super) fn check_count(
+        &self,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), RecordError> {
+        self.check_count_at(self.len() - 1, found, expected)
+    }
+
+    /// The number of samples found up to the line of index `index` against
+    /// the stated one.
+    pub(super) fn check_count_at(
+        &self,
+        index: usize,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), RecordError> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(self.on_line(index, Fault::Count { found, expected }))
+    }
+}
+
+/// The beginning of a text, for a message.
+pub(super) fn excerpt(text: &str) -> String {
+    let text = text.trim();
+    if text.chars().count() <= 40 {
+        return text.to_owned();
+    }
+    text.chars().take(37).chain("...".chars()).collect()
+}
+
+/// Byte after the end of `word` in `line`, whatever the case, where it
+/// stands as a word of its own.
+pub(super) fn after_word(line: &str, word: &str) -> Option<usize> {
+    let bytes = line.as_bytes();
+    let letter = |i: usize| {
+        bytes.get(i).is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_')
+    };
+    (0..(bytes.len() + 1).saturating_sub(word.len()))
+        .find(|&start| {
+            let end = start + word.len();
+            bytes[start..end].eq_ignore_ascii_case(word.as_bytes())
+                && (start == 0 || !letter(start - 1))
+                && !letter(end)
+        })
+        .map(|start| start + word.len())
+}
+
+/// Whether `line` contains `part`, whatever the case.
+pub(super) fn contains(line: &str, part: &str) -> bool {
+    line.as_bytes()
+        .windows(part.len())
+        .any(|window| window.eq_ignore_ascii_case(part.as_bytes()))
+}

@@ -1,0 +1,325 @@
+//! Shares of EDP levels at which a distribution is accepted.
+//!
+//! Levels share records, so the share of accepted ones scatters widely about
+//! its expectation even under the null. The Gaussian-score bootstrap gives
+//! that scatter for the correlation at hand.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::bootstrap::{Estimate, estimate};
+use super::lilliefors::fast::{LANES, Scratch};
+use super::lilliefors::{Assessment, LillieforsError, standardised};
+use super::sample::{mean, sum_of_squares};
+use super::{Sample, monte_carlo};
+use crate::streams::{Streams, standard_normal};
+use rocking::number::dispatch::{Isa, Kernel};
+use rocking::stop;
+
+/// Why a null band was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum AcceptanceError {
+    /// Every level has the same records.
+    #[error(
+        "level {level} has {found} values: expected {expected}, as the first"
+    )]
+    Lengths {
+        /// Place of the level, from 1.
+        level: usize,
+        /// Its number of values.
+        found: usize,
+        /// The first level's.
+        expected: usize,
+    },
+    /// A level's values make no scores.
+    #[error("level {level}: {source}")]
+    Scores {
+        /// Place of the level, from 1.
+        level: usize,
+        /// What is wrong with its values.
+        #[source]
+        source: LillieforsError,
+    },
+    /// No level, or a value that is not finite.
+    #[error("no level with finite values")]
+    Empty,
+}
+
+/// How many levels accept a distribution, by the plain decision D <= critical
+/// value at each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AcceptedShare {
+    /// Levels tested.
+    pub tested: usize,
+    /// Of those, accepted.
+    pub accepted: usize,
+    /// Levels that could not be tested.
+    pub not_applicable: usize,
+}
+
+impl AcceptedShare {
+    /// Counts the decisions of a list of tests.
+    #[must_use]
+    pub fn of(assessments: &[Assessment]) -> Self {
+        let decisions = || assessments.iter().map(Assessment::exceeds);
+        Self {
+            tested: decisions().flatten().count(),
+            accepted: decisions().filter(|d| *d == Some(false)).count(),
+            not_applicable: decisions().filter(Option::is_none).count(),
+        }
+    }
+
+    /// Tests the values of many levels, all of one size, against a critical
+    /// value; a level with a value that is not finite, or whose values do not
+    /// vary, is not applicable.
+    ///
+    /// D is that of [`distances`].
+    ///
+    /// ```
+    /// use rocking_statistics::acceptance::AcceptedShare;
+    /// let level: Vec<f64> = (0..20).map(f64::from).collect();
+    /// let found = AcceptedShare::of_values(&[level], 0.1919);
+    /// assert_eq!((found.tested, found.accepted), (1, 1));
+    /// ```
+    ///
+    /// # Panics
+    /// If the levels have different sizes.
+    #[must_use]
+    pub fn of_values(levels: &[Vec<f64>], critical_value: f64) -> Self {
+        let found = distances(levels);
+        let tested: Vec<&f64> = found.iter().filter(|d| !d.is_nan()).collect();
+        let accepted = tested.iter().filter(|d| ***d <= critical_value);
+        Self {
+            tested: tested.len(),
+            accepted: accepted.count(),
+            not_applicable: levels.len() - tested.len(),
+        }
+    }
+
+    /// Accepted over tested; none if no level was tested.
+    #[must_use]
+    pub fn share(&self) -> Option<f64> {
+        (self.tested > 0).then(|| self.accepted as f64 / self.tested as f64)
+    }
+}
+
+/// Lilliefors' D of the values of each level, all of one size; NaN for a
+/// level with a value that is not finite, or whose values do not vary.
+///
+/// Take logarithms first for a lognormal. The same D as
+/// [`Statistic`](super::lilliefors::Statistic) has, to 1e-9, many times as
+/// fast: for simulations.
+///
+/// ```
+/// use rocking_statistics::acceptance::distances;
+/// let level: Vec<f64> = (0..20).map(f64::from).collect();
+/// let found = distances(&[level, vec![f64::INFINITY; 20]]);
+/// assert!(found[0] < 0.1 && found[1].is_nan());
+/// ```
+///
+/// # Panics
+/// If the levels have different sizes.
+#[must_use]
+pub fn distances(levels: &[Vec<f64>]) -> Vec<f64> {
+    let finite = |k: &usize| levels[*k].iter().all(|x| x.is_finite());
+    let usable: Vec<usize> = (0..levels.len()).filter(finite).collect();
+    let mut out = vec![f64::NAN; levels.len()];
+    let Some(first) = usable.first() else { return out };
+    let mut scratch = Scratch::new(levels[*first].len());
+    for group in usable.chunks(LANES) {
+        for lane in 0..LANES {
+            // Lanes beyond the last level repeat it.
+            let level = group[lane.min(group.len() - 1)];
+            scratch.values.copy_from_slice(&levels[level]);
+            scratch.put(lane);
+        }
+        for (level, d) in group.iter().zip(scratch.statistics()) {
+            out[*level] = d;
+        }
+    }
+    out
+}
+
+/// The null distribution of an accepted share: normal at every level, with
+/// the correlation between levels that the data have.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct NullBand {
+    /// Accepted share of each replicate, in order.
+    pub shares: Vec<f64>,
+    /// Mean over the levels of D/critical value, of each replicate.
+    pub mean_ratios: Vec<f64>,
+    /// How many independent levels would scatter as much: K^2/sum r_jk^2,
+    /// with r the correlations between the K levels.
+    pub effective_levels: f64,
+}
+
+impl NullBand {
+    /// Gaussian-score bootstrap. `levels` holds, for each level, the values
+    /// tested (logarithms, say) in the same order of records.
+    ///
+    /// With R = L L^T the correlations between the K levels, a record of a
+    /// replicate has the values L z of K independent standard normals z: the
+    /// levels are normal with the observed correlations, record by record
+    /// independent, exactly N(0, 1) at each level. Replicate i draws its
+    /// normals from stream i of the family of that name and seed.
+    ///
+    /// ```
+    /// use rocking_statistics::acceptance::NullBand;
+    /// let level: Vec<f64> = (0..20).map(|i| f64::from(i * i)).collect();
+    /// // Three copies of one level are accepted or not together.
+    /// let levels = [level.clone(), level.clone(), level];
+    /// let band = NullBand::simulate(&levels, 0.1919, 200, "doc", 0)?;
+    /// assert!(band.shares.iter().all(|&s| s == 0.0 || s == 1.0));
+    /// # Ok::<(), rocking_statistics::acceptance::AcceptanceError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`AcceptanceError`] for levels of different sizes or without
+    /// variation.
+    pub fn simulate(
+        levels: &[Vec<f64>],
+        critical_value: f64,
+        replicates: u64,
+        name: &str,
+        seed: u64,
+    ) -> Result<Self, AcceptanceError> {
+        let scores = scores(levels)?;
+        let (n, count) = (scores[0].len(), scores.len());
+        let correlations = correlations(&scores);
+        let squares = correlations.iter().flatten();
+        let norm = squares.fold(0.0, |sum, r| f64::mul_add(*r, *r, sum));
+        let effective_levels = (count * count) as f64 / norm;
+        let root = root(&scores);
+        let streams = Streams::new(name, seed);
+        let isa = Isa::best();
+        let rows: Vec<(f64, f64)> = (0..replicates)
+            .into_par_iter()
+            .panic_fuse()
+            .map(|index| {
+                let mut stream = streams.stream(index);
+                let mut own = vec![vec![0.0; n]; count];
+                for record in 0..n {
+                    stop::point();
+                    for z in &mut own {
+                        z[record] = standard_normal(&mut stream);
+                    }
+                }
+                let drawn = isa.run(Mixture { root: &root, own: &own });
+                let mut scratch = Scratch::new(n);
+                let (mut accepted, mut ratios) = (0.0, 0.0);
+                for first in (0..count).step_by(LANES) {
+                    let used = LANES.min(count - first);
+                    for lane in 0..LANES {
+                        // Lanes beyond the last level repeat it.
+                        let level = first + lane.min(used - 1);
+                        scratch.values.copy_from_slice(&drawn[level]);
+                        scratch.put(lane);
+                    }
+                    for d in &scratch.statistics()[..used] {
+                        accepted += f64::from(u8::from(*d <= critical_value));
+                        ratios += d / critical_value;
+                    }
+                }
+                (accepted / count as f64, ratios / count as f64)
+            })
+            .collect();
+        let (shares, mean_ratios) = rows.into_iter().unzip();
+        Ok(Self { shares, mean_ratios, effective_levels })
+    }
+
+    /// The band of the share at a level, about an observed one.
+    #[must_use]
+    pub fn band(&self, observed: f64, level: f64) -> Option<Estimate> {
+        estimate(observed, &self.shares, level)
+    }
+
+    /// One-sided p-value of an observed share: how often the null accepts
+    /// as few levels, (b + 1)/(N + 1).
+    #[must_use]
+    pub fn p_value(&self, observed: f64) -> f64 {
+        let b = self.shares.iter().filter(|&&s| s <= observed).count();
+        monte_carlo::p_value(b, self.shares.len())
+    }
+
+    /// One-sided p-value of an observed mean of D/critical value: how often
+    /// the null's is as large.
+    #[must_use]
+    pub fn p_value_of_mean_ratio(&self, observed: f64) -> f64 {
+        let b = self.mean_ratios.iter().filter(|&&r| r >= observed).count();
+        monte_carlo::p_value(b, self.mean_ratios.len())
+    }
+}
+
+/// The product of L with normals z: `own` has a row a level and a column a
+/// record, and so has the product.
+struct Mixture<'a> {
+    root: &'a [Vec<f64>],
+    own: &'a [Vec<f64>],
+}
+
+impl Kernel for Mixture<'_> {
+    type Output = Vec<Vec<f64>>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<Vec<f64>> {
+        let mut product = Vec::with_capacity(self.root.len());
+        for row in self.root {
+            let mut level = vec![0.0; self.own[0].len()];
+            for (l, z) in row.iter().zip(self.own) {
+                for (sum, z) in level.iter_mut().zip(z) {
+                    *sum = f64::mul_add(*l, *z, *sum);
+                }
+            }
+            product.push(level);
+        }
+        product
+    }
+}
+
+/// Standardised values: a row a record, a column of length 1 a level, so
+/// that G S is standard normal.
+fn scores(levels: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, AcceptanceError> {
+    let n = levels.first().ok_or(AcceptanceError::Empty)?.len();
+    let mut scores = Vec::with_capacity(levels.len());
+    for (k, values) in levels.iter().enumerate() {
+        let level = k + 1;
+        if values.len() != n {
+            let found = values.len();
+            let expected = n;
+            return Err(AcceptanceError::Lengths { level, found, expected });
+        }
+        let sample =
+            Sample::try_new(values).map_err(|_| AcceptanceError::Empty)?;
+        standardised(&sample)
+            .map_err(|source| AcceptanceError::Scores { level, source })?;
+        let (centre, norm) = (mean(values), sum_of_squares(values).sqrt());
+        scores.push(values.iter().map(|x| (x - centre) / norm).collect());
+    }
+    Ok(scores)
+}
+
+/// Correlations between the levels.
+fn correlations(scores: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let of = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).fold(0.0, |sum, (x, y)| f64::mul_add(*x, *y, sum))
+    };
+    let row = |a: &Vec<f64>| scores.iter().map(|b| of(a, b)).collect();
+    scores.iter().map(row).collect()
+}
+
+/// The lower triangle L with L L^T the correlations of the levels, row by
+/// row: the transpose of R in scores = Q R.
+fn root(scores: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let (n, count) = (scores[0].len(), scores.len());
+    let r = DMatrix::from_fn(n, count, |i, k| scores[k][i]).qr().unpack_r();
+    let used = |k: usize| 0..=k.min(r.nrows() - 1);
+    let row = |k: usize| used(k).map(|j| r[(j, k)]).collect();
+    (0..count).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+use super::*;
+use crate::lilliefors::Table;
+use crate::streams::{Streams, standard_normal};
+
+fn normals(n: usize, index: u64) -> Vec<f64> {
+    let mut stream = Streams::new("acceptance, test", 0).stream(index);
+    (0..n).map(|_| standard_normal(&mut stream)).collect()
+}
+
+#[test]
+fn every_level_keeps_the_level_of_the_test() {
+    let (n, count, replicates) = (30, 12, 4000_u64);
+    let levels: Vec<_> = (0..count).map(|k| normals(n, k)).collect();
+    let (critical, _) = Table::embedded().critical_value(n, 0.05).unwrap();
+    let band =
+        NullBand::simulate(&levels, critical, replicates, "t", 0).unwrap();
+    let average = mean(&band.shares);
+    // Levels hardly correlated: 48000 decisions, binomial to a factor.
+    let deviation = (0.05 * 0.95 / (replicates as f64 * count as f64)).sqrt();
+    assert!((average - 0.95).abs() < 5.0 * deviation, "{average}");
+}
+
+#[test]
+fn correlation_widens_the_band() {
+    let base = normals(40, 0);
+    let apart: Vec<_> = (0..20).map(|k| normals(40, k)).collect();
+    let together: Vec<_> = (0..20)
+        .map(|k| {
+            let noise = normals(40, k);
+            base.iter().zip(noise).map(|(a, b)| a + 0.1 * b).collect()
+        })
+        .collect();
+    let spread = |levels: &[Vec<f64>]| {
+        let band = NullBand::simulate(levels, 0.1385, 2000, "t", 1).unwrap();
+        band.band(0.95, 0.95).unwrap().standard_error
+    };
+    // Independent levels: sqrt(0.05 0.95/20) = 0.049; one level: 0.218.
+    assert!((spread(&apart) - 0.049).abs() < 0.01);
+    assert!(spread(&together) > 0.12);
+}
+
+/// Few accepted levels and a large mean of D are against the null.
+#[test]
+fn a_p_value_counts_the_study_among_the_replicates() {
+    let shares = vec![0.5, 1.0, 0.9, 0.9];
+    let mean_ratios = vec![0.3, 0.7, 0.6, 0.6];
+    let band = NullBand { shares, mean_ratios, effective_levels: 1.0 };
+    for (share, expected) in
+        [(0.4, 0.2), (0.5, 0.4), (0.9, 0.8), (0.95, 0.8), (1.0, 1.0)]
+    {
+        assert_eq!(band.p_value(share), expected, "share {share}");
+    }
+    for (ratio, expected) in
+        [(0.8, 0.2), (0.7, 0.4), (0.6, 0.8), (0.5, 0.8), (0.1, 1.0)]
+    {
+        let found = band.p_value_of_mean_ratio(ratio);
+        assert_eq!(found, expected, "mean ratio {ratio}");
+    }
+}
+
+#[test]
+fn bad_levels_are_refused() {
+    let refused = |levels: &[Vec<f64>]| {
+        NullBand::simulate(levels, 0.1, 10, "t", 0).unwrap_err()
+    };
+    assert_eq!(refused(&[]), AcceptanceError::Empty);
+    let error = refused(&[normals(10, 0), normals(9, 1)]);
+    assert!(matches!(error, AcceptanceError::Lengths { level: 2, .. }));
+    let error = refused(&[normals(10, 0), vec![1.0; 10]]);
+    assert!(matches!(error, AcceptanceError::Scores { level: 2, .. }));
+}
+
+#[test]
+fn many_levels_at_once_are_decided_as_one_by_one() {
+    let streams = Streams::new("many levels", 0);
+    let mut levels: Vec<Vec<f64>> = (0..101)
+        .map(|index| {
+            let mut stream = streams.stream(index);
+            (0..77)
+                .map(|_| {
+                    let z = standard_normal(&mut stream);
+                    z + 0.15 * z * z
+                })
+                .collect()
+        })
+        .collect();
+    levels[40][3] = f64::INFINITY;
+    let table = crate::lilliefors::Table::embedded();
+    let (critical, _) = table.critical_value(77, 0.05).unwrap();
+    let found = AcceptedShare::of_values(&levels, critical);
+    let accepted = levels
+        .iter()
+        .filter_map(|level| Sample::try_new(level).ok())
+        .filter(|level| {
+            let statistic = crate::lilliefors::Statistic::try_new(level);
+            statistic.unwrap().d <= critical
+        })
+        .count();
+    assert_eq!((found.tested, found.not_applicable), (100, 1));
+    assert_eq!(found.accepted, accepted);
+    // The levels are a mixture of both decisions.
+    assert!((20..80).contains(&accepted), "{accepted}");
+    assert_eq!(AcceptedShare::of_values(&[], critical).tested, 0);
+}
+
+#[test]
+fn a_triangle_gives_its_correlations_back() {
+    let levels: Vec<_> = (0..6).map(|k| normals(30, k)).collect();
+    // The last level is the first once more.
+    let levels = [&levels[..], &levels[..1]].concat();
+    let scores = scores(&levels).unwrap();
+    let expected = correlations(&scores);
+    let root = root(&scores);
+    for (j, row) in root.iter().enumerate() {
+        for (k, other) in root.iter().enumerate() {
+            let terms = row.iter().zip(other);
+            let found = terms.fold(0.0, |sum, (a, b)| sum + a * b);
+            assert!((found - expected[j][k]).abs() < 1e-12, "{j} {k}");
+        }
+    }
+    assert!(root[6][6].abs() < 1e-12);
+}

@@ -1,0 +1,158 @@
+//! Notched boxplots, with an exact interval of the median beside the notch.
+
+use statrs::distribution::{Binomial, DiscreteCDF as _};
+use thiserror::Error;
+
+use super::{ExtendedSample, QuantileType};
+
+/// Why a boxplot was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BoxplotError {
+    /// The upper quartile falls on a censored value.
+    #[error(
+        "upper quartile is infinite: {censored} of {n} values are infinite"
+    )]
+    InfiniteQuartile {
+        /// Number of infinite values.
+        censored: usize,
+        /// Size of the sample.
+        n: usize,
+    },
+}
+
+/// A boxplot: quartiles, whiskers, outliers and McGill's notch.
+///
+/// Quartiles by the named type (5 for MATLAB's). Whiskers end at the most
+/// extreme datum within 1.5 IQR of the box (closed); outliers lie strictly
+/// beyond. The notch, median +- 1.57 IQR/sqrt(n) (McGill, Tukey and Larsen,
+/// The American Statistician 32 (1978) 12), is built so that two notches that
+/// do not overlap are evidence at about 5 %; it covers a single median in
+/// about 91 % of samples and is *not* its 95 % interval. That one is
+/// [`median_interval`].
+///
+/// ```
+/// use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
+/// let sample = ExtendedSample::try_new(&[1.0, 2.0, 3.0, 4.0, 20.0])?;
+/// let boxplot = Boxplot::try_new(&sample, QuantileType::default())?;
+/// assert_eq!((boxplot.q1, boxplot.median, boxplot.q3), (1.75, 3.0, 8.0));
+/// assert_eq!((boxplot.whisker_low, boxplot.whisker_high), (1.0, 4.0));
+/// assert_eq!(boxplot.outliers, [20.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Boxplot {
+    /// Size of the sample.
+    pub n: usize,
+    /// Lower quartile.
+    pub q1: f64,
+    /// Median.
+    pub median: f64,
+    /// Upper quartile.
+    pub q3: f64,
+    /// Lower end of McGill's notch.
+    pub notch_low: f64,
+    /// Upper end of McGill's notch.
+    pub notch_high: f64,
+    /// Lowest datum not below q1 - 1.5 IQR.
+    pub whisker_low: f64,
+    /// Highest datum not above q3 + 1.5 IQR.
+    pub whisker_high: f64,
+    /// Data beyond the whiskers, ascending; censored ones are infinite.
+    pub outliers: Vec<f64>,
+    /// Exact order-statistic interval of the median; none for n < 6.
+    pub median_interval: Option<MedianInterval>,
+}
+
+/// An interval of the median between two order statistics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct MedianInterval {
+    /// Value of the lower order statistic.
+    pub low: f64,
+    /// Value of the upper order statistic.
+    pub high: f64,
+    /// Rank of the lower one, from 1; the upper one's is n + 1 minus it.
+    pub rank: usize,
+    /// Coverage for a continuous distribution, at least the level asked for.
+    pub coverage: f64,
+}
+
+impl Boxplot {
+    /// Boxplot of a sample; infinite values are outliers.
+    ///
+    /// # Errors
+    /// [`BoxplotError::InfiniteQuartile`] if the box itself is infinite.
+    pub fn try_new(
+        sample: &ExtendedSample,
+        quantile_type: QuantileType,
+    ) -> Result<Self, BoxplotError> {
+        let infinite = BoxplotError::InfiniteQuartile {
+            censored: sample.censored(),
+            n: sample.len(),
+        };
+        let at = |p| {
+            let value = quantile_type.of_extended(sample, p).ok();
+            value.filter(|x| x.is_finite()).ok_or(infinite)
+        };
+        let (q1, median, q3) = (at(0.25)?, at(0.5)?, at(0.75)?);
+        let iqr = q3 - q1;
+        let half = 1.57 * iqr / (sample.len() as f64).sqrt();
+        let (fence_low, fence_high) = (q1 - 1.5 * iqr, q3 + 1.5 * iqr);
+        let sorted = sample.sorted();
+        let first = sorted.partition_point(|&x| x < fence_low);
+        let end = sorted.partition_point(|&x| x <= fence_high);
+        Ok(Self {
+            n: sample.len(),
+            q1,
+            median,
+            q3,
+            notch_low: median - half,
+            notch_high: median + half,
+            whisker_low: sorted[first],
+            whisker_high: sorted[end - 1],
+            outliers: [&sorted[..first], &sorted[end..]].concat(),
+            median_interval: median_interval(sample, 0.95),
+        })
+    }
+}
+
+/// The shortest symmetric pair of order statistics that covers the median of
+/// a continuous distribution with at least probability `level`; none if the
+/// sample's range doesn't.
+///
+/// The interval (x_(k), x_(n+1-k)) covers with probability
+/// 1 - 2 P(B <= k - 1), B binomial (n, 1/2).
+///
+/// ```
+/// use rocking_statistics::{ExtendedSample, boxplot::median_interval};
+/// let values: Vec<f64> = (1..=86).map(f64::from).collect();
+/// let sample = ExtendedSample::try_new(&values)?;
+/// let interval = median_interval(&sample, 0.95).unwrap();
+/// assert_eq!((interval.low, interval.high), (34.0, 53.0));
+/// assert!((interval.coverage - 0.960).abs() < 5e-4);
+/// # Ok::<(), rocking_statistics::SampleError>(())
+/// ```
+#[must_use]
+pub fn median_interval(
+    sample: &ExtendedSample,
+    level: f64,
+) -> Option<MedianInterval> {
+    let n = sample.len();
+    let binomial = Binomial::new(0.5, n as u64).ok()?;
+    let coverage = |k: usize| 1.0 - 2.0 * binomial.cdf(k as u64 - 1);
+    let rank = (1..=n.div_ceil(2)).rev().find(|&k| coverage(k) >= level)?;
+    let sorted = sample.sorted();
+    Some(MedianInterval {
+        low: sorted[rank - 1],
+        high: sorted[n - rank],
+        rank,
+        coverage: coverage(rank),
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,178 @@
+//! Values, some of them censored at limits of their own.
+
+use super::lognormal::{
+    FitError, FitMethod, LognormalFit, fit, fit_intervals,
+};
+use super::sample::SampleError;
+use super::{ExtendedSample, QuantileType};
+
+/// Values in their order, infinite where censored, with the limits that are
+/// known: a record that was run up to an intensity of 3.2 and stood has the
+/// limit 3.2.
+///
+/// ```
+/// use rocking_statistics::CensoredSample;
+/// let inf = f64::INFINITY;
+/// let sample =
+///     CensoredSample::try_new(&[1.0, inf, inf], &[None, Some(3.2), None])?;
+/// assert_eq!((sample.censored(), sample.limited()), (2, 1));
+/// # Ok::<(), rocking_statistics::SampleError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct CensoredSample {
+    values: Vec<f64>,
+    limits: Vec<Option<f64>>,
+}
+
+impl CensoredSample {
+    /// These values, and the limits of those that are censored at a known
+    /// one; a missing limit at the end counts as unknown.
+    ///
+    /// # Errors
+    /// [`SampleError`] if there is no value, or one is NaN or minus infinity.
+    pub fn try_new(
+        values: &[f64],
+        limits: &[Option<f64>],
+    ) -> Result<Self, SampleError> {
+        ExtendedSample::try_new(values)?;
+        let limits = limits.iter().copied().chain(std::iter::repeat(None));
+        let limits = limits.take(values.len()).collect();
+        Ok(Self { values: values.to_vec(), limits })
+    }
+
+    /// The values in their order, infinite where censored.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The limits of the values that are censored at a known one.
+    #[must_use]
+    pub fn limits(&self) -> &[Option<f64>] {
+        &self.limits
+    }
+
+    /// The same values without their limits.
+    #[must_use]
+    pub fn extended(&self) -> ExtendedSample {
+        ExtendedSample::of(&self.values)
+    }
+
+    /// The values at these places, in this order.
+    #[must_use]
+    pub fn at(&self, places: &[usize]) -> Self {
+        let pick = |&i: &usize| (self.values[i], self.limits[i]);
+        let (values, limits) = places.iter().map(pick).unzip();
+        Self { values, limits }
+    }
+
+    /// The values above the smallest one, which is given beside them.
+    #[must_use]
+    pub fn above_smallest(&self) -> (f64, Self) {
+        let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let above = |&i: &usize| self.values[i] > least;
+        let places: Vec<usize> =
+            (0..self.values.len()).filter(above).collect();
+        (least, self.at(&places))
+    }
+
+    /// Number of values.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "never empty")]
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Number of censored values.
+    #[must_use]
+    pub fn censored(&self) -> usize {
+        self.values.iter().filter(|x| x.is_infinite()).count()
+    }
+
+    /// Number of censored values whose limit is known.
+    #[must_use]
+    pub fn limited(&self) -> usize {
+        self.limits.iter().flatten().count()
+    }
+
+    /// A quantile of the values; none where a value that is censored below
+    /// it leaves it open.
+    #[must_use]
+    pub fn quantile(
+        &self,
+        quantile_type: QuantileType,
+        p: f64,
+    ) -> Option<f64> {
+        let value = quantile_type.of_extended(&self.extended(), p).ok()?;
+        let open = self.limits.iter().flatten().any(|limit| *limit < value);
+        (!open || value.is_infinite()).then_some(value)
+    }
+
+    /// The points of the sample's distribution: the k-th value of n at the
+    /// probability (k - 1/2)/n, as [`QuantileType`] 5 has it. Values that
+    /// censoring leaves open are left out.
+    ///
+    /// ```
+    /// use rocking_statistics::CensoredSample;
+    /// let values = [2.0, 1.0, f64::INFINITY, 1.2];
+    /// let limits = [None, None, Some(1.5), None];
+    /// let sample = CensoredSample::try_new(&values, &limits)?;
+    /// assert_eq!(sample.points(), [(1.0, 0.125), (1.2, 0.375)]);
+    /// # Ok::<(), rocking_statistics::SampleError>(())
+    /// ```
+    #[must_use]
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        let n = self.len();
+        let known = |(k, x): (usize, &f64)| {
+            let open = self.limits.iter().flatten().any(|limit| limit < x);
+            (!open).then(|| (*x, (k as f64 + 0.5) / n as f64))
+        };
+        let all = self.extended();
+        all.finite().iter().enumerate().filter_map(known).collect()
+    }
+
+    /// The lognormal fit above the shift: by [`fit_intervals`] where a value
+    /// has a limit of its own and the method takes one, otherwise by [`fit`].
+    ///
+    /// # Errors
+    /// [`FitError`] where the values make no fit.
+    pub fn fit(
+        &self,
+        shift: f64,
+        method: FitMethod,
+    ) -> Result<LognormalFit, FitError> {
+        let sample = ExtendedSample::try_new(&self.values)
+            .map_err(|_| FitError::TooFew(0))?;
+        if self.limited() == 0 {
+            return fit(&sample, shift, method);
+        }
+        // Values above the cut are censored at the largest one up to it, as
+        // are those whose limit is unknown.
+        let (cut, common) = match method {
+            FitMethod::MaximumLikelihood => (f64::INFINITY, None),
+            FitMethod::Censored(quantile_type) => {
+                let cut = quantile_type.of_extended(&sample, 0.95);
+                let cut = cut.unwrap_or(f64::INFINITY);
+                let kept = sample.finite().iter().filter(|x| **x <= cut);
+                (cut, kept.copied().reduce(f64::max))
+            }
+            _ => return fit(&sample, shift, method),
+        };
+        let interval = |(&value, limit): (&f64, &Option<f64>)| {
+            let limit = limit.filter(|limit| *limit <= cut);
+            match (limit, common) {
+                (Some(limit), _) => Ok((limit, f64::INFINITY)),
+                (None, _) if value <= cut && value.is_finite() => {
+                    Ok((value, value))
+                }
+                (None, Some(common)) => Ok((common, f64::INFINITY)),
+                (None, None) => Err(FitError::Infinite {
+                    censored: sample.censored() - self.limited(),
+                    n: sample.len(),
+                }),
+            }
+        };
+        let all = self.values.iter().zip(&self.limits).map(interval);
+        fit_intervals(&all.collect::<Result<Vec<_>, _>>()?, shift)
+    }
+}

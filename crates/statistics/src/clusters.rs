@@ -1,0 +1,305 @@
+//! Clusters of records: records of one earthquake are no independent draws.
+//!
+//! A resampling draws clusters, and takes all records of each. Where every
+//! record is a cluster of its own, it draws records.
+
+use libm::sqrt;
+use statrs::distribution::{ContinuousCDF as _, StudentsT};
+
+use super::normal;
+use super::sample::mean;
+use rocking::names::named;
+
+/// What a resampling draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Records: no earthquake is known, or none is shared.
+    Record,
+    /// Earthquakes, each with all its records.
+    Earthquake,
+}
+
+named!(Unit, "unit", { Record = "record", Earthquake = "earthquake" });
+
+/// The records of a sample by the earthquake that each belongs to.
+///
+/// Clusters are numbered by their first record.
+///
+/// ```
+/// use rocking_statistics::clusters::{Clusters, Unit};
+/// let clusters = Clusters::from_labels(["Kobe", "Izmit", "Kobe"]);
+/// assert_eq!((clusters.records(), clusters.count()), (3, 2));
+/// assert_eq!((clusters.of(2), clusters.members(0)), (0, &[0, 2][..]));
+/// assert_eq!(clusters.without(0), [0, 1, 0]);
+/// assert_eq!(
+///     clusters.to_string(),
+///     "3 records of 2 earthquakes; unit: earthquake"
+/// );
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Clusters {
+    unit: Unit,
+    of: Vec<usize>,
+    members: Vec<Vec<usize>>,
+}
+
+impl Clusters {
+    /// Clusters from one label a record: records with the same label make a
+    /// cluster.
+    #[must_use]
+    pub fn from_labels(labels: impl IntoIterator<Item: AsRef<str>>) -> Self {
+        let mut known = std::collections::BTreeMap::new();
+        let mut members: Vec<Vec<usize>> = Vec::new();
+        let mut place = |(record, label): (usize, _)| {
+            let label: &str = AsRef::<str>::as_ref(&label);
+            let next = known.len();
+            let cluster = *known.entry(label.to_owned()).or_insert(next);
+            match members.get_mut(cluster) {
+                Some(own) => own.push(record),
+                None => members.push(vec![record]),
+            }
+            cluster
+        };
+        let mut of = Vec::new();
+        for label in labels.into_iter().enumerate() {
+            of.push(place(label));
+        }
+        Self { unit: Unit::Earthquake, of, members }
+    }
+
+    /// Clusters of `n` records without a label: each record is a cluster.
+    #[must_use]
+    pub fn singletons(n: usize) -> Self {
+        let members = (0..n).map(|record| vec![record]).collect();
+        Self { unit: Unit::Record, of: (0..n).collect(), members }
+    }
+
+    /// What a resampling draws.
+    #[must_use]
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// Number of records.
+    #[must_use]
+    pub fn records(&self) -> usize {
+        self.of.len()
+    }
+
+    /// Number of clusters G.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.members.len()
+    }
+
+    /// The cluster of a record.
+    #[must_use]
+    pub fn of(&self, record: usize) -> usize {
+        self.of[record]
+    }
+
+    /// The records of a cluster, ascending.
+    #[must_use]
+    pub fn members(&self, cluster: usize) -> &[usize] {
+        &self.members[cluster]
+    }
+
+    /// Whether each record is a cluster of its own.
+    #[must_use]
+    pub fn is_singletons(&self) -> bool {
+        self.count() == self.records()
+    }
+
+    /// These records alone, in this order.
+    #[must_use]
+    pub fn part(&self, records: &[usize]) -> Self {
+        let labels = records.iter().map(|record| self.of[*record].to_string());
+        match self.unit {
+            Unit::Record => Self::singletons(records.len()),
+            Unit::Earthquake => Self::from_labels(labels),
+        }
+    }
+
+    /// The multiplicities without the records of one cluster.
+    #[must_use]
+    pub fn without(&self, cluster: usize) -> Vec<u32> {
+        self.of.iter().map(|of| u32::from(*of != cluster)).collect()
+    }
+
+    /// The number G_e = (sum n_g)^2/sum n_g^2 of clusters of one size that
+    /// weigh as much as those of sizes n_g (Kish, Survey Sampling, 1965).
+    #[must_use]
+    pub fn effective(&self) -> f64 {
+        let n = self.records() as f64;
+        let sizes = self.members.iter().map(|own| own.len() as f64);
+        n * n / sizes.fold(0.0, |sum, size| f64::mul_add(size, size, sum))
+    }
+
+    /// Degrees of freedom nu of the standard error of a mean over clusters
+    /// of sizes n_g (Bell and McCaffrey, Survey Methodology 28 (2002) 169,
+    /// with independent records as the working model): with n records and
+    /// c_g = 1/(1 - n_g/n), nu = n^2/(sum_g n_g^2 + sum_(g != h) c_g c_h
+    /// (n_g n_h/n)^2). Of clusters of one size it is G - 1.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> f64 {
+        let n = self.records() as f64;
+        let (mut own, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for members in &self.members {
+            let size = members.len() as f64;
+            let term = size * size / (1.0 - size / n);
+            own += size * size;
+            sum += term;
+            squares = f64::mul_add(term, term, squares);
+        }
+        n * n / (own + (sum * sum - squares) / (n * n))
+    }
+
+    /// Share of the variance of values that lies between clusters, at least
+    /// 0: (B - W)/(B + (n_0 - 1) W) with the mean squares B between and W
+    /// within clusters, n_0 = (n - sum n_g^2/n)/(G - 1) (analysis of
+    /// variance, one way). None of values that are not all finite, of a
+    /// single cluster, and where no cluster has two records.
+    ///
+    /// ```
+    /// use rocking_statistics::clusters::Clusters;
+    /// let clusters = Clusters::from_labels(["a", "a", "b", "b"]);
+    /// // B = 16, W = 1, n_0 = 2.
+    /// let share = clusters.intraclass(&[0.0, 2.0f64.sqrt(), 4.0, 5.5]);
+    /// assert!(share.is_some_and(|share| share > 0.8 && share < 1.0));
+    /// ```
+    #[must_use]
+    pub fn intraclass(&self, values: &[f64]) -> Option<f64> {
+        let centre = mean(values);
+        let (mut between, mut within) = (0.0, 0.0);
+        for members in &self.members {
+            let own: Vec<f64> = members.iter().map(|&i| values[i]).collect();
+            let own_mean = mean(&own);
+            let gap = own_mean - centre;
+            between += own.len() as f64 * gap * gap;
+            for value in own {
+                within += (value - own_mean) * (value - own_mean);
+            }
+        }
+        let (n, count) = (self.records() as f64, self.count() as f64);
+        let (between, within) =
+            (between / (count - 1.0), within / (n - count));
+        let size = n * (1.0 - 1.0 / self.effective()) / (count - 1.0);
+        let share = (between - within) / (between + (size - 1.0) * within);
+        share.is_finite().then_some(share.max(0.0))
+    }
+
+    /// Half the width of an interval at `level`, over the standard deviation
+    /// of an ordinary bootstrap of clusters. With z the normal quantile, t
+    /// that of Student's t with [`Self::degrees_of_freedom`] and G_e of
+    /// [`Self::effective`]: t sqrt(G_e/(G_e - 1)), which corrects the bias of
+    /// the variance and its own error; z of clusters of one record, which are
+    /// many. NaN of a single cluster.
+    ///
+    /// ```
+    /// use rocking_statistics::clusters::Clusters;
+    /// let many = Clusters::singletons(86).half_width(0.95);
+    /// assert!((many - 1.96).abs() < 1e-4);
+    /// // Five earthquakes of two records: t of 4 is 2.776.
+    /// let labels = ["a", "b", "c", "d", "e"].repeat(2);
+    /// let few = Clusters::from_labels(labels).half_width(0.95);
+    /// assert!((few - 2.776 * 1.25f64.sqrt()).abs() < 1e-3);
+    /// ```
+    #[must_use]
+    pub fn half_width(&self, level: f64) -> f64 {
+        let student = self.student_over_normal(level);
+        normal::quantile(0.5 + 0.5 * level) * student * self.unbiased()
+    }
+
+    /// Deviations of suites like this one from the truth, as the replicates
+    /// of a bootstrap of these clusters tell them: theirs from `point`,
+    /// times sqrt(G_e/(G_e - 1)) as in [`Self::half_width`].
+    #[must_use]
+    pub fn deviations(&self, point: f64, replicates: &[f64]) -> Vec<f64> {
+        let wider = self.unbiased();
+        replicates.iter().map(|x| wider * (x - point)).collect()
+    }
+
+    /// t/z of [`Self::half_width`], and 1 of clusters of one record.
+    #[must_use]
+    pub fn student_over_normal(&self, level: f64) -> f64 {
+        if self.is_singletons() {
+            return 1.0;
+        }
+        let p = 0.5 + 0.5 * level;
+        let t = StudentsT::new(0.0, 1.0, self.degrees_of_freedom());
+        t.map_or(f64::NAN, |t| t.inverse_cdf(p) / normal::quantile(p))
+    }
+
+    /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
+    /// clusters is too small by this factor; 1 of clusters of one record.
+    pub(super) fn unbiased(&self) -> f64 {
+        let effective = self.effective();
+        if self.is_singletons() {
+            return 1.0;
+        }
+        sqrt(effective / (effective - 1.0))
+    }
+}
+
+impl std::fmt::Display for Clusters {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let records = self.records();
+        match self.unit {
+            Unit::Record => write!(f, "{records} records; unit: record"),
+            Unit::Earthquake => write!(
+                f,
+                "{records} records of {} earthquakes; unit: earthquake",
+                self.count()
+            ),
+        }
+    }
+}
+
+/// In words, as a result says them.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Clusters {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::resampling::Subsampling;
+
+    #[test]
+    fn a_single_cluster_has_no_interval() {
+        let one = Clusters::from_labels(["a", "a", "a"]);
+        assert!(one.half_width(0.95).is_nan());
+        assert!(one.estimate(1.0, &[0.5, 1.0, 1.5], 0.95).is_none());
+        assert_eq!(Clusters::singletons(0).count(), 0);
+    }
+
+    #[test]
+    fn records_of_earthquakes_of_their_own_are_drawn_as_records() {
+        let clusters = Clusters::from_labels(["a", "b", "c", "d"]);
+        assert!(clusters.is_singletons());
+        assert_eq!(clusters.unit(), Unit::Earthquake);
+        let drawn = clusters.multiplicities("test", 0, 5);
+        let records = Clusters::singletons(4);
+        assert_eq!(drawn, records.multiplicities("test", 0, 5));
+        assert_eq!(clusters.half_width(0.95), records.half_width(0.95));
+    }
+
+    #[test]
+    fn subsamples_hold_whole_clusters() {
+        let labels = ["a", "b", "c", "d", "e"].repeat(4);
+        let clusters = Clusters::from_labels(labels);
+        let drawn = Subsampling::of("test", 0, &clusters, 13);
+        for index in 0..20 {
+            let counts = drawn.multiplicities(index);
+            let first: u32 = counts[..5].iter().sum();
+            assert_eq!(first, 3, "{counts:?}");
+            assert_eq!(counts[..5], counts[15..]);
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Maximum likelihood of normal values known exactly or by an interval.
+
+use libm::{exp, log};
+
+use super::FitError;
+use crate::normal::{LN_SQRT_TWO_PI, cdf, ln_cdf, survival};
+
+const STEPS: usize = 100;
+
+/// What is known of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Observation {
+    /// The value.
+    Exact(f64),
+    /// It lies between these, one of which may be infinite.
+    Interval(f64, f64),
+}
+
+use Observation::{Exact, Interval};
+
+/// The log-likelihood at (a, b) = (1/sigma, mu/sigma), its gradient and its
+/// second derivatives (aa, ab, bb).
+struct Point {
+    value: f64,
+    gradient: [f64; 2],
+    curvature: [f64; 3],
+}
+
+impl Point {
+    fn at(observations: &[Observation], a: f64, b: f64) -> Self {
+        let mut point =
+            Self { value: 0.0, gradient: [0.0; 2], curvature: [0.0; 3] };
+        for observation in observations {
+            match *observation {
+                Exact(y) => point.add_exact(y, a, b),
+                Interval(low, high) => point.add_interval(low, high, a, b),
+            }
+        }
+        point
+    }
+
+    fn add_exact(&mut self, y: f64, a: f64, b: f64) {
+        let z = f64::mul_add(a, y, -b);
+        self.value += log(a) - 0.5 * z * z - LN_SQRT_TWO_PI;
+        self.gradient[0] += 1.0 / a - z * y;
+        self.gradient[1] += z;
+        self.curvature[0] -= f64::mul_add(y, y, 1.0 / (a * a));
+        self.curvature[1] += y;
+        self.curvature[2] -= 1.0;
+    }
+
+    fn add_interval(&mut self, low: f64, high: f64, a: f64, b: f64) {
+        let score = |y: f64| f64::mul_add(a, y, -b);
+        let (z0, z1) = (score(low), score(high));
+        let ln_p = if high == f64::INFINITY {
+            ln_cdf(-z0)
+        } else if low == f64::NEG_INFINITY {
+            ln_cdf(z1)
+        } else if z0 > 0.0 {
+            log(survival(z0) - survival(z1))
+        } else {
+            log(cdf(z1) - cdf(z0))
+        };
+        // (phi/P, z phi/P) at an end; both vanish at infinity.
+        let end = |y: f64, z: f64| {
+            if y.is_infinite() {
+                return (0.0, 0.0, 0.0);
+            }
+            let ratio = exp(-0.5 * z * z - LN_SQRT_TWO_PI - ln_p);
+            (y, ratio, z * ratio)
+        };
+        let (y0, f0, g0) = end(low, z0);
+        let (y1, f1, g1) = end(high, z1);
+        let (da, db) = (y1 * f1 - y0 * f0, f0 - f1);
+        self.value += ln_p;
+        self.gradient[0] += da;
+        self.gradient[1] += db;
+        self.curvature[0] -= y1 * y1 * g1 - y0 * y0 * g0 + da * da;
+        self.curvature[1] += y1 * g1 - y0 * g0 - da * db;
+        self.curvature[2] -= g1 - g0 + db * db;
+    }
+}
+
+/// Mean and standard deviation that maximise the likelihood, and its
+/// logarithm; from a rough centre and spread.
+///
+/// In (1/sigma, mu/sigma) the log-likelihood is concave, exact values or
+/// intervals, so that Newton's method with a halved step finds its one
+/// maximum.
+pub(super) fn maximise(
+    observations: &[Observation],
+    centre: f64,
+    spread: f64,
+) -> Result<(f64, f64, f64), FitError> {
+    let standard = |y: f64| (y - centre) / spread;
+    let standardised: Vec<Observation> = observations
+        .iter()
+        .map(|observation| match *observation {
+            Exact(y) => Exact(standard(y)),
+            Interval(low, high) => Interval(standard(low), standard(high)),
+        })
+        .collect();
+    let exact = observations.iter().filter(|o| matches!(o, Exact(_))).count();
+    let (mut a, mut b) = (1.0, 0.0);
+    let mut here = Point::at(&standardised, a, b);
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS {
+        let [aa, ab, bb] = here.curvature;
+        let [da, db] = here.gradient;
+        let determinant = aa * bb - ab * ab;
+        let step_a = (bb * da - ab * db) / determinant;
+        let step_b = (aa * db - ab * da) / determinant;
+        let size = step_a.abs().max(step_b.abs()) / (a + b.abs());
+        // Newton's steps shrink until the rounding of narrow intervals.
+        if size < 1e-13 || (size < 1e-7 && size >= last) {
+            let value = here.value - exact as f64 * log(spread);
+            return Ok((centre + spread * b / a, spread / a, value));
+        }
+        last = size;
+        let mut share = 1.0;
+        loop {
+            let (next_a, next_b) = (a - share * step_a, b - share * step_b);
+            if next_a > 0.0 {
+                let next = Point::at(&standardised, next_a, next_b);
+                // At the maximum the value no longer tells steps apart.
+                if next.value >= here.value - 1e-13 * here.value.abs() {
+                    (a, b, here) = (next_a, next_b, next);
+                    break;
+                }
+            }
+            share *= 0.5;
+            if share.is_nan() || share < 1e-12 {
+                return Err(FitError::NotConverged(STEPS));
+            }
+        }
+    }
+    Err(FitError::NotConverged(STEPS))
+}
+
+/// Half of the 95 % quantile of chi-squared with one degree of freedom.
+pub(super) const DROP: f64 = 1.920_729_410_347_062;
+/// Limits farther off than this, in logarithms, are none.
+const FARTHEST: f64 = 30.0;
+
+/// Limits of the 95 % likelihood interval of the mean and of the standard
+/// deviation at whose maximum the log-likelihood is `top`; none where the
+/// profile does not fall by 1.92.
+///
+/// In (1/sigma, mu/sigma), where the log-likelihood is concave, a standard
+/// deviation is a line and a mean a ray, so that either profile falls on both
+/// sides of its maximum.
+pub(super) fn profile_limits(
+    observations: &[Observation],
+    (mean, deviation, top): (f64, f64, f64),
+) -> [(Option<f64>, Option<f64>); 2] {
+    let of_mean = |mu: f64| {
+        let start = 1.0 / (deviation + (mu - mean).abs());
+        highest(observations, start, |a| (a, mu * a), (1.0, mu))
+    };
+    let of_ln_deviation = |ln: f64| {
+        let a = exp(-ln);
+        highest(observations, mean * a, |b| (a, b), (0.0, 1.0))
+    };
+    let limit = top - DROP;
+    let end = |from: f64, mut step: f64, value: &dyn Fn(f64) -> f64| {
+        let mut inside = from;
+        while (inside + step - from).abs() < FARTHEST {
+            let next = inside + step;
+            if value(next) < limit {
+                return Some(halve(value, limit, inside, next));
+            }
+            (inside, step) = (next, 1.5 * step);
+        }
+        None
+    };
+    let step = 0.1 * deviation;
+    let ln = log(deviation);
+    let low = end(ln, -0.1, &of_ln_deviation).map(exp);
+    let high = end(ln, 0.1, &of_ln_deviation).map(exp);
+    [(end(mean, -step, &of_mean), end(mean, step, &of_mean)), (low, high)]
+}
+
+/// The highest log-likelihood on a line through (1/sigma, mu/sigma), by
+/// Newton's method from `start` with a halved step.
+fn highest(
+    observations: &[Observation],
+    start: f64,
+    place: impl Fn(f64) -> (f64, f64),
+    (along_a, along_b): (f64, f64),
+) -> f64 {
+    let at = |t: f64| {
+        let (a, b) = place(t);
+        Point::at(observations, a, b)
+    };
+    let mut t = start;
+    let mut here = at(t);
+    for _ in 0..STEPS {
+        let slope = along_a * here.gradient[0] + along_b * here.gradient[1];
+        let [aa, ab, bb] = here.curvature;
+        let bend = along_a * along_a * aa
+            + 2.0 * along_a * along_b * ab
+            + along_b * along_b * bb;
+        let mut step = -slope / bend;
+        if !(step.abs() > 1e-10 * t.abs()) {
+            break;
+        }
+        loop {
+            let next = t + step;
+            if place(next).0 > 0.0 {
+                let point = at(next);
+                if point.value >= here.value {
+                    (t, here) = (next, point);
+                    break;
+                }
+            }
+            step *= 0.5;
+            if !(step.abs() > 1e-10 * t.abs()) {
+                return here.value;
+            }
+        }
+    }
+    here.value
+}
+
+/// Where a profile passes `limit` between a place above it and one below.
+fn halve(
+    value: &dyn Fn(f64) -> f64,
+    limit: f64,
+    mut inside: f64,
+    mut outside: f64,
+) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (inside + outside);
+        if value(middle) < limit {
+            outside = middle;
+        } else {
+            inside = middle;
+        }
+    }
+    0.5 * (inside + outside)
+}

@@ -1,0 +1,124 @@
+//! p-values by simulation, for one size of sample.
+
+use rayon::prelude::*;
+
+use super::shapiro_wilk::{deficit, weights};
+use super::{a2, w2};
+use crate::Sample;
+use crate::lilliefors::{
+    LillieforsError, NullDistribution, PValue, standardised,
+};
+use crate::streams::{Streams, standard_normals};
+use rocking::stop;
+
+/// Null distributions of A^2, W^2 and 1 - W for samples of one size, by
+/// simulation: p-values free of any approximation but the number of
+/// replicates, which their intervals hold.
+///
+/// Replicate i draws from stream i of the family "normality, n".
+///
+/// ```
+/// use rocking_statistics::{Sample, normality::Battery};
+/// let battery = Battery::simulate(6, 2000, 0)?;
+/// let sample = Sample::try_new(&[1.0, 2.0, 4.0, 8.0, 16.0, 32.0])?;
+/// let [anderson_darling, ..] = battery.assess(&sample)?;
+/// assert!(anderson_darling.p_value.low > 0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Battery {
+    n: usize,
+    /// A^2, W^2, 1 - W: large values are against normality.
+    nulls: [NullDistribution; 3],
+}
+
+/// A statistic with its simulated p-value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Calibrated {
+    /// The statistic, not modified for the sample's size.
+    pub statistic: f64,
+    /// (b + 1)/(N + 1), with the 95 % Clopper-Pearson interval.
+    pub p_value: PValue,
+}
+
+/// Replicates that share their working space.
+const CHUNK: u64 = 1024;
+
+impl Battery {
+    /// Largest sample that [`simulate`](Self::simulate) takes: Shapiro and
+    /// Wilk's weights hold up to it.
+    pub const MOST_VALUES: usize = super::shapiro_wilk::LARGEST;
+
+    /// Simulates the statistics of `replicates` normal samples of n values.
+    ///
+    /// # Errors
+    /// [`LillieforsError`] for n < 4 or > 5000, and for fewer than 100 or
+    /// more than 10^8 replicates.
+    pub fn simulate(
+        n: usize,
+        replicates: u64,
+        seed: u64,
+    ) -> Result<Self, LillieforsError> {
+        NullDistribution::check(n, replicates)?;
+        if n > Self::MOST_VALUES {
+            let expected = Self::MOST_VALUES;
+            return Err(LillieforsError::TooMany { found: n, expected });
+        }
+        let streams = Streams::new(&format!("normality, {n}"), seed);
+        let weights = weights(n);
+        let rows: Vec<Vec<[f64; 3]>> = (0..replicates.div_ceil(CHUNK))
+            .into_par_iter()
+            .panic_fuse()
+            .map(|chunk| {
+                let first = chunk * CHUNK;
+                (first..(first + CHUNK).min(replicates))
+                    .map(|index| {
+                        stop::point();
+                        let mut stream = streams.stream(index);
+                        let mut values = vec![0.0; n];
+                        standard_normals(&mut stream, &mut values);
+                        let scores = standardised(&Sample::of(values))?;
+                        let deficit = deficit(&weights, &scores);
+                        Ok([a2(&scores), w2(&scores), deficit])
+                    })
+                    .collect::<Result<_, LillieforsError>>()
+            })
+            .collect::<Result<_, _>>()?;
+        let null = |k: usize| {
+            let column = rows.iter().flatten().map(|row| row[k]).collect();
+            NullDistribution::of(n, column)
+        };
+        Ok(Self { n, nulls: [null(0), null(1), null(2)] })
+    }
+
+    /// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of a sample.
+    ///
+    /// # Errors
+    /// [`LillieforsError`] for a sample of another size, or whose values
+    /// don't vary.
+    pub fn assess(
+        &self,
+        sample: &Sample,
+    ) -> Result<[Calibrated; 3], LillieforsError> {
+        if sample.len() != self.n {
+            let (found, expected) = (sample.len(), self.n);
+            return Err(LillieforsError::Size { found, expected });
+        }
+        let scores = standardised(sample)?;
+        let deficit = deficit(&weights(self.n), &scores);
+        let statistics = [a2(&scores), w2(&scores), deficit];
+        let p = [0, 1, 2].map(|k: usize| self.nulls[k].p_value(statistics[k]));
+        Ok([
+            Calibrated { statistic: statistics[0], p_value: p[0] },
+            Calibrated { statistic: statistics[1], p_value: p[1] },
+            Calibrated { statistic: 1.0 - deficit, p_value: p[2] },
+        ])
+    }
+
+    /// The null distributions of A^2, W^2 and 1 - W.
+    #[must_use]
+    pub fn nulls(&self) -> &[NullDistribution; 3] {
+        &self.nulls
+    }
+}

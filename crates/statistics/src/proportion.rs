@@ -1,0 +1,173 @@
+//! A probability from a count, with its exact interval.
+
+use statrs::distribution::{Beta, ContinuousCDF as _};
+use thiserror::Error;
+
+/// Why a count gives no probability.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ProportionError {
+    /// A count is at most the number of trials, and that is at least one.
+    #[error("{successes} of {trials}: expected at most all of 1 or more")]
+    Count {
+        /// How often it happened.
+        successes: usize,
+        /// How often it could.
+        trials: usize,
+    },
+    /// A level is a probability, and neither 0 nor 1.
+    #[error("level {0}: expected a number between 0 and 1")]
+    Level(f64),
+}
+
+/// What happened k times in n independent trials of one probability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Proportion {
+    successes: usize,
+    trials: usize,
+}
+
+impl Proportion {
+    /// k `successes` in n `trials`.
+    ///
+    /// # Errors
+    /// [`ProportionError::Count`] for k > n, and for n = 0.
+    pub fn try_new(
+        successes: usize,
+        trials: usize,
+    ) -> Result<Self, ProportionError> {
+        if trials == 0 || successes > trials {
+            return Err(ProportionError::Count { successes, trials });
+        }
+        Ok(Self { successes, trials })
+    }
+
+    /// Number of trials n.
+    #[must_use]
+    pub fn trials(self) -> usize {
+        self.trials
+    }
+
+    /// k/n, from 0 to 1.
+    #[must_use]
+    pub fn share(self) -> f64 {
+        self.successes as f64 / self.trials as f64
+    }
+
+    /// The exact interval of the probability (Clopper and Pearson).
+    ///
+    /// With a = (1 - level)/2 the low end p has P(B >= k) = a, the high end
+    /// P(B <= k) = a, B binomial (n, p); 0 of n has the low end 0 and the
+    /// high end 1 - a^(1/n), n of n the low end a^(1/n) and the high end 1.
+    /// Whatever the probability is, the interval holds it with probability
+    /// `level` or more. `level` lies between 0 and 1.
+    ///
+    /// ```
+    /// use rocking_statistics::Proportion;
+    /// // None of 44: the probability may still be 8 %.
+    /// let (low, high) = Proportion::try_new(0, 44)?.interval(0.95)?;
+    /// assert_eq!(low, 0.0);
+    /// assert!((high - 0.080_42).abs() < 1e-5);
+    /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
+    /// ```
+    ///
+    /// Clopper and Pearson, Biometrika 26 (1934) 404.
+    ///
+    /// # Errors
+    /// [`ProportionError::Level`] for another level.
+    pub fn interval(self, level: f64) -> Result<(f64, f64), ProportionError> {
+        checked(level)?;
+        let (k, n) = (self.successes as f64, self.trials as f64);
+        let tail = 0.5 * (1.0 - level);
+        let at = |a: f64, b: f64, p: f64| {
+            Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p))
+        };
+        let low = match self.successes {
+            0 => 0.0,
+            _ => at(k, n - k + 1.0, tail),
+        };
+        let high = match self.trials - self.successes {
+            0 => 1.0,
+            _ => at(k + 1.0, n - k, 1.0 - tail),
+        };
+        Ok((low, high))
+    }
+
+    /// Exact intervals of several probabilities that hold all of them at
+    /// once with probability `level` or more, however they depend on each
+    /// other: each of the m intervals has the level 1 - (1 - level)/m
+    /// (Bonferroni).
+    ///
+    /// ```
+    /// use rocking_statistics::Proportion;
+    /// let one = Proportion::try_new(19, 86)?;
+    /// let band = Proportion::band(&[one; 240], 0.95)?;
+    /// let (low, high) = band[0];
+    /// assert!((low - 0.0857).abs() < 1e-4 && (high - 0.4172).abs() < 1e-4);
+    /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ProportionError::Level`] for a level that is not between 0 and 1.
+    pub fn band(
+        all: &[Self],
+        level: f64,
+    ) -> Result<Vec<(f64, f64)>, ProportionError> {
+        checked(level)?;
+        let each = 1.0 - (1.0 - level) / all.len() as f64;
+        all.iter().map(|one| one.interval(each)).collect()
+    }
+}
+
+fn checked(level: f64) -> Result<(), ProportionError> {
+    let inside = level > 0.0 && level < 1.0;
+    inside.then_some(()).ok_or(ProportionError::Level(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_those_of_the_closed_form_where_there_is_one() {
+        // 0 of n: 1 - a^(1/n); n of n: a^(1/n).
+        for (n, level) in [(1, 0.5), (20, 0.95), (86, 0.95), (44, 0.9998)] {
+            let a = 0.5 * (1.0 - level);
+            let end = libm::pow(a, 1.0 / n as f64);
+            let none = Proportion::try_new(0, n).unwrap();
+            let (low, high) = none.interval(level).unwrap();
+            assert!(low == 0.0 && (high - (1.0 - end)).abs() < 1e-10);
+            let all = Proportion::try_new(n, n).unwrap();
+            let (low, high) = all.interval(level).unwrap();
+            assert!((low - end).abs() < 1e-10 && high == 1.0);
+        }
+    }
+
+    #[test]
+    fn nothing_in_a_few_trials_is_no_certainty() {
+        let of = |k, n| Proportion::try_new(k, n).unwrap();
+        for n in [10, 44, 86, 1000] {
+            let (_, high) = of(0, n).interval(0.95).unwrap();
+            assert!(high > 0.0 && high > 3.0 / n as f64, "{n}: {high}");
+        }
+        // Of more cells at once each end lies further away.
+        let alone = of(0, 86).interval(0.95).unwrap().1;
+        let band = Proportion::band(&[of(0, 86); 240], 0.95).unwrap();
+        assert!(band.iter().all(|(_, high)| *high > 2.0 * alone));
+    }
+
+    #[test]
+    fn counts_and_levels_out_of_range_are_refused() {
+        for (successes, trials) in [(0, 0), (2, 1)] {
+            let refused = ProportionError::Count { successes, trials };
+            assert_eq!(Proportion::try_new(successes, trials), Err(refused));
+        }
+        let one = Proportion::try_new(1, 2).unwrap();
+        for level in [0.0, 1.0, -1.0, 2.0, f64::NAN] {
+            let found = one.interval(level).unwrap_err();
+            assert!(matches!(found, ProportionError::Level(_)), "{level}");
+            let found = Proportion::band(&[one; 3], level).unwrap_err();
+            assert!(matches!(found, ProportionError::Level(_)), "{level}");
+        }
+    }
+}

@@ -1,0 +1,352 @@
+//! Inference from resampled records, and of measures that ties spoil.
+//!
+//! A replicate is a *multiplicity* for each record: how often the replicate
+//! holds that record. A measure is a function of the multiplicities, so that
+//! blocks, stripes and intensity measures that share records stay paired.
+//! [`Bootstrap`] draws with replacement;
+//! [`Subsampling`] draws without, for tests of distribution, which ties
+//! break.
+
+use super::bootstrap::{Bootstrap, Estimate, estimate};
+use super::clusters::Clusters;
+use crate::streams::{Streams, below};
+
+/// How often a draw of `places` holds each of `n` records.
+///
+/// ```
+/// use rocking_statistics::resampling::multiplicities;
+/// assert_eq!(multiplicities(&[2, 0, 2], 3), [1, 0, 2]);
+/// ```
+#[must_use]
+pub fn multiplicities(places: &[usize], n: usize) -> Vec<u32> {
+    let mut counts = vec![0; n];
+    for place in places {
+        counts[*place] += 1;
+    }
+    counts
+}
+
+impl Bootstrap {
+    /// The multiplicities of one draw.
+    ///
+    /// ```
+    /// use rocking_statistics::bootstrap::Bootstrap;
+    /// let counts = Bootstrap::new("doc", 0, 5, 10).multiplicities(3);
+    /// assert_eq!(counts.iter().sum::<u32>(), 5);
+    /// ```
+    #[must_use]
+    pub fn multiplicities(&self, index: u64) -> Vec<u32> {
+        let places = self.draw(index);
+        multiplicities(&places, self.clusters.records())
+    }
+}
+
+impl Clusters {
+    /// How often replicate `index` of a bootstrap holds each record: G of G
+    /// clusters with replacement, with all their records. Of clusters of one
+    /// record these are the multiplicities of [`Bootstrap::new`].
+    ///
+    /// ```
+    /// use rocking_statistics::bootstrap::Bootstrap;
+    /// use rocking_statistics::clusters::Clusters;
+    /// let clusters = Clusters::from_labels(["a", "b", "a"]);
+    /// let counts = clusters.multiplicities("doc", 0, 1);
+    /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
+    /// assert_eq!(
+    ///     Clusters::singletons(5).multiplicities("doc", 0, 3),
+    ///     Bootstrap::new("doc", 0, 5, 10).multiplicities(3)
+    /// );
+    /// ```
+    #[must_use]
+    pub fn multiplicities(
+        &self,
+        name: &str,
+        seed: u64,
+        index: u64,
+    ) -> Vec<u32> {
+        Bootstrap::of(name, seed, self, 1).multiplicities(index)
+    }
+}
+
+/// Draws of some of n records, or of the clusters of records, without
+/// replacement.
+///
+/// Draw i is a shuffle by stream i of the family of that name and seed.
+#[derive(Clone, Debug)]
+pub struct Subsampling {
+    streams: Streams,
+    clusters: Clusters,
+    size: usize,
+}
+
+impl Subsampling {
+    /// Subsamples of `size` out of `n` records; of all n where `size` is
+    /// larger.
+    #[must_use]
+    pub fn new(name: &str, seed: u64, n: usize, size: usize) -> Self {
+        Self::of(name, seed, &Clusters::singletons(n), size)
+    }
+
+    /// Subsamples of the clusters whose share of all is nearest to that of
+    /// `size` among the records. A subsample holds about `size` records.
+    #[must_use]
+    pub fn of(
+        name: &str,
+        seed: u64,
+        clusters: &Clusters,
+        size: usize,
+    ) -> Self {
+        let (n, count) = (clusters.records(), clusters.count());
+        let share = (2 * size.min(n) * count + n) / (2 * n).max(1);
+        let clusters = clusters.clone();
+        Self { streams: Streams::new(name, seed), clusters, size: share }
+    }
+
+    /// The multiplicities of one draw: 1 for each record of a cluster drawn,
+    /// 0 for the rest.
+    ///
+    /// ```
+    /// use rocking_statistics::resampling::Subsampling;
+    /// let counts = Subsampling::new("doc", 0, 5, 3).multiplicities(0);
+    /// assert_eq!(counts.iter().filter(|count| **count == 1).count(), 3);
+    /// ```
+    #[must_use]
+    pub fn multiplicities(&self, index: u64) -> Vec<u32> {
+        let mut stream = self.streams.stream(index);
+        let count = self.clusters.count();
+        let mut places: Vec<usize> = (0..count).collect();
+        for i in 0..self.size {
+            let j = i + below(&mut stream, count - i);
+            places.swap(i, j);
+        }
+        let mut counts = vec![0; self.clusters.records()];
+        for cluster in &places[..self.size] {
+            for record in self.clusters.members(*cluster) {
+                counts[*record] = 1;
+            }
+        }
+        counts
+    }
+
+    /// f = sqrt(size/(n - size)): the standard deviation of a mean over n
+    /// records over that of a mean over `size` of n, drawn without
+    /// replacement, which varies by s^2 (1/size - 1/n) instead of s^2/n. Of
+    /// clusters, n and size count clusters.
+    fn factor(&self) -> f64 {
+        let (n, size) = (self.clusters.count() as f64, self.size as f64);
+        (size / (n - size)).sqrt()
+    }
+
+    /// Deviations of suites of all records from the truth, as the values
+    /// over subsamples tell them: f times their deviations from their mean,
+    /// with f of [`Self::interval`].
+    #[must_use]
+    pub fn deviations(&self, values: &[f64]) -> Vec<f64> {
+        let (centre, factor) = (finite_mean(values), self.factor());
+        values.iter().map(|x| factor * (x - centre)).collect()
+    }
+
+    /// The interval of a measure from its values over subsamples, at a
+    /// level: with the quantiles q of type 7 of the values' deviations from
+    /// their mean and f = sqrt(size/(n - size)), from `point` - f q(high) to
+    /// `point` - f q(low), and at least as wide as the range of
+    /// `without_one`, the measure without each record in turn: what one
+    /// record carries across a limit is not known. `without_one` may be
+    /// empty. Of clusters, n and size count clusters, `without_one` leaves
+    /// out each cluster in turn, and f is wider by t/z, with Student's t of
+    /// [`Clusters::degrees_of_freedom`] and the normal quantile z.
+    ///
+    /// None where [`estimate`] gives none. Politis and Romano,
+    /// Ann. Statist. 22 (1994) 2031; with size near n the delete-d jackknife
+    /// of Shao and Wu, Ann. Statist. 17 (1989) 1176.
+    #[must_use]
+    pub fn interval(
+        &self,
+        point: f64,
+        values: &[f64],
+        without_one: &[f64],
+        level: f64,
+    ) -> Option<Estimate> {
+        let plain = estimate(point, values, level)?;
+        let (centre, factor) = (finite_mean(values), self.factor());
+        let wider = factor * self.clusters.student_over_normal(level);
+        if !wider.is_finite() {
+            return None;
+        }
+        let mut low = point - wider * (plain.high - centre);
+        let mut high = point - wider * (plain.low - centre);
+        for x in without_one {
+            if *x < low {
+                low = *x;
+            }
+            if *x > high {
+                high = *x;
+            }
+        }
+        let standard_error = factor * plain.standard_error;
+        Some(Estimate { standard_error, low, high, ..plain })
+    }
+}
+
+/// Mean of the values that are finite.
+fn finite_mean(values: &[f64]) -> f64 {
+    let finite = values.iter().filter(|x| x.is_finite());
+    let (sum, count) = finite.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    sum / count
+}
+
+/// A sample in ascending order, each value with its record: quantiles of a
+/// replicate without sorting again. Infinite values are capacities that were
+/// never reached.
+///
+/// ```
+/// use rocking_statistics::resampling::Ranked;
+/// let ranked = Ranked::new(&[4.0, 1.0, 2.0]);
+/// assert_eq!(ranked.median(&[1, 1, 1]), 2.0);
+/// // The first record twice, the second not at all.
+/// assert_eq!(ranked.median(&[2, 0, 1]), 4.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Ranked(Vec<(f64, usize)>);
+
+impl Ranked {
+    /// The values by record; NaN is none.
+    #[must_use]
+    pub fn new(values: &[f64]) -> Self {
+        let mut sorted: Vec<(f64, usize)> = values
+            .iter()
+            .enumerate()
+            .filter(|(_, x)| !x.is_nan())
+            .map(|(record, x)| (*x, record))
+            .collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(sorted)
+    }
+
+    /// Each value with its record, ascending.
+    pub fn each(&self) -> impl Iterator<Item = (f64, usize)> + '_ {
+        self.0.iter().copied()
+    }
+
+    /// Number of records with a value.
+    #[must_use]
+    pub fn records(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The values of a replicate, ascending, each as often as its record.
+    #[must_use]
+    pub fn drawn(&self, counts: &[u32]) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.0.len());
+        for (x, record) in &self.0 {
+            for _ in 0..counts[*record] {
+                out.push(*x);
+            }
+        }
+        out
+    }
+
+    /// Quantile of type 5 of a replicate: infinite where an infinite value
+    /// has weight, NaN where there is no value.
+    #[must_use]
+    pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
+        let n: u32 = self.0.iter().map(|(_, record)| counts[*record]).sum();
+        if n == 0 {
+            return f64::NAN;
+        }
+        let position = f64::from(n) * p + 0.5;
+        let fuzz = 4.0 * f64::EPSILON * position;
+        let rank = (position + fuzz).floor();
+        let weight = position - rank;
+        let last = f64::from(n);
+        let low = self.at(counts, rank.clamp(1.0, last));
+        if weight <= fuzz {
+            return low;
+        }
+        let high = self.at(counts, (rank + 1.0).clamp(1.0, last));
+        if low == high || high == f64::INFINITY {
+            return high;
+        }
+        f64::mul_add(weight, high, (1.0 - weight) * low)
+    }
+
+    /// The value of a rank, from 1.
+    fn at(&self, counts: &[u32], rank: f64) -> f64 {
+        let mut passed = 0.0;
+        for (x, record) in &self.0 {
+            passed += f64::from(counts[*record]);
+            if passed >= rank {
+                return *x;
+            }
+        }
+        f64::NAN
+    }
+
+    /// Median of a replicate.
+    #[must_use]
+    pub fn median(&self, counts: &[u32]) -> f64 {
+        self.quantile(counts, 0.5)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ExtendedSample, QuantileType, Sample};
+
+    #[test]
+    fn an_interval_holds_what_each_record_does() {
+        let draws = Subsampling::new("test", 0, 20, 18);
+        let values = [0.9, 1.0, 1.1, 1.0];
+        let plain = draws.interval(1.0, &values, &[], 0.95).unwrap();
+        let wide = draws.interval(1.0, &values, &[-3.0, 1.0], 0.95).unwrap();
+        assert_eq!((wide.low, wide.high), (-3.0, plain.high));
+    }
+
+    #[test]
+    fn subsamples_of_a_mean_have_its_standard_error() {
+        let n = 60;
+        let values: Vec<f64> = (0..n).map(|i| (i * i) as f64).collect();
+        let mean = |counts: &[u32]| {
+            let used: u32 = counts.iter().sum();
+            let sum = values
+                .iter()
+                .zip(counts)
+                .fold(0.0, |sum, (x, c)| f64::mul_add(*x, f64::from(*c), sum));
+            sum / f64::from(used)
+        };
+        let sample = Sample::try_new(&values).unwrap();
+        let variance = sample.sum_of_squares() / (n as f64 - 1.0);
+        let expected = (variance / n as f64).sqrt();
+        for size in [30, 54] {
+            let draws = Subsampling::new("test", 0, n, size);
+            let found: Vec<f64> =
+                (0..8000).map(|i| mean(&draws.multiplicities(i))).collect();
+            let interval =
+                draws.interval(sample.mean(), &found, &[], 0.95).unwrap();
+            // Four standard errors of a deviation of 8000 values.
+            let error = interval.standard_error / expected - 1.0;
+            assert!(error.abs() < 4.0 / 16_000.0_f64.sqrt(), "{error}");
+            let half = 0.5 * (interval.high - interval.low);
+            assert!((half / (1.96 * expected) - 1.0).abs() < 0.04);
+        }
+        let all = Subsampling::new("test", 0, n, n);
+        assert!(all.interval(1.0, &[1.0, 2.0], &[], 0.95).is_none());
+    }
+
+    #[test]
+    fn quantiles_of_a_replicate_are_those_of_its_values() {
+        let values = [3.0, 1.0, f64::INFINITY, 2.0, f64::NAN, 8.0, 5.0];
+        let ranked = Ranked::new(&values);
+        for counts in [[1; 7], [2, 0, 1, 3, 4, 0, 1], [0, 1, 3, 0, 0, 1, 0]] {
+            let drawn = ranked.drawn(&counts);
+            let sample = ExtendedSample::try_new(&drawn).unwrap();
+            for p in [0.0, 0.16, 0.25, 0.5, 0.84, 0.9, 1.0] {
+                let expected =
+                    QuantileType::default().of_extended(&sample, p).unwrap();
+                assert_eq!(ranked.quantile(&counts, p), expected, "{p}");
+            }
+        }
+        assert!(ranked.median(&[0; 7]).is_nan());
+    }
+}

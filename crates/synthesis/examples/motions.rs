@@ -1,0 +1,197 @@
+//! Prints moments of motions of suites side by side: the two embedded ones,
+//! or those whose index files are given, for instance
+//!
+//! ```sh
+//! cargo run -p rocking-synthesis --example motions -- ordinary.csv
+//! ```
+//!
+//! The study components count. Nothing here asks how a block answers.
+
+use std::error::Error;
+use std::path::Path;
+
+use rocking::accelerogram::Accelerogram;
+use rocking_records::intensity::{Measures, Settings};
+use rocking_records::{ReadOptions, Suite};
+use rocking_synthesis::SuiteKind;
+
+/// Periods of the response spectrum, in s.
+const PERIODS_S: [f64; 16] = [
+    0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0,
+    7.5, 10.0,
+];
+
+const GRAVITY_M_S2: f64 = 9.80665;
+
+/// What the table needs of one motion; accelerations, PGV and D5-75 as
+/// natural logarithms.
+struct Motion {
+    pga: f64,
+    pgv: f64,
+    pgd: f64,
+    d5_75: f64,
+    mean_period: f64,
+    spectrum: Vec<f64>,
+    /// PGV over the root of the mean square of velocity in D5-95.
+    peak_factor: f64,
+    /// (t_PGV - t_PGA)/D5-75.
+    delay: f64,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let paths: Vec<String> = std::env::args().skip(1).collect();
+    for path in &paths {
+        let suite = Suite::read(Path::new(path), &ReadOptions::default())?;
+        print(path, suite.study_components().map(|m| &m.accelerogram))?;
+    }
+    if paths.is_empty() {
+        for (kind, pairs) in SuiteKind::BOTH
+            .into_iter()
+            .zip([rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?])
+        {
+            let name = format!("embedded {kind}");
+            print(&name, pairs.iter().map(|pair| &pair.components[0]))?;
+            println!("adjusted to");
+            for (name, [mean, sd, with_pga, with_pgv]) in
+                rocking_synthesis::adjusted_to(kind)
+            {
+                println!(
+                    "{name:>10} {mean:9.4} {sd:7.3} {:17} {with_pga:8.3} \
+                     {with_pgv:8.3}",
+                    ""
+                );
+            }
+            println!();
+        }
+    }
+    Ok(())
+}
+
+fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
+    let settings = Settings::try_new(GRAVITY_M_S2, 0.05, PERIODS_S.to_vec())?;
+    let m = Measures::of(motion, &settings)?;
+    let (a, dt_s) = (motion.samples_g(), motion.dt_s());
+    let mut velocity = vec![0.0; a.len()];
+    for i in 1..a.len() {
+        velocity[i] = velocity[i - 1] + 0.5 * dt_s * (a[i - 1] + a[i]);
+    }
+    let all = a.iter().fold(0.0, |sum, a| sum + a * a);
+    let mut upto = 0.0;
+    let (mut squares, mut count) = (0.0, 0.0);
+    for (a, v) in a.iter().zip(&velocity) {
+        upto += a * a / all;
+        if (0.05..=0.95).contains(&upto) {
+            squares += v * v;
+            count += 1.0;
+        }
+    }
+    let place = |values: &[f64]| {
+        let largest = |(i, _): &(usize, &f64)| values[*i].abs();
+        let found = values
+            .iter()
+            .enumerate()
+            .max_by(|x, y| largest(x).total_cmp(&largest(y)));
+        found.map_or(0.0, |(i, _)| i as f64 * dt_s)
+    };
+    let rms_m_s = GRAVITY_M_S2 * f64::sqrt(squares / count);
+    Ok(Motion {
+        pga: libm::log(m.pga_g),
+        pgv: libm::log(m.pgv_m_s),
+        pgd: libm::log(m.pgd_m),
+        d5_75: libm::log(m.significant_duration_5_75_s),
+        mean_period: libm::log(m.mean_period_s.ok_or("no mean period")?),
+        peak_factor: m.pgv_m_s / rms_m_s,
+        delay: (place(&velocity) - place(a)) / m.significant_duration_5_75_s,
+        spectrum: m
+            .spectral_acceleration_g
+            .iter()
+            .map(|sa| libm::log(*sa))
+            .collect(),
+    })
+}
+
+fn print<'a>(
+    name: &str,
+    motions: impl Iterator<Item = &'a Accelerogram>,
+) -> Result<(), Box<dyn Error>> {
+    let motions: Vec<Motion> =
+        motions.map(measured).collect::<Result<_, _>>()?;
+    let all = |of: &dyn Fn(&Motion) -> f64| -> Vec<f64> {
+        motions.iter().map(of).collect()
+    };
+    println!("{name}: {} motions", motions.len());
+    let pga = all(&|m| m.pga);
+    let pgv = all(&|m| m.pgv);
+    println!(
+        "{:>10} {:>9} {:>7} {:>9} {:>7} {:>8} {:>8} {:>8}",
+        "measure",
+        "mean",
+        "sd ln",
+        "per PGV",
+        "sd ln",
+        "rho PGA",
+        "rho PGV",
+        "skew/PGV"
+    );
+    let row = |label: &str, of: &dyn Fn(&Motion) -> f64| {
+        let own = all(of);
+        let ratio = all(&|m| of(m) - m.pgv);
+        let ([mean, sd], [_, ratio_sd]) = (moments(&own), moments(&ratio));
+        println!(
+            "{label:>10} {:9.4} {sd:7.3} {:9.4} {ratio_sd:7.3} {:8.3} \
+             {:8.3} {:8.3}",
+            libm::exp(mean),
+            libm::exp(median(&ratio)),
+            correlation(&own, &pga),
+            correlation(&own, &pgv),
+            skewness(&ratio),
+        );
+    };
+    row("PGA", &|m| m.pga);
+    row("PGV", &|m| m.pgv);
+    row("PGD", &|m| m.pgd);
+    row("Tm", &|m| m.mean_period);
+    row("D5-75", &|m| m.d5_75);
+    for (k, period) in PERIODS_S.iter().enumerate() {
+        row(&format!("SA {period} s"), &|m| m.spectrum[k]);
+    }
+    for (label, values) in [
+        ("peak factor of velocity", all(&|m| m.peak_factor)),
+        ("(t_PGV - t_PGA)/D5-75", all(&|m| m.delay)),
+    ] {
+        let [mean, sd] = moments(&values);
+        println!(
+            "{label}: median {:.3}, mean {mean:.3}, sd {sd:.3}",
+            median(&values)
+        );
+    }
+    println!();
+    Ok(())
+}
+
+fn moments(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+    [mean, (squares / (n - 1.0)).sqrt()]
+}
+
+fn skewness(values: &[f64]) -> f64 {
+    let [mean, sd] = moments(values);
+    let scores = values.iter().map(|x| (x - mean) / sd);
+    scores.map(|z| z * z * z).sum::<f64>() / values.len() as f64
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let n = sorted.len();
+    0.5 * (sorted[(n - 1) / 2] + sorted[n / 2])
+}
+
+fn correlation(x: &[f64], y: &[f64]) -> f64 {
+    let ([mx, sx], [my, sy]) = (moments(x), moments(y));
+    let products: f64 =
+        x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum();
+    products / (x.len() as f64 - 1.0) / (sx * sy)
+}

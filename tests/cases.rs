@@ -100,7 +100,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         }
         missing
     });
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     add("every-case-file-is-a-family", {
         let stems = names(&root.join("validation/proof/cases"), ".toml");
         let unknown = stems.iter().filter(|stem| {
@@ -116,7 +116,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
 /// The committed results, byte for byte.
 fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
     let committed = |name: &str| {
-        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
         std::fs::read_to_string(Path::new(data).join(name)).unwrap_or_default()
     };
     let validation = move || {

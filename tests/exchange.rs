@@ -314,7 +314,7 @@ fn shells_and_manual_pages_know_every_command() {
 
 /// The fenced block after a mark in the tour.
 fn of_tour(mark: &str) -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tour.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/tour.md");
     let page = fs::read_to_string(path).unwrap();
     let after = page.split(mark).nth(1).expect(mark);
     let block = after.split("```").nth(1).expect("a fenced block");
@@ -328,7 +328,7 @@ fn the_tour_runs() {
     let place = folder("tour");
     let shipped = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../fixtures/records/ridgecrest.zip"
+        "/../../fixtures/records/ridgecrest.zip"
     );
     fs::copy(shipped, place.join("records.zip")).unwrap();
     for name in ["objects.csv", "hazard.csv"] {

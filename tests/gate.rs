@@ -11,6 +11,8 @@ mod compare;
 mod exchange;
 #[path = "house.rs"]
 mod house;
+#[path = "names.rs"]
+mod names;
 #[path = "page.rs"]
 mod page;
 #[path = "proof.rs"]

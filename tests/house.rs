@@ -32,29 +32,29 @@ use source::{holds, named_modules, tokens};
 
 /// Libraries beside the core: manifest and sources.
 const LIBRARIES: [(&str, &[&str]); 12] = [
-    ("exchange/Cargo.toml", &["exchange/src"]),
+    ("crates/exchange/Cargo.toml", &["crates/exchange/src"]),
     ("fixtures/Cargo.toml", &["fixtures/src"]),
-    ("score/Cargo.toml", &["score/src"]),
-    ("surrogate/Cargo.toml", &["surrogate/src"]),
-    ("synthesis/Cargo.toml", &["synthesis/src"]),
+    ("crates/score/Cargo.toml", &["crates/score/src"]),
+    ("crates/surrogate/Cargo.toml", &["crates/surrogate/src"]),
+    ("crates/synthesis/Cargo.toml", &["crates/synthesis/src"]),
     ("validation/common/Cargo.toml", &["validation/common/src"]),
     ("validation/draw/Cargo.toml", &["validation/draw/src"]),
     ("validation/proof/Cargo.toml", &["validation/proof/src"]),
     ("validation/report/Cargo.toml", &["validation/report/src"]),
     ("validation/study/Cargo.toml", &["validation/study/src"]),
-    ("web/Cargo.toml", &["web/src"]),
+    ("validation/web/Cargo.toml", &["validation/web/src"]),
 ];
 
 /// Folders of sources that follow the same rules.
 const SOURCES: [&str; 9] = [
     "src",
-    "exchange/src",
-    "score/src",
-    "surrogate/src",
-    "synthesis/src",
+    "crates/exchange/src",
+    "crates/score/src",
+    "crates/surrogate/src",
+    "crates/synthesis/src",
     "validation",
     "tests",
-    "web/src",
+    "validation/web/src",
 ];
 
 /// Dependencies of the core that everybody gets who uses it.
@@ -65,7 +65,7 @@ const CORE_OPTIONS: &[&str] =
     &["nalgebra", "rand", "rayon", "serde", "sha2", "statrs"];
 
 /// The only files with `unsafe` begin so.
-const UNSAFE: [&str; 2] = ["src/number/dispatch", "web/src/abi.rs"];
+const UNSAFE: [&str; 2] = ["src/number/dispatch", "validation/web/src/abi.rs"];
 
 /// Most lines of a file. A file holds one concept; one that comes near the
 /// limit may hold two.
@@ -80,7 +80,7 @@ const FOLDERS: &str = "src exchange score surrogate synthesis \
 const DEPENDENCIES: &str = "docs/repository.md";
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 fn read(path: &str) -> String {
@@ -208,7 +208,7 @@ fn modules_lead_to_each_other_in_no_circle() {
 #[test]
 fn what_runs_in_parallel_and_may_be_stopped_has_a_fuse() {
     let mut problems = Vec::new();
-    for path in sources(&["src", "synthesis/src", "python/src"]) {
+    for path in sources(&["src", "crates/synthesis/src", "python/src"]) {
         let words = tokens(&read(&path));
         let count = |name: &str| words.iter().filter(|w| *w == name).count();
         let parallel = count("par_iter") + count("into_par_iter");
@@ -313,7 +313,7 @@ fn the_core_s_names_are_spelled_once() {
 fn every_dependency_is_used_and_explained() {
     let page = read(DEPENDENCIES);
     let (core, harness) =
-        (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
+        (manifest("Cargo.toml"), manifest("validation/command/Cargo.toml"));
     let mut problems = Vec::new();
     let mut direct = BTreeSet::new();
     let harness_all: Vec<String> = harness
@@ -326,7 +326,7 @@ fn every_dependency_is_used_and_explained() {
     let mut packages: Vec<(Vec<String>, &[&str])> = vec![
         (core_all, &["src"]),
         (core_tests, &["src", "tests"]),
-        (harness_all, &["validation/src", "tests"]),
+        (harness_all, &["validation/command/src", "tests"]),
     ];
     for (path, folders) in LIBRARIES {
         let library = manifest(path);
@@ -373,7 +373,7 @@ fn every_dependency_is_used_and_explained() {
 
 #[test]
 fn it_stands_on_the_crates_and_folders_asked_for() {
-    let paths = ["Cargo.toml", "validation/Cargo.toml"].into_iter();
+    let paths = ["Cargo.toml", "validation/command/Cargo.toml"].into_iter();
     let all: Vec<Manifest> =
         paths.chain(LIBRARIES.map(|(path, _)| path)).map(manifest).collect();
     for name in [
@@ -399,7 +399,7 @@ fn it_stands_on_the_crates_and_folders_asked_for() {
 
 #[test]
 fn every_test_file_is_a_target_and_lints_are_the_same() {
-    let harness = manifest("validation/Cargo.toml");
+    let harness = manifest("validation/command/Cargo.toml");
     let core = manifest("Cargo.toml");
     let both = harness.test.into_iter().chain(core.test);
     let targets: BTreeSet<String> = both
@@ -462,8 +462,12 @@ fn the_harness_stands_on_the_public_core() {
             problems.push(format!("{path}: an oracle uses the core"));
         }
     }
-    for path in sources(&["src", "exchange/src", "score/src", "synthesis/src"])
-    {
+    for path in sources(&[
+        "src",
+        "crates/exchange/src",
+        "crates/score/src",
+        "crates/synthesis/src",
+    ]) {
         let tokens = tokens(&read(&path));
         if holds(&tokens, &["doc", "(", "hidden", ")"]) {
             problems.push(format!("{path}: public but hidden"));

@@ -14,8 +14,6 @@ mod endless;
 mod ends;
 #[path = "mechanics/engines.rs"]
 mod engines;
-#[path = "mechanics/names.rs"]
-mod names;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/regressions.rs"]

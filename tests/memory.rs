@@ -14,7 +14,7 @@ use rocking_records::{Processing, Profile, ReadOptions, Suite};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-#[path = "../fuzz/targets.rs"]
+#[path = "fuzz/targets.rs"]
 mod targets;
 
 #[global_allocator]
@@ -59,7 +59,8 @@ fn filled(seed: &[u8], fill: &[u8], size: usize) -> Vec<u8> {
 
 /// Beginnings that lead a reader on, and what then goes on for 1 MiB.
 fn hostile() -> Vec<(String, Vec<u8>)> {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus");
+    let corpus =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fuzz/corpus");
     let mut seeds = vec![(String::new(), Vec::new())];
     for (target, _) in targets::TARGETS {
         for entry in fs::read_dir(corpus.join(target)).unwrap() {

@@ -29,7 +29,7 @@ const SCHEMES: [&str; 2] = ["light", "dark"];
 const AXE: [(u32, &str); 2] = [(360, "dark"), (1400, "light")];
 
 fn root() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     root.canonicalize().expect("repository")
 }
 

@@ -9,11 +9,11 @@ use rocking::units::AccelerationUnit;
 use rocking_records::{ReadOptions, Remark};
 use rocking_statistics::streams::{Streams, below};
 
-#[path = "../fuzz/targets.rs"]
+#[path = "fuzz/targets.rs"]
 mod targets;
 
 fn corpus() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fuzz/corpus")
 }
 
 /// Files of a folder, by name.
@@ -45,7 +45,7 @@ fn the_corpus_gets_the_verdict_in_its_names() {
     assert_eq!(folders, targets::TARGETS.len());
 }
 
-/// The promises of `fuzz/targets.rs` hold for changed files, too.
+/// The promises of `tests/fuzz/targets.rs` hold for changed files, too.
 #[test]
 fn changed_files_of_the_corpus_are_read_or_refused() {
     // What a table of numbers is made of, and what it is not.

@@ -24,7 +24,7 @@ mod paths;
 mod processing;
 
 fn real(index: &str) -> Option<PathBuf> {
-    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let path = root.join("../shared/records").join(index);
     if path.exists() {
         return Some(path);

@@ -91,7 +91,8 @@ fn a_folder_that_no_study_wrote() {
 /// cases alone becomes a report; a page of somebody else stays one.
 #[test]
 fn a_folder_of_an_earlier_study_is_known() {
-    let reports = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../reports");
+    let reports =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../reports");
     assert_eq!(output::foreign(&reports), None);
     let own = folder("earlier");
     assert_eq!(output::foreign(&own), None, "not there");
@@ -116,7 +117,7 @@ fn a_folder_of_an_earlier_study_is_known() {
 fn proof(name: &str, change: impl Fn(&str) -> String) {
     let input = folder(name).join("input");
     std::fs::create_dir_all(&input).expect("folder");
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
     for file in ["validation.json", "precision.csv"] {
         let path = PathBuf::from(data).join(file);
         let text = std::fs::read_to_string(path).expect("read");
@@ -145,7 +146,8 @@ fn results_of_cases_that_are_missing_damaged_or_of_others() {
 /// report, by `rocking study --out reports --check` of the release build.
 #[test]
 fn the_committed_report_is_of_this_program_where_that_is_cheap() {
-    let reports = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../reports");
+    let reports =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../reports");
     let read = |name: &str| {
         std::fs::read_to_string(reports.join(name)).expect("read")
     };

@@ -16,7 +16,7 @@ use super::support::{at2, folder, motion, run};
 fn page() -> String {
     let mut text = format!(
         "# Tables\n\nEach file of rows that a command reads or writes, with \
-         its columns. A test makes\nthis page of `exchange/src/columns.txt`, \
+         its columns. A test makes\nthis page of `crates/exchange/src/columns.txt`, \
          from which the writers take their header\nlines. A table that a \
          command writes ends with the column `schema`, now\n{SCHEMA}; each \
          JSON has a field of that name. It rises when a column or a field\n\

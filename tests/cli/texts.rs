@@ -52,7 +52,7 @@ fn the_version_names_the_commit() {
     let named = named.expect(&text);
     let (commit, changes) = named.split_once(" with changes ").unzip();
     let commit = commit.unwrap_or(named);
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let hash = |text: &str| {
         text.len() == 12 && text.chars().all(|c| c.is_ascii_hexdigit())
     };

@@ -187,14 +187,14 @@ const COMMAND: Edges = "
 /// Each source folder with its table.
 pub const TREES: [(&str, Edges); 11] = [
     ("src", CORE),
-    ("exchange/src", EXCHANGE),
-    ("score/src", SCORE),
-    ("synthesis/src", SYNTHESIS),
+    ("crates/exchange/src", EXCHANGE),
+    ("crates/score/src", SCORE),
+    ("crates/synthesis/src", SYNTHESIS),
     ("validation/common/src", COMMON),
     ("validation/draw/src", DRAW),
     ("validation/proof/src", PROOF),
     ("validation/report/src", REPORT),
-    ("validation/src", COMMAND),
+    ("validation/command/src", COMMAND),
     ("validation/study/src", STUDY),
-    ("web/src", WEB),
+    ("validation/web/src", WEB),
 ];

@@ -47,7 +47,7 @@ fn plain(path: &Path) -> Option<PathBuf> {
 /// Manifests of the crates that a registry gets, with what they say.
 fn published() -> Vec<(&'static str, Manifest)> {
     let libraries = LIBRARIES.map(|(path, _)| path).into_iter();
-    let all = libraries.chain(["Cargo.toml", "validation/Cargo.toml"]);
+    let all = libraries.chain(["Cargo.toml", "validation/command/Cargo.toml"]);
     let all = all.map(|path| (path, manifest(path)));
     all.filter(|(_, own)| own.package.publish != Some(false)).collect()
 }

@@ -43,7 +43,7 @@ fn pages_show_the_committed_results() {
 
 #[test]
 fn the_readme_runs_the_example_that_accept_runs() {
-    let accept = read("validation/src/cli/accept.rs");
+    let accept = read("validation/command/src/cli/accept.rs");
     for path in ["examples/museum/objects.csv", "examples/museum/hazard.csv"] {
         assert!(read("README.md").contains(path) && accept.contains(path));
         assert!(!read(path).is_empty());

@@ -10,7 +10,7 @@ use sha2::{Digest as _, Sha256};
 use super::{answer, failure, folder, json};
 
 fn fixture(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name)
 }
 
 /// The same zeros, filter and directions by SciPy; `high_pass.py` has the

@@ -64,7 +64,7 @@ fn native() -> Result<Native> {
     Ok(Native { cases, left })
 }
 
-/// The page with an engine, in the text that `web/build` makes.
+/// The page with an engine, in the text that `validation/web/build` makes.
 ///
 /// # Errors
 /// Where a declared case gives no answer or fails.

@@ -31,7 +31,7 @@ use rocking_report::stale::{self, stale};
 /// Renews every committed file that holds results of this program: pins,
 /// help snapshots, docs/tables.md, the surrogate, the results on recorded
 /// suites where ../shared/records has them, reports/, reports/lab.html where
-/// `web/build` can compile its engine, the results between marks in README,
+/// `validation/web/build` can compile its engine, the results between marks in README,
 /// docs and paper.
 ///
 /// It runs in the root of the repository, by cargo, so that the program is

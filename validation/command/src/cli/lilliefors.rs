@@ -133,7 +133,7 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     args.json.show(&found)
 }
 
-/// Simulates every size of `src/statistics/lilliefors/table.csv` and writes it:
+/// Simulates every size of `crates/statistics/src/lilliefors/table.csv` and writes it:
 /// 3.4e8 samples, some minutes of one core.
 ///
 /// # Errors

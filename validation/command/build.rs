@@ -6,19 +6,22 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 /// Sources of the command and of the Python package.
-const SOURCES: [&str; 11] = [
-    "../Cargo.lock",
-    "../Cargo.toml",
-    "../exchange",
-    "../fixtures",
-    "../python/Cargo.lock",
-    "../python/src",
-    "../score",
-    "../src",
-    "../surrogate",
-    "../synthesis",
-    "../validation",
+const SOURCES: [&str; 8] = [
+    "Cargo.lock",
+    "Cargo.toml",
+    "crates",
+    "fixtures",
+    "python/Cargo.lock",
+    "python/src",
+    "src",
+    "validation",
 ];
+
+/// The root of the repository: one folder above the Python package, two above
+/// the command.
+fn root() -> &'static str {
+    if fs::exists("../fixtures").unwrap_or(false) { ".." } else { "../.." }
+}
 
 fn git(arguments: &[&str]) -> Option<String> {
     let output = Command::new("git").args(arguments).output().ok()?;
@@ -30,8 +33,7 @@ fn git(arguments: &[&str]) -> Option<String> {
 /// not have.
 fn changes() -> Option<String> {
     let named = |head: &[&str]| {
-        let sources = SOURCES.map(|path| path.trim_start_matches("../"));
-        let line = [&["-C", ".."], head, &["--"], &sources].concat();
+        let line = [&["-C", root()], head, &["--"], &SOURCES].concat();
         let output = Command::new("git").args(line).output().ok()?;
         output.status.success().then_some(output.stdout)
     };
@@ -39,7 +41,7 @@ fn changes() -> Option<String> {
     let others = named(&["ls-files", "--others", "--exclude-standard"])?;
     for name in String::from_utf8(others).ok()?.lines() {
         all.extend(name.bytes());
-        all.extend(fs::read(format!("../{name}")).unwrap_or_default());
+        all.extend(fs::read(format!("{}/{name}", root())).unwrap_or_default());
     }
     let mut hash = Command::new("git")
         .args(["hash-object", "--stdin"])
@@ -57,11 +59,13 @@ fn changes() -> Option<String> {
 /// other sources have other names; none where the sources are no repository
 /// of their own.
 fn commit() -> Option<String> {
-    if !git(&["-C", "..", "rev-parse", "--show-prefix"])?.is_empty() {
+    if !git(&["-C", root(), "rev-parse", "--show-prefix"])?.is_empty() {
         return None;
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    let status = [&["status", "--porcelain", "--"][..], &SOURCES].concat();
+    let status =
+        [&["-C", root(), "status", "--porcelain", "--"][..], &SOURCES];
+    let status = status.concat();
     Some(match git(&status)?.is_empty() {
         true => commit,
         false => format!("{commit} with changes {}", changes()?),
@@ -78,7 +82,7 @@ fn packaged() -> Option<String> {
 
 fn main() {
     for source in SOURCES {
-        println!("cargo::rerun-if-changed={source}");
+        println!("cargo::rerun-if-changed={}/{source}", root());
     }
     // Each commit adds a line to it.
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]) {

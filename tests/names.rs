@@ -140,7 +140,6 @@ fn a_pulse_asks_for_its_own_parameters_and_stops_at_the_first_refused() {
     assert_eq!(refused, Err(PulseParameter::Period));
 }
 
-#[cfg(feature = "serde")]
 #[test]
 fn choices_are_their_names_in_json() {
     let measure: IntensityMeasure = "sa:1".parse().unwrap();

@@ -8,9 +8,9 @@ use crate::terminal::note;
 use rocking_report::lab;
 
 /// Compiles the engine, and prints the path of the packed file.
-const BUILD: &str = "web/build";
+const BUILD: &str = "validation/web/build";
 
-/// The page; none where `web/build` says that something is missing.
+/// The page; none where `validation/web/build` says that something is missing.
 pub fn made() -> Result<Option<Vec<u8>>, Failure> {
     note(BUILD);
     let built = Command::new(BUILD).stderr(Stdio::inherit()).output();

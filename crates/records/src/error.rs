@@ -5,9 +5,9 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::AccelerogramError;
 use super::codes::coded;
 use super::sampling::Uneven;
+use rocking::accelerogram::AccelerogramError;
 use rocking::accelerogram::{Escaped, NameError};
 use rocking::units::AccelerationUnit;
 

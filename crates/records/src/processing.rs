@@ -14,8 +14,8 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::{Accelerogram, AccelerogramError};
 use rocking::accelerogram::mean;
+use rocking::accelerogram::{Accelerogram, AccelerogramError};
 
 /// Order of the filter, in each direction.
 const ORDER: f64 = 4.0;

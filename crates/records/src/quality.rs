@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::codes::coded;
-use super::{Accelerogram, Given, SuiteMember};
+use super::{Given, SuiteMember};
+use rocking::accelerogram::Accelerogram;
 use rocking::accelerogram::mean;
 use rocking::stop;
 

@@ -17,9 +17,10 @@ pub use error::SuiteError;
 pub use survey::Survey;
 
 use super::{
-    Accelerogram, Format, Given, Motion, Processing, ProcessingError, Profile,
-    ReadOptions, RecordError, Remark,
+    Format, Given, Motion, Processing, ProcessingError, Profile, ReadOptions,
+    RecordError, Remark,
 };
+use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the

@@ -1,5 +1,7 @@
 //! Header shapes, with invented numbers, and what must be refused.
 
+use rocking::units::AccelerationUnit;
+
 use super::*;
 
 mod columns;

@@ -1,8 +1,19 @@
-//! Samples and what is computed from them.
+//! The statistics of rocking.
 //!
-//! Quantiles by named type, the empirical distribution, boxplots, lognormal
-//! fits, tests of normality, paired comparison and the bootstrap. A sample is
-//! checked once, when it is made; what takes one relies on it.
+//! | input | result | function |
+//! |---|---|---|
+//! | capacities | a lognormal fragility, with or without a shift | [`lognormal::fit`] |
+//! | a sample | a test of lognormality | [`lilliefors::Assessment`] |
+//! | a sample | quantiles by named type | [`quantile`] |
+//! | samples of the same records | a comparison | [`paired`] |
+//! | a statistic and clusters of records | an interval | [`bootstrap`] |
+//! | a seed's name | random numbers with the same bits everywhere | [`streams`] |
+//!
+//! A sample is checked once, when it is made; what takes one relies on it.
+//!
+//! The feature `serde`, off by default, writes names of choices.
+
+#![deny(missing_docs)]
 
 pub mod acceptance;
 pub mod bootstrap;

@@ -3,7 +3,8 @@
 use thiserror::Error;
 
 use super::SetAside;
-use crate::{RecordError, SuiteNameError};
+use crate::RecordError;
+use rocking::accelerogram::SuiteNameError;
 
 /// A suite that was refused.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -6,10 +6,9 @@ use std::sync::Arc;
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
 use crate::text::{self, excerpt};
-use crate::{
-    Given, ReadOptions, Record, Settled, result_name, settle_one, sha256_hex,
-};
+use crate::{Given, ReadOptions, Record, Settled, settle_one, sha256_hex};
 use rocking::accelerogram::EXPECTED;
+use rocking::accelerogram::result_name;
 use rocking::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
 use crate::direction::{glued, is_azimuth, is_code};
-use crate::{Direction, Motion, suite_names};
+use crate::{Direction, Motion};
+use rocking::accelerogram::suite_names;
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 

@@ -7,8 +7,9 @@ use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::{
     Direction, Fault, Given, Motion, ReadOptions, Record, RecordError, Remark,
-    Settled, file_bytes, is_record, name_of, result_name, settle, stem,
+    Settled, file_bytes, is_record, name_of, settle, stem,
 };
+use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.
 const PEER_RESULTS: &str = "_SearchResults.csv";

@@ -1,0 +1,340 @@
+//! From a file's bytes to its records: the content tells the format.
+
+use std::io::Read as _;
+use std::path::Path;
+
+use rocking::accelerogram::{Accelerogram, result_name};
+
+use crate::direction::{self, Direction};
+use crate::error::{Fault, RecordError};
+use crate::quality::Remark;
+use crate::record::{
+    Channel, FORMATS, Format, Given, INTERVALS_S, ReadOptions, Record, Settled,
+};
+use crate::text::{self, Text, excerpt};
+use crate::{
+    afad, at2, bri, column, cosmos, counted, csv, esm, geonet, knet, resorce,
+    smc,
+};
+
+/// Reads the one component of a file with content `bytes`; `file` names it
+/// in messages, its stem names the accelerogram.
+///
+/// # Errors
+/// [`RecordError`] for content of no known format, a number that is cut or
+/// not finite, a count that differs from the header's, an unknown unit, a
+/// missing sampling interval, an interval or unit in `options` that
+/// contradicts the file, or several components.
+///
+/// ```
+/// use rocking_records::ReadOptions;
+/// use rocking::units::AccelerationUnit;
+/// let options = ReadOptions {
+///     dt_s: Some(0.01),
+///     unit: Some(AccelerationUnit::Gravity),
+///     ..ReadOptions::default()
+/// };
+/// let record = rocking_records::read("folder/a.txt", b"0.0\n0.1\n-0.3\n", &options)?;
+/// assert_eq!(record.accelerogram.name(), "a");
+/// assert_eq!(record.accelerogram.pga_g(), 0.3);
+/// # Ok::<(), rocking_records::RecordError>(())
+/// ```
+pub fn read(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Record, RecordError> {
+    settle_one(file, bytes, options)?.agreed()
+}
+
+/// Does what [`settle`] does, for a file of one component.
+pub(crate) fn settle_one(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Settled, RecordError> {
+    let mut records = settle(file, bytes, options)?;
+    match records.pop() {
+        Some(record) if records.is_empty() => Ok(record),
+        Some(_) => Err(Fault::SeveralChannels(records.len() + 1).whole(file)),
+        None => Err(Fault::Ends("an acceleration channel").whole(file)),
+    }
+}
+
+/// Reads all components of a file, in the file's order.
+///
+/// # Errors
+/// As [`read`], without the limit to one component.
+pub fn read_all(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Record>, RecordError> {
+    let settled = settle(file, bytes, options)?;
+    settled.into_iter().map(Settled::agreed).collect()
+}
+
+/// Reads all components of a file; what the caller gives is taken if the file
+/// states none.
+pub(crate) fn settle(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Settled>, RecordError> {
+    read_text(file, bytes, options, |text| {
+        format_of(text).ok_or_else(|| unknown(text))
+    })
+}
+
+/// Reads all components of a file whose format is known, whatever its
+/// content looks like.
+///
+/// # Errors
+/// As [`read_all`].
+///
+/// ```
+/// use rocking_records::{Format, ReadOptions};
+/// use rocking::units::AccelerationUnit;
+/// let text = b"0.1\n0.2\n";
+/// let options = ReadOptions {
+///     dt_s: Some(0.01),
+///     unit: Some(AccelerationUnit::Gravity),
+///     ..ReadOptions::default()
+/// };
+/// assert!(rocking_records::read_as(Format::Column, "a", text, &options).is_ok());
+/// assert!(rocking_records::read_as(Format::At2, "a", text, &options).is_err());
+/// ```
+pub fn read_as(
+    format: Format,
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Record>, RecordError> {
+    let settled = read_text(file, bytes, options, |_| Ok(format))?;
+    settled.into_iter().map(Settled::agreed).collect()
+}
+
+fn read_text(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+    format: impl Fn(&Text<'_>) -> Result<Format, RecordError>,
+) -> Result<Vec<Settled>, RecordError> {
+    let gravity = options.gravity_m_s2;
+    if !(gravity > 0.0 && gravity.is_finite()) {
+        return Err(Fault::Gravity(gravity).whole(file));
+    }
+    if let Some(dt_s) = options.dt_s
+        && !(dt_s > 0.0 && dt_s.is_finite())
+    {
+        return Err(Fault::Interval(dt_s.to_string()).whole(file));
+    }
+    let content = text::decode(file, bytes)?;
+    let text = Text::new(file, &content)?;
+    let format = format(&text)?;
+    let channels = match format {
+        Format::Smc => vec![smc::read(&text)?],
+        Format::Knet => vec![knet::read(&text)?],
+        Format::Esm => vec![esm::read(&text)?],
+        Format::Afad => afad::read(&text)?,
+        Format::Geonet => geonet::read(&text)?,
+        Format::Resorce => vec![resorce::read(&text)?],
+        Format::At2 => vec![at2::read(&text)?],
+        Format::Cosmos => cosmos::read(&text)?,
+        Format::Bri => bri::read(&text)?,
+        Format::Counted => vec![counted::read(&text)?],
+        Format::Column => vec![column::read(&text)?],
+        Format::Csv => vec![csv::read(&text)?],
+    };
+    let several = channels.len() > 1;
+    channels
+        .into_iter()
+        .map(|channel| complete(&text, format, channel, several, options))
+        .collect()
+}
+
+/// The format by content; formats that name themselves come first.
+fn format_of(text: &Text<'_>) -> Option<Format> {
+    type Recognises = fn(&Text<'_>) -> bool;
+    let formats: [(Recognises, Format); 12] = [
+        (smc::recognises, Format::Smc),
+        (knet::recognises, Format::Knet),
+        (esm::recognises, Format::Esm),
+        (afad::recognises, Format::Afad),
+        (geonet::recognises, Format::Geonet),
+        (resorce::recognises, Format::Resorce),
+        (at2::recognises, Format::At2),
+        (cosmos::recognises, Format::Cosmos),
+        (bri::recognises, Format::Bri),
+        (counted::recognises, Format::Counted),
+        (column::recognises, Format::Column),
+        (csv::recognises, Format::Csv),
+    ];
+    let found = formats.iter().find(|(recognises, _)| recognises(text));
+    found.map(|(_, format)| *format)
+}
+
+/// Reads the one component of the file at `path`.
+///
+/// # Errors
+/// As [`read`], and [`Fault::Unreadable`] for a file that cannot be read.
+pub fn read_file(
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Record, RecordError> {
+    let file = path.display().to_string();
+    read(&file, &file_bytes(path)?, options)
+}
+
+/// Bytes of the file at `path`, or of a pipe that this process was given
+/// (`/dev/fd/63`).
+///
+/// # Errors
+/// [`Fault::Unreadable`] for a file that cannot be read, that has more than
+/// 4 GiB or more than the memory holds, and for a device or a named pipe:
+/// they may never end.
+pub fn file_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
+    let refuse = |reason: String| {
+        let file = path.display().to_string();
+        Fault::Unreadable(reason).whole(&file)
+    };
+    let failed = |error: std::io::Error| refuse(error.to_string());
+    let found = std::fs::metadata(path).map_err(failed)?;
+    let given = path.starts_with("/dev/fd") || path.starts_with("/proc/self");
+    if !(found.is_file() || (given && !found.is_dir())) {
+        let kind =
+            if found.is_dir() { "a folder" } else { "a device or pipe" };
+        return Err(refuse(format!("it is {kind}: expected a file")));
+    }
+    if found.len() > MOST_BYTES {
+        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+    }
+    let mut bytes = Vec::new();
+    bytes
+        .try_reserve_exact(found.len() as usize + 1)
+        .map_err(|error| refuse(error.to_string()))?;
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+    }
+    Ok(bytes)
+}
+
+/// Bytes of a file, at most: places in it are numbers of 32 bits.
+const MOST_BYTES: u64 = u32::MAX as u64;
+
+/// Whether the content is a record's in one of the formats.
+pub(crate) fn is_record(bytes: &[u8]) -> bool {
+    let Ok(content) = text::decode("", bytes) else { return false };
+    Text::new("", &content).is_ok_and(|text| format_of(&text).is_some())
+}
+
+fn unknown(text: &Text<'_>) -> RecordError {
+    let mut lines = text.lines().enumerate();
+    let first = lines.find(|(_, line)| !line.trim().is_empty());
+    let (index, line) = first.unwrap_or_default();
+    let found = excerpt(line);
+    text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
+}
+
+/// Name of the file at `path`, without its folder; what is no UTF-8 in it is
+/// replaced.
+pub(crate) fn name_of(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// File name without folders and without what follows the last dot, unless
+/// that is the component (K-NET's `.EW`, EMOD3D's `.090` and `.ver`).
+pub(crate) fn stem(file: &str) -> &str {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    match name.rsplit_once('.') {
+        Some((stem, end)) if !stem.is_empty() && !is_component(end) => stem,
+        _ => name,
+    }
+}
+
+fn is_component(end: &str) -> bool {
+    let letters = end.trim_end_matches(['1', '2']);
+    let azimuth = end.len() == 3 && direction::is_azimuth(end);
+    azimuth || matches!(letters, "EW" | "NS" | "UD" | "ver")
+}
+
+/// Settles interval and unit between file and caller, and converts.
+fn complete(
+    text: &Text<'_>,
+    format: Format,
+    channel: Channel,
+    several: bool,
+    options: &ReadOptions,
+) -> Result<Settled, RecordError> {
+    let fail = |fault: Fault| fault.whole(text.file());
+    let given =
+        Given { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
+    let dt = match (channel.dt, options.dt_s) {
+        (Some(stated_s), Some(given_s))
+            if !((stated_s - given_s).abs() <= 1e-9 * stated_s) =>
+        {
+            Err(fail(Fault::IntervalConflict { stated_s, given_s }))
+        }
+        _ => Ok(()),
+    };
+    let dt_s = channel.dt.or(options.dt_s);
+    let dt_s = dt_s.ok_or_else(|| fail(Fault::IntervalMissing))?;
+    if !(dt_s > 0.0 && dt_s.is_finite()) {
+        return Err(fail(Fault::Interval(dt_s.to_string())));
+    }
+    if !(dt_s >= INTERVALS_S.0 && dt_s <= INTERVALS_S.1) {
+        return Err(fail(Fault::IntervalRange(dt_s)));
+    }
+    let same_unit = match (channel.unit, options.unit) {
+        (Some(stated), Some(given)) if stated != given => {
+            Err(fail(Fault::UnitConflict { stated, given }))
+        }
+        _ => Ok(()),
+    };
+    let unit = channel.unit.or(options.unit);
+    let unit = unit.ok_or_else(|| fail(Fault::UnitMissing))?;
+    let per_gravity = unit.per_gravity(options.gravity_m_s2);
+    let mut samples = channel.samples;
+    for sample in &mut samples {
+        *sample /= per_gravity;
+    }
+    let mut name = stem(text.file()).to_owned();
+    // The name of a file of several channels tells of none of them.
+    let direction = channel.direction.or(|| match several {
+        true => Direction::Unknown,
+        false => Direction::of_name(&name, format == Format::At2),
+    });
+    let mut remarks = channel.remarks;
+    if direction == Direction::Vertical {
+        remarks.push(Remark::Vertical);
+    }
+    if channel.borehole {
+        remarks.push(Remark::Borehole);
+    }
+    if let Some(label) = channel.label.as_ref().filter(|_| several) {
+        name = format!("{name}:{}", label.replace(' ', "_"));
+    }
+    let borehole = channel.borehole;
+    let (channel, site) = (channel.label, channel.site);
+    // Components of one site are a pair of that name.
+    for text in [Some(name.as_str()), site.as_deref()].into_iter().flatten() {
+        result_name(text).map_err(|error| fail(error.into()))?;
+    }
+    let accelerogram = Accelerogram::try_new(name, dt_s, samples)
+        .map_err(|error| fail(error.into()))?;
+    let record = Record {
+        accelerogram,
+        format,
+        unit,
+        direction,
+        borehole,
+        remarks,
+        channel,
+        site,
+        given,
+    };
+    Ok(Settled { record, dt, unit: same_unit })
+}

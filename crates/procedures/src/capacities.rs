@@ -2,7 +2,7 @@
 //! to an EDP level.
 
 use super::ProcedureError;
-use crate::demands::inversion_discrepancy;
+use crate::inversion::inversion_discrepancy;
 use rocking::capacity::{Capacity, InversionRule, ResponseCurve};
 use rocking_statistics::{CensoredSample, ExtendedSample, QuantileType};
 

@@ -18,10 +18,10 @@ pub mod capacities;
 pub mod comparison;
 pub mod contrast;
 pub mod counts;
-mod demands;
 pub mod fit;
 pub mod fragility;
 pub mod ida_summary;
+mod inversion;
 pub mod normality;
 pub mod pivot;
 pub mod ranking;
@@ -35,12 +35,12 @@ pub use contrast::{Contrast, ContrastError, contrast};
 pub use counts::{
     CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
 };
-pub use demands::{demands, inversion_discrepancy};
 pub use fit::{
     Draws, FitOptions, FitRemark, FragilityFit, LevelFit, ProcedureError,
     Sampled, Shift, fit_levels, fit_sample,
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
+pub use inversion::inversion_discrepancy;
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};

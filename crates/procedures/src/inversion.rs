@@ -1,37 +1,6 @@
-//! Many curves at one intensity or one level: EDP given IM against IM given
-//! EDP.
+//! How far the inversion of curves is from their stripes.
 
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
-use rocking_statistics::ExtendedSample;
-
-/// EDPs of all curves at an intensity: 0 where nothing rocks, infinite where
-/// overturned. All records count.
-///
-/// ```
-/// use rocking::capacity::ResponseCurve;
-/// use rocking_procedures::demands;
-/// let stands = ResponseCurve::try_new(&[(1.0, 0.0), (2.0, 0.5)], None)?;
-/// let falls = ResponseCurve::try_new(&[(1.0, 0.0)], Some(1.2))?;
-/// let sample = demands(&[stands, falls], 1.5)?;
-/// assert_eq!(sample.sorted(), [0.25, f64::INFINITY]);
-/// # Ok::<(), rocking::capacity::CapacityError>(())
-/// ```
-///
-/// # Errors
-/// [`CapacityError::Beyond`] where a curve says nothing of the intensity,
-/// [`CapacityError::Empty`] for no curve.
-pub fn demands(
-    curves: &[ResponseCurve],
-    im: f64,
-) -> Result<ExtendedSample, CapacityError> {
-    let demand = |(i, curve): (usize, &ResponseCurve)| {
-        let beyond = CapacityError::Beyond { number: i + 1, im };
-        curve.edp_at(im).ok_or(beyond)
-    };
-    let values: Vec<f64> =
-        curves.iter().enumerate().map(demand).collect::<Result<_, _>>()?;
-    ExtendedSample::try_new(&values).map_err(|_| CapacityError::Empty)
-}
 
 /// How far an inversion is from the stripes at a level: the largest
 /// difference, over intensities, between the share of curves whose capacity

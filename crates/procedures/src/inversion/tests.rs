@@ -20,18 +20,8 @@ fn e2() -> ResponseCurve {
     )
 }
 
-fn e3() -> ResponseCurve {
-    let vertices =
-        [(1.0, 0.0), (1.2, 0.4), (1.4, 0.8), (1.6, 0.5), (1.8, 0.3)];
-    curve(&vertices, Some(2.0))
-}
-
 fn e7() -> ResponseCurve {
     curve(&[(1.0, 0.0), (1.2, 0.4), (1.4, 0.2), (1.6, 0.1)], None)
-}
-
-fn close(a: f64, b: f64) -> bool {
-    a == b || (a - b).abs() < 4e-15
 }
 
 #[test]
@@ -55,13 +45,4 @@ fn stripes_and_inversion_differ_where_one_does() {
     // Past 1.44 E7 stands below the level again, for ever.
     assert_eq!(by(InversionRule::First), 0.5);
     assert!(inversion_discrepancy(&[], 0.5, InversionRule::First).is_err());
-}
-
-#[test]
-fn demands_need_every_curve() {
-    let sample = demands(&[e2(), e3()], 1.15).unwrap();
-    assert!(close(sample.sorted()[0], 0.3) && sample.censored() == 0);
-    assert_eq!(demands(&[e2(), e3()], 1.7).unwrap().censored(), 1);
-    let beyond = CapacityError::Beyond { number: 1, im: 1.65 };
-    assert_eq!(demands(&[e2(), e3()], 1.65), Err(beyond));
 }

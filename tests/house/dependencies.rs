@@ -1,0 +1,69 @@
+//! Every dependency is used and explained, and the core has few.
+
+use std::collections::BTreeSet;
+
+use toml::Table;
+
+use super::{files, pass, read, sources};
+
+/// The crates that the user of this project named.
+const NAMED: &str =
+    "insta nalgebra plotters proptest rand rand_distr rayon statrs";
+
+/// Names in the tables of dependencies of a manifest.
+fn dependencies(manifest: &Table) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for (key, value) in manifest {
+        let Some(inner) = value.as_table() else { continue };
+        if key.ends_with("dependencies") {
+            found.extend(inner.keys().cloned());
+        } else if key == "target" || key.starts_with("cfg") {
+            found.extend(dependencies(inner));
+        }
+    }
+    found
+}
+
+#[test]
+fn every_dependency_is_used_and_explained() {
+    let core: Table = read("Cargo.toml").parse().unwrap();
+    let few = ["libm", "rayon", "serde", "thiserror"];
+    let own = core["dependencies"].as_table().unwrap();
+    assert!(own.keys().eq(few), "{own:?}");
+    let (mut problems, mut direct) = (Vec::new(), dependencies(&core));
+    let all = ["crates", "validation", "fixtures"].into_iter();
+    for path in all.flat_map(files) {
+        let Some(folder) = path.strip_suffix("/Cargo.toml") else { continue };
+        let manifest: Table = read(&path).parse().unwrap();
+        if !manifest.contains_key("lints") {
+            problems.push(format!("{folder}: no lints"));
+        }
+        // The command's tests lie in a folder of their own.
+        let tests = (folder == "validation/command").then_some("tests");
+        let folders: Vec<&str> = [folder].into_iter().chain(tests).collect();
+        let text: String =
+            sources(&folders).iter().map(|path| read(path)).collect();
+        for name in dependencies(&manifest) {
+            if !text.contains(&name.replace('-', "_")) {
+                problems.push(format!("{folder}: {name} is not used"));
+            }
+            direct.insert(name);
+        }
+    }
+    let page = read("docs/repository.md");
+    let table = page.split("## Dependencies").nth(1).unwrap_or_default();
+    let table = table.split("\n## ").next().unwrap_or_default();
+    let row = |line: &str| match line.split('|').collect::<Vec<_>>()[..] {
+        [_, name, licence, reason, _] if name.contains('`') => {
+            let whole = !licence.trim().is_empty() && reason.len() > 3;
+            whole.then(|| name.trim().trim_matches('`').to_owned())
+        }
+        _ => None,
+    };
+    let explained: BTreeSet<String> = table.lines().filter_map(row).collect();
+    for name in direct.symmetric_difference(&explained) {
+        problems.push(format!("{name}: a dependency, or a row alone"));
+    }
+    pass(&problems);
+    assert!(NAMED.split(' ').all(|name| direct.contains(name)), "{direct:?}");
+}

@@ -18,6 +18,7 @@ mod driver;
 mod dynamics;
 mod forcing;
 mod limits;
+mod motion;
 #[cfg(feature = "lanes")]
 pub(crate) mod pool;
 mod precise;

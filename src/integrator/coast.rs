@@ -10,8 +10,8 @@
 mod orbit;
 
 use crate::integrator::certificate::Decision;
-use crate::integrator::driver::{Motion, Tracked, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
+use crate::integrator::motion::{Motion, Tracked, tail_speed};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
 use orbit::{Level, Place, hop, speed_at, transit, turning};

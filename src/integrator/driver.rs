@@ -11,21 +11,19 @@ mod step;
 mod until;
 
 pub use forces::Forces;
-pub(crate) use impact::tail_speed;
 pub(crate) use step::last_term;
 
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, Place};
+use crate::integrator::motion::{Motion, Tracked};
 use crate::integrator::screen::Screen;
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Response, Scene, SceneError, Side, Work,
-    WorkLimit,
+    Observe, Response, Scene, SceneError, Side, WorkLimit,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
-use step::Advance;
 
 /// Truncation error allowed in a step, in units of roundoff times
 /// (|w| + alpha h): what rounding does anyway.
@@ -36,53 +34,16 @@ pub(crate) fn tolerance<N: Real>() -> f64 {
     TRUNCATION_SHARE * N::ROUNDOFF
 }
 
-/// State of a block in motion, in units of 1/p: u = |theta| on a side.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion<N> {
-    pub side: Side,
-    pub u: N,
-    pub w: N,
-}
-
-/// What a run gathers.
-pub(crate) struct Tracked<N> {
-    pub peak: N,
-    pub peak_time_s: Option<N>,
-    pub uplift_time_s: Option<N>,
-    pub rest_time_s: Option<N>,
-    pub impacts: Vec<Impact<N>>,
-    pub history: Vec<HistoryPoint<N>>,
-    pub forces: Option<Forces>,
-    pub work: Work,
-    /// Why the run is refused, once its work passes the limit.
-    pub exceeded: Option<SceneError>,
-    /// Bounds of the errors of the times of rest and of overturning, s.
-    pub rest_error_s: Option<f64>,
-    pub overturning_error_s: Option<f64>,
-    /// Errors by this arithmetic, and, where that is wider than the inputs'
-    /// own precision, by the inputs.
-    pub accuracy: Option<Accuracy>,
-    pub inputs: Option<Accuracy>,
-}
-
-impl<N: Real> Tracked<N> {
-    pub fn empty() -> Self {
-        Self {
-            peak: N::zero(),
-            peak_time_s: None,
-            uplift_time_s: None,
-            rest_time_s: None,
-            impacts: Vec::new(),
-            history: Vec::new(),
-            forces: None,
-            work: Work::default(),
-            exceeded: None,
-            rest_error_s: None,
-            overturning_error_s: None,
-            accuracy: None,
-            inputs: None,
-        }
-    }
+/// How a step was left.
+enum Advance<N> {
+    /// At its end.
+    Reached,
+    /// At an impact within it.
+    Bounced,
+    /// Overturning within it: the step stands there.
+    Overturned,
+    /// The flight ended in it.
+    Ended(Flight<N>),
 }
 
 /// Steps by a series whose length each call names, and by one of `HARD`

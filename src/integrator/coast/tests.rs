@@ -1,8 +1,8 @@
 use super::orbit::carlson_rf;
 use super::{Coast, coast};
 use crate::block::{Block, Restitution};
-use crate::integrator::driver::{Motion, Tracked};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
+use crate::integrator::motion::{Motion, Tracked};
 use crate::integrator::{Side, WorkLimit};
 use crate::number::double::DoubleDouble;
 use crate::number::{Number, Real};

@@ -1,9 +1,10 @@
 //! What happens within a step: the first impact or overturning, and the
 //! turning points before it.
 
-use crate::integrator::driver::{Driver, Motion};
+use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::motion::Motion;
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;

@@ -1,26 +1,12 @@
 //! The impact, and the proof that a chatter ends.
 
 use crate::integrator::Impact;
-use crate::integrator::driver::{Again, Driver, Flight, Motion, Step};
+use crate::integrator::driver::{Again, Driver, Flight, Step};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
+use crate::integrator::motion::{Motion, tail_speed};
 use crate::integrator::screen::Landing;
 use crate::number::Real;
-use crate::number::double::DoubleDouble;
-
-/// Post-impact speed over alpha p below which an observer of events lets the
-/// geometric tail of the impacts stand for the rest of them: the tail's own
-/// error is of second order in it (over the square of the least downward
-/// acceleration, which grazing uplifts make small).
-pub(crate) fn tail_speed<N: Real>() -> f64 {
-    if N::ROUNDOFF < DoubleDouble::ROUNDOFF {
-        1e-50
-    } else if N::ROUNDOFF < f64::ROUNDOFF {
-        1e-26
-    } else {
-        1e-10
-    }
-}
 
 /// The threshold for the output of forces. Forces depend on the square of the
 /// speed, so the threshold may be larger.

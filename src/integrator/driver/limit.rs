@@ -1,7 +1,8 @@
 //! The work of a run is bounded, and may be stopped.
 
-use crate::integrator::driver::{Driver, Flight, Stage, Tracked};
+use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::forcing::Forcing;
+use crate::integrator::motion::Tracked;
 use crate::integrator::{Response, SceneError, Work, WorkLimit};
 use crate::number::Real;
 use crate::stop;

@@ -2,9 +2,10 @@
 
 use crate::integrator::driver::decisions::Stepped;
 use crate::integrator::driver::events::Event;
-use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::driver::{Advance, Driver, Flight, Step};
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::motion::Motion;
 use crate::integrator::screen::Flown;
 use crate::integrator::taylor::{Series, expand, slope, value};
 use crate::integrator::{SceneError, Side};
@@ -14,18 +15,6 @@ use crate::number::{Number, Real};
 /// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
 /// error estimate says what it leaves.
 const HALVINGS: u32 = 12;
-
-/// How a step was left.
-pub(super) enum Advance<N> {
-    /// At its end.
-    Reached,
-    /// At an impact within it.
-    Bounced,
-    /// Overturning within it: the step stands there.
-    Overturned,
-    /// The flight ended in it.
-    Ended(Flight<N>),
-}
 
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>

@@ -11,12 +11,11 @@ use crate::integrator::HistoryPoint;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::certificate::CLEARANCE;
 use crate::integrator::coast::last;
-use crate::integrator::driver::{
-    Driver, Flight, Motion, Stage, Step, Tracked,
-};
+use crate::integrator::driver::{Driver, Flight, Stage, Step};
 use crate::integrator::forcing::{
     Exceedance, Forcing, Ground, NEAR_THRESHOLD, Place,
 };
+use crate::integrator::motion::{Motion, Tracked};
 use crate::integrator::screen::Screen;
 use crate::number::Real;
 

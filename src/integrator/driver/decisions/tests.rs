@@ -1,9 +1,10 @@
 use crate::block::{Block, Restitution};
 use crate::excitation::{Pulse, PulseKind};
 use crate::integrator::Side;
-use crate::integrator::driver::{Driver, Motion, Stage, Step};
+use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::forcing::{Place, PulseForcing};
+use crate::integrator::motion::Motion;
 use crate::integrator::screen::{DOUBTFUL, PROPAGATION, Screen};
 use crate::number::dispatch::Isa;
 

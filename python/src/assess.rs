@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
+use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
-use rocking_records::floor::Floor;
+use rocking_assessment::{About, files, set_surfaces};
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::{AssessOptions, Draws, Object, assess as procedure};
-use rocking::accelerogram::Accelerogram;
+use rocking_records::floor::Floor;
 use rocking_statistics::Clusters;
-use rocking_assessment::{About, files, set_surfaces};
 
 use crate::exchange::{Written, read};
-use crate::given::{Given, block_of, positive_gravity, refuse, suite_of};
-use crate::work;
+use crate::given::{Given, block_of, positive_gravity, suite_of};
+use crate::work::{self, refuse};
 
 /// An object.
 #[derive(FromPyObject)]

@@ -1,20 +1,22 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking_procedures::fragility::hazard::{Hazard, HazardMeasure, HazardOptions, Site};
-use rocking_records::intensity::IntensityMeasure;
-use rocking_procedures::{
-    Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
-};
-use rocking_statistics::Lognormal;
 use rocking_exchange::{
     BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
 };
+use rocking_procedures::fragility::hazard::{
+    Hazard, HazardMeasure, HazardOptions, Site,
+};
+use rocking_procedures::{
+    Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
+};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Lognormal;
 use rocking_surrogate::Surrogate;
 
-use crate::given::{block_of, choose, positive_gravity, refuse};
+use crate::given::{block_of, choose, positive_gravity};
 use crate::procedures::{Fit, GivenSample, answer, clusters_of, sample_of};
-use crate::work;
+use crate::work::{self, refuse};
 
 /// The shift, log_mean and dispersion of a lognormal.
 type Law = (f64, f64, f64);

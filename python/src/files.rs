@@ -7,11 +7,14 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
-use rocking_records::{Given, ReadOptions, RecordError, Remark, Remarked, Suite, remarks, remarks_together};
+use rocking_records::{
+    Given, ReadOptions, RecordError, Remark, Remarked, Suite, remarks,
+    remarks_together,
+};
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
-use crate::given::{choose, refuse, remarked, unit};
-use crate::work;
+use crate::given::{choose, remarked, unit};
+use crate::work::{self, refuse};
 
 /// Name, samples in g, interval in s, what the file says of itself, and what
 /// is suspicious.

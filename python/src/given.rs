@@ -3,26 +3,19 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt::Display;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use rocking::accelerogram::{Accelerogram, suite_names};
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Pulse, PulseName, PulseParameter};
 use rocking::integrator::{self, Model, Overturning};
+use rocking::units::AccelerationUnit;
 use rocking_records::intensity::IntensityMeasure;
 use rocking_records::sampling::{Digits, interval};
-use rocking::accelerogram::{Accelerogram, suite_names};
 use rocking_records::{Remark, remarks};
-use rocking::units::AccelerationUnit;
 
-use crate::work;
-
-/// The core's error as a `ValueError` with the core's text.
-pub fn refuse(error: impl Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
-}
+use crate::work::{self, refuse};
 
 /// Refuses a word that is none of the choices.
 pub fn choose<T: Copy>(

@@ -10,27 +10,27 @@ use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
+use rocking::accelerogram::Accelerogram;
 use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
-use rocking_records::intensity::{
-    AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
-};
+use rocking::stop;
+use rocking_exchange::ida::{self as tables, Curves, Row};
 use rocking_procedures::counts::Outcome;
 use rocking_procedures::ranking::{Candidate, Covariate};
 use rocking_procedures::{
     Draws, FitOptions, ProcedureError, capacities, fit_levels, fit_outcomes,
     pivot_forces, rank, stripes, summarise_ida,
 };
-use rocking::accelerogram::Accelerogram;
-use rocking::stop;
-use rocking_exchange::ida::{self as tables, Curves, Row};
+use rocking_records::intensity::{
+    AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
+};
 
-use crate::given::{Given, Physics, block_of, refuse, suite_of};
+use crate::given::{Given, Physics, block_of, suite_of};
 use crate::procedures::{Fit, answer};
-use crate::work;
+use crate::work::{self, refuse};
 
 /// Levels and how they are reached.
 #[derive(FromPyObject)]

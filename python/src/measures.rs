@@ -2,10 +2,13 @@
 
 use pyo3::prelude::*;
 use rocking_records::intensity::velocity_pulse::{candidates, pulse};
-use rocking_records::intensity::{IntensityError, Measures, PairMeasures, Settings};
+use rocking_records::intensity::{
+    IntensityError, Measures, PairMeasures, Settings,
+};
 
-use crate::given::{Given, record_of, refuse};
+use crate::given::{Given, record_of};
 use crate::procedures::answer;
+use crate::work::refuse;
 
 /// The measures of one component, or RotD50 of those of two.
 #[pyfunction]

@@ -4,16 +4,16 @@ use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rocking::accelerogram::Accelerogram;
 use rocking::excitation::{NormalisedRecord, Pulse, ScaledRecord};
 use rocking::integrator::{
     Assessment, Certify, Observe, Outcome, SceneError, certify,
     uplift_threshold,
 };
-use rocking::accelerogram::Accelerogram;
 use rocking::{Excitation, Response, Scene, integrator};
 
-use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
-use crate::work;
+use crate::given::{Given, Ground, Physics, block_of, choose};
+use crate::work::{self, refuse};
 
 /// What is scaled to a level.
 #[derive(Clone, Copy, PartialEq)]

@@ -19,9 +19,9 @@ use rocking::integrator::{
 };
 use rocking::stop;
 
-use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
+use crate::given::{Given, Ground, Physics, block_of, choose};
 use crate::mechanics::{BY, By, Motion, Scaled};
-use crate::work::{self, Done};
+use crate::work::{self, Done, refuse};
 
 /// Nearer to the uplift threshold (IM = 1), a grid with this step would have
 /// more levels than the core allows.

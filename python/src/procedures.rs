@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use rocking::stop;
 use rocking_procedures::comparison::Named;
 use rocking_procedures::contrast::Drawn;
 use rocking_procedures::{
@@ -15,11 +16,10 @@ use rocking_statistics::lognormal::{FitMethod, Stripe};
 use rocking_statistics::{
     CensoredSample, Clusters, ExtendedSample, Lognormal, QuantileType,
 };
-use rocking::stop;
 use serde::Serialize;
 
-use crate::given::{choose, refuse};
-use crate::work;
+use crate::given::choose;
+use crate::work::{self, refuse};
 
 /// The JSON of what a procedure finds on all processors.
 pub fn answer<T: Serialize + Send, E: Display + Send>(

@@ -5,8 +5,8 @@ use std::path::Path;
 use pyo3::prelude::*;
 use rocking_score::{Answers, SCENES, score as score_answers};
 
-use crate::given::refuse;
 use crate::procedures::answer;
+use crate::work::refuse;
 
 /// The score of answers as CSV; `place` is their name in messages.
 #[pyfunction]

@@ -1,16 +1,20 @@
 //! Long work: on its own threads, without the interpreter, with progress and
 //! an end by Ctrl-C.
 
+use std::fmt::Display;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rocking::stop::Stop;
 
-use crate::given::refuse;
+/// The core's error as a `ValueError` with the core's text.
+pub fn refuse(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
 
 /// How often signals are looked at and progress is reported.
 const BEAT: Duration = Duration::from_millis(50);

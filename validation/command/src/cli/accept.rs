@@ -237,7 +237,7 @@ fn idle_snapshots(written: &Files) -> Result<Vec<String>, Failure> {
 fn from_tests() -> Result<Files, Failure> {
     let folder = tempfile::tempdir()?;
     // Snapshots go where insta takes the repository to be.
-    fs::create_dir(folder.path().join("validation"))?;
+    fs::create_dir_all(folder.path().join("validation/command"))?;
     let line: Vec<&str> =
         TEST.into_iter().chain(HOLDERS.map(|(test, _)| test)).collect();
     let words = format!("cargo {}", line.join(" "));

@@ -241,7 +241,7 @@ fn the_page_on_clusters_runs() {
     let path = env::var("PATH").unwrap();
     let path = format!("{}:{path}", program.display());
     let page = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = fs::read_to_string(page.join("../docs/cluster.md")).unwrap();
+    let page = fs::read_to_string(page.join("../../docs/cluster.md")).unwrap();
     let blocks: Vec<&str> = page.split("\n```sh\n").skip(1).collect();
     for block in &blocks {
         let block = block.split("\n```\n").next().unwrap();

@@ -40,7 +40,8 @@ pub fn find<T: Copy>(
 }
 
 /// Gives each variant of an enumeration its name: in `ALL`, `name`,
-/// `Display` and `FromStr`.
+/// `Display` and `FromStr`; and, by the feature `serde` of the calling crate,
+/// in JSON.
 #[macro_export]
 macro_rules! named {
     ($enum:ident, $what:literal, {
@@ -81,7 +82,8 @@ macro_rules! named {
     };
 }
 
-/// Serialises a type as the text of its `Display`, which its `FromStr` reads.
+/// Serialises a type as the text of its `Display`, which its `FromStr` reads,
+/// by the feature `serde` of the calling crate.
 #[macro_export]
 macro_rules! as_text {
     ($type:ty) => {

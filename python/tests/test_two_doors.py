@@ -13,7 +13,7 @@ import pytest
 import rocking as rk
 from conftest import ROOT, Command
 
-PROCEDURES = ROOT / "src" / "procedures"
+PROCEDURES = ROOT / "crates" / "procedures" / "src"
 
 
 @dataclass
@@ -437,8 +437,10 @@ def test_every_procedure_of_the_core_has_a_pair() -> None:
     paired |= {"sample", "intervals", "sample_outcomes"}
     # It is a procedure of a crate of its own.
     known = {"surrogate"}
+    # What the procedures stand on is no procedure itself.
+    below = {"fragility", "fragility.rs", "inversion.rs", "tests.rs"}
     for source in PROCEDURES.rglob("*.rs"):
-        if source.stem != "tests":
+        if not below & set(source.parts):
             text = source.read_text()
             known |= set(re.findall(r"^pub fn (\w+)", text, re.MULTILINE))
     assert known == paired

@@ -120,8 +120,8 @@ pub struct Record {
     pub direction: Direction,
     /// Whether the sensor is in a borehole (KiK-net), not at the surface.
     pub borehole: bool,
-    /// What reading found suspicious about the file; [`remarks`] judges the
-    /// samples.
+    /// What reading found suspicious about the file;
+    /// [`remarks`](crate::remarks) judges the samples.
     pub remarks: Vec<Remark>,
     /// Name of the channel, where the file gives one: its number, its
     /// direction or both.

@@ -134,10 +134,10 @@ impl Suite {
     /// [`ReadOptions::recursive`] is set, folders are read, too, and their
     /// names precede those of their records. A name of a file or a record, or
     /// a cell of an index, that results cannot carry
-    /// ([`result_name`](super::result_name)) is also refused. An index may
-    /// list vertical and borehole records; a remark says so. Pairs are found
-    /// by event and station if the files name both, else by file name: what is
-    /// left without the orientation at its end.
+    /// ([`result_name`](rocking::accelerogram::result_name)) is also refused.
+    /// An index may list vertical and borehole records; a remark says so.
+    /// Pairs are found by event and station if the files name both, else by
+    /// file name: what is left without the orientation at its end.
     ///
     /// # Errors
     /// [`SuiteError`] naming the folder, index or record, and the line.

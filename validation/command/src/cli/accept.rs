@@ -177,7 +177,8 @@ fn at_root() -> Result<(), Failure> {
     let there = |path: &str| fs::canonicalize(path).ok();
     let built = env::var("CARGO_MANIFEST_DIR").ok();
     let built = built.and_then(|folder| there(&folder));
-    let here = there("validation/command").filter(|_| Path::new(PINS).is_dir());
+    let here =
+        there("validation/command").filter(|_| Path::new(PINS).is_dir());
     if here.is_none() || built != here {
         return Err(Failure::input(
             "expected `cargo run --release -- accept` in the root of the \

@@ -139,7 +139,7 @@ fn identical_results_say_so() {
     }
     let answer = json(&place, "diff old new --json");
     assert_eq!(answer["identical"], true);
-    assert_eq!(answer["significant"], 0);
+    assert_eq!(answer["relevant"], 0);
     // A file on one side only is named.
     fs::remove_file(place.join("old/validation.json")).unwrap();
     let (status, out, _) = run(&place, "diff old new");
@@ -160,18 +160,26 @@ fn the_consequence_comes_first() {
     let place = sides("verdicts", &changes, &cases);
     let (status, out, error) = run(&place, "diff old new");
     assert_eq!(status, 1);
-    assert_eq!(error, "rocking: 6 significant changes\n");
+    assert_eq!(error, "rocking: 6 relevant changes\n");
     let lines = [
-        "Changed: 1 of 4 answers, 2 of 3 verdicts; 2 of ",
+        "Setting changed: coefficient of restitution 0.92 -> 0.919.\n",
+        "Effect: blocks overturn at median intensities 6.3 % higher \
+         (PGA/(g tan alpha), ordinary +6.3 %).\n",
+        "Answers that rest on findings: 1 of 4 changed; only numbers moved in \
+         none.\n",
+        "Verdicts: 1 of 1 flipped, none from confirmed to not confirmed or \
+         back.\n",
+        "Declared cases: 1 of 2 verdicts changed.\n",
+        "Numbers: 2 of 6 moved by more than",
         "Before: Hardly: median rotations differ by 0 %",
-        "\"the same\" (ratios-p1), ordinary, arm C: confirmed to inconclusive",
-        "  case free-rocking/one: pass to fail\n",
-        "  median overturning, PGA/(g tan alpha), ordinary: +6.3 % (p = 1: \
-         +0.0061 %, p = 3: +13 %); beyond 10 % in 1 of 2 cells\n    most p = \
-         3, alpha = 0.20, arm C: 2.31 to 2.6, +13 %\n",
-        "  case free-rocking/one: peak\n    value 1 of 1: 0.5 to 0.6, beyond",
-        "  eta: 0.92 to 0.919\n",
-        "Within the smallest effect of interest",
+        "\nLargest single moves",
+        "  case free-rocking/one, peak, value 1 of 1: 0.5 -> 0.6, \
+         +0.1\n",
+        "  median overturning, PGA/(g tan alpha), ordinary, p = 3, alpha = \
+         0.20, arm C: 2.31 -> 2.6, +13 %\n",
+        "  \"the same\" (ratios-p1), ordinary, arm C: confirmed -> \
+         inconclusive\n",
+        "  case free-rocking/one: pass -> fail\n",
     ];
     let mut rest = out.as_str();
     for line in lines {
@@ -187,17 +195,78 @@ fn what_is_on_one_side_only_is_named() {
     let place = sides("presence", &renamed, &cases);
     let (status, out, error) = run(&place, "diff old new");
     assert_eq!(status, 1);
-    assert!(error.contains("5 significant"), "{error}\n{out}");
+    assert!(error.contains("5 relevant"), "{error}\n{out}");
     let (_, lists) = out.split_once("\nOnly in the old results\n").unwrap();
     let (vanished, appeared) =
         lists.split_once("\nOnly in the new results\n").unwrap();
     for (list, names) in [
-        (appeared, ["claim ratio:", "case free-rocking/three"]),
-        (vanished, ["claim ratios-p1:", "case free-rocking/two"]),
+        (appeared, ["claim ratio\n", "case free-rocking/three\n"]),
+        (vanished, ["claim ratios-p1\n", "case free-rocking/two\n"]),
     ] {
         for name in names {
             assert!(list.contains(name), "{name}: {out}");
         }
+    }
+}
+
+#[test]
+fn an_opposite_verdict_is_counted() {
+    let opposite = [("\"confirmed\"", "\"not confirmed\"")];
+    let place = sides("opposite", &opposite, &[]);
+    let (_, out, _) = run(&place, "diff old new");
+    let words = "1 of 1 flipped, 1 from confirmed to not confirmed or back.";
+    assert!(out.contains(words), "{out}");
+}
+
+/// A result without cells that decide, and a row of few ratios.
+#[test]
+fn what_has_enough_records_now_says_so() {
+    let cells = "\"cells\": { \"deciding\": 18, \"inside\": 16, \"outside\": 0, \
+                 \"too_few\": 18 }";
+    let undecided = FINDINGS
+        .replacen(
+            "\"value\": 1.0, \"low\": 0.98, \"high\": 1.02",
+            "\"value\": null, \"low\": null, \"high\": null",
+            1,
+        )
+        .replacen("\"cells\": null", cells, 1)
+        .replacen("\"confirmed\"", "null", 1)
+        .replacen("\"overturning\",\n", "\"slenderness-adjustment\",\n", 1);
+    let row = "        {\n          \"at\": { \"arm\": \"C\", \"p_rad_s\": 4.0, \
+               \"im_pga\": 3.0 },\n          \"values\": [{ \"value\": 1.1 }]\n        \
+               },\n";
+    let decided = undecided
+        .replacen(
+            "\"value\": null, \"low\": null, \"high\": null",
+            "\"value\": 1.0, \"low\": 0.98, \"high\": 1.02",
+            1,
+        )
+        .replacen(
+            "\"by_equivalence\": null",
+            "\"by_equivalence\": \"confirmed\"",
+            1,
+        )
+        .replacen("\"rows\": [\n", &format!("\"rows\": [\n{row}"), 1);
+    let place = folder(
+        "diff-enough",
+        &[("old.json", &undecided), ("new.json", &decided)],
+    );
+    for (sides, when) in
+        [("old.json new.json", "before"), ("new.json old.json", "now")]
+    {
+        let (status, out, _) = run(&place, &format!("diff {sides}"));
+        assert_eq!(status, 1);
+        for words in [
+            format!(
+                "  \"the same\" (ratios-p1), ordinary, arm C ({when}: no cell with enough records)\n"
+            ),
+            format!(
+                "  slenderness adjusted instead of scaling, p = 4, PGA/(g tan alpha) = 3, arm C ({when}: fewer than 10 ratios)\n"
+            ),
+        ] {
+            assert!(out.contains(&words), "{words}{out}");
+        }
+        assert!(!out.contains("Verdicts that flipped"), "{out}");
     }
 }
 
@@ -259,10 +328,9 @@ fn runs_of_the_same_records_are_paired() {
         ],
     );
     let (_, out, _) = run(&place, "diff old new");
-    let same = "Both runs have the same records (8 ordinary)";
-    assert!(out.contains(same), "{out}");
-    let moved = "moves by +8.5 % in the median (+5 % to +12 %, exact 95 % \
-                 interval, 8 ordinary records)";
+    assert!(out.contains("No setting changed (same 8 records)."), "{out}");
+    let moved = "record by record +8.5 % (95 %: 5 to 12; block of Figure 11, \
+                 n = 8)";
     assert!(out.contains(moved), "{out}");
     // The same name with other samples is another record.
     let other = new.replacen("\"sha256\": \"7\"", "\"sha256\": \"8\"", 1);
@@ -270,10 +338,7 @@ fn runs_of_the_same_records_are_paired() {
     let (_, out, _) = run(&place, "diff old new");
     let parted = "7 ordinary records are in both runs, 1 (r7) only in the \
                   old one, 1 (r7) only in the new one.";
-    assert!(
-        out.contains(parted) && out.contains("7 ordinary records)"),
-        "{out}"
-    );
+    assert!(out.contains(parted) && out.contains("n = 7)"), "{out}");
 }
 
 #[test]
@@ -352,7 +417,7 @@ fn without_names_the_committed_report_and_the_last_study() {
     fs::write(&new, changed).unwrap();
     let (status, out, _) = run(&place, "diff");
     assert_eq!(status, 1);
-    assert!(out.contains("2.31 to 2.6, +13 %"), "{out}");
+    assert!(out.contains("2.31 -> 2.6, +13 %"), "{out}");
     fs::write(&new, FINDINGS).unwrap();
     assert_eq!(run(&place, "diff").0, 0);
 }

@@ -260,8 +260,6 @@ pub(super) struct Answered {
     pub first: String,
     /// The sentence.
     pub answer: String,
-    /// The verdicts on its parts.
-    pub verdicts: Vec<Vec<Verdict>>,
     numbers: String,
     figures: Vec<u32>,
 }
@@ -274,10 +272,8 @@ pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
     let (claims, first) = (&findings.claims, first_arm(findings));
     let answered = |asked: Asked| {
         let lead = asked.lead(claims, first);
-        let found = asked.all().map(|part| part.found(claims, first));
         Answered {
             lead,
-            verdicts: found.map(|found| found.verdicts).collect(),
             first: lead.map_or("No data", |k| &asked.leads[k]).into(),
             answer: asked.answer(claims, first),
             numbers: asked.numbers(claims, first),

@@ -14,13 +14,17 @@ use rocking_report::diff::{Comparison, Results, compare};
 ///
 /// OLD and NEW are each a folder of a study, a folder of reports, or one
 /// file: findings.json or validation.json; without them, the committed
-/// reports and what `rocking study` wrote last. Answers and verdicts come
-/// first, then numbers by kind, each against the smallest effect of interest:
-/// 5 % of a response ratio, 10 % of a median intensity or a dispersion, 10
-/// points of a share, 0.05 of a probability; a number of a declared case
-/// against its tolerance. Ends with 1 where an answer, a verdict or a setting
-/// changed, a number moved by more than that, or a claim, a case or a number
-/// is on one side only.
+/// reports and what `rocking study` wrote last. The first lines name the
+/// settings and records that changed, the effect on overturning intensities,
+/// and how many answers, verdicts and numbers changed. A number is relevant
+/// if it moved by more than the smallest effect of interest: 5 % of a
+/// response ratio, 10 % of a median intensity or a dispersion, 10 points of a
+/// share, 0.05 of a probability; in a declared case, by more than its
+/// tolerance. Relevant numbers are sorted by their change over the
+/// half-widths of both intervals (u), or, without intervals, over that
+/// effect; those of fewer than 30 records (n) come last. Ends with 1 if a
+/// change is relevant: an answer, a verdict, a setting, the records, such a
+/// number, or a result that one side lacks.
 #[derive(clap::Args)]
 pub struct Args {
     /// Results before.
@@ -29,10 +33,10 @@ pub struct Args {
     /// Results after.
     #[arg(value_name = "NEW", default_value = REPORT)]
     new: PathBuf,
-    /// List every change, also those that do not matter; JSON always does.
+    /// List every change, including those that are not relevant, as JSON does.
     #[arg(long, conflicts_with_all = ["json", "markdown"])]
     all: bool,
-    /// Print Markdown for a pull request, of 20,000 characters at most.
+    /// Print Markdown for a pull request: the text in a fence.
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
     #[command(flatten)]
@@ -41,7 +45,7 @@ pub struct Args {
 
 #[derive(Serialize)]
 struct Shown<'a> {
-    significant: usize,
+    relevant: usize,
     #[serde(flatten)]
     comparison: &'a Comparison,
 }
@@ -50,7 +54,7 @@ struct Shown<'a> {
 ///
 /// # Errors
 /// [`Failure`] for results that cannot be read or have nothing in common
-/// (status 2), and for a significant change (status 1).
+/// (status 2), and for a relevant change (status 1).
 pub fn run(args: &Args) -> Result<(), Failure> {
     if args.new.as_os_str() == REPORT && !args.new.exists() {
         return Err(Failure::input(format!(
@@ -61,17 +65,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let comparison = compare(&old, &new)?;
     if args.json.json {
         args.json.show(&Shown {
-            significant: comparison.significant(),
+            relevant: comparison.relevant(),
             comparison: &comparison,
         })?;
     } else if args.markdown {
-        print(&comparison.markdown())?;
+        let text = comparison.text(false);
+        print(&format!("## What changed\n\n```text\n{text}```\n"))?;
     } else {
         say(&comparison.text(args.all))?;
     }
-    match comparison.significant() {
+    match comparison.relevant() {
         0 => Ok(()),
-        1 => Err(Failure::gate("1 significant change")),
-        n => Err(Failure::gate(format!("{n} significant changes"))),
+        1 => Err(Failure::gate("1 relevant change")),
+        n => Err(Failure::gate(format!("{n} relevant changes"))),
     }
 }

@@ -1,19 +1,20 @@
 //! Finds and reads what is to be compared; refuses what it does not know.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use rocking_common::files::{SUMS, is_whole};
-use rocking_common::findings::Findings;
-use rocking_proof::verdict::snapshot;
+use rocking_common::findings::{Effect, Findings};
+use rocking_common::json::{Extended, extended};
+use rocking_proof::verdict::snapshot::{self, QuantityResult};
 
-use super::item::Item;
-use super::{cases, findings};
+use super::number::LAST_DIGIT;
+use crate::answers::answers;
 use crate::output::{FINDINGS, PAGE};
+use crate::verdicts::first_arm;
 
 /// Names of the files that can be compared.
 pub(super) const NAMES: [&str; 2] = ["findings.json", "validation.json"];
@@ -27,13 +28,8 @@ const EXPECTED: &str =
 pub struct Results {
     /// Where they were read.
     pub path: PathBuf,
-    /// Findings of a study.
-    pub findings: Option<Findings>,
-    /// First overturning intensities of the block of Figure 11 by record,
-    /// where the data of a study lie beside its findings.
-    pub overturnings: BTreeMap<String, f64>,
-    /// Items and normal text of each of the files that can be compared.
-    pub(super) sheets: [Option<(Vec<Item>, String)>; 2],
+    /// The tree of each of the files that can be compared.
+    pub(super) trees: [Option<Value>; 2],
 }
 
 impl Results {
@@ -70,7 +66,7 @@ impl Results {
             }
             results.add(place)?;
         }
-        if results.sheets.iter().all(Option::is_none) {
+        if results.trees.iter().all(Option::is_none) {
             bail!(
                 "{shown}: no results there, expected findings.json or \
                  validation.json in it or in its folder data"
@@ -80,12 +76,14 @@ impl Results {
     }
 
     fn add(&mut self, path: &Path) -> anyhow::Result<()> {
-        let text =
-            std::fs::read_to_string(path).with_context(|| unread(path))?;
-        self.parse(&text).with_context(|| path.display().to_string())?;
-        if self.findings.is_some() {
+        let read = std::fs::read_to_string(path);
+        let read = read.with_context(|| unread(path))?;
+        self.parse(&read).with_context(|| path.display().to_string())?;
+        if let Some(tree) = &mut self.trees[0] {
             let beside = path.with_file_name("figure-11.csv");
-            self.overturnings = overturnings(&beside);
+            // Only those of one arm are compared.
+            let arm = text(tree.get("arm"));
+            tree["overturnings"] = json!({ arm: overturnings(&beside) });
         }
         Ok(())
     }
@@ -106,8 +104,7 @@ impl Results {
             serde_json::from_str(text).context("expected JSON")?;
         if value.get("claims").is_some() {
             let read = Findings::parse(text).map_err(anyhow::Error::msg)?;
-            self.sheets[0] = Some((findings::items(&read)?, read.text()));
-            self.findings = Some(read);
+            self.trees[0] = Some(tree(&read)?);
             return Ok(());
         }
         let read: snapshot::Results =
@@ -115,10 +112,92 @@ impl Results {
         if read.is_empty() {
             bail!("found no results, {EXPECTED}");
         }
-        let normal = serde_json::to_string(&read)?;
-        self.sheets[1] = Some((cases::items(&read)?, normal));
+        for (id, case) in &read {
+            for (name, q) in &case.quantities {
+                bounded(q, 0.0).with_context(|| format!("{id}: {name}"))?;
+            }
+        }
+        self.trees[1] = Some(json!({ "cases": read }));
         Ok(())
     }
+}
+
+/// The findings of a study, and the answers that they give.
+fn tree(findings: &Findings) -> anyhow::Result<Value> {
+    let mut tree = serde_json::to_value(findings)?;
+    named("findings", &mut tree)?;
+    let answers = answers(findings)?.into_iter().map(|own| {
+        let answer = json!({ "lead": own.lead, "sentence": own.answer });
+        (own.question, answer)
+    });
+    tree["answers"] = Value::Object(answers.collect());
+    tree["arm"] = json!(first_arm(findings));
+    Ok(tree)
+}
+
+/// Lists whose elements have names, and the fields that name them.
+const NAMED: [(&str, &[&str]); 7] = [
+    ("suites", &["kind"]),
+    ("list", &["name", "sha256"]),
+    ("claims", &["id"]),
+    ("results", &["suite", "arm"]),
+    ("tables", &["topic"]),
+    ("rows", &["at"]),
+    ("questions", &["id"]),
+];
+
+/// Makes branches of lists whose elements have names.
+fn named(name: &str, tree: &mut Value) -> anyhow::Result<()> {
+    let own = NAMED.iter().find(|(list, _)| *list == name);
+    if let (Value::Array(list), Some((_, fields))) = (&mut *tree, own) {
+        let mut branches = Map::new();
+        for element in list.drain(..) {
+            let names = fields.iter().map(|field| text(element.get(field)));
+            let key = names.collect::<Vec<_>>().join(", ");
+            if branches.insert(key.clone(), element).is_some() {
+                bail!("{name}: found {key} twice, expected it once");
+            }
+        }
+        *tree = Value::Object(branches);
+    }
+    if let Value::Object(branches) = tree {
+        branches.iter_mut().try_for_each(|(name, tree)| named(name, tree))?;
+    }
+    Ok(())
+}
+
+/// A value in words.
+pub fn text(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => "none".into(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Array(list)) => {
+            let all = list.iter().map(|element| text(Some(element)));
+            all.collect::<Vec<_>>().join(", ")
+        }
+        Some(other) => other.to_string(),
+    }
+}
+
+/// What a value of a declared case may move by: its tolerance, and the last
+/// digit printed.
+pub fn bounded(
+    q: &QuantityResult,
+    value: f64,
+) -> anyhow::Result<Option<Effect>> {
+    let bound = || Extended::deserialize(&q.bound).map(|bound| bound.0);
+    let digit = LAST_DIGIT * value.abs();
+    let tolerance = match q.kind.as_str() {
+        "exact" => 0.0,
+        "absolute" => bound()? + digit,
+        "relative" => bound()? * value.abs() + digit,
+        "order" | "coverage" | "interval" | "waived" => return Ok(None),
+        other => bail!(
+            "found bound {other}, expected exact, absolute, relative, order, \
+             coverage, interval or waived"
+        ),
+    };
+    Ok(Some(Effect::Absolute(tolerance)))
 }
 
 fn unread(path: &Path) -> String {
@@ -137,11 +216,11 @@ struct Capacity {
 
 /// The first overturning intensities in the data of Figure 11: the
 /// capacities at demand 1, in PGA.
-fn overturnings(path: &Path) -> BTreeMap<String, f64> {
+fn overturnings(path: &Path) -> Map<String, Value> {
     let Ok(mut table) = csv::Reader::from_path(path) else {
-        return BTreeMap::new();
+        return Map::new();
     };
     let rows = table.deserialize::<Capacity>().filter_map(Result::ok);
     let ends = rows.filter(|row| row.im == "pga" && row.edp == 1.0);
-    ends.map(|row| (row.record, row.intensity)).collect()
+    ends.map(|row| (row.record, extended(row.intensity))).collect()
 }

@@ -1,193 +1,182 @@
-//! A comparison for people, and for a pull request: the consequence first.
+//! A comparison for people: the cause first.
 
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
-
-use super::moved::Kind;
-use super::{Change, Comparison};
+use super::effect::Records;
+use super::number::Moved;
+use super::{Change, Comparison, Kind};
+use rocking_common::paper::SuiteKind;
 
 /// Lines of a list that are shown unless all are wanted.
 const MOST: usize = 12;
 
-/// Characters of the Markdown, at most: a comment may have 65,536.
-const MOST_CHARACTERS: usize = 20_000;
-
 /// What shows everything.
 const ALL: &str = "`rocking diff OLD NEW --all`";
-
-/// A title, and the lines under it.
-type List = (&'static str, Vec<String>);
 
 impl Comparison {
     /// For people; `all` lists every change.
     pub fn text(&self, all: bool) -> String {
-        let mut out = self.head() + "\n";
+        let mut out = self.head().join("\n") + "\n";
         for (title, lines) in self.lists(all) {
-            // Writing to a string cannot fail.
-            let _ = writeln!(out, "\n{title}");
-            for line in lines {
-                let _ = writeln!(out, "  {}", line.replace('\n', "\n    "));
-            }
+            out += &format!("\n{title}\n");
+            let lines = lines.iter().map(|line| line.replace('\n', "\n    "));
+            out.extend(lines.map(|line| format!("  {line}\n")));
         }
         out
     }
 
-    /// Markdown for a pull request, of 20,000 characters at most.
-    pub fn markdown(&self) -> String {
-        let mut out = format!("## What changed\n\n{}\n", self.head());
-        let rest = format!("\nThe rest: {ALL}.\n");
-        let most = MOST_CHARACTERS - rest.chars().count();
-        let mut count = out.chars().count();
-        for (title, lines) in self.lists(false) {
-            let title = format!("\n### {title}\n\n");
-            let lines = lines.iter().map(|line| line.replace('\n', "; "));
-            let lines = lines.map(|line| format!("- {}\n", escaped(&line)));
-            for part in [title].into_iter().chain(lines) {
-                count += part.chars().count();
-                if count > most {
-                    return out + &rest;
-                }
-                out += &part;
-            }
-        }
-        out
+    fn of(&self, kind: Kind) -> impl Iterator<Item = &Change> + Clone {
+        self.changes.iter().filter(move |change| change.kind == kind)
     }
 
-    /// What there is, in a sentence.
-    fn head(&self) -> String {
-        let Self { answers, verdicts, .. } = self;
-        let numbers = self.compared;
+    /// Changes of a kind in what both sides have.
+    fn count(&self, kinds: &[Kind]) -> usize {
+        kinds.iter().filter_map(|kind| self.compared.get(kind)).sum()
+    }
+
+    /// What changed, the cause first, in a few sentences.
+    fn head(&self) -> Vec<String> {
+        let answers = self.count(&[Kind::Answer, Kind::Wording]);
+        let [verdicts, cases, numbers] =
+            [Kind::Verdict, Kind::Case, Kind::Number]
+                .map(|kind| self.count(&[kind]));
         if self.identical {
-            return format!(
-                "Identical: {} answers, {} verdicts, {numbers} numbers.",
-                answers.compared, verdicts.compared
-            );
+            return vec![format!(
+                "Identical: {answers} answers, {} verdicts, {numbers} numbers.",
+                verdicts + cases
+            )];
         }
-        let beyond: usize = self.numbers.iter().map(Kind::beyond).sum();
-        format!(
-            "Changed: {} of {} answers, {} of {} verdicts; {beyond} of \
-             {numbers} numbers beyond the smallest effect of interest.",
-            answers.count(),
-            answers.compared,
-            verdicts.count(),
-            verdicts.compared,
-        )
+        let mut out = vec![self.cause()];
+        let moved = self.records.iter().filter(|(_, r)| !r.are_same());
+        out.extend(moved.map(|(suite, records)| records.sentence(suite)));
+        let ordinary = self.records.get(SuiteKind::Ordinary.name());
+        let both = ordinary.map(|records| &records.both[..]);
+        out.extend(self.effect.sentence(both.unwrap_or_default()));
+        if answers > 0 {
+            out.push(format!(
+                "Answers that rest on findings: {} of {answers} changed; only \
+                 numbers moved in {}.",
+                some(self.of(Kind::Answer)),
+                some(self.of(Kind::Wording))
+            ));
+            let flips = self.of(Kind::Verdict).filter(|c| c.is_common());
+            out.push(format!(
+                "Verdicts: {} of {verdicts} flipped, {} from confirmed to not \
+                 confirmed or back.",
+                some(flips.clone()),
+                some(flips.filter(|change| change.opposite))
+            ));
+        }
+        if cases > 0 {
+            out.push(format!(
+                "Declared cases: {} of {cases} verdicts changed.",
+                some(self.of(Kind::Case))
+            ));
+        }
+        out.push(format!(
+            "Numbers: {} of {numbers} moved by more than the smallest effect \
+             of interest or their tolerance, {} by less.",
+            some(self.of(Kind::Number).filter(|change| change.relevant)),
+            some(self.of(Kind::Number).filter(|change| !change.relevant))
+        ));
+        out
     }
 
-    fn kinds_beyond(&self) -> impl Iterator<Item = &Kind> {
-        self.numbers.iter().filter(|kind| kind.beyond() > 0)
+    /// What was set differently, and whether the records are the same.
+    fn cause(&self) -> String {
+        let records = self.records.values();
+        let same =
+            if records.len() > 0 && records.clone().all(Records::are_same) {
+                let counts = records.map(|r| r.both.len().to_string());
+                let counts = counts.collect::<Vec<_>>().join(" + ");
+                format!(" (same {counts} records)")
+            } else {
+                String::new()
+            };
+        let settings = lines(self.of(Kind::Setting));
+        match settings.len() {
+            0 => format!("No setting changed{same}."),
+            1 => format!("Setting changed: {}{same}.", settings[0]),
+            n => format!("Settings changed: {n}, listed below{same}."),
+        }
     }
 
     /// The lists that have something, in the order of consequence.
-    fn lists(&self, all: bool) -> Vec<List> {
-        let lines = |list: &[Change]| list.iter().map(line).collect();
-        let only = |list: &BTreeMap<String, usize>| {
-            let line = |(what, n): (&String, &usize)| match n {
-                1 => what.clone(),
-                n => format!("{what}: {n} results"),
-            };
-            list.iter().map(line).collect()
-        };
-        let mut why: Vec<String> = lines(&self.settings.changed);
-        why.extend(self.notes.iter().cloned());
+    fn lists(&self, all: bool) -> Vec<(&'static str, Vec<String>)> {
+        let common = |kind| lines(self.of(kind).filter(|c| c.is_common()));
+        let moved = self.of(Kind::Number).filter(|c| all || c.relevant);
+        let changes = self.changes.iter();
+        let mut notes = self.notes.clone();
+        let texts = self.of(Kind::Text).count();
+        if texts > 0 && !all {
+            notes.push(format!("{texts} words, intervals and details differ"));
+        }
+        let mut settings = common(Kind::Setting);
+        if settings.len() == 1 {
+            settings.clear();
+        }
         let mut lists = vec![
-            ("Answers", self.answers.changed.iter().map(answer).collect()),
-            ("Verdicts", lines(&self.verdicts.changed)),
+            ("Settings", settings),
+            ("Answers that changed", common(Kind::Answer)),
             (
-                "Numbers beyond the smallest effect of interest: medians \
-                 over cells",
-                self.kinds_beyond().map(Kind::sentence).collect(),
+                "Largest single moves (u: change over the half-widths of both \
+                 intervals; n: records or ratios behind the value)",
+                lines(moved),
             ),
-            ("Only in the old results", only(&self.vanished)),
-            ("Only in the new results", only(&self.appeared)),
-            ("Settings and records", why),
-            ("Within the smallest effect of interest", self.within()),
+            ("Verdicts that flipped", common(Kind::Verdict)),
+            ("Declared cases", common(Kind::Case)),
+            (
+                "Only in the old results",
+                lines(changes.clone().filter(|c| c.new.is_none())),
+            ),
+            (
+                "Only in the new results",
+                lines(changes.filter(|c| c.old.is_none())),
+            ),
+            ("Answers in which only numbers moved", common(Kind::Wording)),
+            ("Also", notes),
         ];
         if all {
-            lists.push(("Every number that moved", self.every_number()));
-            lists.push((
-                "Words, intervals, details",
-                lines(&self.texts.changed),
-            ));
-        } else {
-            for (_, lines) in &mut lists {
-                let left = lines.len().saturating_sub(MOST);
-                if left > 0 {
-                    lines.truncate(MOST);
-                    lines.push(format!("{left} more: {ALL}"));
-                }
+            lists.push(("Words, intervals, details", common(Kind::Text)));
+        }
+        for (_, lines) in &mut lists {
+            let left = lines.len().saturating_sub(MOST);
+            if left > 0 && !all {
+                lines.truncate(MOST);
+                lines.push(format!("{left} more: {ALL}"));
             }
         }
         lists.retain(|(_, lines)| !lines.is_empty());
         lists
     }
+}
 
-    /// What stays within: a count, the first kinds in the order of
-    /// consequence, and what is not compared.
-    fn within(&self) -> Vec<String> {
-        let mut out = Vec::new();
-        let small = |kind: &Kind| kind.moved.len() - kind.beyond();
-        let moved: usize = self.numbers.iter().map(small).sum();
-        if moved > 0 {
-            out.push(format!("Smaller moves, and moves of counts: {moved}"));
-        }
-        let kinds = self.numbers.iter();
-        let kinds = kinds.filter(|k| k.beyond() == 0 && !k.moved.is_empty());
-        out.extend(kinds.take(2).map(Kind::sentence));
-        let elsewhere = self.numbers.iter().map(|k| &k.decided_elsewhere);
-        let elsewhere: usize = elsewhere.map(Vec::len).sum();
-        for (n, what) in [
-            (
-                elsewhere,
-                "Values of claims not compared, as another cell decides",
-            ),
-            (self.texts.count(), "Words, intervals and details that differ"),
-        ] {
-            if n > 0 {
-                out.push(format!("{what}: {n}"));
-            }
-        }
-        out
-    }
-
-    fn every_number(&self) -> Vec<String> {
-        let mut out = Vec::new();
-        for kind in &self.numbers {
-            let what = &kind.what;
-            let moved = kind.moved.iter();
-            out.extend(moved.map(|m| format!("{what}, {}", kind.one(m))));
-            let other = kind.decided_elsewhere.iter();
-            out.extend(other.map(|cells| format!("{what}, {cells}")));
-        }
-        out
+/// A number of changes; "none" for zero.
+fn some<'a>(changes: impl Iterator<Item = &'a Change>) -> String {
+    match changes.count() {
+        0 => "none".into(),
+        n => n.to_string(),
     }
 }
 
-fn answer(change: &Change) -> String {
-    let Change { what, old, new, .. } = change;
-    format!("{what}\nBefore: {old}\nNow: {new}")
+fn lines<'a>(changes: impl Iterator<Item = &'a Change>) -> Vec<String> {
+    changes.map(line).collect()
 }
 
+/// A change in a line, that of an answer in three.
 fn line(change: &Change) -> String {
-    let Change { what, places, old, new } = change;
-    let places = match places.len() {
-        0 => String::new(),
-        _ => format!(", {}", places.join("; ")),
+    let Change { kind, what, old, new, why, moved, .. } = change;
+    let (Some(old), Some(new)) = (old, new) else {
+        let side = if old.is_some() { "now" } else { "before" };
+        let why = why.as_ref().map(|why| format!(" ({side}: {why})"));
+        return what.clone() + &why.unwrap_or_default();
     };
-    format!("{what}{places}: {old} to {new}")
-}
-/// Text that Markdown shows as it is.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '|' | '*' | '_' | '<' | '`' | '[' | '\\' => {
-                out.push('\\');
-                out.push(c);
-            }
-            '\n' | '\r' => out.push(' '),
-            c => out.push(c),
+    let moved = moved.as_ref().map(Moved::text);
+    match (kind, moved) {
+        (Kind::Answer | Kind::Wording, _) => {
+            format!("{what}\nBefore: {old}\nNow: {new}")
         }
+        (Kind::Setting, _) => format!("{what} {old} -> {new}"),
+        (Kind::Number, Some(moved)) => format!("{what}: {moved}"),
+        (_, None) => format!("{what}: {old} -> {new}"),
+        (_, Some(moved)) => format!("{what}: {old} -> {new}; {moved}"),
     }
-    out
 }

@@ -1,0 +1,331 @@
+//! The walk over two trees side by side: by its path, what a branch is, and
+//! so by how much it may differ.
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::input::{bounded, text};
+use super::number::Number;
+use super::{Change, Comparison, Kind};
+use rocking_common::findings::{
+    ClaimResult, Effect, Measured, Place, Quantifier, Quantity, Region, Row,
+    Tested, Topic, Unit,
+};
+use rocking_common::json::Extended;
+use rocking_common::paper::{LEAST_USABLE, Verdict};
+use rocking_proof::verdict::snapshot::QuantityResult;
+
+/// Something of the old and of the new results.
+type Pair<T> = [T; 2];
+
+impl Comparison {
+    /// Compares a branch, or those below it that either side has.
+    pub(super) fn walk<'a>(
+        &mut self,
+        roots: Pair<&'a Value>,
+        path: &mut Vec<&'a str>,
+        sides: Pair<Option<&'a Value>>,
+    ) {
+        let before = self.changes.len();
+        let whole = self.visit(roots, path, sides);
+        let silent = sides[0] != sides[1] && self.changes.len() == before;
+        match sides {
+            [Some(Value::Object(a)), Some(Value::Object(b))]
+                if silent || !whole =>
+            {
+                let added = b.keys().filter(|key| !a.contains_key(*key));
+                for key in a.keys().chain(added) {
+                    path.push(key);
+                    self.walk(roots, path, [a.get(key), b.get(key)]);
+                    path.pop();
+                }
+            }
+            _ if silent => self.say(Kind::Text, words(path), sides),
+            _ => {}
+        }
+    }
+
+    /// Compares a branch as a whole; false where those below it say what
+    /// changed. They also say what a comparison as a whole is silent on.
+    fn visit(
+        &mut self,
+        roots: Pair<&Value>,
+        path: &[&str],
+        sides: Pair<Option<&Value>>,
+    ) -> bool {
+        match (path, sides) {
+            (
+                ["settings", _]
+                | ["suites", _, "source" | "component_rule"]
+                | ["claims", _, "region" | "quantifier"]
+                | ["cases", _, "kind" | "method" | "oracle"]
+                | ["cases", _, "quantities", _, "kind" | "bound" | "values"],
+                _,
+            ) => self.say(Kind::Setting, words(path), sides),
+            (["cases", _, "verdict"], _) => {
+                self.say(Kind::Case, words(&path[..2]), sides);
+            }
+            (["answers", question], [Some(a), Some(b)]) => {
+                let stays = a["lead"] == b["lead"];
+                let kind = if stays { Kind::Wording } else { Kind::Answer };
+                let sentences = [a, b].map(|answer| answer.get("sentence"));
+                self.say(kind, (*question).to_owned(), sentences);
+            }
+            (["suites", suite, "list", _], _) => {
+                let records = self.records.entry((*suite).to_owned());
+                records.or_default().add(sides);
+            }
+            (["overturnings", _, record], [Some(a), Some(b)]) => {
+                if let Some([a, b]) = both::<Extended>([a, b]) {
+                    let change = b.0 / a.0 - 1.0;
+                    self.effect.records.insert((*record).into(), change);
+                }
+            }
+            (["tables", topic, "rows", _], [Some(a), Some(b)]) => {
+                let tables = roots.map(|root| &root["tables"][topic]);
+                let quantities = tables.map(|table| &table["quantities"]);
+                if let (Some(rows), Some(quantities), Some(topic)) =
+                    (both([a, b]), both(quantities), topic_of(topic))
+                {
+                    self.row(roots, topic, quantities, rows);
+                }
+            }
+            (["claims", id, "results", _], [Some(a), Some(b)]) => {
+                if let Some(results) = both([a, b]) {
+                    self.result(roots, id, results);
+                }
+            }
+            (["cases", id, "quantities", name, "first"], _) => {
+                let quantities =
+                    roots.map(|root| &root["cases"][id]["quantities"][name]);
+                if let Some(quantities) = both(quantities) {
+                    self.values(&words(&path[..4]), &quantities);
+                }
+            }
+            (
+                ["suites" | "claims" | "tables" | "cases", _]
+                | ["claims", _, "results", _]
+                | ["tables", _, "rows", _]
+                | ["cases", _, "quantities" | "rejected", _],
+                [Some(one), None] | [None, Some(one)],
+            ) => {
+                let (what, why) = part(path, one);
+                let said = sides.map(|side| side.map(|_| String::new()));
+                let change = Change::of(Kind::Part, what, said);
+                self.changes.push(Change { why, ..change });
+            }
+            (_, sides) => {
+                return !sides.iter().flatten().all(|side| side.is_object());
+            }
+        }
+        true
+    }
+
+    /// Compares what is said in words.
+    fn say(&mut self, kind: Kind, what: String, sides: Pair<Option<&Value>>) {
+        self.tally(kind);
+        if sides[0] != sides[1] {
+            let said = sides.map(|side| Some(text(side)));
+            self.changes.push(Change::of(kind, what, said));
+        }
+    }
+
+    fn tally(&mut self, kind: Kind) {
+        *self.compared.entry(kind).or_default() += 1;
+    }
+
+    fn number(&mut self, what: String, number: &Number) {
+        self.tally(Kind::Number);
+        if let Some(moved) = number.moved() {
+            let said = moved.values.clone().map(Some);
+            self.changes.push(Change {
+                relevant: moved.is_beyond(),
+                moved: Some(moved),
+                ..Change::of(Kind::Number, what, said)
+            });
+        }
+    }
+
+    /// Compares the numbers of a row of a table.
+    fn row(
+        &mut self,
+        roots: Pair<&Value>,
+        topic: Topic,
+        [before, now]: Pair<Vec<Quantity>>,
+        [a, b]: Pair<Row>,
+    ) {
+        let suite = b.at.suite;
+        for (k, Quantity { name, words, unit }) in now.iter().enumerate() {
+            let Some(j) = before.iter().position(|q| q.name == *name) else {
+                continue;
+            };
+            let records = roots.map(|root| records(root, suite?.name()));
+            let number = Number {
+                effect: topic.smallest_effect(*unit),
+                unit: *unit,
+                measured: [a.values[j], b.values[k]],
+                n: [
+                    behind(&before, &a, name).or(records[0]),
+                    behind(&now, &b, name).or(records[1]),
+                ],
+            };
+            if topic == Topic::Overturning {
+                let group = Place {
+                    arm: None,
+                    p_rad_s: None,
+                    alpha_rad: None,
+                    ..b.at.clone()
+                };
+                let own = self.effect.medians.entry(placed(&group));
+                own.or_default().push(number.change());
+            }
+            self.number(format!("{words}, {}", placed(&b.at)), &number);
+        }
+    }
+
+    /// Compares the verdicts on a claim, and the value under them.
+    fn result(
+        &mut self,
+        roots: Pair<&Value>,
+        id: &str,
+        [a, b]: Pair<ClaimResult>,
+    ) {
+        let claim = &roots[1]["claims"][id];
+        let region = Option::<Region>::deserialize(&claim["region"]);
+        let all = claim["quantifier"] == serde_json::json!(Quantifier::All);
+        let plain = Some(&claim["plain"]).filter(|plain| *plain != "");
+        let named = text(plain.or(claim.get("measure")));
+        let what = format!("\"{named}\" ({id}), {}", b.place());
+        let number = Number {
+            effect: Effect::of_claim(region.unwrap_or_default(), b.unit),
+            unit: b.unit,
+            measured: [a.measured(), b.measured()],
+            n: roots.map(|root| records(root, b.suite.name())),
+        };
+        // Of "every cell", the value is that of the cell that decides.
+        let is_same = !all || a.at == b.at;
+        let moved = number.moved().filter(|_| is_same);
+        let paper = ", by the paper's criterion";
+        for (by, old, new, moved) in [
+            ("", a.by_equivalence, b.by_equivalence, moved),
+            (paper, a.by_criterion, b.by_criterion, None),
+        ] {
+            let decided = |v: Verdict| v != Verdict::Inconclusive;
+            let lacks = if old.is_none() { &a } else { &b };
+            let few = lacks.cells.is_some() && lacks.value.is_nan();
+            if old.is_some() && new.is_some() {
+                self.tally(Kind::Verdict);
+            }
+            if old != new {
+                let said = [old, new].map(|v| Some(v?.name().to_owned()));
+                self.changes.push(Change {
+                    opposite: old.is_some_and(decided)
+                        && new.is_some_and(decided),
+                    moved,
+                    why: few.then(|| "no cell with enough records".into()),
+                    ..Change::of(Kind::Verdict, what.clone() + by, said)
+                });
+            }
+        }
+        if is_same && a.by_equivalence.is_some() == b.by_equivalence.is_some()
+        {
+            self.number(what, &number);
+        }
+    }
+
+    /// Compares the values of a quantity of a case.
+    fn values(&mut self, what: &str, [a, b]: &Pair<QuantityResult>) {
+        for (k, (old, new)) in a.first.iter().zip(&b.first).enumerate() {
+            let number = Number {
+                // Every bound was checked when it was read.
+                effect: bounded(b, old.0).unwrap_or_default(),
+                unit: Unit::One,
+                measured: [old.0, new.0].map(Measured::exact),
+                n: [None; 2],
+            };
+            let what = format!("{what}, value {} of {}", k + 1, b.values);
+            self.number(what, &number);
+        }
+    }
+}
+
+impl Change {
+    fn of(kind: Kind, what: String, [old, new]: Pair<Option<String>>) -> Self {
+        let relevant = !matches!(kind, Kind::Wording | Kind::Text);
+        Self { kind, what, old, new, relevant, ..Self::default() }
+    }
+}
+
+/// Two branches in their type; none where one is not of it.
+fn both<T: DeserializeOwned>(sides: Pair<&Value>) -> Option<Pair<T>> {
+    let [a, b] = sides.map(T::deserialize);
+    Some([a.ok()?, b.ok()?])
+}
+
+/// A path in words.
+fn words(path: &[&str]) -> String {
+    let owner = match path {
+        ["settings", "eta"] => "coefficient of restitution".into(),
+        ["settings", name, ..] => name.replace('_', " "),
+        ["suites", kind, ..] => format!("{kind} suite"),
+        ["claims", id, ..] => format!("claim {id}"),
+        ["cases", id, ..] => format!("case {id}"),
+        ["tables", topic, ..] => {
+            topic_of(topic).map_or("", Topic::words).to_owned()
+        }
+        _ => path[..path.len().min(2)].join(", "),
+    };
+    let rest = path.iter().skip(2);
+    let rest = rest.filter(|name| !["results", "quantities"].contains(name));
+    rest.fold(owner, |all, name| format!("{all}, {}", name.replace('_', " ")))
+}
+
+fn topic_of(name: &str) -> Option<Topic> {
+    Topic::deserialize(&Value::from(name)).ok()
+}
+
+/// A place of a table in words, with its intensity measure and suite.
+fn placed(at: &Place) -> String {
+    let intensity = at.intensity.map(|im| im.words().to_owned());
+    let suite = at.suite.map(|suite| suite.to_string());
+    let rest = Some(at.to_string()).filter(|rest| !rest.is_empty());
+    let parts = [intensity, suite, rest].into_iter().flatten();
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Number of records of the suites that a name stands for.
+fn records(root: &Value, tested: &str) -> Option<usize> {
+    let suites = root["suites"].as_object()?;
+    let own = suites.iter().filter(|(kind, _)| {
+        [Tested::Both.name(), kind.as_str()].contains(&tested)
+    });
+    let n: u64 = own.filter_map(|(_, s)| s["records"].as_u64()).sum();
+    usize::try_from(n).ok().filter(|n| *n > 0)
+}
+
+/// How many ratios or histories of a row a number stands on, where the row
+/// counts them.
+fn behind(all: &[Quantity], row: &Row, name: &str) -> Option<usize> {
+    let count = |name: &str| {
+        let at = all.iter().position(|quantity| quantity.name == name)?;
+        Some(row.values[at].value as usize)
+    };
+    match name {
+        "median_alpha_above_0.25" => count("usable_alpha_above_0.25"),
+        "median_alpha_to_0.25" => None,
+        _ => count("usable"),
+    }
+}
+
+/// What a part is, and why one side lacks it, where its topic shows it.
+fn part(path: &[&str], part: &Value) -> (String, Option<String>) {
+    let ["tables", topic, "rows", _] = path else {
+        return (words(path), None);
+    };
+    let at = Place::deserialize(&part["at"]).unwrap_or_default();
+    let what = format!("{}, {}", words(&path[..2]), placed(&at));
+    let is_adjusted = topic_of(topic) == Some(Topic::SlendernessAdjustment);
+    let few = format!("fewer than {LEAST_USABLE} ratios");
+    (what, is_adjusted.then_some(few))
+}

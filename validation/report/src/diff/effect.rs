@@ -1,0 +1,100 @@
+//! Which records two runs share, and what became of the blocks.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::number::{percent, plain};
+use rocking_common::findings::Measured;
+use rocking_study::estimates::median;
+
+/// Records of a suite in two runs; the same name with other samples is
+/// another record.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Records {
+    /// In both runs.
+    pub both: Vec<String>,
+    /// In the old run alone.
+    pub lost: Vec<String>,
+    /// In the new run alone.
+    pub gained: Vec<String>,
+}
+
+impl Records {
+    /// Adds a record of either side or of both.
+    pub fn add(&mut self, sides: [Option<&Value>; 2]) {
+        let ([Some(record), _] | [_, Some(record)]) = sides else { return };
+        let list = match sides {
+            [Some(_), Some(_)] => &mut self.both,
+            [Some(_), None] => &mut self.lost,
+            _ => &mut self.gained,
+        };
+        list.extend(record["name"].as_str().map(str::to_owned));
+    }
+
+    /// Whether both runs have the same ones.
+    pub fn are_same(&self) -> bool {
+        self.lost.is_empty() && self.gained.is_empty()
+    }
+
+    /// How many are in both runs, and which are not, in a sentence.
+    pub fn sentence(&self, suite: &str) -> String {
+        let named = |records: &[String]| match records.len() {
+            n @ 1..=3 => format!("{n} ({})", records.join(", ")),
+            n => n.to_string(),
+        };
+        format!(
+            "{} {suite} records are in both runs, {} only in the old one, {} \
+             only in the new one.",
+            self.both.len(),
+            named(&self.lost),
+            named(&self.gained)
+        )
+    }
+}
+
+/// By how much overturning intensities moved, as parts of the old ones.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Effect {
+    /// Changes of the medians of all blocks, by suite and intensity measure.
+    pub medians: BTreeMap<String, Vec<f64>>,
+    /// Changes of the first overturning of the block of Figure 11, by record.
+    pub records: BTreeMap<String, f64>,
+}
+
+impl Effect {
+    /// The effect in a sentence, where overturning intensities are known;
+    /// records count where both runs have them.
+    pub fn sentence(&self, both: &[String]) -> Option<String> {
+        let mut parts = Vec::new();
+        let all: Vec<f64> = self.medians.values().flatten().copied().collect();
+        let change = median(&all).value;
+        if !change.is_nan() {
+            let of = |(what, own): (&String, &Vec<f64>)| {
+                format!("{what} {}", percent(median(own).value))
+            };
+            let suites: Vec<String> = self.medians.iter().map(of).collect();
+            let size = plain(100.0 * change.abs(), 2);
+            let way = if change < 0.0 { "lower" } else { "higher" };
+            parts.push(format!(
+                "blocks overturn at median intensities {size} % {way} ({})",
+                suites.join("; ")
+            ));
+        }
+        let own = both.iter().filter_map(|name| self.records.get(name));
+        let own: Vec<f64> = own.copied().collect();
+        let Measured { value, interval } = median(&own);
+        if let Some((low, high)) = interval {
+            parts.push(format!(
+                "record by record {} (95 %: {} to {}; block of Figure 11, n = \
+                 {})",
+                percent(value),
+                plain(100.0 * low, 2),
+                plain(100.0 * high, 2),
+                own.len()
+            ));
+        }
+        (!parts.is_empty()).then(|| format!("Effect: {}.", parts.join("; ")))
+    }
+}

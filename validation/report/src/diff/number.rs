@@ -1,0 +1,144 @@
+//! How far numbers moved, against what matters and what is known of them.
+
+use serde::Serialize;
+
+use rocking_common::findings::{Effect, Measured, Unit};
+use rocking_common::words::rounded;
+use rocking_study::inference::LEAST_DECIDING;
+
+/// Unit of the ninth significant digit, relative: files have no more.
+pub const LAST_DIGIT: f64 = 1e-8;
+
+/// A number of both results.
+pub struct Number {
+    /// What it may move by before that matters; none of what a verdict or a
+    /// share beside it judges.
+    pub effect: Option<Effect>,
+    /// Its unit.
+    pub unit: Unit,
+    /// Old and new value, with their intervals.
+    pub measured: [Measured; 2],
+    /// Numbers of records or ratios behind them, where known.
+    pub n: [Option<usize>; 2],
+}
+
+/// How a number moved.
+#[derive(Clone, Debug, Serialize)]
+pub struct Moved {
+    /// Old and new value, with the digits that tell them apart.
+    pub values: [String; 2],
+    /// The change: a part of the old value, or in the number's unit.
+    pub change: f64,
+    /// The same in words; empty where it is no number.
+    pub change_text: String,
+    /// Its size over the limit: above 1 it matters.
+    pub change_over_limit: f64,
+    /// Its size over the half-widths of both intervals, the root of the sum
+    /// of their squares. Runs of the same records vary together: their change
+    /// is surer than this says.
+    pub change_over_uncertainty: Option<f64>,
+    /// Numbers of records or ratios behind the old and the new value.
+    pub n: [Option<usize>; 2],
+}
+
+impl Number {
+    /// The change; NaN where only one is a number.
+    pub fn change(&self) -> f64 {
+        let [a, b] = self.measured.map(|measured| measured.value);
+        match self.effect {
+            _ if a == b || (a.is_nan() && b.is_nan()) => 0.0,
+            Some(Effect::Relative(_)) => (b - a) / a.abs(),
+            _ => b - a,
+        }
+    }
+
+    /// How it moved; none where it did not.
+    pub fn moved(&self) -> Option<Moved> {
+        let change = self.change();
+        let (factor, unit, points) = match self.unit {
+            Unit::Share => (100.0, " %", " points"),
+            Unit::Points => (100.0, " points", " points"),
+            _ => (1.0, "", ""),
+        };
+        let at = |digits| {
+            self.measured.map(|m| match m.value.is_nan() {
+                true => "none".into(),
+                false => plain(factor * m.value, digits) + unit,
+            })
+        };
+        let differ = |[a, b]: &[String; 2]| a != b;
+        let (limit, change_text) = match self.effect {
+            Some(Effect::Relative(x)) => (x, percent(change)),
+            Some(Effect::Absolute(x)) => (x, signed(change, factor, points)),
+            None => (f64::INFINITY, signed(change, factor, points)),
+        };
+        let over = change.abs() / (limit * (1.0 + LAST_DIGIT));
+        let half = |m: Measured| m.interval.map(|(a, b)| 0.5 * (b - a));
+        let [a, b] = self.measured;
+        let u = half(a).zip(half(b)).map(|(a, b)| (a * a + b * b).sqrt());
+        let u = u.map(|u| (b.value - a.value).abs() / u);
+        let is_known = change.is_finite();
+        (change != 0.0).then(|| Moved {
+            values: (3..17).map(at).find(differ).unwrap_or_else(|| at(17)),
+            change,
+            change_text: if is_known { change_text } else { String::new() },
+            change_over_limit: if over.is_nan() {
+                f64::INFINITY
+            } else {
+                over
+            },
+            change_over_uncertainty: u.filter(|u| u.is_finite()),
+            n: self.n,
+        })
+    }
+}
+
+impl Moved {
+    /// Whether it matters.
+    pub fn is_beyond(&self) -> bool {
+        self.change_over_limit > 1.0
+    }
+
+    /// What moves are sorted by, the highest first: whether there are
+    /// records enough to decide anything, then the change over its
+    /// uncertainty or, where none is known, over the limit.
+    pub fn weight(&self) -> (bool, u64) {
+        let few = self.n.iter().flatten().any(|n| *n < LEAST_DECIDING);
+        let size = self.change_over_uncertainty;
+        // Positive numbers are ordered as their bits are.
+        (!few, size.unwrap_or(self.change_over_limit).to_bits())
+    }
+
+    /// The move in words: `2.31 -> 2.6, +13 %, u = 1.4, n = 86`.
+    pub fn text(&self) -> String {
+        let mut parts = vec![self.values.join(" -> ")];
+        if !self.change_text.is_empty() {
+            parts.push(self.change_text.clone());
+        }
+        let u = self.change_over_uncertainty;
+        parts.extend(u.map(|u| format!("u = {}", plain(u, 2))));
+        match self.n {
+            [Some(a), Some(b)] if a != b => {
+                parts.push(format!("n = {a} -> {b}"));
+            }
+            [_, b] => parts.extend(b.map(|n| format!("n = {n}"))),
+        }
+        parts.join(", ")
+    }
+}
+
+/// A share of a number as a percentage with its sign: `+12 %`.
+pub fn percent(share: f64) -> String {
+    signed(share, 100.0, " %")
+}
+
+fn signed(change: f64, factor: f64, unit: &str) -> String {
+    let sign = if change > 0.0 { "+" } else { "" };
+    format!("{sign}{}{unit}", plain(factor * change, 2))
+}
+
+/// A number with at most so many significant digits, a whole one with all.
+pub fn plain(x: f64, digits: usize) -> String {
+    let is_whole = x.fract() == 0.0;
+    (if is_whole { x } else { rounded(x, digits) }).to_string()
+}

@@ -13,7 +13,7 @@ use rocking_common::findings::{
     Tested, Topic, Unit,
 };
 use rocking_common::json::Extended;
-use rocking_common::paper::{LEAST_USABLE, Verdict};
+use rocking_common::paper::{Arm, LEAST_USABLE, Verdict};
 use rocking_proof::verdict::snapshot::QuantityResult;
 
 /// Something of the old and of the new results.
@@ -85,10 +85,12 @@ impl Comparison {
             (["tables", topic, "rows", _], [Some(a), Some(b)]) => {
                 let tables = roots.map(|root| &root["tables"][topic]);
                 let quantities = tables.map(|table| &table["quantities"]);
-                if let (Some(rows), Some(quantities), Some(topic)) =
-                    (both([a, b]), both(quantities), topic_of(topic))
+                if let Some([old, new]) = both::<Vec<Quantity>>(quantities)
+                    && let (Some(rows), Some(topic)) =
+                        (both([a, b]), topic_of(topic))
+                    && old == new
                 {
-                    self.row(roots, topic, quantities, rows);
+                    self.row(roots, topic, &new, rows);
                 }
             }
             (["claims", id, "results", _], [Some(a), Some(b)]) => {
@@ -110,10 +112,13 @@ impl Comparison {
                 | ["cases", _, "quantities" | "rejected", _],
                 [Some(one), None] | [None, Some(one)],
             ) => {
-                let (what, why) = part(path, one);
+                let other = roots[usize::from(sides[0].is_some())];
+                let (what, why) = part(path, one, other);
                 let said = sides.map(|side| side.map(|_| String::new()));
                 let change = Change::of(Kind::Part, what, said);
-                self.changes.push(Change { why, ..change });
+                if self.changes.iter().all(|c| c.what != change.what) {
+                    self.changes.push(Change { why, ..change });
+                }
             }
             (_, sides) => {
                 return !sides.iter().flatten().all(|side| side.is_object());
@@ -152,31 +157,25 @@ impl Comparison {
         &mut self,
         roots: Pair<&Value>,
         topic: Topic,
-        [before, now]: Pair<Vec<Quantity>>,
+        quantities: &[Quantity],
         [a, b]: Pair<Row>,
     ) {
-        let suite = b.at.suite;
-        for (k, Quantity { name, words, unit }) in now.iter().enumerate() {
-            let Some(j) = before.iter().position(|q| q.name == *name) else {
-                continue;
-            };
-            let records = roots.map(|root| records(root, suite?.name()));
+        let Place { suite, intensity, .. } = b.at;
+        for (k, Quantity { name, words, unit }) in
+            quantities.iter().enumerate()
+        {
+            let n = [(&a, roots[0]), (&b, roots[1])].map(|(row, root)| {
+                let own = behind(quantities, row, name);
+                own.or_else(|| records(root, suite?.name()))
+            });
             let number = Number {
                 effect: topic.smallest_effect(*unit),
                 unit: *unit,
-                measured: [a.values[j], b.values[k]],
-                n: [
-                    behind(&before, &a, name).or(records[0]),
-                    behind(&now, &b, name).or(records[1]),
-                ],
+                measured: [a.values[k], b.values[k]],
+                n,
             };
             if topic == Topic::Overturning {
-                let group = Place {
-                    arm: None,
-                    p_rad_s: None,
-                    alpha_rad: None,
-                    ..b.at.clone()
-                };
+                let group = Place { suite, intensity, ..Place::default() };
                 let own = self.effect.medians.entry(placed(&group));
                 own.or_default().push(number.change());
             }
@@ -318,12 +317,25 @@ fn behind(all: &[Quantity], row: &Row, name: &str) -> Option<usize> {
     }
 }
 
-/// What a part is, and why one side lacks it, where its topic shows it.
-fn part(path: &[&str], part: &Value) -> (String, Option<String>) {
+/// What a part is, and why the other results lack it, where that is known;
+/// of an arm that was not run, all parts are one.
+pub(super) fn part(
+    path: &[&str],
+    part: &Value,
+    other: &Value,
+) -> (String, Option<String>) {
+    let at = Place::deserialize(&part["at"]).unwrap_or_default();
+    let arm = Option::deserialize(&part["arm"]).unwrap_or_default();
+    let arms = Vec::<Arm>::deserialize(&other["settings"]["arms"]);
+    if let (Some(arm), Ok(arms)) = (at.arm.or(arm), arms)
+        && !arms.contains(&arm)
+    {
+        let why = "this arm was not run".to_owned();
+        return (format!("results of arm {}", arm.letter()), Some(why));
+    }
     let ["tables", topic, "rows", _] = path else {
         return (words(path), None);
     };
-    let at = Place::deserialize(&part["at"]).unwrap_or_default();
     let what = format!("{}, {}", words(&path[..2]), placed(&at));
     let is_adjusted = topic_of(topic) == Some(Topic::SlendernessAdjustment);
     let few = format!("fewer than {LEAST_USABLE} ratios");

@@ -1,5 +1,8 @@
 use rocking_common::findings::{Effect, Measured, Unit};
 
+use serde_json::json;
+
+use super::branch::part;
 use super::number::{Moved, Number};
 
 const TENTH: Option<Effect> = Some(Effect::Relative(0.1));
@@ -39,7 +42,7 @@ fn a_change_is_held_against_the_smallest_effect_of_interest() {
         (None, 1.0, nan, true),
     ] {
         let one = number(effect, Unit::One, [old, new]);
-        let found = one.moved().is_some_and(|moved| moved.is_beyond());
+        let found = one.moved().is_some_and(|m| m.is_beyond());
         assert_eq!(found, beyond, "{effect:?}: {old} to {new}");
     }
 }
@@ -48,12 +51,7 @@ fn a_change_is_held_against_the_smallest_effect_of_interest() {
 fn a_move_has_the_digits_that_show_it() {
     for (effect, unit, ends, text) in [
         (POINTS, Unit::Share, [0.97, 0.4], "97 % -> 40 %, -57 points, n = 86"),
-        (
-            TENTH,
-            Unit::One,
-            [2.312_34, 2.312_36],
-            "2.3123 -> 2.3124, +0.00086 %, n = 86",
-        ),
+        (TENTH, Unit::One, [2.0, 2.0002], "2 -> 2.0002, +0.01 %, n = 86"),
         (TENTH, Unit::One, [f64::NAN, 1e-3], "none -> 0.001, n = 86"),
     ] {
         assert_eq!(moved(&number(effect, unit, ends)).text(), text);
@@ -62,9 +60,9 @@ fn a_move_has_the_digits_that_show_it() {
 
 #[test]
 fn what_is_least_a_matter_of_chance_weighs_most() {
-    let measured = |value, half| Measured {
-        value,
-        interval: Some((value - half, value + half)),
+    let measured = |value: f64, half: f64| {
+        let interval = Some((value - half, value + half));
+        Measured { value, interval }
     };
     let sure = Number {
         measured: [measured(1.0, 0.03), measured(1.2, 0.04)],
@@ -77,4 +75,19 @@ fn what_is_least_a_matter_of_chance_weighs_most() {
     assert!(u.weight() > open.weight());
     let few = Number { n: [Some(29), Some(86)], ..sure };
     assert!(moved(&few).weight() < open.weight());
+}
+
+#[test]
+fn a_row_that_one_side_lacks_says_why() {
+    let at = json!({ "p_rad_s": 3.0, "im_pga": 5.0, "arm": "C" });
+    let path = ["tables", "slenderness-adjustment", "rows", "a"];
+    for (arms, what, why) in [
+        (["A", "C"], " = 5, arm C", "fewer than 10 ratios"),
+        (["A", "B"], "results of arm C", "this arm was not run"),
+    ] {
+        let other = json!({ "settings": { "arms": arms } });
+        let (found, reason) = part(&path, &json!({ "at": at }), &other);
+        assert!(found.ends_with(what), "{found}");
+        assert_eq!(reason.as_deref(), Some(why));
+    }
 }

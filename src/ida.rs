@@ -44,21 +44,17 @@ pub enum Grid {
     },
 }
 
-/// What is adjusted to reach a level's intensity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Adjust {
-    /// The record is scaled; the block stays.
-    RecordScaling,
-    /// The record stays as recorded; the slenderness is adjusted to
-    /// alpha = atan(PGA/(g IM)) (PGA/(g IM) for Eq. 2) at equal p, and the
-    /// rotation is normalised by the adjusted alpha.
-    SlendernessAdjustment,
+named! {
+    /// What is adjusted to reach a level's intensity.
+    pub enum Adjust: "adjustment" {
+        /// The record is scaled; the block stays.
+        RecordScaling = "record-scaling",
+        /// The record stays as recorded; the slenderness is adjusted to
+        /// alpha = atan(PGA/(g IM)) (PGA/(g IM) for Eq. 2) at equal p, and the
+        /// rotation is normalised by the adjusted alpha.
+        SlendernessAdjustment = "slenderness-adjustment",
+    }
 }
-
-named!(Adjust, "adjustment", {
-    RecordScaling = "record-scaling",
-    SlendernessAdjustment = "slenderness-adjustment",
-});
 
 /// One kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]

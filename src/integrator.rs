@@ -85,20 +85,20 @@ pub fn respond(
     Solver::default().respond(scene, observe)
 }
 
-/// Order of the Taylor polynomial under a record, where it is fixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Order {
-    /// Order 4.
-    Four,
-    /// Order 6.
-    Six,
-    /// Order 8.
-    Eight,
-    /// Order 10.
-    Ten,
+named! {
+    /// Order of the Taylor polynomial under a record, where it is fixed.
+    #[derive(PartialOrd, Ord)]
+    pub enum Order: "order" {
+        /// Order 4.
+        Four = "4",
+        /// Order 6.
+        Six = "6",
+        /// Order 8.
+        Eight = "8",
+        /// Order 10.
+        Ten = "10",
+    }
 }
-
-named!(Order, "order", { Four = "4", Six = "6", Eight = "8", Ten = "10" });
 
 /// How a scene is integrated in double precision. The default is what
 /// [`respond`] does.

@@ -39,14 +39,20 @@ pub fn find<T: Copy>(
     })
 }
 
-/// Gives each variant of an enumeration its name: in `ALL`, `name`,
-/// `Display` and `FromStr`; and, by the feature `serde` of the calling crate,
-/// in JSON.
+/// An enumeration whose variants have names, in `ALL`, `name`, `Display`,
+/// `FromStr` and, with the feature `serde`, in files; the text after the colon
+/// says in messages what is named.
 #[macro_export]
 macro_rules! named {
-    ($enum:ident, $what:literal, {
-        $($variant:ident = $name:literal),+ $(,)?
+    ($(#[$attribute:meta])+ $vis:vis enum $enum:ident: $what:literal {
+        $($(#[$about:meta])+ $variant:ident = $name:literal),+ $(,)?
     }) => {
+        $(#[$attribute])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        $vis enum $enum {
+            $($(#[$about])+ $variant),+
+        }
+
         impl $enum {
             /// All of them.
             pub const ALL: [Self; [$($name),+].len()] =
@@ -82,14 +88,20 @@ macro_rules! named {
     };
 }
 
-/// Serialises a type as the text of its `Display`, which its `FromStr` reads,
-/// by the feature `serde` of the calling crate.
+/// Without the feature `serde`, types have their text alone.
+#[cfg(not(feature = "serde"))]
+#[macro_export]
+macro_rules! as_text {
+    ($type:ty) => {};
+}
+
+/// Serialises a type as the text of its `Display`, which its `FromStr` reads.
+#[cfg(feature = "serde")]
 #[macro_export]
 macro_rules! as_text {
     ($type:ty) => {
-        #[cfg(feature = "serde")]
-        impl serde::Serialize for $type {
-            fn serialize<S: serde::Serializer>(
+        impl $crate::names::serde::Serialize for $type {
+            fn serialize<S: $crate::names::serde::Serializer>(
                 &self,
                 serializer: S,
             ) -> Result<S::Ok, S::Error> {
@@ -97,17 +109,20 @@ macro_rules! as_text {
             }
         }
 
-        #[cfg(feature = "serde")]
-        impl<'de> serde::Deserialize<'de> for $type {
-            fn deserialize<D: serde::Deserializer<'de>>(
+        impl<'de> $crate::names::serde::Deserialize<'de> for $type {
+            fn deserialize<D: $crate::names::serde::Deserializer<'de>>(
                 deserializer: D,
             ) -> Result<Self, D::Error> {
-                let text =
-                    <String as serde::Deserialize>::deserialize(deserializer)?;
-                text.parse().map_err(serde::de::Error::custom)
+                use $crate::names::serde::{Deserialize, de::Error};
+                let text = <String as Deserialize>::deserialize(deserializer)?;
+                text.parse().map_err(D::Error::custom)
             }
         }
     };
 }
+
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use serde;
 
 pub use crate::{as_text, named};

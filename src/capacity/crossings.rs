@@ -27,30 +27,24 @@ impl Capacity {
     }
 }
 
-/// Which single capacity is made of several crossings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum InversionRule {
-    /// The median crossing, the paper's "median point along the vertical".
-    /// The count is odd, so it is a point of the curve; of three it is the
-    /// descending one, so it can fall as the level rises.
-    Median,
-    /// The first crossing.
-    First,
-    /// The last crossing.
-    Last,
-    /// c1 - c2 + c3 - .., the length of intensity below the level: never
-    /// falls as the level rises, and averages to the area above the stripe
-    /// fragility.
-    Monotone,
+named! {
+    /// Which single capacity is made of several crossings.
+    #[non_exhaustive]
+    pub enum InversionRule: "inversion rule" {
+        /// The median crossing, the paper's "median point along the vertical".
+        /// The count is odd, so it is a point of the curve; of three it is the
+        /// descending one, so it can fall as the level rises.
+        Median = "median",
+        /// The first crossing.
+        First = "first",
+        /// The last crossing.
+        Last = "last",
+        /// c1 - c2 + c3 - .., the length of intensity below the level: never
+        /// falls as the level rises, and averages to the area above the stripe
+        /// fragility.
+        Monotone = "monotone",
+    }
 }
-
-named!(InversionRule, "inversion rule", {
-    Median = "median",
-    First = "first",
-    Last = "last",
-    Monotone = "monotone",
-});
 
 /// All intensities at which a curve crosses a level, in ascending order.
 ///

@@ -20,36 +20,29 @@ pub const CLEARANCE: f64 = 4.0;
 /// propagation is not trusted.
 pub const LARGEST_ERROR: f64 = 0.01;
 
-/// A kind of discrete decision of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Decision {
-    /// A block at rest lifts, or stays: the ground acceleration against the
-    /// uplift threshold.
-    Uplift,
-    /// The block meets its base, or turns just above it: the speed of the
-    /// impact, or the lowest rotation without one.
-    Contact,
-    /// The impacts that a run takes for a rest end in one: the time that is
-    /// left for it.
-    Rest,
-    /// The block reaches the rotation of overturning, or turns before it.
-    Overturning,
-    /// Observation ends before the first uplift or after it, before an
-    /// overturning or after it: the time between, or the rotation that is
-    /// left to overturning.
-    End,
-    /// The error is small enough for its linear propagation.
-    Propagation,
+named! {
+    /// A kind of discrete decision of a run.
+    #[derive(PartialOrd, Ord)]
+    pub enum Decision: "decision" {
+        /// A block at rest lifts, or stays: the ground acceleration against
+        /// the uplift threshold.
+        Uplift = "uplift",
+        /// The block meets its base, or turns just above it: the speed of the
+        /// impact, or the lowest rotation without one.
+        Contact = "contact",
+        /// The impacts that a run takes for a rest end in one: the time that
+        /// is left for it.
+        Rest = "rest",
+        /// The block reaches the rotation of overturning, or turns before it.
+        Overturning = "overturning",
+        /// Observation ends before the first uplift or after it, before an
+        /// overturning or after it: the time between, or the rotation that is
+        /// left to overturning.
+        End = "end",
+        /// The error is small enough for its linear propagation.
+        Propagation = "propagation",
+    }
 }
-
-named!(Decision, "decision", {
-    Uplift = "uplift",
-    Contact = "contact",
-    Rest = "rest",
-    Overturning = "overturning",
-    End = "end",
-    Propagation = "propagation",
-});
 
 /// The least clear decision of a kind.
 #[derive(Clone, Copy, Debug, PartialEq)]

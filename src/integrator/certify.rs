@@ -12,22 +12,17 @@ use crate::number::Real;
 use crate::number::double::DoubleDouble;
 use crate::number::octuple::Octuple;
 
-/// Arithmetic of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// Double precision.
-    Double,
-    /// Double-double, about 30 digits.
-    DoubleDouble,
-    /// Octuple precision, about 77 digits: the widest tried.
-    Octuple,
+named! {
+    /// Arithmetic of a run.
+    pub enum Arithmetic: "arithmetic" {
+        /// Double precision.
+        Double = "double",
+        /// Double-double, about 30 digits.
+        DoubleDouble = "double-double",
+        /// Octuple precision, about 77 digits: the widest tried.
+        Octuple = "octuple",
+    }
 }
-
-named!(Arithmetic, "arithmetic", {
-    Double = "double",
-    DoubleDouble = "double-double",
-    Octuple = "octuple",
-});
 
 /// Largest bound on the error of a peak ratio that counts as resolved. The
 /// rough estimate flags a peak from a standard deviation of a quarter of it.

@@ -19,30 +19,25 @@ use crate::block::{Block, Restitution};
 use crate::names::named;
 use crate::number::{Number, Real};
 
-/// Equation of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
-    /// Eq. 1, valid for large rotations; uplift when |a| > g tan alpha.
-    Nonlinear,
-    /// Eq. 2, linearised; uplift when |a| > g alpha.
-    Linearized,
+named! {
+    /// Equation of motion.
+    pub enum Model: "model" {
+        /// Eq. 1, valid for large rotations; uplift when |a| > g tan alpha.
+        Nonlinear = "nonlinear",
+        /// Eq. 2, linearised; uplift when |a| > g alpha.
+        Linearized = "linearized",
+    }
 }
 
-/// When a block counts as overturned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overturning {
-    /// |theta| reaches alpha (the paper's first sign of overturning).
-    Alpha,
-    /// |theta| exceeds pi/2.
-    HalfPi,
+named! {
+    /// When a block counts as overturned.
+    pub enum Overturning: "overturning criterion" {
+        /// |theta| reaches alpha (the paper's first sign of overturning).
+        Alpha = "alpha",
+        /// |theta| exceeds pi/2.
+        HalfPi = "half-pi",
+    }
 }
-
-named!(Model, "model", { Nonlinear = "nonlinear", Linearized = "linearized" });
-
-named!(Overturning, "overturning criterion", {
-    Alpha = "alpha",
-    HalfPi = "half-pi",
-});
 
 /// Constants of a run.
 #[derive(Clone, Copy, Debug)]

@@ -158,16 +158,15 @@ impl<N: serde::Serialize> serde::Serialize for Outcome<N> {
     }
 }
 
-/// Side of the rotation: the sign of theta.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// theta > 0.
-    Positive,
-    /// theta < 0, the side to which a positive ground acceleration drives.
-    Negative,
+named! {
+    /// Side of the rotation: the sign of theta.
+    pub enum Side: "side" {
+        /// theta > 0.
+        Positive = "positive",
+        /// theta < 0, the side to which a positive ground acceleration drives.
+        Negative = "negative",
+    }
 }
-
-named!(Side, "side", { Positive = "positive", Negative = "negative" });
 
 impl Side {
     /// +1 or -1.

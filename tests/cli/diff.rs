@@ -318,7 +318,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, &format!("diff new {name}"), &[name, words]);
     }
     let flawed = [
-        ("\"confirmed\"", "\"perhaps\"", "unknown variant `perhaps`"),
+        ("\"confirmed\"", "\"perhaps\"", "one of confirmed, not confirmed"),
         ("0.98,", "1.03,", "expected rising numbers"),
         ("0.98,", "null,", "expected rising numbers"),
         ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
@@ -334,7 +334,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, arguments, &["flawed.json", words]);
     }
     let flawed = [
-        ("\"pass\"", "\"good\"", "`pass`, `fail`"),
+        ("\"pass\"", "\"good\"", "one of pass, fail"),
         ("\"values\": 1 ", "\"values\": 1, \"x\": 1 ", "unknown field `x`"),
         ("\"values\": 1 ", "\"values\": -1 ", "at line 6"),
         ("\"absolute\"", "\"abs\"", "exact, absolute, relative"),

@@ -6,6 +6,7 @@ mod tables;
 
 pub use tables::Pact;
 
+use rocking::names::named;
 use rocking_procedures::fragility::points::PointsError;
 use rocking_statistics::lognormal::LognormalError;
 use thiserror::Error;
@@ -105,17 +106,18 @@ pub enum ExchangeError {
     Lognormal(#[from] LognormalError),
 }
 
-/// A format of another program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// OpenQuake's NRML 0.5.
-    Nrml,
-    /// pelicun's library: a CSV and a JSON.
-    Pelicun,
-    /// Medians and dispersions for FEMA P-58's PACT.
-    Pact,
-    /// All parameters, as CSV.
-    Csv,
+named! {
+    /// A format of another program.
+    pub enum Format: "format" {
+        /// OpenQuake's NRML 0.5.
+        Nrml = "nrml",
+        /// pelicun's library: a CSV and a JSON.
+        Pelicun = "pelicun",
+        /// Medians and dispersions for FEMA P-58's PACT.
+        Pact = "pact",
+        /// All parameters, as CSV.
+        Csv = "csv",
+    }
 }
 
 /// Texts of a format: the main file, and one beside it with its extension.
@@ -128,21 +130,6 @@ pub struct Texts {
 }
 
 impl Format {
-    /// All of them.
-    pub const ALL: [Self; 4] =
-        [Self::Nrml, Self::Pelicun, Self::Pact, Self::Csv];
-
-    /// The name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nrml => "nrml",
-            Self::Pelicun => "pelicun",
-            Self::Pact => "pact",
-            Self::Csv => "csv",
-        }
-    }
-
     /// Extension of a second file beside the main one.
     #[must_use]
     pub fn beside(self) -> Option<&'static str> {

@@ -10,16 +10,15 @@ use super::normal;
 use super::sample::mean;
 use rocking::names::named;
 
-/// What a resampling draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unit {
-    /// Records: no earthquake is known, or none is shared.
-    Record,
-    /// Earthquakes, each with all its records.
-    Earthquake,
+named! {
+    /// What a resampling draws.
+    pub enum Unit: "unit" {
+        /// Records: no earthquake is known, or none is shared.
+        Record = "record",
+        /// Earthquakes, each with all its records.
+        Earthquake = "earthquake",
+    }
 }
-
-named!(Unit, "unit", { Record = "record", Earthquake = "earthquake" });
 
 /// The records of a sample by the earthquake that each belongs to.
 ///

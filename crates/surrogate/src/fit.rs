@@ -99,7 +99,7 @@ pub fn fit(
             let degrees = Degrees { p, alpha };
             let mut models = Vec::new();
             let mut squares = Vec::new();
-            for suite in SuiteKind::BOTH {
+            for suite in SuiteKind::ALL {
                 let (model, own) = attempt(suite, blocks, degrees)?;
                 models.push(model);
                 squares.extend(own);

@@ -218,7 +218,7 @@ impl Surrogate {
         unseen: &str,
     ) -> Result<Self, SurrogateError> {
         let unseen = read_table("unseen.csv", unseen)?;
-        let mut models: Vec<Model> = SuiteKind::BOTH
+        let mut models: Vec<Model> = SuiteKind::ALL
             .map(|suite| Model {
                 suite,
                 terms: Vec::new(),

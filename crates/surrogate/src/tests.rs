@@ -29,7 +29,7 @@ fn a_surface_of_its_own_form_is_found_again() {
             dispersion_high: dispersion,
         }
     };
-    let blocks: Vec<Fitted> = SuiteKind::BOTH
+    let blocks: Vec<Fitted> = SuiteKind::ALL
         .into_iter()
         .flat_map(|suite| (1..=300).map(move |k| of(k, suite)))
         .collect();

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         print(path, suite.study_components().map(|m| &m.accelerogram))?;
     }
     if paths.is_empty() {
-        for (kind, pairs) in SuiteKind::BOTH
+        for (kind, pairs) in SuiteKind::ALL
             .into_iter()
             .zip([rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?])
         {

@@ -112,28 +112,30 @@ macro_rules! pulses {
     ($($kind:ident = $name:literal {
         $($field:ident: $parameter:ident),+
     },)+) => {
-        /// The name of a [`PulseKind`], without its parameters.
-        ///
-        /// ```
-        /// use rocking::excitation::{PulseKind, PulseName, PulseParameter};
-        /// let name: PulseName = "one-sine".parse()?;
-        /// let kind = name.kind(|parameter| match parameter {
-        ///     PulseParameter::Amplitude => Ok(0.3),
-        ///     PulseParameter::Omega => Ok(6.0),
-        ///     other => Err(format!("{name} has no {other:?}")),
-        /// })?;
-        /// let sine = PulseKind::OneSine { amplitude: 0.3, omega_rad_s: 6.0 };
-        /// assert_eq!(kind, sine);
-        /// # Ok::<(), Box<dyn std::error::Error>>(())
-        /// ```
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[non_exhaustive]
-        pub enum PulseName {
-            $(#[doc = concat!("[`PulseKind::", stringify!($kind), "`].")]
-            $kind,)+
+        named! {
+            /// The name of a [`PulseKind`], without its parameters.
+            ///
+            /// ```
+            /// use rocking::excitation::{
+            ///     PulseKind, PulseName, PulseParameter,
+            /// };
+            /// let name: PulseName = "one-sine".parse()?;
+            /// let kind = name.kind(|parameter| match parameter {
+            ///     PulseParameter::Amplitude => Ok(0.3),
+            ///     PulseParameter::Omega => Ok(6.0),
+            ///     other => Err(format!("{name} has no {other:?}")),
+            /// })?;
+            /// let (amplitude, omega_rad_s) = (0.3, 6.0);
+            /// let sine = PulseKind::OneSine { amplitude, omega_rad_s };
+            /// assert_eq!(kind, sine);
+            /// # Ok::<(), Box<dyn std::error::Error>>(())
+            /// ```
+            #[non_exhaustive]
+            pub enum PulseName: "pulse" {
+                $(#[doc = concat!("[`PulseKind::", stringify!($kind), "`].")]
+                $kind = $name,)+
+            }
         }
-
-        named!(PulseName, "pulse", { $($kind = $name),+ });
 
         impl PulseName {
             /// The pulse of this name with the values of its parameters.

@@ -10,7 +10,7 @@ pub use rocking_records::intensity::Intensity;
 pub use rocking_synthesis::SuiteKind;
 use serde::{Deserialize, Serialize};
 
-use crate::words::named;
+use rocking::names::named;
 
 /// Frequency parameters of the paper's blocks, in rad/s.
 pub const FREQUENCIES_RAD_S: [f64; 3] = [1.0, 3.0, 4.0];
@@ -189,7 +189,7 @@ impl fmt::Display for Section {
 
 named! {
     /// What a measure says about a claim.
-    pub enum Verdict {
+    pub enum Verdict: "verdict" {
         /// The whole interval lies where the claim says.
         Confirmed = "confirmed",
         /// The whole interval lies where the claim does not.

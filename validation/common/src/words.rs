@@ -2,40 +2,6 @@
 
 use std::borrow::Cow;
 
-/// An enumeration whose variants have names: the same in files, in reports
-/// and in `name()`. `ALL` lists the variants.
-#[macro_export]
-macro_rules! named {
-    ($(#[$doc:meta])+ $vis:vis enum $enum:ident {
-        $($(#[$about:meta])+ $variant:ident = $name:literal),+ $(,)?
-    }) => {
-        $(#[$doc])+
-        #[derive(
-            Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash,
-            serde::Serialize, serde::Deserialize,
-        )]
-        $vis enum $enum {
-            $($(#[$about])+ #[serde(rename = $name)] $variant),+
-        }
-
-        impl $enum {
-            /// All of them.
-            pub const ALL: [Self; [$($name),+].len()] =
-                [$(Self::$variant),+];
-
-            /// The name as it stands in files and reports.
-            #[must_use]
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name),+
-                }
-            }
-        }
-    };
-}
-
-pub use named;
-
 /// A text of lines as a terminal may show it: other control characters as
 /// `\u001b`, which JSON reads back.
 ///

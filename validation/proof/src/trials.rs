@@ -25,11 +25,12 @@ use rocking_statistics::streams::Streams;
 
 use crate::scene::EngineError;
 pub(crate) use draw::Draw;
-use rocking_common::words::named;
+use rocking::names::named;
 
 named! {
     /// A population of scenes.
-    pub enum Stratum {
+    #[derive(PartialOrd, Ord)]
+    pub enum Stratum: "stratum" {
         /// Blocks and ground motions of the study and around it.
         Ordinary = "ordinary",
         /// Blocks, records and pulses at the ends of what is accepted.

@@ -8,11 +8,11 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::cases::{Basis, Bound, Case, Kind, Status};
 use crate::methods::{self, Answer, Quantities};
-use rocking_common::words::named;
+use rocking::names::named;
 
 named! {
     /// Result of a case.
-    pub enum Verdict {
+    pub enum Verdict: "verdict" {
         /// Every bound holds and every wrong model is rejected.
         Pass = "pass",
         /// A bound is broken, or a wrong model is not rejected.

@@ -289,7 +289,7 @@ pub(crate) fn accepted(row: &[f64], tests: Tests) -> &[f64] {
 #[must_use]
 pub fn all(results: &Results, draws: &Draws) -> Vec<Distances> {
     let mut out = Vec::new();
-    for suite in SuiteKind::BOTH {
+    for suite in SuiteKind::ALL {
         for arm in results.plan.drawn() {
             out.extend(Distances::new(results, draws, suite, arm));
         }

@@ -6,49 +6,30 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking::integrator::Overturning;
+use rocking::names::named;
 
 use crate::analyses::Plan;
 use crate::runs::Setup;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_common::suites::StudySuite;
 
-/// A choice other than the study's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
-    /// Restitution 0.85.
-    Eta085,
-    /// Restitution 0.97.
-    Eta097,
-    /// Housner's restitution, which depends on the slenderness.
-    Housner,
-    /// The other overturning criterion.
-    OtherCriterion,
-    /// The other component of each pair, where there is one.
-    OtherComponent,
+named! {
+    /// A choice other than the study's.
+    pub enum Choice: "choice" {
+        /// Restitution 0.85.
+        Eta085 = "eta-0.85",
+        /// Restitution 0.97.
+        Eta097 = "eta-0.97",
+        /// Housner's restitution, which depends on the slenderness.
+        Housner = "eta-housner",
+        /// The other overturning criterion.
+        OtherCriterion = "other-criterion",
+        /// The other component of each pair, where there is one.
+        OtherComponent = "other-component",
+    }
 }
 
 impl Choice {
-    /// All choices.
-    pub const ALL: [Self; 5] = [
-        Self::Eta085,
-        Self::Eta097,
-        Self::Housner,
-        Self::OtherCriterion,
-        Self::OtherComponent,
-    ];
-
-    /// Short name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Eta085 => "eta-0.85",
-            Self::Eta097 => "eta-0.97",
-            Self::Housner => "eta-housner",
-            Self::OtherCriterion => "other-criterion",
-            Self::OtherComponent => "other-component",
-        }
-    }
-
     /// Slendernesses looked at without `--full`: 0.10 and 0.20; for
     /// Housner's restitution also the extremes.
     fn slendernesses(self, full: bool) -> &'static [usize] {

@@ -9,16 +9,16 @@ use libm::{exp, log};
 use super::Measures;
 use rocking::names::{UnknownName, as_text, named};
 
-/// Dimensionless intensity measure: the axis of an IDA curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Intensity {
-    /// PGA/(g tan alpha).
-    Pga,
-    /// p PGV/(g tan alpha).
-    Pgv,
+named! {
+    /// Dimensionless intensity measure: the axis of an IDA curve.
+    #[derive(PartialOrd, Ord, Hash)]
+    pub enum Intensity: "intensity" {
+        /// PGA/(g tan alpha).
+        Pga = "pga",
+        /// p PGV/(g tan alpha).
+        Pgv = "pgv",
+    }
 }
-
-named!(Intensity, "intensity", { Pga = "pga", Pgv = "pgv" });
 
 impl Intensity {
     /// The measure as the paper writes it.

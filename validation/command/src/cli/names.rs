@@ -90,7 +90,7 @@ pub fn fit_method() -> impl TypedValueParser<Value = FitMethod> {
 
 /// The embedded suites.
 pub fn suite() -> impl TypedValueParser<Value = SuiteKind> {
-    named(SuiteKind::BOTH, SuiteKind::name, [""; 2])
+    named(SuiteKind::ALL, SuiteKind::name, [""; 2])
 }
 
 /// Arms of the study.

@@ -1,14 +1,14 @@
 //! What the tables of a sweep hold.
 
 use super::plan::Plan;
+use rocking::names::named;
 use rocking_common::table::columns::{
     SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
 };
-use rocking_common::words::named;
 
 named! {
     /// What a file of a tile holds.
-    pub enum Content {
+    pub enum Content: "content" {
         /// A row a block, intensity measure and demand.
         Fragilities = "fragilities",
         /// A row a block and record: first overturning and capacities.

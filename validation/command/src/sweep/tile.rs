@@ -12,14 +12,14 @@ use rocking_statistics::lognormal::{FitMethod, fit};
 use super::content::Content;
 use super::plan::{Given, Plan, Planned, REPLICATES};
 use crate::failure::{At as _, Failure};
+use rocking::names::named;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::Table;
-use rocking_common::words::named;
 
 named! {
     /// Why a tile is not done.
-    pub enum State {
+    pub enum State: "state of a tile" {
         /// Not there.
         Missing = "missing",
         /// Of another plan, or by another build of the program.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::measured::{Measured, Unit};
 use crate::json::nine;
 use crate::paper::{Arm, Section, SuiteKind, Verdict};
-use crate::words::named;
+use rocking::names::named;
 
 /// One statement of the paper, and what was found about it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -238,7 +238,7 @@ impl fmt::Display for Region {
 
 named! {
     /// On what a statement was tested.
-    pub enum Tested {
+    pub enum Tested: "tested on" {
         /// No records are needed.
         None = "none",
         /// The ordinary suite.

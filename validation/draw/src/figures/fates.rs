@@ -9,12 +9,12 @@ use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::panel::Panel;
 use crate::scene::Scene;
+use rocking::names::named;
 use rocking_common::table::{Table, number};
-use rocking_common::words::named;
 
 named! {
     /// What becomes of a block.
-    pub enum Fate {
+    pub enum Fate: "fate" {
         /// It comes to rest.
         Stands = "stands",
         /// It overturns before an impact.

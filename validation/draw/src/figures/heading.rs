@@ -1,8 +1,8 @@
 //! The words that go with a figure.
 
+use rocking::names::named;
 use rocking_common::findings::Theme;
 use rocking_common::paper::Arm;
-use rocking_common::words::named;
 use serde::{Deserialize, Serialize};
 
 /// The words that go with a figure.
@@ -29,7 +29,7 @@ pub struct Heading {
 
 named! {
     /// Motions that a figure of the paper is drawn of.
-    pub enum Motions {
+    pub enum Motions: "motions" {
         /// Recorded in earthquakes.
         Recorded = "recorded",
         /// Synthetic, made by this program.

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::wrong::WrongModel;
-use rocking_common::words::named;
+use rocking::names::named;
 
 named! {
     /// The kind of evidence a family gives.
-    pub enum Kind {
+    pub enum Kind: "kind" {
         /// The code does what the model says: closed forms, high precision.
         CodeVerification = "code-verification",
         /// The numerical error is what the method promises.
@@ -65,7 +65,7 @@ pub enum Cost {
 
 named! {
     /// Nature of the expected values.
-    pub enum OracleKind {
+    pub enum OracleKind: "oracle" {
         /// A formula, evaluated outside the code under test.
         ClosedForm = "closed-form",
         /// An independent computation in high precision.

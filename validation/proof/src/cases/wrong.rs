@@ -1,10 +1,11 @@
 //! Wrong models by name: what a case must distinguish from the right one.
 
-use rocking_common::words::named;
+use rocking::names::named;
 
 named! {
     /// A named mistake.
-    pub enum WrongModel {
+    #[derive(PartialOrd, Ord)]
+    pub enum WrongModel: "wrong model" {
         /// Ground acceleration of the other sign.
         GroundSign = "ground-sign",
         /// Energy ratio used as velocity ratio.

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::draw::Draw;
-use rocking_common::words::named;
+use rocking::names::named;
 
 named! {
     /// What a record is like.
-    pub(super) enum Kind {
+    pub(super) enum Kind: "kind" {
         /// White noise through an oscillator, under an envelope.
         Filtered = "filtered noise",
         /// White noise.

@@ -82,7 +82,7 @@ impl Draws {
     pub fn new(clusters: [Clusters; 2], times: usize) -> Self {
         let ones = |place: usize| vec![1; clusters[place].records()];
         let rule = |name: &str, place: usize, size: fn(usize) -> usize| {
-            let suite = SuiteKind::BOTH[place];
+            let suite = SuiteKind::ALL[place];
             let own = &clusters[place];
             let name = format!("study/{name}/{suite}");
             Subsampling::of(&name, 0, own, size(own.records()))
@@ -93,7 +93,7 @@ impl Draws {
             (0..count as u64).map(|i| rule.multiplicities(i)).collect()
         };
         let bootstrap = |place: usize| -> Vec<Vec<u32>> {
-            let name = format!("study/records/{}", SuiteKind::BOTH[place]);
+            let name = format!("study/records/{}", SuiteKind::ALL[place]);
             let count = REPLICATES * times;
             let own = Bootstrap::of(&name, 0, &clusters[place], count);
             (0..count as u64).map(|i| own.multiplicities(i)).collect()

@@ -42,7 +42,7 @@ fn deciding(cells: &[(String, Ranked)]) -> Vec<Ranked> {
 /// intensities; geometric mean over frequency parameters and intensities at
 /// which enough records stand in both suites.
 pub(super) fn histories(source: &Source<'_>) -> Found {
-    let [ordinary, pulse] = SuiteKind::BOTH
+    let [ordinary, pulse] = SuiteKind::ALL
         .map(|kind| at_levels(source.results.suite(kind), |a| a.distance));
     let pairs: Vec<(Ranked, Ranked)> = ordinary
         .into_iter()
@@ -134,8 +134,8 @@ pub(super) fn curves(source: &Source<'_>) -> Found {
 
 /// That median of ordinary over that of pulse-type motions.
 pub(super) fn curve_contrast(source: &Source<'_>) -> Found {
-    let [ordinary, pulse] = SuiteKind::BOTH
-        .map(|kind| apart_by_record(source.results.suite(kind)));
+    let [ordinary, pulse] =
+        SuiteKind::ALL.map(|kind| apart_by_record(source.results.suite(kind)));
     let records = pulse.records();
     Ok(Some(source.value("all blocks", records, move |draw| {
         ordinary.median(draw.of(SuiteKind::Ordinary))

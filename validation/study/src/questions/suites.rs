@@ -36,7 +36,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         // Through the file's digits: the same numbers as from the file.
         row::from_csv(&row::to_csv(&compare::rows(results)?))
     };
-    let kinds = SuiteKind::BOTH.map(SuiteKind::name);
+    let kinds = SuiteKind::ALL.map(SuiteKind::name);
     let answer = Answer::new("suites", QUESTION, words(&rows, kinds));
     let origin = if own {
         "The recorded suites are not part of this run: the numbers are kept \

@@ -103,7 +103,7 @@ fn first_of(table: &str) -> String {
         let rows = table.lines().filter(move |row| row.starts_with(&own));
         rows.take(FIRST as usize)
     };
-    let rows = SuiteKind::BOTH.into_iter().flat_map(of);
+    let rows = SuiteKind::ALL.into_iter().flat_map(of);
     let rows = table.lines().take(1).chain(rows);
     rows.map(|row| format!("{row}\n")).collect()
 }
@@ -130,7 +130,7 @@ fn swept(first: u64, blocks: u64) -> Result<String, Failure> {
     fs::write(place.path().join("blocks.csv"), design)?;
     run("suite export --out suites")?;
     let mut all = Vec::new();
-    for (suite, name) in SuiteKind::BOTH.into_iter().zip(["ordinary", "pulse"])
+    for (suite, name) in SuiteKind::ALL.into_iter().zip(["ordinary", "pulse"])
     {
         run(&format!(
             "sweep plan --blocks blocks.csv --suite suites/{name}.csv \

@@ -1,11 +1,11 @@
 //! One quantity of the embedded and the recorded suite, and its CSV.
 
+use rocking::names::named;
 use rocking_common::table::{Table, digits};
-use rocking_common::words::named;
 
 named! {
     /// What kind of quantity a row holds.
-    pub(super) enum Group {
+    pub(super) enum Group: "group" {
         /// Hash of the recorded suite, as the quantity's name.
         Source = "source",
         /// A measure of the motions.

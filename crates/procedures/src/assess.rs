@@ -2,6 +2,8 @@
 
 mod answers;
 mod ground;
+#[cfg(feature = "serde")]
+mod json;
 
 use std::fmt;
 
@@ -104,6 +106,7 @@ impl Damage {
 
 /// Objects under a suite, the one that needs attention first before all.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Assessment {
     /// Intensity measure of all intensities here.
@@ -111,24 +114,26 @@ pub struct Assessment {
     /// Unit of all intensities here: that of the hazard curve.
     pub unit: &'static str,
     /// Such units in one of the measure itself (g, m/s).
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub units_per_im_unit: f64,
-    /// Level of the intervals.
-    pub level: f64,
     /// Number of records.
     pub records: usize,
     /// What the intervals draw.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub drawn: Clusters,
+    /// Level of the intervals.
+    pub level: f64,
     /// Years of the probabilities.
     pub years: f64,
+    /// Correlation of the logarithms of the intensities of damage of two
+    /// objects over the records: the least, the median and the largest of
+    /// all pairs; none where no pair has three records that damage both.
+    pub correlation: Option<Bounds>,
     /// By falling annual frequency of damage, or by rising intensity of 5 %
     /// damage where there is no hazard curve.
     pub objects: Vec<Assessed>,
     /// At least one, two, .. objects damaged by the same earthquake.
     pub together: Vec<Together>,
-    /// Correlation of the logarithms of the intensities of damage of two
-    /// objects over the records: the least, the median and the largest of
-    /// all pairs; none where no pair has three records that damage both.
-    pub correlation: Option<Bounds>,
 }
 
 /// One object.
@@ -180,6 +185,19 @@ pub struct Assessed {
     pub resolution: ResolutionCounts,
     /// Share of the draws in which this object comes first.
     pub first_in_draws: f64,
+}
+
+impl Assessed {
+    /// The intensity measure that leaves the least dispersion, and that
+    /// dispersion.
+    #[must_use]
+    pub fn best_im(&self) -> Option<(&str, f64)> {
+        let measures = self.ranking.measures.iter();
+        let known = measures.filter_map(|m| {
+            Some((m.im.as_str(), m.dispersion.as_ref()?.point))
+        });
+        known.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
 }
 
 /// What a fragility says of an object; no interval where it was not drawn.
@@ -285,22 +303,27 @@ impl fmt::Display for Assumption {
 
 /// The answer under another assumption.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Alternative {
     /// The assumption.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub assumption: Assumption,
     /// The answer.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub answer: Answer,
 }
 
 /// Several objects under the same earthquake.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Together {
     /// So many objects or more are damaged.
     pub at_least: usize,
     /// What follows of the fit to the intensities at which each record
     /// damages so many.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub answer: Answer,
 }
 

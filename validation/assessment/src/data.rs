@@ -5,9 +5,7 @@ use rocking_common::table::columns::{
 };
 use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, Format, Id, LimitState};
-use rocking_procedures::assess::{Alternative, Answer, Assessed, Assessment};
-use rocking_procedures::counts::Bounds;
-use rocking_procedures::fragility::risk::Contribution;
+use rocking_procedures::assess::{Assessed, Assessment};
 use serde::Serialize;
 
 use crate::About;
@@ -19,15 +17,8 @@ const SCHEMA: u32 = 1;
 struct File<'a> {
     schema: u32,
     version: &'static str,
-    im: String,
-    unit: &'static str,
-    records: usize,
-    drawn: String,
-    level: f64,
-    years: f64,
-    correlation: &'a Option<Bounds>,
-    objects: Vec<Object<'a>>,
-    together: Vec<Together>,
+    #[serde(flatten)]
+    found: &'a Assessment,
     provenance: Vec<Provenance<'a>>,
 }
 
@@ -37,159 +28,17 @@ struct Provenance<'a> {
     is: &'a str,
 }
 
-#[derive(Serialize)]
-struct Object<'a> {
-    id: &'a str,
-    width_m: f64,
-    height_m: f64,
-    alpha_rad: f64,
-    p_rad_s: f64,
-    eta: f64,
-    floor: Option<&'a str>,
-    damage: String,
-    onset_pga_g: f64,
-    #[serde(flatten)]
-    numbers: Numbers,
-    p_damage: Vec<Probability>,
-    contributions: &'a [Contribution],
-    first_in_draws: f64,
-    friction_share: Option<f64>,
-    unresolved: u64,
-    analyses: u64,
-    records_without_damage: usize,
-    best_im: Option<&'a str>,
-    best_im_dispersion: Option<f64>,
-    records_needed: Option<f64>,
-    alternatives: Vec<Other>,
-}
-
-/// What a fragility says.
-#[derive(Serialize)]
-struct Numbers {
-    median_im: Bounds,
-    im_at_5_percent: Bounds,
-    dispersion: f64,
-    shift: f64,
-    annual_frequency: Option<Bounds>,
-    probability: Option<Bounds>,
-}
-
-#[derive(Serialize)]
-struct Probability {
-    im: f64,
-    p: f64,
-    low: Option<f64>,
-    high: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Other {
-    assumption: String,
-    #[serde(flatten)]
-    numbers: Numbers,
-}
-
-#[derive(Serialize)]
-struct Together {
-    at_least: usize,
-    #[serde(flatten)]
-    numbers: Numbers,
-}
-
-impl Numbers {
-    fn of(answer: &Answer) -> Self {
-        Self {
-            median_im: answer.median_im,
-            im_at_5_percent: answer.small_im,
-            dispersion: answer.fitted.dispersion(),
-            shift: answer.fitted.shift(),
-            annual_frequency: answer.annual_frequency(),
-            probability: answer.probability(),
-        }
-    }
-}
-
-/// The measure that leaves the least dispersion, with that dispersion.
-pub(crate) fn best(one: &Assessed) -> Option<(&str, f64)> {
-    let measures = one.ranking.measures.iter();
-    let known = measures
-        .filter_map(|m| Some((m.im.as_str(), m.dispersion.as_ref()?.point)));
-    known.min_by(|a, b| a.1.total_cmp(&b.1))
-}
-
 /// All numbers, as JSON.
 ///
 /// # Errors
 /// None in practice.
 pub fn json(found: &Assessment, about: &About) -> anyhow::Result<String> {
-    let together = found.together.iter().map(|row| Together {
-        at_least: row.at_least,
-        numbers: Numbers::of(&row.answer),
-    });
     let provenance = about.provenance.iter();
-    let file = File {
-        schema: SCHEMA,
-        version: env!("CARGO_PKG_VERSION"),
-        im: found.im.to_string(),
-        unit: found.unit,
-        records: found.records,
-        drawn: found.drawn.to_string(),
-        level: found.level,
-        years: found.years,
-        correlation: &found.correlation,
-        objects: found.objects.iter().map(object).collect(),
-        together: together.collect(),
-        provenance: provenance
-            .map(|(what, is)| Provenance { what, is })
-            .collect(),
-    };
+    let provenance =
+        provenance.map(|(what, is)| Provenance { what, is }).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    let file = File { schema: SCHEMA, version, found, provenance };
     Ok(serde_json::to_string_pretty(&file)? + "\n")
-}
-
-fn object(one: &Assessed) -> Object<'_> {
-    let edges = one.contributions.iter();
-    let edges: Vec<f64> = edges.flat_map(|c| [c.from_im, c.to_im]).collect();
-    let band = one.fragility.band.iter().flat_map(|band| &band.points);
-    let at_hazard = band.filter(|point| edges.contains(&point.intensity));
-    let best = best(one);
-    let other = |other: &Alternative| Other {
-        assumption: other.assumption.to_string(),
-        numbers: Numbers::of(&other.answer),
-    };
-    Object {
-        id: &one.id,
-        width_m: one.width_m,
-        height_m: one.height_m,
-        alpha_rad: one.alpha_rad,
-        p_rad_s: one.p_rad_s,
-        eta: one.eta,
-        floor: one.floor.as_deref(),
-        damage: one.damage.to_string(),
-        onset_pga_g: one.uplift_pga_g,
-        numbers: Numbers::of(&one.answer),
-        p_damage: at_hazard
-            .map(|point| Probability {
-                im: point.intensity,
-                p: point.probability,
-                low: point.low,
-                high: point.high,
-            })
-            .collect(),
-        contributions: &one.contributions,
-        first_in_draws: one.first_in_draws,
-        friction_share: one.slides_first,
-        unresolved: one.resolution.unresolved,
-        analyses: one.resolution.analyses,
-        records_without_damage: one
-            .by_record
-            .iter()
-            .filter(|r| !r.damages)
-            .count(),
-        best_im: best.map(|best| best.0),
-        best_im_dispersion: best.map(|best| best.1),
-        records_needed: one.fragility.needed.as_ref().map(|n| n.for_median),
-        alternatives: one.alternatives.iter().map(other).collect(),
-    }
 }
 
 /// The fragility curves with their bands, as CSV.

@@ -285,7 +285,7 @@ fn remarks(found: &Assessment, one: &Assessed) -> Markup {
     let stand = one.by_record.iter().filter(|r| !r.damages).count();
     html! {
         ul {
-            @if let Some((best, beta)) = data::best(one) {
+            @if let Some((best, beta)) = one.best_im() {
                 li {
                     "Intensity measure: of " (one.ranking.measures.len())
                     " measures, " (best)

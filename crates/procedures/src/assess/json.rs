@@ -1,0 +1,100 @@
+//! An assessment as it is serialised: what a fragility says, in place of the
+//! fit, the samples and the curves.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::{Answer, Assessed};
+
+impl Answer {
+    fn entries<M: SerializeMap>(&self, to: &mut M) -> Result<(), M::Error> {
+        let Self { fitted, median_im, small_im, risk: _ } = self;
+        to.serialize_entry("median_im", median_im)?;
+        to.serialize_entry("im_at_5_percent", small_im)?;
+        to.serialize_entry("dispersion", &fitted.dispersion())?;
+        to.serialize_entry("shift", &fitted.shift())?;
+        to.serialize_entry("annual_frequency", &self.annual_frequency())?;
+        to.serialize_entry("probability", &self.probability())
+    }
+}
+
+impl Serialize for Answer {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut to = to.serialize_map(None)?;
+        self.entries(&mut to)?;
+        to.end()
+    }
+}
+
+#[derive(Serialize)]
+struct Probability {
+    im: f64,
+    p: f64,
+    low: Option<f64>,
+    high: Option<f64>,
+}
+
+impl Serialize for Assessed {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        // Without `..`: a new field has to be placed here.
+        let Self {
+            id,
+            block: _,
+            floor,
+            width_m,
+            height_m,
+            alpha_rad,
+            p_rad_s,
+            eta,
+            damage,
+            uplift_pga_g,
+            fragility,
+            answer,
+            contributions,
+            ida: _,
+            by_record,
+            ranking: _,
+            alternatives,
+            slides_first,
+            resolution,
+            first_in_draws,
+        } = self;
+        let best = self.best_im();
+        let edges = contributions.iter();
+        let edges: Vec<f64> =
+            edges.flat_map(|c| [c.from_im, c.to_im]).collect();
+        let band = fragility.band.iter().flat_map(|band| &band.points);
+        let at_hazard = band.filter(|point| edges.contains(&point.intensity));
+        let p_damage = at_hazard.map(|point| Probability {
+            im: point.intensity,
+            p: point.probability,
+            low: point.low,
+            high: point.high,
+        });
+        let standing = by_record.iter().filter(|r| !r.damages).count();
+        let needed = fragility.needed.as_ref().map(|n| n.for_median);
+        let mut to = to.serialize_map(None)?;
+        to.serialize_entry("id", id)?;
+        to.serialize_entry("width_m", width_m)?;
+        to.serialize_entry("height_m", height_m)?;
+        to.serialize_entry("alpha_rad", alpha_rad)?;
+        to.serialize_entry("p_rad_s", p_rad_s)?;
+        to.serialize_entry("eta", eta)?;
+        to.serialize_entry("floor", floor)?;
+        to.serialize_entry("damage", &damage.to_string())?;
+        to.serialize_entry("onset_pga_g", uplift_pga_g)?;
+        answer.entries(&mut to)?;
+        to.serialize_entry("p_damage", &p_damage.collect::<Vec<_>>())?;
+        to.serialize_entry("contributions", contributions)?;
+        to.serialize_entry("first_in_draws", first_in_draws)?;
+        to.serialize_entry("friction_share", slides_first)?;
+        to.serialize_entry("unresolved", &resolution.unresolved)?;
+        to.serialize_entry("analyses", &resolution.analyses)?;
+        to.serialize_entry("records_without_damage", &standing)?;
+        to.serialize_entry("best_im", &best.map(|best| best.0))?;
+        to.serialize_entry("best_im_dispersion", &best.map(|best| best.1))?;
+        to.serialize_entry("records_needed", &needed)?;
+        to.serialize_entry("alternatives", alternatives)?;
+        to.end()
+    }
+}

@@ -1,6 +1,6 @@
 //! The numbers of an assessment in words.
 
-use rocking_common::words::{percent, rounded};
+use rocking_common::words::{columns, percent, rounded};
 use rocking_procedures::assess::{Answer, Assessed, Assessment, Damage};
 use rocking_procedures::counts::Bounds;
 use rocking_records::intensity::IntensityMeasure;
@@ -139,27 +139,10 @@ pub(crate) fn ranked(found: &Assessment, one: &Assessed) -> Vec<String> {
 /// What the terminal shows: the first sentence, and the table.
 #[must_use]
 pub fn text(found: &Assessment) -> String {
-    let mut rows = vec![heads(found)];
-    rows.extend(found.objects.iter().map(|one| ranked(found, one)));
-    let columns = rows[0].len();
-    let wide = |k: usize| {
-        let cells = rows.iter().skip(1).map(|row| row[k].chars().count());
-        cells.max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(wide).collect();
     let mut text = first(found) + "\n\n";
-    for (k, head) in rows[0].iter().enumerate() {
+    for (k, head) in heads(found).iter().enumerate() {
         text += &format!("[{}] {head}\n", k + 1);
     }
-    text.push('\n');
-    for row in &rows[1..] {
-        let cells = row
-            .iter()
-            .zip(&widths)
-            .map(|(cell, width)| format!("{cell:<width$}", width = *width));
-        let line: Vec<String> = cells.collect();
-        text += line.join("  ").trim_end();
-        text.push('\n');
-    }
-    text
+    let rows = found.objects.iter().map(|one| ranked(found, one));
+    text + "\n" + &columns(&rows.collect::<Vec<_>>(), |_| false)
 }

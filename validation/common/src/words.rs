@@ -73,6 +73,37 @@ pub fn capital(word: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
+/// Rows of cells as lines: two spaces between columns, each as wide as its
+/// widest cell; where `is_right`, the cells of a column end at one place.
+///
+/// ```
+/// use rocking_common::words::columns;
+/// let rows = [["pga", "0.5"], ["sa:1", "12"]].map(|r| r.map(String::from));
+/// let rows = rows.map(Vec::from);
+/// assert_eq!(columns(&rows, |k| k == 1), "pga   0.5\nsa:1   12\n");
+/// ```
+#[must_use]
+pub fn columns(
+    rows: &[Vec<String>],
+    is_right: impl Fn(usize) -> bool,
+) -> String {
+    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let wide = |k: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(k));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let columns: Vec<_> = (0..count).map(|k| (wide(k), is_right(k))).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&columns);
+        let cells = cells.map(|(cell, &(width, is_right))| match is_right {
+            true => format!("{cell:>width$}  "),
+            false => format!("{cell:<width$}  "),
+        });
+        cells.collect::<String>().trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

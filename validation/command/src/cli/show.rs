@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::failure::Failure;
 use crate::terminal::{COMMIT, print};
 use rocking_common::table::columns::SCHEMA;
+use rocking_common::words::columns;
 
 /// What every JSON of a command carries.
 #[derive(Serialize)]
@@ -150,30 +151,15 @@ fn table(text: &mut String, all: &[Node], indent: usize) {
         }
         lines.push(row.into_iter().map(|(_, cell)| cell).collect());
     }
-    let width = |column: usize| {
-        let cells = lines.iter().filter_map(|line: &Vec<String>| {
-            line.get(column).map(|cell| cell.chars().count())
-        });
-        cells.max().unwrap_or(0)
-    };
-    let columns = lines.first().map_or(0, Vec::len);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
     let is_word = |cell: &String| {
         cell.parse::<f64>().is_err() && cell != "none" && !cell.ends_with(']')
     };
-    let is_left = |column: usize| {
+    let is_right = |column: usize| {
         let body = lines.iter().skip(1);
-        body.filter_map(|line| line.get(column)).any(is_word)
+        !body.filter_map(|line: &Vec<_>| line.get(column)).any(is_word)
     };
-    let left: Vec<bool> = (0..columns).map(is_left).collect();
-    for line in &lines {
-        let cells = line.iter().zip(&widths).zip(&left);
-        let cells = cells.map(|((cell, width), left)| match left {
-            true => format!("{cell:<width$}  "),
-            false => format!("{cell:>width$}  "),
-        });
-        let line: String = cells.collect();
-        *text += &format!("{:indent$}{}\n", "", line.trim_end());
+    for line in columns(&lines, is_right).lines() {
+        *text += &format!("{:indent$}{line}\n", "");
     }
 }
 

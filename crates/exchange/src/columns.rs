@@ -108,6 +108,15 @@ impl Layout {
         self.columns.iter().map(|column| column.name).chain(schema)
     }
 
+    /// Place of a column.
+    ///
+    /// # Panics
+    /// If there is no column of this name.
+    #[must_use]
+    pub fn place(&self, column: &str) -> usize {
+        self.names().position(|name| name == column).expect("a known column")
+    }
+
     /// Places of the columns, and of the schema number behind them, in a
     /// header line of any order: none for a column that may be missing.
     ///

@@ -14,12 +14,6 @@ use crate::columns::IDA;
 use crate::read::{Cells, FileError, reader, rows};
 use crate::table::Table;
 
-/// Place of the first column of a [`Setting`].
-const SETTING: usize = 12;
-
-/// Place of the earthquake.
-const EVENT: usize = 11;
-
 /// Names of what became of an analysis.
 const OUTCOMES: [&str; 5] =
     ["no-uplift", "rocked", "overturned", "overturned-refined", "unresolved"];
@@ -202,36 +196,33 @@ impl IdaTable {
     /// The CSV text.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut table = Table::of(&IDA);
         let s = &self.setting;
-        let setting = [
-            s.eta.to_string(),
-            s.model.to_string(),
-            s.order.map_or(String::new(), |order| order.to_string()),
-            s.overturn.to_string(),
-            s.by.to_string(),
-            s.gravity_m_s2.to_string(),
-            s.processing.clone(),
-            s.software.clone(),
-        ];
+        let cell = |row: &Row, column| match column {
+            "record" => row.record.clone(),
+            "alpha_rad" => row.alpha_rad.to_string(),
+            "p_rad_s" => s.p_rad_s.to_string(),
+            "pga_g" => row.pga_g.to_string(),
+            "pgv_m_s" => row.pgv_m_s.to_string(),
+            "intensity_pga" => row.intensity_pga.to_string(),
+            "intensity_pgv" => row.intensity_pgv.to_string(),
+            "edp" => row.edp.to_string(),
+            "outcome" => row.outcome.to_owned(),
+            "margin" => row.margin.to_string(),
+            "remarks" => row.remarks.clone(),
+            "event" => row.event.clone(),
+            "eta" => s.eta.to_string(),
+            "model" => s.model.to_string(),
+            "order" => s.order.map_or(String::new(), |o| o.to_string()),
+            "overturn" => s.overturn.to_string(),
+            "by" => s.by.to_string(),
+            "gravity_m_s2" => s.gravity_m_s2.to_string(),
+            "processing" => s.processing.clone(),
+            "software" => s.software.clone(),
+            other => unreachable!("no cell for column {other}"),
+        };
+        let mut table = Table::of(&IDA);
         for row in &self.rows {
-            let numbers = [
-                row.alpha_rad,
-                s.p_rad_s,
-                row.pga_g,
-                row.pgv_m_s,
-                row.intensity_pga,
-                row.intensity_pgv,
-                row.edp,
-            ];
-            let own = std::iter::once(row.record.clone());
-            let own = own.chain(numbers.map(|x| x.to_string()));
-            let margin = row.margin.to_string();
-            let outcome = row.outcome.to_owned();
-            let last = [outcome, margin, row.remarks.clone()];
-            let event = std::iter::once(row.event.clone());
-            let own = own.chain(last).chain(event);
-            table.row(own.chain(setting.clone()));
+            table.row(IDA.columns.iter().map(|column| cell(row, column.name)));
         }
         table.finish()
     }
@@ -242,16 +233,14 @@ impl IdaTable {
     /// [`FileError`] with file and line.
     pub fn read(from: impl Read, path: &Path) -> Result<Self, FileError> {
         let mut reader = reader(from, csv::Trim::None, None);
-        let mut first: Option<(csv::StringRecord, Setting)> = None;
+        let mut first: Option<(Cells<'_>, Setting)> = None;
         let (mut found, mut begin): (Vec<Row>, _) = (Vec::new(), Vec::new());
         let mut seen = BTreeSet::new();
         for cells in rows(&IDA, &mut reader, path)? {
             let cells = cells?;
             let row = Row::of(&cells)?;
             match &first {
-                None => {
-                    first = Some((cells.fields.clone(), Setting::of(&cells)?));
-                }
+                None => first = Some((cells.clone(), Setting::of(&cells)?)),
                 Some((first, setting)) => setting.holds(&cells, first)?,
             }
             let starts = found.last().is_none_or(|b| b.record != row.record);
@@ -268,7 +257,7 @@ impl IdaTable {
             let first = found.first().map_or(&row, |first| first);
             if first.event.is_empty() != row.event.is_empty() {
                 let expected = "the earthquake of every record, or of none";
-                return Err(cells.refuse(EVENT, expected));
+                return Err(cells.refuse("event", expected));
             }
             found.push(row);
         }
@@ -350,8 +339,7 @@ impl IdaTable {
             Intensity::Pga => 1.0,
             Intensity::Pgv => onsets.fold(f64::INFINITY, f64::min),
         };
-        let clusters = self.clusters();
-        let squared = false;
+        let (clusters, squared) = (self.clusters(), false);
         Ok(Curves { curves, clusters, im_r, after_overturning, squared })
     }
 }
@@ -367,7 +355,7 @@ fn outcome(point: &IdaPoint) -> &'static str {
 }
 
 /// A positive number.
-fn positive(cells: &Cells<'_>, column: usize) -> Result<f64, FileError> {
+fn positive(cells: &Cells<'_>, column: &str) -> Result<f64, FileError> {
     let fits = |x: &f64| *x > 0.0 && x.is_finite();
     cells.parsed(column, fits, "a positive number")
 }
@@ -376,21 +364,21 @@ impl Setting {
     fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
         let of = "one that this program writes";
         let share = |x: &f64| (0.0..=1.0).contains(x);
-        if !cells.fields[SETTING + 2].is_empty() {
+        if !cells.text("order").is_empty() {
             let expected = "an empty cell: the order of a table that is read \
                             is free, as `rocking ida` has it without --order";
-            return Err(cells.refuse(SETTING + 2, expected));
+            return Err(cells.refuse("order", expected));
         }
         Ok(Self {
-            p_rad_s: positive(cells, 2)?,
-            eta: cells.parsed(SETTING, share, "a number from 0 to 1")?,
-            model: cells.parsed(SETTING + 1, |_| true, of)?,
+            p_rad_s: positive(cells, "p_rad_s")?,
+            eta: cells.parsed("eta", share, "a number from 0 to 1")?,
+            model: cells.parsed("model", |_| true, of)?,
             order: None,
-            overturn: cells.parsed(SETTING + 3, |_| true, of)?,
-            by: cells.parsed(SETTING + 4, |_| true, of)?,
-            gravity_m_s2: positive(cells, SETTING + 5)?,
-            processing: cells.fields[SETTING + 6].to_owned(),
-            software: cells.fields[SETTING + 7].to_owned(),
+            overturn: cells.parsed("overturn", |_| true, of)?,
+            by: cells.parsed("by", |_| true, of)?,
+            gravity_m_s2: positive(cells, "gravity_m_s2")?,
+            processing: cells.text("processing").to_owned(),
+            software: cells.text("software").to_owned(),
         })
     }
 
@@ -398,18 +386,18 @@ impl Setting {
     fn holds(
         &self,
         cells: &Cells<'_>,
-        first: &csv::StringRecord,
+        first: &Cells<'_>,
     ) -> Result<(), FileError> {
-        let alpha = (self.by == Adjust::RecordScaling).then_some(1);
-        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..20);
-        match shared.find(|&column| cells.fields[column] != first[column]) {
+        let alpha = (self.by == Adjust::RecordScaling).then_some("alpha_rad");
+        let names = alpha.into_iter().chain(["p_rad_s"]);
+        let places = names.map(|name| IDA.place(name));
+        let mut shared = places.chain(IDA.place("eta")..IDA.columns.len());
+        match shared.find(|&k| cells.fields[k] != first.fields[k]) {
             None => Ok(()),
-            Some(column) => Err(cells.error(format_args!(
+            Some(k) => Err(cells.error(format_args!(
                 "{} is {}: expected {}, as on the first row: a table of one \
                  analysis",
-                IDA.columns[column].name,
-                &cells.fields[column],
-                &first[column]
+                IDA.columns[k].name, &cells.fields[k], &first.fields[k]
             ))),
         }
     }
@@ -441,37 +429,36 @@ impl Row {
     }
 
     fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
-        let fields = &cells.fields;
-        let (name, event) = (cells.name(0)?, cells.name(EVENT)?);
         let not_negative = |column| {
             let expected = "a number, not negative, or inf";
             cells.parsed(column, |x: &f64| *x >= 0.0, expected)
         };
-        let outcome = OUTCOMES.into_iter().find(|o| *o == &fields[8]);
+        let is_it = |name: &&str| *name == cells.text("outcome");
+        let outcome = OUTCOMES.into_iter().find(is_it);
         let outcome = outcome.ok_or_else(|| {
             let outcomes = "no-uplift, rocked, overturned, \
                             overturned-refined or unresolved";
-            cells.refuse(8, outcomes)
+            cells.refuse("outcome", outcomes)
         })?;
-        let edp = not_negative(7)?;
+        let edp = not_negative("edp")?;
         if outcome.starts_with("overturned") != edp.is_infinite()
             && outcome != OUTCOMES[4]
         {
             let expected = "inf where overturned, and only there";
-            return Err(cells.refuse(7, expected));
+            return Err(cells.refuse("edp", expected));
         }
         Ok(Self {
-            record: name.to_owned(),
-            alpha_rad: positive(cells, 1)?,
-            pga_g: not_negative(3)?,
-            pgv_m_s: not_negative(4)?,
-            intensity_pga: not_negative(5)?,
-            intensity_pgv: not_negative(6)?,
+            record: cells.name("record")?.to_owned(),
+            alpha_rad: positive(cells, "alpha_rad")?,
+            pga_g: not_negative("pga_g")?,
+            pgv_m_s: not_negative("pgv_m_s")?,
+            intensity_pga: not_negative("intensity_pga")?,
+            intensity_pgv: not_negative("intensity_pgv")?,
             edp,
             outcome,
-            margin: cells.parsed(9, |_| true, "a number")?,
-            remarks: fields[10].to_owned(),
-            event: event.to_owned(),
+            margin: cells.parsed("margin", |_| true, "a number")?,
+            remarks: cells.text("remarks").to_owned(),
+            event: cells.name("event")?.to_owned(),
         })
     }
 }

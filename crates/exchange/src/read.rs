@@ -44,14 +44,14 @@ impl FileError {
     }
 }
 
-/// The cells of one line of a table of the registry.
+/// The cells of one line of a table of the registry, by their columns.
+#[derive(Clone)]
 pub struct Cells<'a> {
     path: &'a Path,
     layout: &'a Layout,
     /// Line number from 1.
     pub line: u64,
-    /// The cells.
-    pub fields: StringRecord,
+    pub(crate) fields: StringRecord,
 }
 
 impl Cells<'_> {
@@ -61,14 +61,21 @@ impl Cells<'_> {
         FileError::new(self.path, self.line, message)
     }
 
+    /// The text of a cell.
+    ///
+    /// # Panics
+    /// As [`Layout::place`].
+    #[must_use]
+    pub fn text(&self, column: &str) -> &str {
+        &self.fields[self.layout.place(column)]
+    }
+
     /// A refusal of one cell.
     #[must_use]
-    pub fn refuse(&self, column: usize, expected: impl Display) -> FileError {
-        let found = self.fields.get(column).unwrap_or_default();
-        let own = self.layout.columns.get(column);
-        let name = own.map_or(SCHEMA_COLUMN, |column| column.name);
+    pub fn refuse(&self, column: &str, expected: impl Display) -> FileError {
+        let found = self.text(column);
         self.error(format_args!(
-            "found `{found}` in column {name}: expected {expected}"
+            "found `{found}` in column {column}: expected {expected}"
         ))
     }
 
@@ -76,8 +83,8 @@ impl Cells<'_> {
     ///
     /// # Errors
     /// [`FileError`] for a control character, and for a formula.
-    pub fn name(&self, column: usize) -> Result<&str, FileError> {
-        result_name(&self.fields[column]).map_err(|_| {
+    pub fn name(&self, column: &str) -> Result<&str, FileError> {
+        result_name(self.text(column)).map_err(|_| {
             let expected = "a name without a control character, and without \
                             =, +, - or @ at its start";
             self.refuse(column, expected)
@@ -90,11 +97,11 @@ impl Cells<'_> {
     /// [`FileError`] for a cell that is no such value, or that does not fit.
     pub fn parsed<T: FromStr>(
         &self,
-        column: usize,
+        column: &str,
         fits: impl Fn(&T) -> bool,
         expected: &str,
     ) -> Result<T, FileError> {
-        let value = self.fields[column].parse().ok().filter(fits);
+        let value = self.text(column).parse().ok().filter(fits);
         value.ok_or_else(|| self.refuse(column, expected))
     }
 }
@@ -163,7 +170,7 @@ pub fn rows<'a, R: Read>(
             return Ok(cells);
         }
         let expected = format_args!("{SCHEMA}, the schema of this program");
-        Err(cells.refuse(schema, expected))
+        Err(cells.refuse(SCHEMA_COLUMN, expected))
     }))
 }
 

@@ -154,12 +154,13 @@ pub fn parse(from: impl Read, path: &Path) -> Result<Counted, FileError> {
     }
     let stripe = |cells: Result<Cells<'_>, FileError>| {
         let cells = cells?;
+        let finite = |im: &f64| im.is_finite();
         let fits = |count: &u32| *count <= MOST_RECORDS;
-        let count = |k| cells.parsed(k, fits, "a count up to 1000000");
+        let count = |name| cells.parsed(name, fits, "a count up to 1000000");
         Ok(Stripe {
-            im: cells.parsed(0, |im: &f64| im.is_finite(), "an intensity")?,
-            exceeded: count(1)?,
-            n: count(2)?,
+            im: cells.parsed("intensity", finite, "an intensity")?,
+            exceeded: count("exceeded")?,
+            n: count("n")?,
         })
     };
     let stripes = rows(&COUNTS, &mut reader, path)?.map(stripe);
@@ -175,24 +176,25 @@ fn outcomes<R: Read>(
     let mut all = Vec::new();
     for cells in rows(&OUTCOMES, reader, path)? {
         let cells = cells?;
-        let (record, event) = (cells.name(1)?, cells.name(2)?);
+        let (record, event) = (cells.name("record")?, cells.name("event")?);
         let first = events.first().map_or(event, |(_, first)| first.as_str());
         if first.is_empty() != event.is_empty() {
             let expected = "the earthquake of every record, or of none";
-            return Err(cells.refuse(2, expected));
+            return Err(cells.refuse("event", expected));
         }
         let entry = events.entry(record.to_owned());
         let place = entry.index();
         let own = entry.or_insert_with(|| event.to_owned());
         if own.as_str() != event {
             let expected = format!("{own}, as before");
-            return Err(cells.refuse(2, expected));
+            return Err(cells.refuse("event", expected));
         }
+        let finite = |im: &f64| im.is_finite();
         let one = |count: &u32| *count <= 1;
         all.push(Outcome {
-            im: cells.parsed(0, |im: &f64| im.is_finite(), "an intensity")?,
+            im: cells.parsed("intensity", finite, "an intensity")?,
             record: place,
-            exceeded: cells.parsed(3, one, "1 or 0")? == 1,
+            exceeded: cells.parsed("exceeded", one, "1 or 0")? == 1,
         });
     }
     let known = events.values().all(|event| !event.is_empty());

@@ -14,7 +14,7 @@ use crate::results::Results;
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };
-use rocking_common::paper::{Arm, Section};
+use rocking_common::paper::{Arm, Intensity, Section};
 
 /// The declared claims, in the order of the page.
 const FILES: [(&str, &str); 4] = [
@@ -43,6 +43,8 @@ pub struct Declared {
     pub plain: String,
     /// Registered name of the measure of a finding.
     pub measure: Option<Measure>,
+    /// Intensity that the measure is of; PGA where none is named.
+    pub intensity: Option<Intensity>,
     /// What is measured, in words.
     #[serde(default)]
     pub words: String,
@@ -136,6 +138,7 @@ impl Declared {
             && !self.suites.is_empty()
             && self.arms.is_some();
         let bare = self.measure.is_none()
+            && self.intensity.is_none()
             && self.region.is_none()
             && self.plain.is_empty()
             && self.suites.is_empty();
@@ -154,10 +157,11 @@ impl Declared {
 }
 
 /// The end of the region that a measure is judged by which lies nearest to
-/// infinity; NaN where no claim has that measure.
+/// infinity; NaN where no claim has that measure of that intensity.
 #[must_use]
-pub fn limit_of(measure: Measure) -> f64 {
-    let named = |claim: &&Declared| claim.measure == Some(measure);
+pub fn limit_of(measure: Measure, intensity: Intensity) -> f64 {
+    let of = (Some(measure), Some(intensity));
+    let named = |claim: &&Declared| (claim.measure, claim.intensity) == of;
     let region = declared().iter().find(named).and_then(|claim| claim.region);
     region.map_or(f64::NAN, |region| region.nearest_end(f64::INFINITY))
 }
@@ -207,6 +211,7 @@ fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
                     distances: drawn.distances,
                     tested: *suite,
                     arm: *arm,
+                    intensity: claim.intensity.unwrap_or(Intensity::Pga),
                 };
                 let asked = Asked { claim, measure, rule, shown: *shown };
                 let Some(first) = asked.judged(&source)? else { continue };

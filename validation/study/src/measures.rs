@@ -19,7 +19,6 @@ pub use source::{Criterion, Prepared, Source};
 pub use stripes::without_closed_form;
 
 use rocking_common::findings::Unit;
-use rocking_common::paper::Intensity;
 use source::Found;
 
 /// A measure as it is registered.
@@ -95,7 +94,7 @@ measures! {
     HistoriesApart: Share, FROM_0_TO_1, single::histories_apart;
     /// Median distance of histories.
     HistoryDistance: Distance, NOT_NEGATIVE, single::history_distance;
-    /// That of ordinary over that of pulse-type motions.
+    /// Distance of histories, ordinary over pulse-type motions.
     HistoryContrast: One, NOT_NEGATIVE, single::histories;
     /// Difference of peaks.
     PeakDifference: One, NOT_NEGATIVE, single::peaks;
@@ -103,7 +102,7 @@ measures! {
     MixedFates: Share, FROM_0_TO_1, single::fates;
     /// Difference of single IDA curves.
     CurveDifference: One, NOT_NEGATIVE, single::curves;
-    /// That of ordinary over that of pulse-type motions.
+    /// Difference of single IDA curves, ordinary over pulse-type motions.
     CurveContrast: One, NOT_NEGATIVE, single::curve_contrast;
     /// Median paired ratios on stripes, p = 1, all but the exception.
     StripeRatiosLarge: One, ANY, |s| stripes::ratios(s, &[0]);
@@ -134,14 +133,14 @@ measures! {
     /// 84 over 16 % quantile of the onset in PGV.
     OnsetSpreadPgv: One, ANY, capacities::onset;
     /// Distance from a lognormal (Lilliefors' D less its mean for a lognormal),
-    /// original samples in PGA.
-    DistanceOriginalPga: Probability, SIGNED, |s| distances::original(s, Intensity::Pga);
+    /// original samples.
+    DistanceOriginal: Probability, SIGNED, distances::original;
     /// That distance for p = 3 and 4 minus that for p = 1.
     DistanceSmallMinusLarge: Probability, SIGNED, distances::small_minus_large;
-    /// Reduction of the distance by shifting, PGA.
-    DistanceGainPga: Probability, SIGNED, |s| distances::gain(s, Intensity::Pga);
-    /// Distance from a lognormal, shifted samples in PGA.
-    DistanceShiftedPga: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pga);
+    /// Reduction of the distance by shifting.
+    DistanceGain: Probability, SIGNED, distances::gain;
+    /// Distance from a lognormal, shifted samples.
+    DistanceShifted: Probability, SIGNED, distances::shifted;
     /// Distance for alpha = 0.05, p = 3, original and shifted samples in PGA.
     DistanceSlender: Probability, SIGNED, distances::slender;
     /// Reduction of the distance without the three earliest overturnings.
@@ -150,39 +149,27 @@ measures! {
     DistanceSlenderMinusStocky: Probability, SIGNED, distances::less_slender;
     /// Distance of original samples in PGA minus that in PGV.
     DistancePgvGain: Probability, SIGNED, distances::pgv_gain;
-    /// Distance from a lognormal, original samples in PGV.
-    DistanceOriginalPgv: Probability, SIGNED, |s| distances::original(s, Intensity::Pgv);
-    /// Reduction of the distance by shifting, PGV.
-    DistanceGainPgv: Probability, SIGNED, |s| distances::gain(s, Intensity::Pgv);
-    /// Distance from a lognormal, shifted samples in PGV.
-    DistanceShiftedPgv: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pgv);
-    /// Gain in distance to the sample by shifting, PGA.
-    ShiftGainPga: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pga);
-    /// The same, PGV.
-    ShiftGainPgv: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pgv);
-    /// Probability of the trimmed USFL at the intensity of uplift, PGA.
+    /// Gain in distance to the sample by shifting.
+    ShiftGain: Probability, SIGNED, fragilities::shift_gain;
+    /// Probability of the trimmed USFL at the intensity of uplift.
     AtUplift: Probability, FROM_0_TO_1, fragilities::at_uplift;
-    /// Distance of trimmed USFL7 to SSFL, PGA.
-    TrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::trimmed(s, Intensity::Pga);
-    /// The same, PGV.
-    TrimmedToSsflPgv: Probability, FROM_0_TO_1, |s| fragilities::trimmed(s, Intensity::Pgv);
+    /// Distance of trimmed USFL7 to SSFL.
+    TrimmedToSsfl: Probability, FROM_0_TO_1, fragilities::trimmed;
     /// Annual frequency by trimmed USFL7 over the sample's.
     TransformedRate: One, NOT_NEGATIVE, fragilities::transformed_rate;
     /// Share of the annual frequency from capacities above the 84 % quantile.
     TailRate: Share, FROM_0_TO_1, fragilities::tail_rate;
     /// Annual frequency by the SSFL over the sample's.
     ShiftedRate: One, NOT_NEGATIVE, fragilities::shifted_rate;
-    /// Reduction of the distance of USFL7 to SSFL by trimming, PGA.
+    /// Reduction of the distance of USFL7 to SSFL by trimming.
     TrimmingGain: Probability, SIGNED, fragilities::trimming_gain;
-    /// Reduction of that distance by c = 0.5 to 1 instead of 0.25, trimmed, PGA.
+    /// Reduction of that distance by c = 0.5 to 1 instead of 0.25, trimmed.
     HighConstantGain: Probability, SIGNED, fragilities::high_constant_gain;
-    /// Distance of untrimmed USFL7 to SSFL, PGA.
-    UntrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::untrimmed(s, Intensity::Pga);
-    /// The same, PGV.
-    UntrimmedToSsflPgv: Probability, FROM_0_TO_1, |s| fragilities::untrimmed(s, Intensity::Pgv);
-    /// Gain in that distance from c = 1 to c = 0.25, PGA.
+    /// Distance of untrimmed USFL7 to SSFL.
+    UntrimmedToSsfl: Probability, FROM_0_TO_1, fragilities::untrimmed;
+    /// Gain in that distance from c = 1 to c = 0.25.
     LowConstantGain: Probability, SIGNED, fragilities::low_constant;
-    /// Distance of trimmed USFL7 for c = 0.25 to that for c = 1, PGA.
+    /// Distance of trimmed USFL7 for c = 0.25 to that for c = 1.
     ConstantSpread: Probability, FROM_0_TO_1, fragilities::constant_spread;
     /// Dispersion of the whole over that of the trimmed sample.
     TailInflation: One, ANY, fragilities::tail_inflation;

@@ -128,10 +128,10 @@ fn excess(source: &Source<'_>, tests: Tests, beside: &[Beside<'_>]) -> Found {
     of_blocks(source, |row| over_blocks(excesses(row, tests)), beside)
 }
 
-pub(super) fn original(source: &Source<'_>, intensity: Intensity) -> Found {
-    let (tests, _) = tests_of(intensity);
+pub(super) fn original(source: &Source<'_>) -> Found {
+    let (tests, _) = tests_of(source.intensity);
     let share = |row: &[f64]| over_blocks(accepted(row, tests));
-    match intensity {
+    match source.intensity {
         Intensity::Pga => {
             let found = excess(source, tests, &[]);
             with_criterion(source, found, ORIGINAL, share)
@@ -143,19 +143,19 @@ pub(super) fn original(source: &Source<'_>, intensity: Intensity) -> Found {
     }
 }
 
-pub(super) fn shifted(source: &Source<'_>, intensity: Intensity) -> Found {
-    let (_, tests) = tests_of(intensity);
+pub(super) fn shifted(source: &Source<'_>) -> Found {
+    let (_, tests) = tests_of(source.intensity);
     let share = |row: &[f64]| over_blocks(accepted(row, tests));
     let found = excess(source, tests, &[(SHIFTED, &share)]);
-    match intensity {
+    match source.intensity {
         Intensity::Pga => found,
         Intensity::Pgv => with_blocks_above(source, found, tests, 0.9),
     }
 }
 
 /// What shifting takes off the distance.
-pub(super) fn gain(source: &Source<'_>, intensity: Intensity) -> Found {
-    let (original, shifted) = tests_of(intensity);
+pub(super) fn gain(source: &Source<'_>) -> Found {
+    let (original, shifted) = tests_of(source.intensity);
     let found = of_blocks(
         source,
         |row| apart(excesses(row, original), excesses(row, shifted)),

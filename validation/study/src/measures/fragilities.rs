@@ -11,7 +11,7 @@ use crate::distributions::{BlockSamples, factors};
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
-use rocking_common::paper::{Intensity, demand_index};
+use rocking_common::paper::demand_index;
 use rocking_statistics::resampling::Ranked;
 
 /// Dispersion of a lognormal sample over that of the same sample without its
@@ -34,11 +34,8 @@ pub(crate) struct Thresholds {
 }
 
 impl Thresholds {
-    pub(crate) fn new(
-        source: &Source<'_>,
-        intensity: Intensity,
-    ) -> Option<Self> {
-        let kind = source.kind();
+    pub(crate) fn new(source: &Source<'_>) -> Option<Self> {
+        let (kind, intensity) = (source.kind(), source.intensity);
         let found =
             source.results.distributions(kind, source.arm, intensity)?;
         let at = rocking_common::paper::position(BLOCK.0, BLOCK.1);
@@ -96,29 +93,21 @@ pub(crate) fn by_demand(
 }
 
 /// A number of each threshold as a measure.
-fn each(
-    source: &Source<'_>,
-    intensity: Intensity,
-    f: &(dyn Fn(&At) -> f64 + Sync),
-) -> Found {
-    let Some(thresholds) = Thresholds::new(source, intensity) else {
-        return Ok(None);
-    };
+fn each(source: &Source<'_>, f: &(dyn Fn(&At) -> f64 + Sync)) -> Found {
+    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
     let records = source.results.suite(source.kind()).records.len();
     let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
     let measured = by_demand(source, &thresholds, f);
     Ok(Some(Prepared::new(THRESHOLDS.map(cell).into(), measured)))
 }
 
-/// A number of one threshold, PGA, as a measure.
+/// A number of one threshold as a measure.
 fn at_place(
     source: &Source<'_>,
     place: usize,
     f: impl Fn(&At) -> f64 + Sync,
 ) -> Found {
-    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
-        return Ok(None);
-    };
+    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
     let kind = source.kind();
     let records = source.results.suite(kind).records.len();
     let at = format!("demand {:.2}", THRESHOLDS[place]);
@@ -132,12 +121,9 @@ fn at_place(
 /// tie values.
 fn mean_over(
     source: &Source<'_>,
-    intensity: Intensity,
     f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
 ) -> Found {
-    let Some(thresholds) = Thresholds::new(source, intensity) else {
-        return Ok(None);
-    };
+    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
     let kind = source.kind();
     let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
     let cell = Cell {
@@ -149,8 +135,8 @@ fn mean_over(
 }
 
 /// What shifting gains in distance to the sample.
-pub(super) fn shift_gain(source: &Source<'_>, intensity: Intensity) -> Found {
-    mean_over(source, intensity, |thresholds, counts| {
+pub(super) fn shift_gain(source: &Source<'_>) -> Found {
+    mean_over(source, |thresholds, counts| {
         thresholds.each(counts, |at| {
             distance(at.fits.usfl, &at.sample)
                 - distance(at.fits.ssfl, &at.sample)
@@ -158,23 +144,21 @@ pub(super) fn shift_gain(source: &Source<'_>, intensity: Intensity) -> Found {
     })
 }
 
-pub(super) fn trimmed(source: &Source<'_>, intensity: Intensity) -> Found {
-    each(source, intensity, &|at| to_ssfl(at.fits.trimmed, at, 1.0))
+pub(super) fn trimmed(source: &Source<'_>) -> Found {
+    each(source, &|at| to_ssfl(at.fits.trimmed, at, 1.0))
 }
 
 /// Probability that the unshifted fit of the trimmed sample gives to the
 /// demand at uplift, where it is 0.
 pub(super) fn at_uplift(source: &Source<'_>) -> Found {
-    each(source, Intensity::Pga, &|at| {
+    each(source, &|at| {
         at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
     })
 }
 
-/// Mean over the thresholds, PGA, over draws with replacement.
+/// Mean over the thresholds, over draws with replacement.
 fn mean_of(source: &Source<'_>, f: impl Fn(&At) -> f64 + Sync) -> Found {
-    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
-        return Ok(None);
-    };
+    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
     let kind = source.kind();
     let records = source.results.suite(kind).records.len();
     let at = "mean over demands 0.15, 0.35 and 1.00";
@@ -205,11 +189,9 @@ pub(super) fn high_constant_gain(source: &Source<'_>) -> Found {
 /// earthquake zone to a steep one.
 const SLOPES: [f64; 5] = [1.5, 2.0, 2.5, 3.0, 4.0];
 
-/// Overturning in PGA under each slope of the hazard.
+/// Overturning under each slope of the hazard.
 fn by_slope(source: &Source<'_>, f: impl Fn(f64, &At) -> f64 + Sync) -> Found {
-    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
-        return Ok(None);
-    };
+    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
     let kind = source.kind();
     let records = source.results.suite(kind).records.len();
     let of = |draw: Draw<'_>| -> Vec<f64> {
@@ -261,8 +243,8 @@ pub(super) fn transformed_rate(source: &Source<'_>) -> Found {
     })
 }
 
-pub(super) fn untrimmed(source: &Source<'_>, intensity: Intensity) -> Found {
-    each(source, intensity, &|at| to_ssfl(at.fits.usfl, at, 1.0))
+pub(super) fn untrimmed(source: &Source<'_>) -> Found {
+    each(source, &|at| to_ssfl(at.fits.usfl, at, 1.0))
 }
 
 pub(super) fn low_constant(source: &Source<'_>) -> Found {
@@ -291,7 +273,7 @@ pub(super) fn tail_inflation(source: &Source<'_>) -> Found {
 /// over halves of the drawn records, mean over the demands.
 pub(super) fn scatter(source: &Source<'_>) -> Found {
     const HALVES: u64 = 200;
-    mean_over(source, Intensity::Pga, |thresholds, counts| {
+    mean_over(source, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =
             (0..HALVES).map(|index| half(counts, index)).collect();
         let ratio = |ranked: &Ranked| {

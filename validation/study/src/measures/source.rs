@@ -8,7 +8,7 @@ use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::results::Results;
 use rocking_common::findings::{Detail, Tested};
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
 };
 
 /// The cells of a measure; none where what it needs was not run.
@@ -27,6 +27,8 @@ pub struct Source<'a> {
     pub tested: Tested,
     /// The arm.
     pub arm: Arm,
+    /// The intensity measure: of a claim that names none, PGA.
+    pub intensity: Intensity,
 }
 
 /// The cells of a measure and their replicates.

@@ -88,14 +88,11 @@ impl Pair {
     }
 
     /// The measure of the claims on it.
-    fn measure(self, intensity: Intensity) -> Measure {
-        match (self, intensity) {
-            (Self::Shifted, Intensity::Pga) => Measure::ShiftGainPga,
-            (Self::Shifted, Intensity::Pgv) => Measure::ShiftGainPgv,
-            (Self::Trimmed, Intensity::Pga) => Measure::TrimmedToSsfl,
-            (Self::Trimmed, Intensity::Pgv) => Measure::TrimmedToSsflPgv,
-            (Self::Untrimmed, Intensity::Pga) => Measure::UntrimmedToSsfl,
-            (Self::Untrimmed, Intensity::Pgv) => Measure::UntrimmedToSsflPgv,
+    fn measure(self) -> Measure {
+        match self {
+            Self::Shifted => Measure::ShiftGain,
+            Self::Trimmed => Measure::TrimmedToSsfl,
+            Self::Untrimmed => Measure::UntrimmedToSsfl,
         }
     }
 }
@@ -108,20 +105,20 @@ pub(in super::super) fn thresholds(
     number: u32,
 ) -> anyhow::Result<Figure> {
     let pair = Pair::of(number);
-    let source = Source {
-        results,
-        draws,
-        distances: &[],
-        tested: Tested::from(results.ordinary.kind),
-        arm,
-    };
     let mut panels = Vec::new();
     let mut words = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let measure = pair.measure(intensity);
-        let limit = limit_of(measure);
-        let read = Thresholds::new(&source, intensity);
-        let read = read.ok_or_else(no_arm)?;
+        let source = Source {
+            results,
+            draws,
+            distances: &[],
+            tested: Tested::from(results.ordinary.kind),
+            arm,
+            intensity,
+        };
+        let measure = pair.measure();
+        let limit = limit_of(measure, intensity);
+        let read = Thresholds::new(&source).ok_or_else(no_arm)?;
         let (_, range) = measure.unit();
         let judged = |measured: &Replicated| {
             by_cell(draws, source.tested, range, measured)
@@ -141,7 +138,7 @@ pub(in super::super) fn thresholds(
         });
         for (place, edp) in THRESHOLDS.into_iter().enumerate() {
             let cell = decide.get(place).filter(|_| pair != Pair::Shifted);
-            let of = Panel { intensity, edp, place, limit, cell };
+            let of = Panel { edp, place, limit, cell };
             panels.push(panel(&source, &read, pair, &of)?);
         }
     }
@@ -183,7 +180,6 @@ fn band(pen: Pen) -> Fill {
 
 /// What a panel shows.
 struct Panel<'a> {
-    intensity: Intensity,
     edp: f64,
     place: usize,
     limit: f64,
@@ -223,7 +219,7 @@ fn panel(
     let bands = source.draws.smooth(source.tested, &over);
     let bands = bands.percentiles(source.draws, source.tested);
     let (of_first, of_second) = bands.split_at(grid.len());
-    let place = (of.intensity, of.edp);
+    let place = (source.intensity, of.edp);
     // Ends of a band on a curve, or of the curve itself.
     let laid = |name: &str, fill, on: Option<Lognormal>, ends: &[_]| {
         let found = grid.iter().zip(ends).filter_map(|(x, ends)| {
@@ -275,10 +271,11 @@ fn panel(
     }
     let note = |words| Series::note(Mark::Corner, words, (0.0, 0.0));
     series.extend(notes.into_iter().map(note));
-    let name = of.intensity.name().to_uppercase();
+    let name = source.intensity.name().to_uppercase();
     Ok(ChartPanel::new(
         format!("{name}, *θ̃* = {:.2}", of.edp),
-        Axis::linear(axis.0, axis.1, 5).label(common::intensity(of.intensity)),
+        Axis::linear(axis.0, axis.1, 5)
+            .label(common::intensity(source.intensity)),
         exceedance(),
         series,
     ))

@@ -38,6 +38,24 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
     }
 }
 
+/// Refuses input with a message.
+macro_rules! bail {
+    ($($message:tt)+) => {
+        return Err($crate::failure::Failure::input(format!($($message)+)))
+    };
+}
+
+/// Refuses input, with a message, unless it is as it has to be.
+macro_rules! ensure {
+    ($holds:expr, $($message:tt)+) => {
+        if !$holds {
+            $crate::failure::bail!($($message)+);
+        }
+    };
+}
+
+pub(crate) use {bail, ensure};
+
 /// Names the file or the flag of a refusal.
 pub trait At<T> {
     /// Puts the file or the flag before the message.

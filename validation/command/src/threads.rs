@@ -10,7 +10,7 @@ use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_default};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, ensure};
 use crate::terminal::note;
 
 /// Signals that stop long work.
@@ -90,9 +90,7 @@ pub fn until<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> T + Send,
 ) -> Result<Option<T>, Failure> {
-    if threads == Some(0) {
-        return Err(Failure::input("--threads 0: expected at least 1"));
-    }
+    ensure!(threads != Some(0), "--threads 0: expected at least 1");
     let most = most_threads();
     if let Some(asked) = threads.filter(|asked| *asked > most) {
         let processors = most / MOST_THREADS_A_PROCESSOR;

@@ -19,7 +19,7 @@ use super::reading::ReadArgs;
 use super::risk::SiteArgs;
 use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ThreadsArg};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
@@ -148,13 +148,12 @@ impl Args {
         };
         let floors = floors::of_rows(self.floors.as_deref(), &rows)?;
         let object = |(row, floor): (Row, Option<Floor>)| {
-            if !row.samples.is_empty() {
-                return Err(Failure::input(format!(
-                    "{}: a column sample: expected none, capacities are \
-                     computed here",
-                    row.place
-                )));
-            }
+            ensure!(
+                row.samples.is_empty(),
+                "{}: a column sample: expected none, capacities are \
+                 computed here",
+                row.place
+            );
             Ok(Object {
                 id: row.id.to_string(),
                 block: row.block,
@@ -224,9 +223,7 @@ impl Args {
                 let [ordinary, _] = StudySuite::embedded()?;
                 Ok(ordinary)
             }
-            Some(flag) => Err(Failure::input(format!(
-                "{flag} is not used without --suite"
-            ))),
+            Some(flag) => bail!("{flag} is not used without --suite"),
         }
     }
 

@@ -9,7 +9,7 @@ use rocking_exchange::Id;
 use rocking_exchange::read::{no_csv, reader};
 use serde::Deserialize;
 
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail, ensure};
 use crate::input;
 
 /// The columns that a table of blocks has.
@@ -138,9 +138,7 @@ pub fn parse(
             floor,
         });
     }
-    if rows.is_empty() {
-        return Err(Failure::input(format!("{place}: no block")));
-    }
+    ensure!(!rows.is_empty(), "{place}: no block");
     Ok(rows)
 }
 
@@ -151,10 +149,10 @@ pub fn parse(
 pub fn on_ground(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
     let rows = read(path, gravity_m_s2)?;
     if let Some(row) = rows.iter().find(|row| row.floor.is_some()) {
-        return Err(Failure::input(format!(
+        bail!(
             "{}: a floor: expected none, motions here are those of the ground",
             row.place
-        )));
+        );
     }
     Ok(rows)
 }

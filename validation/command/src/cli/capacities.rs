@@ -17,7 +17,7 @@ use serde::Serialize;
 use super::measure::GroundArgs;
 use super::names;
 use super::shared::{JsonArg, positive};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::threads::with_threads;
 use rocking_common::files::Outputs;
@@ -157,7 +157,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             by_hand(args, &curve)
         }
         (None, Some(path)) => by_file(args, path),
-        (None, None) => Err(Failure::input("--curve or --ida is needed")),
+        (None, None) => bail!("--curve or --ida is needed"),
     }
 }
 
@@ -247,12 +247,11 @@ fn suite(
     measure: &IntensityMeasure,
 ) -> Result<(IdaTable, Curves, Option<SetAside>), Failure> {
     if let Some(intensity) = measure.dimensionless() {
-        if args.ground.is_given() {
-            return Err(Failure::input(format!(
-                "--suite is not used for {}, which the table holds",
-                intensity.words()
-            )));
-        }
+        ensure!(
+            !args.ground.is_given(),
+            "--suite is not used for {}, which the table holds",
+            intensity.words()
+        );
         let (table, curves) = input::ida(path, intensity)?;
         return Ok((table, curves, None));
     }

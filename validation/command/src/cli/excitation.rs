@@ -13,7 +13,7 @@ use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::shared::positive;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
 
@@ -143,17 +143,14 @@ impl ExcitationArgs {
         if let Some(scale) = self.scale
             && !scale.is_finite()
         {
-            return Err(Failure::input(format!(
-                "--scale {scale}: expected a finite number"
-            )));
+            bail!("--scale {scale}: expected a finite number");
         }
         if self.free {
             let ratio = self.initial_ratio.unwrap_or(0.0);
-            if !(ratio > 0.0 && ratio < 1.0) {
-                return Err(Failure::input(format!(
-                    "--initial-ratio {ratio}: expected a number in (0, 1)"
-                )));
-            }
+            ensure!(
+                ratio > 0.0 && ratio < 1.0,
+                "--initial-ratio {ratio}: expected a number in (0, 1)"
+            );
             let ground = Ground::of(Motion::Free, 0.0);
             return Ok(Ground { initial_ratio: ratio, ..ground });
         }
@@ -176,10 +173,10 @@ impl ExcitationArgs {
                     Ground::of(Motion::Factor(record, factor), pga_g)
                 }
                 Some(_) if !(unit.pga_g() > 0.0) => {
-                    return Err(Failure::input(format!(
+                    bail!(
                         "{}: all samples are zero and cannot be scaled",
                         path.display()
-                    )));
+                    );
                 }
                 Some(pga_g) => Ground::of(Motion::Peak(unit, pga_g), pga_g),
             };
@@ -232,9 +229,7 @@ impl ExcitationArgs {
             None if self.free => "--free".to_owned(),
             None => "--record".to_owned(),
         };
-        let unused = |flag: &str| {
-            Err(Failure::input(format!("{flag} is not used with {chosen}")))
-        };
+        let unused = |flag: &str| bail!("{flag} is not used with {chosen}");
         let of_record = self.reading.given().or(self.processing.given());
         if let Some(flag) = of_record.filter(|_| self.record.is_none()) {
             return unused(flag);
@@ -242,9 +237,10 @@ impl ExcitationArgs {
         if self.initial_ratio.is_some() && !self.free {
             return unused("--initial-ratio");
         }
-        if self.im_kind.is_some() && self.im.is_none() {
-            return Err(Failure::input("--im-kind is not used without --im"));
-        }
+        ensure!(
+            self.im_kind.is_none() || self.im.is_some(),
+            "--im-kind is not used without --im"
+        );
         let used = self.pulse.map_or(&[][..], PulseName::parameters);
         for (parameter, flag, given) in self.parameters() {
             if given.is_some() && !used.contains(&parameter) {
@@ -257,9 +253,7 @@ impl ExcitationArgs {
     /// The pulse with its amplitude as given, in m/s2 or m/s.
     fn pulse_kind(&self) -> Result<PulseKind, Failure> {
         let Some(name) = self.pulse else {
-            return Err(Failure::input(
-                "expected --record, --pulse or --free",
-            ));
+            bail!("expected --record, --pulse or --free");
         };
         name.kind(|parameter| {
             let mut all = self.parameters().into_iter();
@@ -267,10 +261,10 @@ impl ExcitationArgs {
             match own {
                 Some((_, _, Some(value))) => Ok(value),
                 Some((PulseParameter::Cycles, ..)) => Ok(4.0),
-                own => Err(Failure::input(format!(
+                own => bail!(
                     "--pulse {name} needs {}",
                     own.map_or("", |(_, flag, _)| flag)
-                ))),
+                ),
             }
         })
     }

@@ -10,7 +10,7 @@ use rocking_records::floor::Floor;
 use serde::Deserialize;
 
 use super::blocks::Row;
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail, ensure};
 use crate::input;
 
 /// The columns that a table of floors has.
@@ -65,9 +65,7 @@ pub fn parse(
             )));
         }
     }
-    if floors.is_empty() {
-        return Err(Failure::input(format!("{place}: no floor")));
-    }
+    ensure!(!floors.is_empty(), "{place}: no floor");
     Ok(floors)
 }
 
@@ -84,11 +82,11 @@ pub fn of_rows(
     if let Some(path) = path
         && rows.iter().all(|row| row.floor.is_none())
     {
-        return Err(Failure::input(format!(
+        bail!(
             "{}: no object has a floor: expected a column floor in the table \
              of objects",
             path.display()
-        )));
+        );
     }
     let floor = |row: &Row| {
         let Some(name) = &row.floor else { return Ok(None) };

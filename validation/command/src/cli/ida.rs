@@ -30,7 +30,7 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg, ThreadsArg, positive};
 use super::show::shown;
 use super::way::WayArgs;
-use crate::failure::Failure;
+use crate::failure::{Failure, ensure};
 use crate::terminal::{SOFTWARE, logged, progress, say};
 use rocking_common::files::{Output, Outputs};
 use rocking_common::suites::inputs::{BLOCK_SAMPLES, files, profiles, reread};
@@ -346,11 +346,10 @@ impl Args {
             None => Resurrections::Multiple(3.0),
         });
         let model = self.model.model;
-        if self.order.is_some() && model == Model::Linearized {
-            return Err(Failure::input(
-                "--order is for Eq. 1; --model linearized has no choice of it",
-            ));
-        }
+        ensure!(
+            self.order.is_none() || model == Model::Nonlinear,
+            "--order is for Eq. 1; --model linearized has no choice of it"
+        );
         Ok(Analysis {
             block,
             restitution: self.model.restitution(&block)?,
@@ -392,12 +391,11 @@ impl Args {
             .map(|(place, member)| (member.accelerogram.name(), place))
             .collect();
         chosen.sort_by_key(|member| places[member.accelerogram.name()]);
-        if chosen.is_empty() {
-            return Err(Failure::input(format!(
-                "{}: no record of the component asked for",
-                self.suite.display()
-            )));
-        }
+        ensure!(
+            !chosen.is_empty(),
+            "{}: no record of the component asked for",
+            self.suite.display()
+        );
         Ok(chosen)
     }
 }

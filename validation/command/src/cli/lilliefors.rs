@@ -9,7 +9,7 @@ use rocking_statistics::lilliefors::{CriticalValue, NullDistribution, Table};
 use serde::Serialize;
 
 use super::shared::{JsonArg, ThreadsArg};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use crate::input;
 use crate::terminal::progress;
 use rocking_common::files::Outputs;
@@ -125,10 +125,10 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let found = test_normality(&file.censored()?, &options)?;
     let is_tabled = found.method == Some(NullSource::Table);
     if is_tabled && (args.seed.is_some() || args.threads.threads.is_some()) {
-        return Err(Failure::input(
+        bail!(
             "--seed and --threads are not used without --replicates: the \
-             table answers",
-        ));
+             table answers"
+        );
     }
     args.json.show(&found)
 }

@@ -16,7 +16,7 @@ use rocking_records::{SetAside, SuiteMember};
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
@@ -82,23 +82,22 @@ impl GroundArgs {
                 measures.iter().find(|m| m.dimensionless().is_none());
             let measure =
                 measure.map_or(String::new(), |m| format!("{}: ", m.words()));
-            return Err(Failure::input(format!(
+            bail!(
                 "{measure}expected --suite, the records that the table was made \
                  of"
-            )));
+            );
         };
         let setting = &table.setting;
         let gravity = setting.gravity_m_s2;
         let uplift = uplift(table)?;
         let processing = self.processing.processing()?;
         let done = words(&processing).unwrap_or("none".into());
-        if done != setting.processing {
-            return Err(Failure::input(format!(
-                "processing of the table: {}; of the records here: {done}; \
-                 expected the same",
-                setting.processing
-            )));
-        }
+        ensure!(
+            done == setting.processing,
+            "processing of the table: {}; of the records here: {done}; \
+             expected the same",
+            setting.processing
+        );
         let options = self.reading.options(gravity);
         let suite = read_suite(path, options)?.processed(&processing)?;
         let set_aside = suite.set_aside().clone();
@@ -106,12 +105,11 @@ impl GroundArgs {
         let mut members: BTreeMap<&str, &SuiteMember> = BTreeMap::new();
         for member in suite.members() {
             let name = member.accelerogram.name();
-            if members.insert(name, member).is_some() {
-                return Err(Failure::input(format!(
-                    "{}: two records named {name}: expected one",
-                    path.display()
-                )));
-            }
+            ensure!(
+                members.insert(name, member).is_none(),
+                "{}: two records named {name}: expected one",
+                path.display()
+            );
         }
         let own = self.attributes.as_deref().map(read_attributes);
         let own = own.transpose()?.unwrap_or_default();
@@ -151,10 +149,10 @@ impl GroundArgs {
 /// PGA in g at which the block of the table lifts off.
 fn uplift(table: &IdaTable) -> Result<f64, Failure> {
     let Some(alpha_rad) = table.alpha_rad() else {
-        return Err(Failure::input(
+        bail!(
             "the table adjusts slenderness: expected one of record-scaling, \
-             whose intensities are scale factors",
-        ));
+             whose intensities are scale factors"
+        );
     };
     let block = Block::try_new(alpha_rad, table.setting.p_rad_s)?;
     Ok(uplift_threshold(&block, table.setting.model))
@@ -252,21 +250,20 @@ fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
     let mut reader = reader(input::open(path)?, csv::Trim::All, None);
     let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
     let Some(key) = header.iter().position(|name| name == "record") else {
-        return Err(Failure::input(format!(
+        bail!(
             "{place}:1: found columns `{}`: expected one named `record`",
             header.iter().collect::<Vec<_>>().join(",")
-        )));
+        );
     };
     let mut rows = BTreeMap::new();
     for row in reader.records() {
         let row = row.map_err(|e| no_csv(path, e))?;
         let line = row.position().map_or(0, csv::Position::line);
         let record = row[key].to_owned();
-        if rows.insert(record.clone(), row).is_some() {
-            return Err(Failure::input(format!(
-                "{place}:{line}: record {record} comes again: expected it once"
-            )));
-        }
+        ensure!(
+            rows.insert(record.clone(), row).is_none(),
+            "{place}:{line}: record {record} comes again: expected it once"
+        );
     }
     Ok(Attributes { header, rows })
 }

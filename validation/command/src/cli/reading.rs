@@ -4,7 +4,7 @@
 use rocking::units::AccelerationUnit;
 use rocking_records::{ReadOptions, SetAside};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, ensure};
 use crate::terminal::note;
 use rocking_common::suites::remarks::Remarks;
 
@@ -44,13 +44,11 @@ impl ReadArgs {
     /// # Errors
     /// [`Failure`] for a flag that is of folders.
     pub fn of_one(self, gravity_m_s2: f64) -> Result<ReadOptions, Failure> {
-        match self.recursive {
-            false => Ok(self.options(gravity_m_s2)),
-            true => Err(Failure::input(
-                "--recursive is not used with one record: expected a suite"
-                    .to_owned(),
-            )),
-        }
+        ensure!(
+            !self.recursive,
+            "--recursive is not used with one record: expected a suite"
+        );
+        Ok(self.options(gravity_m_s2))
     }
 
     /// The first flag given, to be refused where no record is read.
@@ -89,11 +87,8 @@ impl ReadArgs {
             )
         });
         let found: Vec<String> = aside.into_iter().chain(remarks).collect();
-        match self.strict && !found.is_empty() {
-            false => Ok(()),
-            true => {
-                Err(Failure::input(format!("--strict: {}", found.join("; "))))
-            }
-        }
+        let found = found.join("; ");
+        ensure!(!self.strict || found.is_empty(), "--strict: {found}");
+        Ok(())
     }
 }

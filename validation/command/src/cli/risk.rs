@@ -10,7 +10,7 @@ use rocking_statistics::{Lognormal, QuantileType};
 use super::fragility::fit::FitArgs;
 use super::fragility::source::{Source, SourceArgs};
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::note;
 use rocking_common::files::Outputs;
@@ -130,9 +130,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.hazard == standard
         && args.source.inputs().iter().any(|path| path == standard)
     {
-        return Err(Failure::input(
-            "--hazard - and another file -: expected one of them as a file",
-        ));
+        bail!("--hazard - and another file -: expected one of them as a file");
     }
     let basis = match args.median.zip(args.dispersion) {
         None => Basis::Files(args.source.open()?),
@@ -168,12 +166,11 @@ const MOST_DRAWN: usize = 6;
 
 /// The hazard curve, the fragilities and the risk by intensity.
 fn svg(hazard: &Hazard, all: &[Exposed]) -> Result<String, Failure> {
-    if all.len() > MOST_DRAWN {
-        return Err(Failure::input(format!(
-            "--plot: {} fragilities: expected at most {MOST_DRAWN}",
-            all.len()
-        )));
-    }
+    ensure!(
+        all.len() <= MOST_DRAWN,
+        "--plot: {} fragilities: expected at most {MOST_DRAWN}",
+        all.len()
+    );
     Ok(risk_svg(hazard, all))
 }
 
@@ -184,9 +181,7 @@ fn given(
     beta: f64,
 ) -> Result<Vec<Exposed>, Failure> {
     let Shift::Given(shift) = shift else {
-        return Err(Failure::input(
-            "--shift min or free: expected a number with --median",
-        ));
+        bail!("--shift min or free: expected a number with --median");
     };
     let log_mean = rocking_procedures::fragility::eq5(median, shift)?;
     let law = Lognormal::try_new(shift, log_mean, beta)?;

@@ -7,7 +7,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::names;
 use super::shared::positive;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 
 /// The block, by its parameters or by its size.
 #[derive(clap::Args, Clone, Debug)]
@@ -62,9 +62,9 @@ impl BlockArgs {
             (None, None, Some(width_m), Some(height_m)) => {
                 Ok(Block::from_dimensions(width_m, height_m, gravity_m_s2)?)
             }
-            _ => Err(Failure::input(
-                "expected --alpha and --p, or --width-m and --height-m",
-            )),
+            _ => {
+                bail!("expected --alpha and --p, or --width-m and --height-m")
+            }
         }
     }
 }

@@ -13,7 +13,7 @@ use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail, ensure};
 use crate::terminal::{COMMIT, logged, note, print, say};
 use rocking_common::files::{Folder, Mixed, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
@@ -147,10 +147,10 @@ fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
         ]),
         _ => match args.reading.given().or(args.processing.given()) {
             None => Ok(StudySuite::embedded()?),
-            Some(flag) => Err(Failure::input(format!(
+            Some(flag) => bail!(
                 "{flag} is not used without --ordinary and --pulse, but for \
                  the records of a suite"
-            ))),
+            ),
         },
     }
 }
@@ -231,11 +231,11 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     };
     match foreign {
         None => Ok(()),
-        Some(name) => Err(Failure::input(format!(
+        Some(name) => bail!(
             "cannot write {}: it holds {name}, which no study wrote: expected \
              a new or an empty folder, or one that `rocking study` wrote",
             out.display()
-        ))),
+        ),
     }
 }
 
@@ -261,12 +261,11 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
     let mut arms = args.arms.clone();
     arms.sort();
     arms.dedup();
-    if !arms.iter().any(|arm| *arm != Arm::B) {
-        return Err(Failure::input(
-            "--arms B: expected A or C among them; figures are drawn from \
-             those",
-        ));
-    }
+    ensure!(
+        arms.iter().any(|arm| *arm != Arm::B),
+        "--arms B: expected A or C among them; figures are drawn from \
+         those"
+    );
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
         overturning: args.overturn,

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::show::text;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use crate::terminal::say;
 use crate::threads::with_threads;
 use rocking_common::files::Folder;
@@ -94,10 +94,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         None => {
             let given = args.reading.given().or(args.processing.given());
             if let Some(flag) = given {
-                return Err(Failure::input(format!(
+                bail!(
                     "{flag} is not used without --suite: the embedded \
                      suites need no correction"
-                )));
+                );
             }
             let ordinary = with_threads(None, rocking_synthesis::ordinary)??;
             let pulse = with_threads(None, rocking_synthesis::pulse)??;

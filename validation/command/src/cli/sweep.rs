@@ -10,7 +10,7 @@ use rocking_records::{Processing, Profile, Suite};
 use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
 use super::{blocks, names};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use crate::sweep::{self, Content, Given, Levels, Planned, Wanted};
 use crate::terminal::{SOFTWARE, note, say};
 use crate::threads::{until, with_threads};
@@ -160,10 +160,10 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
             p_rad_s: row.block.frequency_rad_s(),
             eta: row.eta.unwrap_or(args.eta),
         }),
-        _ => Err(Failure::input(format!(
+        _ => bail!(
             "{}: a sample: expected none, since a sweep makes its own",
             row.place
-        ))),
+        ),
     };
     let blocks: Vec<Given> =
         rows.into_iter().map(given).collect::<Result<_, _>>()?;
@@ -226,11 +226,10 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         (Some(task), Some(of)) => (task, of),
         _ => from_environment()?,
     };
-    if task >= of {
-        return Err(Failure::input(format!(
-            "task {task} of {of}: expected a task below the number of tasks"
-        )));
-    }
+    ensure!(
+        task < of,
+        "task {task} of {of}: expected a task below the number of tasks"
+    );
     let planned = Planned::read(&args.dir)?;
     let total = planned.plan.tiles();
     let done = |tile: usize| {
@@ -251,10 +250,9 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
 
 fn merge(args: &MergeArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
-    if !Content::kept(&planned.plan).contains(&args.what) {
-        return Err(Failure::input(
-            "this plan keeps no rows; expected a plan of `--rows`",
-        ));
-    }
+    ensure!(
+        Content::kept(&planned.plan).contains(&args.what),
+        "this plan keeps no rows; expected a plan of `--rows`"
+    );
     sweep::merge(&planned, args.what, &args.out)
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail};
 use crate::input;
 use crate::terminal::say;
 use rocking_common::files::Outputs;
@@ -90,10 +90,10 @@ fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
         if FAMILIES.iter().all(|(name, _)| name != family) {
             let names: Vec<&str> =
                 FAMILIES.iter().map(|(name, _)| *name).collect();
-            return Err(Failure::input(format!(
+            bail!(
                 "no family `{family}`: expected one of {}",
                 names.join(", ")
-            )));
+            );
         }
         cases.retain(|case| case.family == *family);
     }

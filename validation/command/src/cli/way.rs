@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
 use super::names::named;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use rocking_common::curves::Execution;
 
 /// How curves are made; results are the same bits.
@@ -39,9 +39,9 @@ impl WayArgs {
     pub fn way(self) -> Result<Execution, Failure> {
         match (self.engine, self.isa) {
             (Some(EngineName::Scalar), None) => Ok(Execution::OneByOne),
-            (Some(EngineName::Scalar), Some(_)) => Err(Failure::input(
-                "--isa is for --engine lanes; scalar has no choice of it",
-            )),
+            (Some(EngineName::Scalar), Some(_)) => bail!(
+                "--isa is for --engine lanes; scalar has no choice of it"
+            ),
             (_, None) => Ok(Execution::default()),
             (_, Some(level)) => isa(level).map(Execution::Lanes),
         }

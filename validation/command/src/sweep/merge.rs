@@ -7,7 +7,7 @@ use rocking::stop;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use rocking_common::files::Outputs;
 use rocking_common::table::body;
 
@@ -49,9 +49,9 @@ pub fn merge(
     if flaws.len() > NAMED {
         named.push(format!("and {} more", flaws.len() - NAMED));
     }
-    Err(Failure::input(format!(
+    bail!(
         "{} of {tiles} tiles are not done; run the sweep again: {}",
         flaws.len(),
         named.join("; ")
-    )))
+    )
 }

@@ -11,7 +11,7 @@ use rocking_records::{Processing, Profile, ReadOptions, Suite, read};
 use rocking_statistics::Clusters;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, ensure};
 use crate::input;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
@@ -186,13 +186,12 @@ impl Plan {
         let (index, text) = packing.finish();
         write(&index, &text)?;
         let text = plan.text();
-        if there.is_some_and(|there| there != text) {
-            return Err(Failure::input(format!(
-                "{}: holds another plan; expected an empty folder, or the \
-                 same plan",
-                folder.display()
-            )));
-        }
+        ensure!(
+            there.is_none_or(|there| there == text),
+            "{}: holds another plan; expected an empty folder, or the \
+             same plan",
+            folder.display()
+        );
         write_atomically(&path, &text)?;
         Planned::read(folder)
     }
@@ -304,12 +303,11 @@ impl Planned {
             let bytes =
                 fs::read(&path).at(format_args!("cannot read {place}"))?;
             let found = sha256_hex(&bytes);
-            if found != *expected {
-                return Err(Failure::input(format!(
-                    "{place}: found hash {found}; expected {expected}, as \
-                     planned"
-                )));
-            }
+            ensure!(
+                found == *expected,
+                "{place}: found hash {found}; expected {expected}, as \
+                 planned"
+            );
             let record = read(&place, &bytes, &ReadOptions::default())?;
             samples += record.accelerogram.samples_g().len();
             records.push(NormalisedRecord::new(&record.accelerogram));

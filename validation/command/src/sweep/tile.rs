@@ -11,7 +11,7 @@ use rocking_statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
 use super::plan::{Given, Plan, Planned, REPLICATES};
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, ensure};
 use rocking::names::named;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
@@ -89,15 +89,14 @@ pub fn run(
     done: &(dyn Fn(usize) + Sync),
 ) -> Result<(), Failure> {
     let plan = &planned.plan;
-    if plan.software != software {
-        return Err(Failure::input(format!(
-            "{}: a plan of {}: expected one of this program, {software}, or \
-             a run by the program that planned: tiles of two builds may \
-             differ",
-            planned.folder.display(),
-            plan.software
-        )));
-    }
+    ensure!(
+        plan.software == software,
+        "{}: a plan of {}: expected one of this program, {software}, or \
+         a run by the program that planned: tiles of two builds may \
+         differ",
+        planned.folder.display(),
+        plan.software
+    );
     let left = left(planned, task_of);
     if left.is_empty() {
         return Ok(());

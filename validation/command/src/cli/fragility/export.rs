@@ -10,7 +10,7 @@ use super::fit::FitArgs;
 use super::source::SourceArgs;
 use crate::cli::names::named;
 use crate::cli::shared::JsonArg;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use rocking_common::files::Outputs;
 
 /// What the help says of the formats.
@@ -101,11 +101,11 @@ impl Args {
         let Some(extension) = self.format.beside() else { return Ok(None) };
         let second = self.out.with_extension(extension);
         if self.out == Path::new("-") || second == self.out {
-            return Err(Failure::input(format!(
+            bail!(
                 "--out {}: expected a file .csv, beside which a file \
                  .{extension} is written",
                 self.out.display()
-            )));
+            );
         }
         Ok(Some(second))
     }

@@ -17,7 +17,7 @@ use super::source::{self, IdaArgs};
 use crate::cli::capacities::Levels;
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
@@ -152,7 +152,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match (&args.sample, &args.ida.ida) {
         (Some(path), _) => of_sample(args, path, &options),
         (None, Some(path)) => of_levels(args, path, &options),
-        (None, None) => Err(Failure::input("expected --sample or --ida")),
+        (None, None) => bail!("expected --sample or --ida"),
     }
 }
 

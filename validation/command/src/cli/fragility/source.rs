@@ -26,7 +26,7 @@ use crate::cli::capacities::Levels;
 use crate::cli::names;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::positive;
-use crate::failure::{At as _, Failure};
+use crate::failure::{At as _, Failure, bail, ensure};
 use crate::input;
 use rocking_common::paper::SuiteKind;
 use rocking_exchange::sample::SampleSetting;
@@ -316,9 +316,7 @@ impl Level {
         block: Option<&Block>,
     ) -> Result<Law, Failure> {
         let place = &self.place;
-        let refused = |expected: &str| {
-            Err(Failure::input(format!("{place}: {expected}")))
-        };
+        let refused = |expected: &str| bail!("{place}: {expected}");
         let once = FitOptions { draws: None, ..options.clone() };
         match (&self.values, options.shift, block) {
             (Values::Sample(sample, clusters), ..) => {
@@ -399,12 +397,12 @@ impl Source {
         if *im == HazardMeasure::Own
             && let Some(row) = self.rows.first()
         {
-            return Err(Failure::input(format!(
+            bail!(
                 "{}: the hazard curve is in the sample's own unit \
                  (`intensity`): expected no block, or pga_g, pgv_m_s or \
                  pgv_cm_s",
                 row.place
-            )));
+            );
         }
         let is_own = im.dimensionless().is_none() && self.rows.is_empty();
         let own = self.samples.values().chain(&self.levels);
@@ -412,12 +410,12 @@ impl Source {
             if let Some(im_name) = im.name()
                 && !im.is_of(level.im()?)
             {
-                return Err(Failure::input(format!(
+                bail!(
                     "{}: a sample of {}, a hazard curve of {im_name}: \
                      expected the same measure",
                     level.place,
-                    level.im()?.words(),
-                )));
+                    level.im()?.words()
+                );
             }
         }
         type States = (Vec<LimitState>, Vec<Option<Sampled>>);
@@ -460,12 +458,11 @@ impl Source {
     }
 
     fn all(&self, options: &FitOptions) -> Result<Vec<Drawn>, Failure> {
-        if self.rows.is_empty() {
-            return Err(Failure::input(
-                "expected --blocks, or --alpha and --p, or --width-m and \
-                 --height-m",
-            ));
-        }
+        ensure!(
+            !self.rows.is_empty(),
+            "expected --blocks, or --alpha and --p, or --width-m and \
+             --height-m"
+        );
         self.rows.iter().map(|row| self.of_row(row, options)).collect()
     }
 
@@ -480,23 +477,22 @@ impl Source {
             false => own.collect(),
         };
         let Some(first) = own.first() else {
-            return Err(Failure::input(
+            bail!(
                 "expected --sample, --ida, --counts or --surrogate, or a \
-                 column `sample`",
-            ));
+                 column `sample`"
+            );
         };
         let (mut laws, mut draws) = (Vec::new(), Vec::new());
         let mut origins = Vec::new();
         for level in &own {
             let (im, expected) = (level.im()?, first.im()?);
-            if im != expected {
-                return Err(Failure::input(format!(
-                    "{}: a sample of {}: expected one of {}, as the first",
-                    level.place,
-                    im.words(),
-                    expected.words(),
-                )));
-            }
+            ensure!(
+                im == expected,
+                "{}: a sample of {}: expected one of {}, as the first",
+                level.place,
+                im.words(),
+                expected.words()
+            );
             let unit = level.unit(row, self.gravity_m_s2)?;
             let (law, sampled) = level.fit(options, Some(&row.block))?;
             laws.push(law.scaled(unit)?);
@@ -522,14 +518,13 @@ impl Source {
             (None, 1) => "exceeded".parse(),
             (None, _) => format!("LS{}", k + 1).parse(),
         };
-        if !self.names.is_empty() && self.names.len() != laws.len() {
-            return Err(Failure::input(format!(
-                "--limit-state: found {}: expected one for each of {} limit \
-                 states",
-                self.names.len(),
-                laws.len()
-            )));
-        }
+        ensure!(
+            self.names.is_empty() || self.names.len() == laws.len(),
+            "--limit-state: found {}: expected one for each of {} limit \
+             states",
+            self.names.len(),
+            laws.len()
+        );
         let states = laws.iter().enumerate().map(|(k, fragility)| {
             Ok(LimitState { name: name(k)?, fragility: *fragility })
         });

@@ -10,7 +10,7 @@ use rocking_records::intensity::{
 use serde::Serialize;
 
 use super::{Finding, Listed};
-use crate::failure::Failure;
+use crate::failure::{Failure, bail, ensure};
 use rocking_draw::figures::of_result::record_svg;
 
 /// What is asked for beside the list.
@@ -98,12 +98,11 @@ impl MeasureArgs {
             return Ok(None);
         }
         let pairs = pairs(records);
-        if self.pulses && pairs.is_empty() {
-            return Err(Failure::input(
-                "--pulses: no two components of one motion among the \
-                 records; expected a suite with pairs, or two files alone",
-            ));
-        }
+        ensure!(
+            !(self.pulses && pairs.is_empty()),
+            "--pulses: no two components of one motion among the \
+             records; expected a suite with pairs, or two files alone"
+        );
         let mut found = Measured {
             damping_ratio,
             periods_s: settings.periods_s().to_vec(),
@@ -239,10 +238,7 @@ pub(super) fn svg(
     gravity_m_s2: f64,
 ) -> Result<String, Failure> {
     let [Listed { motion, .. }] = records else {
-        return Err(Failure::input(format!(
-            "--plot: {} records: expected one",
-            records.len()
-        )));
+        bail!("--plot: {} records: expected one", records.len());
     };
     let periods_s: Vec<f64> = (0..=DRAWN_PERIODS)
         .map(|k| 0.05 * libm::exp10(f64::from(k) / 40.0))

@@ -130,7 +130,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         Err(Failed::from(
             "reports/data/validation.json is stale: see what changed with \
              `rocking validate --check --out reports`, accept it with \
-             `cargo run --release -- accept`",
+             `.ci/accept`",
         ))
     };
     let precision = move || {
@@ -140,7 +140,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         }
         Err(Failed::from(
             "reports/data/precision.csv is stale: accept it with \
-             `cargo run --release -- accept`",
+             `.ci/accept`",
         ))
     };
     [

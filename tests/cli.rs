@@ -112,17 +112,6 @@ fn bad_numbers_are_refused_with_their_flag() {
 }
 
 #[test]
-fn results_are_accepted_in_the_root_of_the_repository_alone() {
-    let pin = ("tests/pins/golden.txt", "0\n");
-    let crates = ("validation/command/Cargo.toml", "");
-    for files in [&[][..], &[pin], &[pin, crates]] {
-        let place = folder("accept", files);
-        refused_for(&place, "accept", &["root of the repository"]);
-        refused_for(&place, "accept --check", &["cargo run"]);
-    }
-}
-
-#[test]
 fn unknown_flags_are_refused_by_every_command() {
     let place = folder("flags", &[]);
     let help = answer(&place, "--help");

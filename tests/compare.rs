@@ -4,10 +4,12 @@
 
 use std::fmt::{Debug, Display};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Folder for the files that tests find; `rocking accept` sets it.
-const ACCEPT: &str = "ROCKING_ACCEPT";
+/// The folder for the files that tests find, where `.ci/accept` runs them.
+pub fn accepting() -> Option<PathBuf> {
+    std::env::var_os("ROCKING_ACCEPT").map(PathBuf::from)
+}
 
 /// Fails unless `got` is `expected` within `limit`. NaN is never within.
 #[track_caller]
@@ -53,10 +55,10 @@ fn difference<T: PartialEq + Debug>(
 }
 
 /// The text of a committed file, which a test finds to be `found`. None where
-/// `rocking accept` runs the test: then the text found goes to `accept`.
+/// `.ci/accept` runs the test: then the text found goes to its folder.
 pub fn committed(path: &str, found: &str) -> Option<String> {
-    if let Some(folder) = std::env::var_os(ACCEPT) {
-        let place = Path::new(&folder).join(path);
+    if let Some(folder) = accepting() {
+        let place = folder.join(path);
         fs::create_dir_all(place.parent().unwrap()).unwrap();
         fs::write(place, found).unwrap();
         return None;
@@ -70,8 +72,8 @@ pub fn committed(path: &str, found: &str) -> Option<String> {
 
 /// Fails where what was found is not the pin `name`, a text of this
 /// program's own results in `tests/pins`. `found` has a name and a line for
-/// each case; `columns` says what a line holds. Where `rocking accept` runs
-/// the test, it gets the lines instead, and shows how they differ.
+/// each case; `columns` says what a line holds. Where `.ci/accept` runs the
+/// test, it gets the lines instead, and shows how they differ.
 #[track_caller]
 pub fn hold(name: &str, columns: &str, found: &[(String, String)]) {
     let lines: Vec<&str> = found.iter().map(|(_, line)| &**line).collect();
@@ -83,8 +85,7 @@ pub fn hold(name: &str, columns: &str, found: &[(String, String)]) {
         let case = found.get(k).map_or("no such case", |(case, _)| case);
         panic!(
             "tests/pins/{name}, {columns}: {words}\n    case {case}\nIf the \
-             change is meant, `cargo run --release -- accept` renews all \
-             pins."
+             change is meant, `.ci/accept` renews all pins."
         );
     }
 }

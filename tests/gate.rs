@@ -35,5 +35,7 @@ mod stop;
 mod study;
 #[path = "support.rs"]
 mod support;
+#[path = "surrogate.rs"]
+mod surrogate;
 #[path = "trials.rs"]
 mod trials;

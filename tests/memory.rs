@@ -372,8 +372,7 @@ const COMMANDS: [&str; 24] = [
 ];
 
 /// Commands that read no file from outside.
-const OTHERS: [&str; 5] =
-    ["accept", "completions", "man", "speed", "validate"];
+const OTHERS: [&str; 4] = ["completions", "man", "speed", "validate"];
 
 /// Commands that read a whole suite, here of equal records.
 const OF_SUITES: [&str; 4] = ["ida", "records", "suite", "sweep"];

@@ -11,6 +11,8 @@ use rocking_proof::cases::{
 use rocking_proof::methods::{self, Quantities};
 use rocking_proof::verdict::judge;
 
+use super::compare::committed;
+
 const GOOD: &str = r#"
 [family]
 title = "t"
@@ -326,6 +328,10 @@ fn what_is_counted_is_what_is_expected() {
     let found: Vec<_> = cases.iter().map(|c| (c, run(c))).collect();
     let csv = counters_csv(&found);
     assert!(csv.lines().count() > 30);
+    let kept = committed("validation/proof/work-counters.csv", &csv);
+    // `.ci/accept` writes it, and judges the cases by it.
+    let Some(kept) = kept else { return };
+    assert!(csv == kept, "work-counters.csv: expected\n{csv}");
     // An accepted number that is another is one that is expected.
     let other = csv.replacen(",25,", ",26,", 1);
     assert_ne!(other, csv);

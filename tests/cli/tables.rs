@@ -44,7 +44,7 @@ fn page() -> String {
     text
 }
 
-/// `rocking accept` renews it.
+/// `.ci/accept` renews it.
 #[test]
 fn the_page_of_tables_is_that_of_the_registry() {
     if let Some(kept) = committed("docs/tables.md", &page()) {

@@ -1,10 +1,11 @@
 //! Texts that people read, as committed snapshots: a changed word is seen in
-//! the change, and renewed by `rocking accept`.
+//! the change, and renewed by `.ci/accept`.
 
 use std::path::Path;
 
 use insta::{Settings, assert_snapshot};
 
+use super::super::compare::accepting;
 use super::diff::sides;
 use super::support::{folder, run};
 
@@ -15,7 +16,8 @@ const LONGER: [&str; 2] = ["respond", "ida"];
 
 fn settings() -> Settings {
     let mut settings = Settings::clone_current();
-    settings.set_snapshot_path("snapshots");
+    let place = accepting().map(|root| root.join("tests/cli/snapshots"));
+    settings.set_snapshot_path(place.unwrap_or_else(|| "snapshots".into()));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings

@@ -3,10 +3,6 @@
 use libm::{exp, log};
 
 use super::{FREQUENCY_RANGE_RAD_S, SLENDERNESS_RANGE_RAD};
-use rocking_exchange::table::Table;
-
-/// Decimals of alpha and p in a design.
-const DECIMALS: usize = 6;
 
 /// The digits of `index` in `base` mirrored at the point: in [0, 1).
 fn mirrored(mut index: u64, base: u64) -> f64 {
@@ -28,15 +24,4 @@ pub fn point(index: u64) -> (f64, f64) {
     let (low, high) = SLENDERNESS_RANGE_RAD;
     let alpha = low + (high - low) * mirrored(index, 3);
     (alpha, p)
-}
-
-/// The table of blocks of the points from `first`, for `rocking sweep plan`.
-#[must_use]
-pub fn design(first: u64, blocks: u64) -> String {
-    let mut table = Table::headed("alpha,p");
-    for index in first..first.saturating_add(blocks) {
-        let (alpha, p) = point(index);
-        table.row([format!("{alpha:.DECIMALS$}"), format!("{p:.DECIMALS$}")]);
-    }
-    table.finish()
 }

@@ -9,7 +9,7 @@
 //!
 //! The coefficients are fitted to 1,000 blocks of a sweep over each embedded
 //! suite with eta = 0.92; the error is that at 100 other blocks.
-//! `rocking accept` makes all of it again.
+//! `.ci/accept` makes all of it again.
 
 #![deny(missing_docs)]
 
@@ -26,8 +26,8 @@ use thiserror::Error;
 
 pub use answer::{SuiteFragility, SurfaceFragility, origin};
 pub use beside::{Recorded, Sampling, ToRecorded};
-pub use blocks::{Fitted, read_merged, read_table, table};
-pub use design::{design, point};
+pub use blocks::{Fitted, read_table};
+pub use design::point;
 pub use fit::{Choice, fit};
 pub use model::{Degrees, Errors, Model, Size, Surrogate};
 

@@ -1,6 +1,5 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
-mod accept;
 pub mod assess;
 mod validate;
 
@@ -69,7 +68,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
         ],
     ),
     ("Prove", &["study", "validate", "score", "diff", "speed"]),
-    ("Develop", &["accept", "completions", "man"]),
+    ("Develop", &["completions", "man"]),
 ];
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
@@ -88,7 +87,6 @@ fn version() -> &'static str {
 
 #[derive(Subcommand)]
 enum Command {
-    Accept(accept::Args),
     Assess(Box<assess::Args>),
     Respond(Box<respond::Args>),
     Ida(Box<ida::Args>),
@@ -179,9 +177,6 @@ pub fn run() -> ExitCode {
     let matches = grouped(on_a_screen(command())).get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
-        Command::Accept(args) => {
-            with_threads(None, || accept::run(&args)).flatten()
-        }
         Command::Assess(args) => assess::run(&args),
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),

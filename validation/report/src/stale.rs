@@ -71,7 +71,7 @@ fn findings(out: &Path, files: &Files) -> anyhow::Result<String> {
 /// What two texts of one file of results say differently, as
 /// [`crate::diff::compare`] finds it; empty where they agree. Results of
 /// another form are replaced all the same, so that is no error.
-pub fn compared(path: &Path, old: &str, new: &str) -> String {
+fn compared(path: &Path, old: &str, new: &str) -> String {
     if old == new {
         return String::new();
     }

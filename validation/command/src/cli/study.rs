@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
@@ -112,23 +111,6 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     // All of it: whatever runs in parallel finds these threads.
     args.threads.run(|| in_threads(args))?
-}
-
-/// The files of the report that the command writes with these arguments.
-pub(super) fn report(
-    arguments: &[&str],
-    proof: Option<&Proof>,
-) -> Result<Files, Failure> {
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        args: Args,
-    }
-    let line = ["study"].iter().chain(arguments);
-    let args = Line::try_parse_from(line)?.args;
-    let study = computed(plan(&args)?, &suites(&args)?)?;
-    let lab = args.out.join(LAB).is_file();
-    Ok(output::files(&study, proof, &args.signatures, lab)?)
 }
 
 /// The suites that the options name.

@@ -121,7 +121,7 @@ fn stale(path: &Path) -> Failure {
 
 /// What the cases came to.
 #[derive(Serialize)]
-pub(super) struct Shown<'a> {
+struct Shown<'a> {
     cases: Vec<Judged<'a>>,
     messages: Vec<Said<'a>>,
     /// Checks whose margin is below 1e-3 or above 0.9.
@@ -160,7 +160,7 @@ struct Count<'a> {
 }
 
 impl<'a> Shown<'a> {
-    pub(super) fn of(outcomes: &'a [Outcome]) -> Self {
+    fn of(outcomes: &'a [Outcome]) -> Self {
         let judged = |outcome: &'a Outcome| Judged {
             case: &outcome.id,
             verdict: outcome.verdict.name(),

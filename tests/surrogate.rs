@@ -32,7 +32,7 @@ fn analysed(first: u64, blocks: u64) -> String {
     let place = folder("surrogate", &[("blocks.csv", &list)]);
     answer(&place, "suite export --out suites");
     let mut table = format!("{HEADER}\n");
-    for (suite, name) in SuiteKind::BOTH.into_iter().zip(["ordinary", "pulse"])
+    for (suite, name) in SuiteKind::ALL.into_iter().zip(["ordinary", "pulse"])
     {
         for line in [
             "plan --blocks blocks.csv --suite suites/NAME.csv --out NAME",
@@ -73,7 +73,7 @@ fn the_first_blocks_of_the_surrogate_are_as_they_are_kept() {
         own.take(FIRST)
     };
     let first: String = std::iter::once(HEADER)
-        .chain(SuiteKind::BOTH.into_iter().flat_map(of))
+        .chain(SuiteKind::ALL.into_iter().flat_map(of))
         .map(|row| format!("{row}\n"))
         .collect();
     let now = analysed(1, FIRST as u64);

@@ -13,9 +13,12 @@
 //! What AFAD gives out today is ESM's format.
 
 use super::fields::one_number;
+use super::keys;
 use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
-use super::{Channel, Direction, Fault, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 const COUNT: &str = "NUMBER OF DATA";

@@ -6,9 +6,12 @@
 //! the samples (`*** End Data ***`) are left out.
 
 use super::csv::bracketed;
+use super::fields;
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
-use super::{Channel, Direction, Fault, RecordError, fields};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 /// Header lines among which the counting line is sought.

@@ -8,7 +8,9 @@
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
 use super::text::Text;
-use super::{Channel, Direction, Fault, RecordError};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 const LAYOUT: Layout = Layout::even(8, 10);

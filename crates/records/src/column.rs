@@ -8,7 +8,9 @@
 use super::fields::{Forms, one_number};
 use super::number;
 use super::text::Text;
-use super::{Channel, RecordError, counted, csv};
+use super::{counted, csv};
+use crate::error::RecordError;
+use crate::record::Channel;
 
 /// Gravity in m/s2, cm/s2, ft/s2 and in/s2.
 const GRAVITY: [f64; 4] = [9.81, 981.0, 32.17, 386.1];

@@ -19,7 +19,9 @@
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
-use super::{Channel, Direction, Fault, RecordError};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use stated::{Header, Series};
 
 mod stated;

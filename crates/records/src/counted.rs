@@ -13,7 +13,9 @@ use super::csv::bracketed;
 use super::fields::{self, Forms, one_number};
 use super::number::{self, Reading};
 use super::text::{self, Text};
-use super::{Channel, Direction, RecordError};
+use crate::direction::Direction;
+use crate::error::RecordError;
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 /// Lines before the count, at most.

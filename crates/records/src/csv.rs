@@ -14,7 +14,9 @@ use super::fields::{Forms, one_number};
 use super::number;
 use super::sampling::{self, Digits, Sampling};
 use super::text::Text;
-use super::{Channel, Fault, RecordError, Remark};
+use crate::error::{Fault, RecordError};
+use crate::quality::Remark;
+use crate::record::Channel;
 use header::header;
 pub(super) use header::{bracketed, comments};
 

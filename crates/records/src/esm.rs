@@ -2,8 +2,11 @@
 //! `KEY: value`, then one sample a line.
 
 use super::fields::{Forms, one_number};
+use super::keys;
 use super::text::{self, Text};
-use super::{Channel, Direction, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::RecordError;
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 /// Whether the header has the format's keys.

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
-use super::{Fault, RecordError, Remark};
+use crate::error::{Fault, RecordError};
+use crate::quality::Remark;
 
 /// Width of a field and number of fields in a full line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

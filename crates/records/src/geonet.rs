@@ -15,9 +15,12 @@
 //! many decimals as their field has room for.
 
 use super::fields::{self, Layout};
+use super::keys;
 use super::number::{self, Reading};
 use super::text::{self, Text};
-use super::{Channel, Direction, Fault, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 16;

@@ -2,7 +2,7 @@
 
 use super::number::{self, Reading};
 use super::text::Text;
-use super::{Fault, RecordError};
+use crate::error::{Fault, RecordError};
 
 /// Lines among which header keys are sought.
 const HEADER_LINES: usize = 80;

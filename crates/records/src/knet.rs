@@ -7,7 +7,10 @@
 
 use super::number::{self, Reading};
 use super::text::Text;
-use super::{Channel, Direction, Fault, RecordError, fields, keys};
+use super::{fields, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::accelerogram::mean;
 use rocking::units::AccelerationUnit;
 

@@ -31,6 +31,7 @@ mod esm;
 mod fields;
 pub mod floor;
 mod geonet;
+mod given;
 pub mod intensity;
 mod keys;
 mod knet;
@@ -47,19 +48,17 @@ mod text;
 
 pub use direction::Direction;
 pub use error::{Fault, RecordError};
+pub use given::Given;
 pub use processing::{Processing, ProcessingError};
 pub use quality::{
     Motion, Profile, Remark, Remarked, duplicates, remarks, remarks_together,
 };
 pub use read::{file_bytes, read, read_all, read_as, read_file};
-pub use record::{Format, Given, ReadOptions, Record, sha256_hex};
+pub use record::{Format, ReadOptions, Record, sha256_hex};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
     Suite, SuiteError, SuiteMember, Survey, is_index,
 };
-
-use read::{is_record, name_of, settle, settle_one, stem};
-use record::{Channel, Settled};
 
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::codes::coded;
-use super::{Given, SuiteMember};
+use crate::given::Given;
 use rocking::accelerogram::Accelerogram;
 use rocking::accelerogram::mean;
 use rocking::stop;
@@ -212,17 +212,6 @@ impl<'a> Remarked<'a> {
         let (profile, given) =
             (Cow::Owned(Profile::of(record)), Given::default());
         Self { profile, pair, read, given }
-    }
-}
-
-impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {
-    fn from(member: &'a SuiteMember<M>) -> Self {
-        Self {
-            profile: member.accelerogram.profile(),
-            pair: member.pair.as_deref(),
-            read: &member.remarks,
-            given: member.given,
-        }
     }
 }
 

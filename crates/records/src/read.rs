@@ -7,9 +7,10 @@ use rocking::accelerogram::{Accelerogram, result_name};
 
 use crate::direction::{self, Direction};
 use crate::error::{Fault, RecordError};
+use crate::given::Given;
 use crate::quality::Remark;
 use crate::record::{
-    Channel, FORMATS, Format, Given, INTERVALS_S, ReadOptions, Record, Settled,
+    Channel, FORMATS, Format, INTERVALS_S, ReadOptions, Record, Settled,
 };
 use crate::text::{self, Text, excerpt};
 use crate::{

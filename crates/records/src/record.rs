@@ -8,6 +8,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::direction::Direction;
 use crate::error::RecordError;
+use crate::given::Given;
 use crate::quality::Remark;
 
 /// How a record file is written.
@@ -131,15 +132,6 @@ pub struct Record {
     pub site: Option<String>,
     /// What the caller gave because the file states none.
     pub given: Given,
-}
-
-/// What the caller gave because the file states none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Given {
-    /// Sampling interval.
-    pub dt: bool,
-    /// Unit of the samples.
-    pub unit: bool,
 }
 
 /// A record, and whether the caller contradicts its file, which is a fault in

@@ -1,8 +1,11 @@
 //! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
 
 use super::fields::{self, Layout};
+use super::keys;
 use super::text::{self, Text};
-use super::{Channel, Direction, Fault, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;

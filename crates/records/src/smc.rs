@@ -5,8 +5,11 @@
 //! largest and the least sample, and are checked.
 
 use super::fields::{self, Layout};
+use super::keys;
 use super::text::Text;
-use super::{Channel, Direction, Fault, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::record::Channel;
 use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;

@@ -16,10 +16,11 @@ pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
 pub use survey::Survey;
 
-use super::{
-    Format, Given, Motion, Processing, ProcessingError, Profile, ReadOptions,
-    RecordError, Remark,
-};
+use crate::error::RecordError;
+use crate::given::Given;
+use crate::processing::{Processing, ProcessingError};
+use crate::quality::{Motion, Profile, Remark, Remarked};
+use crate::record::{Format, ReadOptions};
 use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
@@ -251,6 +252,17 @@ impl<M: Motion> Suite<M> {
 #[must_use]
 pub fn is_index(bytes: &[u8]) -> bool {
     index::is_index(bytes)
+}
+
+impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {
+    fn from(member: &'a SuiteMember<M>) -> Self {
+        Self {
+            profile: member.accelerogram.profile(),
+            pair: member.pair.as_deref(),
+            read: &member.remarks,
+            given: member.given,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::{Fault, RecordError, number};
+use super::number;
+use crate::error::{Fault, RecordError};
 use rocking::stop;
 use rocking::units::AccelerationUnit;
 

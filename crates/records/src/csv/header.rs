@@ -1,7 +1,7 @@
 //! What a header line or a comment says of two columns.
 
+use crate::error::{Fault, RecordError};
 use crate::text::{Text, excerpt};
-use crate::{Fault, RecordError};
 use rocking::units::AccelerationUnit;
 
 /// Units of two columns.

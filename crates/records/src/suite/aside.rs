@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::codes::coded;
-use crate::{Fault, RecordError};
+use crate::error::{Fault, RecordError};
 use rocking::accelerogram::Escaped;
 
 coded! {

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::SetAside;
-use crate::RecordError;
+use crate::error::RecordError;
 use rocking::accelerogram::SuiteNameError;
 
 /// A suite that was refused.

@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
+use crate::given::Given;
+use crate::read::settle_one;
+use crate::record::{ReadOptions, Record, Settled, sha256_hex};
 use crate::text::{self, excerpt};
-use crate::{Given, ReadOptions, Record, Settled, settle_one, sha256_hex};
 use rocking::accelerogram::EXPECTED;
 use rocking::accelerogram::result_name;
 use rocking::units::AccelerationUnit;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
+use crate::direction::Direction;
 use crate::direction::{glued, is_azimuth, is_code};
-use crate::{Direction, Motion};
+use crate::quality::Motion;
 use rocking::accelerogram::suite_names;
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
-use crate::{
-    Direction, Fault, Given, Motion, ReadOptions, Record, RecordError, Remark,
-    Settled, file_bytes, is_record, name_of, settle, stem,
-};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::given::Given;
+use crate::quality::{Motion, Remark};
+use crate::read::{file_bytes, is_record, name_of, settle, stem};
+use crate::record::{ReadOptions, Record, Settled};
 use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.

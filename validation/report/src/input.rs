@@ -237,7 +237,7 @@ fn answered(
         && kept.answer != question.answer
     {
         table.reading = format!(
-            "Embedded suites: {} Recorded suites: {}",
+            "Embedded suites: {}\nRecorded suites: {}",
             table.reading, kept.answer
         );
     }

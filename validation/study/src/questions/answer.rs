@@ -94,7 +94,7 @@ impl Rows {
         title: &str,
         reading: &str,
     ) -> Answer {
-        let reading = format!("{answer} {reading}");
+        let reading = format!("{answer}\n{reading}");
         let Part { table, csv, .. } = self.part(id, "", title, &reading);
         let tables = vec![table];
         Answer { csv, tables, ..Answer::new(id, question, answer) }

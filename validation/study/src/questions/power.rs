@@ -64,7 +64,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut answer = table.answer(
         "power",
         "Power: what can the tests detect?",
-        words.join(" "),
+        words.join("\n"),
         "Power of four tests against the shift",
         "Share of simulated samples of ln x rejected at 5 % where the truth \
          is x = 1 + m exp(0.6 z); 1000 samples each, so a standard error of \

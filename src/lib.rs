@@ -7,7 +7,7 @@
 //! | a block and a pulse or record | response | [`respond`] to a [`Scene`] |
 //! | the same | impacts, history, error bound | the fields of [`Observe`] |
 //! | a run that may be chaotic | a fate that is sure | [`certify`](integrator::certify) |
-//! | the same | 30 digits | [`respond_precise`](integrator::respond_precise) |
+//! | the same | 30 or 77 digits | [`respond_precise`](integrator::respond_precise) |
 //! | a record and a block | demand at rising intensity | [`ida::curve`] |
 //! | many of both | demand, on all cores | [`ida::curves`] |
 //! | an IDA curve | capacities | [`IdaCurve::response`](ida::IdaCurve::response), [`capacity`] |

@@ -94,7 +94,7 @@ fn our_own_answers_have_every_digit_that_double_precision_can_get() {
 #[test]
 fn scores_of_known_codes_are_those_of_their_answers() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../fixtures/benchmark/answers");
+        .join("../../fixtures/benchmark/answers");
     let codes = codes();
     for one in
         codes.chunk_by(|a, b| (&a.code, &a.setting) == (&b.code, &b.setting))

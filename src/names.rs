@@ -88,7 +88,7 @@ macro_rules! named {
     };
 }
 
-/// Without the feature `serde`, types have their text alone.
+/// Without the feature `serde`, types have only their text.
 #[cfg(not(feature = "serde"))]
 #[macro_export]
 macro_rules! as_text {

@@ -15,9 +15,9 @@ use rocking_study::estimates::median;
 pub struct Records {
     /// In both runs.
     pub both: Vec<String>,
-    /// In the old run alone.
+    /// Only in the old run.
     pub lost: Vec<String>,
-    /// In the new run alone.
+    /// Only in the new run.
     pub gained: Vec<String>,
 }
 

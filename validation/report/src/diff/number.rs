@@ -137,7 +137,7 @@ fn signed(change: f64, factor: f64, unit: &str) -> String {
     format!("{sign}{}{unit}", plain(factor * change, 2))
 }
 
-/// A number with at most so many significant digits, a whole one with all.
+/// A number with at most this many significant digits; a whole one with all.
 pub fn plain(x: f64, digits: usize) -> String {
     let is_whole = x.fract() == 0.0;
     (if is_whole { x } else { rounded(x, digits) }).to_string()

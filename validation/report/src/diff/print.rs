@@ -161,7 +161,7 @@ fn lines<'a>(changes: impl Iterator<Item = &'a Change>) -> Vec<String> {
     changes.map(line).collect()
 }
 
-/// A change in a line, that of an answer in three.
+/// A change in one line; the change of an answer in three.
 fn line(change: &Change) -> String {
     let Change { kind, what, old, new, why, moved, .. } = change;
     let (Some(old), Some(new)) = (old, new) else {

@@ -1,4 +1,12 @@
 //! The rigid block: geometry, slenderness, frequency parameter, restitution.
+//!
+//! The impact law is one number, eta. A further law changes [`Restitution`],
+//! `Dynamics::new`, `Driver::impact`, the impacts of `coast` (`after_impact`,
+//! `last`, `hops`), `trace`, `Accuracy::impact`, `Screen::land`, `Hop::safe`,
+//! and the lanes (`pool`: `group`, `batch`, `chatter`). It needs the proofs P1
+//! to P5, P7 and P10 of the integrator anew. `Once::Restitution` and `moved`
+//! make the condition number of eta; `trace` and `hops` take eta < 1 for a
+//! motion that ends.
 
 use thiserror::Error;
 

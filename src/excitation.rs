@@ -1,4 +1,9 @@
 //! What moves the ground: a scaled record or an analytic pulse.
+//!
+//! A further kind of excitation is a variant of [`Excitation`], an `impl` of
+//! `Forcing`, and an arm in each method of `integrator::forcing::ground`.
+//! Without a `remainder` no run under it ends early (proof P1 of the
+//! integrator); with one, P9 must hold. The pool takes records alone.
 
 mod pulse;
 mod record_index;

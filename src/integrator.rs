@@ -7,6 +7,59 @@
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
 //! uplift threshold; after the excitation energy decides in closed form.
+//!
+//! # Proofs
+//!
+//! Some steps of a run are skipped because a proof shows that they cannot
+//! change the answer. The compiler checks none of these proofs. The docs of
+//! the module that uses a proof have it, with the physics on which it rests.
+//! A change of that physics needs a new proof.
+//!
+//! | proof | module | claim |
+//! |---|---|---|
+//! | P1 | `barrier` | the rest of a record cannot raise the peak |
+//! | P2 | `driver::impact` | a series of impacts ends in rest |
+//! | P3 | `coast` | the fate after the excitation |
+//! | P4 | `accuracy` | the error of a run |
+//! | P5 | `screen` | the rough estimate of that error |
+//! | P6 | `pool::group` | a step of a lane meets no event |
+//! | P7 | `pool` | lanes give the bits of the driver |
+//! | P8 | `excitation::pulse::bound` | a piece of a pulse lifts no block at rest |
+//! | P9 | `excitation::record_index` | a part of a record lifts no block at rest |
+//! | P10 | `coast` | observation may cut free motion |
+//! | P11 | `forcing` | the distance of a ground motion from the uplift threshold |
+//!
+//! | change | module | proofs |
+//! |---|---|---|
+//! | pulse | `excitation::pulse::kind` | P8, P11 |
+//! | impact law | `block`, `driver::impact` | P1 to P5, P7, P10 |
+//! | overturning criterion | `dynamics` | P1, P3, P7, P10 |
+//! | kind of excitation | `excitation` | P2, P3, P9, P11 |
+//! | instruction set | `number::dispatch` | no proof; the bits stay as they are |
+//!
+//! # Terms
+//!
+//! - *Piece*: an interval on which the excitation is smooth, such as a sample
+//!   interval of a record. *Stretch*: pieces of one formula of a pulse.
+//!   *Crest*: a turning point of the ground acceleration. *Remainder*: bounds
+//!   on the rest of a record.
+//! - *Uplift threshold* of |a|/g: tan alpha in Eq. 1, alpha in Eq. 2.
+//! - *Hop*: the motion from one impact to the next. *Chatter*: impacts that
+//!   accumulate and end in rest.
+//! - *Truncation error*: the part of a motion that a series leaves out. *Hard
+//!   step*: a step whose truncation error under the short series is too large;
+//!   the driver makes it again with the longest series.
+//! - *Barrier*: the peak so far, as the energy that would raise it. *Calm*:
+//!   the piece from which every impact takes more energy than a hop can give.
+//!   *Settled*: outcome and peak can no longer change.
+//! - *Saltation*: how an impact changes a small error of (u, w).
+//! - *Certificate*: for each kind of decision, the least ratio of margin to
+//!   error. *Clearance*: such a ratio. *Doubt*: about the largest ratio of
+//!   error to margin, by the rough estimate.
+//! - *Lane*: one of eight numbers of a SIMD value. *Group*: eight lanes that
+//!   are stepped together. *Slot*: the place of a run, with a lane. *Class*:
+//!   scenes with one equation and one series. *Sweep*: one step of all groups.
+//!   *Queue*: lanes that wait for one kind of step.
 
 mod accuracy;
 mod barrier;

@@ -1,4 +1,9 @@
 //! Skipping what cannot lift a resting block, and what cannot move it enough.
+//!
+//! # Proof P9
+//!
+//! `skip`, `left` and `sway` rest on an acceleration that is linear between
+//! samples and on a ground at rest after the last one.
 
 /// Intervals of a record summarised by one number.
 pub(crate) const RUN: usize = 32;

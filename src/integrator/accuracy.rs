@@ -10,6 +10,13 @@
 //!
 //! The propagation is linear. It ends where an error can turn a decision,
 //! or is no longer small: see [`Certificate`].
+//!
+//! # Proof P4
+//!
+//! The propagation, with `flown`, `assess_impact` and `surely_rests` of
+//! `driver::decisions`, rests on the derivatives of Eqs. 1 and 2 and on the
+//! saltation matrix of an impact at constant eta. `Once` lists the inputs and
+//! constants whose rounding error is made once and acts in every step.
 
 use crate::integrator::certificate::{
     CLEARANCE, Certificate, Decision, LARGEST_ERROR,

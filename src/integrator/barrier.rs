@@ -51,6 +51,17 @@
 //! If E is below S^2/2 with S^2 = M^2 - 2 G, the hop stays below the peak; and
 //! if eta M + (1 - eta) V <= S, so do all that follow, for every impact leaves
 //! less than S.
+//!
+//! # Proof P1
+//!
+//! A run for the peak alone ends early, and a certificate is closed
+//! (`assess_settled`), where the bounds above exclude a higher peak. They rest
+//! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `Hop`), on an
+//! impact that leaves -eta y - (1 - eta) v c of y with a constant eta of at
+//! most 1, and on a peak below the saddle. Under another impact law,
+//! `Driver::for_peak` and `Driver::observe` take no barrier until P1 is proved
+//! for it. (`Barrier::none` is no substitute: it is a barrier that a run
+//! raises later.)
 
 use crate::excitation::Remaining;
 use crate::integrator::dynamics::{Dynamics, Model};

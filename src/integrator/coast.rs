@@ -6,6 +6,16 @@
 //! one that moves inwards with D > E_s meets the base first and overturns on
 //! the other side if eta^2 D > E_s. Times follow by Carlson's R_F (Eq. 1) or
 //! atanh (Eq. 2).
+//!
+//! # Proofs P3 and P10
+//!
+//! P3: the fate follows from the energy alone. It is constant in flight and
+//! falls by eta^2 at an impact; the ground is at rest; the saddle alone
+//! separates the fates.
+//!
+//! P10: `last` lets the closed form replace a motion that observation cuts
+//! later. No hop after the second is higher, since eta is at most 1, and a
+//! block overturns on its branch or after one impact (P3).
 
 mod orbit;
 

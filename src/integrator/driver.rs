@@ -1,5 +1,21 @@
 //! The driver: rest, flight, events, end. One for every model, excitation
 //! and precision.
+//!
+//! A run for one scene: `respond` checks the scene and calls `run::run`, which
+//! picks forcing and series and enters `Driver::run` through `Isa::run`.
+//! `Driver::begin` finds the first uplift (`uplift`, `Forcing::exceedance`),
+//! or releases the block. `proceed` makes one step: `attempt` expands its
+//! series; if the series leaves too much (`left_by`), `advance_hard` takes the
+//! longest one and then halves the step. `first_event` finds the first impact
+//! or overturning, and `turning_points` raises the peak. `impact` multiplies
+//! the speed by eta and changes the side; a run for the peak alone ends there
+//! if nothing can change the answer (`is_settled`), and the block rests if the
+//! impacts provably end within the piece (`chatter`). If the excitation ends
+//! in flight, `conclude` calls `coast`, or `follow` where observation ends too
+//! early for it (`cuts`). `answer` makes the `Response`. If its rough estimate
+//! (`doubt`) is not small, `Solver::respond` runs once more with every
+//! decision assessed; the first run ends at the impact that makes this sure
+//! (`Flight::Doubtful`).
 
 mod decisions;
 mod ending;

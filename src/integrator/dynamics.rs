@@ -14,6 +14,10 @@
 //! so grazing uplifts and the last hops before rest keep their relative
 //! precision, which the variable alpha - |theta| would lose. Its derivatives
 //! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
+//!
+//! A further overturning criterion is a variant of [`Overturning`] and its
+//! `limit`. The compiler is silent in `for_peak`, `see_peak`, `turning_beyond`
+//! and `margin_of`, which compare criteria with `==`.
 
 use crate::block::{Block, Restitution};
 use crate::names::named;

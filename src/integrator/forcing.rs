@@ -1,4 +1,11 @@
 //! The excitation as the driver meets it: pieces with a Taylor series each.
+//!
+//! # Proof P11
+//!
+//! `gap_at_edges` and `gap_at_start` say how near |a|/g comes to the uplift
+//! threshold of a block at rest. Its peaks lie at crests, at most one a piece
+//! (`LONGEST_PHASE`), where a piece starts and |a| does not rise, and at the
+//! end. Those of a record lie at its samples.
 
 mod crest;
 mod ground;

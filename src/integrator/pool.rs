@@ -5,6 +5,15 @@
 //! happen within the sample waits until eight of its kind do, whose steps
 //! are then solved together. What is rare is left to the scalar driver.
 //! Operations and their order are the same either way, and so are the bits.
+//!
+//! # Proof P7
+//!
+//! Lanes repeat the driver operation by operation. `chatter` repeats
+//! `accumulation` and `prove`; `roots` repeats `surely_positive`,
+//! `ends_below`, `guess` and `refine`; `batch` repeats `attempt`,
+//! `first_event`, `turning_points`, `screen_turning` and `impact`. A change of
+//! one side is a change of both; otherwise the golden hash of
+//! `tests/reproducibility.rs` fails.
 
 pub(crate) mod bare;
 mod batch;

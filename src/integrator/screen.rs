@@ -10,6 +10,15 @@
 //! It includes rounding and, if the order is fixed, the truncation error that
 //! the last term of a series shows. At a free order that error is smaller than
 //! rounding.
+//!
+//! # Proof P5
+//!
+//! The estimate rests on the curvature of Eqs. 1 and 2 in flight, on the
+//! saltation of P4, and, under a fixed order, on the last term of the series
+//! (`is_fixed` in lanes, `within` in the driver). It is an estimate. But it
+//! decides which analyses of a curve are flagged `unresolved`, and which runs
+//! of `respond` are assessed. It compares no numbers and has no branch, since
+//! it also runs in lanes.
 
 use crate::number::{Number, Real};
 

@@ -6,6 +6,10 @@
 //! detection only, which is what makes the `unsafe` calls here sound: of the
 //! levels' functions, and of the instructions by which lanes are registers.
 //! This file and its two children are the only ones of the crate with `unsafe`.
+//!
+//! A further instruction set needs its `Level` here (`available`, `name`,
+//! `run`, `run_wide`), and a file beside `dispatch/avx2.rs` (two registers) or
+//! `avx512.rs` (one) with `Number`, `Simd` and `Mask`.
 #![expect(
     unsafe_code,
     reason = "functions and instructions of a level are unsafe to call; detection makes it sound"

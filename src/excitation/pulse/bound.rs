@@ -1,4 +1,10 @@
 //! Bounds of a shape over a time, for which nothing is expanded.
+//!
+//! # Proof P8
+//!
+//! A block at rest skips the pieces of a pulse whose bound lies below the
+//! uplift threshold. The bounds are those of these shapes; `GAUSS_SLOPE`
+//! belongs to two polynomials.
 
 use super::{Shape, gauss};
 use crate::number::Real;

@@ -1,4 +1,10 @@
 //! The impact, and the proof that a chatter ends.
+//!
+//! # Proof P2
+//!
+//! `accumulation` and `prove` end a series of impacts. They rest on a constant
+//! eta below 1, on the downward acceleration at the base of Eqs. 1 and 2
+//! (`restoring`), and on a forcing that is a polynomial within the piece.
 
 use crate::integrator::Impact;
 use crate::integrator::driver::{Again, Driver, Flight, Step};

@@ -1,4 +1,9 @@
 //! A group of lanes in flight, stepped together.
+//!
+//! # Proof P6
+//!
+//! `free_of_events` rests on bounds of u'' and u''' under Eqs. 1 and 2 and a
+//! forcing that is linear in time.
 
 use crate::integrator::Side;
 use crate::integrator::class::is_fixed;

@@ -17,32 +17,21 @@
 
 #![deny(missing_docs)]
 
-mod afad;
-mod at2;
-mod bri;
 mod codes;
-mod column;
-mod cosmos;
-mod counted;
-mod csv;
 mod direction;
 mod error;
-mod esm;
 mod fields;
 pub mod floor;
-mod geonet;
+mod format;
 mod given;
 pub mod intensity;
 mod keys;
-mod knet;
 mod number;
 mod processing;
 mod quality;
 mod read;
 mod record;
-mod resorce;
 pub mod sampling;
-mod smc;
 mod suite;
 mod text;
 

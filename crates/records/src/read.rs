@@ -7,16 +7,16 @@ use rocking::accelerogram::{Accelerogram, result_name};
 
 use crate::direction::{self, Direction};
 use crate::error::{Fault, RecordError};
+use crate::format::{
+    afad, at2, bri, column, cosmos, counted, csv, esm, geonet, knet, resorce,
+    smc,
+};
 use crate::given::Given;
 use crate::quality::Remark;
 use crate::record::{
     Channel, FORMATS, Format, INTERVALS_S, ReadOptions, Record, Settled,
 };
 use crate::text::{self, Text, excerpt};
-use crate::{
-    afad, at2, bri, column, cosmos, counted, csv, esm, geonet, knet, resorce,
-    smc,
-};
 
 /// Reads the one component of a file with content `bytes`; `file` names it
 /// in messages, its stem names the accelerogram.

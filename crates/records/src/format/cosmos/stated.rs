@@ -1,8 +1,10 @@
 //! What the header of a channel says of its series, held against the series.
 
-use super::super::number::{self, Reading};
-use super::super::text::{self, Text};
-use super::super::{Direction, Fault, RecordError, keys};
+use crate::direction::Direction;
+use crate::error::{Fault, RecordError};
+use crate::keys;
+use crate::number::{self, Reading};
+use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 /// Places of what COSMOS's real header says of the series, from 1 (COSMOS

@@ -1,22 +1,22 @@
 //! ESM and ITACA (the DYNA header, which AFAD uses today): lines
 //! `KEY: value`, then one sample a line.
 
-use super::fields::{Forms, one_number};
-use super::keys;
-use super::text::{self, Text};
 use crate::direction::Direction;
 use crate::error::RecordError;
+use crate::fields::{Forms, one_number};
+use crate::keys;
 use crate::record::Channel;
+use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 /// Whether the header has the format's keys.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "SAMPLING_INTERVAL_S").is_some()
         && keys::find(text, "NDATA").is_some()
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let dt = keys::positive(text, "SAMPLING_INTERVAL_S", "")?;
     let count = keys::count(text, "NDATA")?;
     let (index, quantity) = keys::value(text, "DATA_TYPE")?;

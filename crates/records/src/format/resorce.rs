@@ -1,24 +1,24 @@
 //! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
 
-use super::fields::{self, Layout};
-use super::keys;
-use super::text::{self, Text};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::{self, Layout};
+use crate::keys;
 use crate::record::Channel;
+use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;
 const LAYOUT: Layout = Layout::even(5, 14);
 
 /// Whether the header has RESORCE's keys.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "Time Increment (s)").is_some()
         && keys::find(text, "Number of Data").is_some()
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let dt = keys::positive(text, "Time Increment (s)", "")?;
     let count = keys::count(text, "Number of Data")?;
     let title = text

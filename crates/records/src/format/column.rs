@@ -5,25 +5,25 @@
 //! an index's `npts` or `sha256` does. A file that ends within a number is
 //! refused where the number's form tells it.
 
-use super::fields::{Forms, one_number};
-use super::number;
-use super::text::Text;
 use super::{counted, csv};
 use crate::error::RecordError;
+use crate::fields::{Forms, one_number};
+use crate::number;
 use crate::record::Channel;
+use crate::text::Text;
 
 /// Gravity in m/s2, cm/s2, ft/s2 and in/s2.
 const GRAVITY: [f64; 4] = [9.81, 981.0, 32.17, 386.1];
 
 /// Whether the first line that is no comment is one number.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     text.lines()
         .find(|line| !line.starts_with('#'))
         .is_some_and(|line| number::is_number(line.trim()))
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut samples = Vec::with_capacity(text.len());
     let mut forms = Forms::default();
     for (index, line) in text.lines().enumerate() {

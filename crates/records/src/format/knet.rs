@@ -5,12 +5,12 @@
 //! in the quality control. The header's maximum is that of the record
 //! without its mean, and is checked.
 
-use super::number::{self, Reading};
-use super::text::Text;
-use super::{fields, keys};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::Text;
+use crate::{fields, keys};
 use rocking::accelerogram::mean;
 use rocking::units::AccelerationUnit;
 
@@ -18,13 +18,13 @@ use rocking::units::AccelerationUnit;
 const MAXIMUM: [&str; 2] = ["Max. Acc. (gal)", "Max Acc. (gal)"];
 
 /// Whether the header has the format's keys.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "Scale Factor").is_some()
         && keys::find(text, "Sampling Freq(Hz)").is_some()
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let frequency_hz = keys::positive(text, "Sampling Freq(Hz)", "Hz")?;
     let duration_s = keys::positive(text, "Duration Time(s)", "")?;
     let scale = scale(text)?;

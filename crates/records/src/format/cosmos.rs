@@ -16,12 +16,12 @@
 //! Count, interval, duration and peak are held against whatever else the
 //! header says of them (`stated.rs`).
 
-use super::fields::{self, Layout};
-use super::number::{self, Reading};
-use super::text::{self, Text, excerpt};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::{self, Layout};
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::{self, Text, excerpt};
 use stated::{Header, Series};
 
 mod stated;
@@ -36,7 +36,7 @@ struct Block<'a> {
 }
 
 /// Whether any line announces a block of samples.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     text.lines().any(announces)
 }
 
@@ -67,7 +67,7 @@ fn ends_block(line: &str) -> bool {
 }
 
 /// Reads every acceleration channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::new();
     let mut head = 0;
     let mut reals = Vec::new();

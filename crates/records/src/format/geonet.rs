@@ -14,13 +14,13 @@
 //! they must agree, and the peak must be that of the samples. Numbers have as
 //! many decimals as their field has room for.
 
-use super::fields::{self, Layout};
-use super::keys;
-use super::number::{self, Reading};
-use super::text::{self, Text};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::{self, Layout};
+use crate::keys;
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 16;
@@ -45,7 +45,7 @@ const INTERVAL_S: usize = 26;
 const PER_GAL: f64 = 10.0;
 
 /// Whether the first line is that of the format.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     text.line(0).is_some_and(is_first)
 }
 
@@ -55,7 +55,7 @@ fn is_first(line: &str) -> bool {
 }
 
 /// Reads the three components.
-pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::with_capacity(COMPONENTS);
     let mut first = 0;
     for _ in 0..COMPONENTS {

@@ -12,13 +12,13 @@
 //! The peaks are those of the samples as they are written, and are checked.
 //! What AFAD gives out today is ESM's format.
 
-use super::fields::one_number;
-use super::keys;
-use super::number::{self, Form, Reading};
-use super::text::{Text, excerpt};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::one_number;
+use crate::keys;
+use crate::number::{self, Form, Reading};
 use crate::record::Channel;
+use crate::text::{Text, excerpt};
 use rocking::units::AccelerationUnit;
 
 const COUNT: &str = "NUMBER OF DATA";
@@ -30,12 +30,12 @@ const COLUMNS: [&str; 3] = ["N-S", "E-W", "U-D"];
 const HEADER_LINES: usize = 40;
 
 /// Whether the header has the format's keys.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, INTERVAL).is_some() && keys::find(text, COUNT).is_some()
 }
 
 /// Reads the three components.
-pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let dt = keys::positive(text, INTERVAL, "")?;
     let count = keys::count(text, COUNT)?;
     let peaks = peaks(text)?;

@@ -6,12 +6,12 @@
 //! the samples (`*** End Data ***`) are left out.
 
 use super::csv::bracketed;
-use super::fields;
-use super::number::{self, Reading};
-use super::text::{self, Text, excerpt};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields;
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::{self, Text, excerpt};
 use rocking::units::AccelerationUnit;
 
 /// Header lines among which the counting line is sought.
@@ -20,7 +20,7 @@ const HEADER_LINES: usize = 20;
 const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
 
 /// Whether the content is AT2's.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     let named = |line: &str| {
         text::contains(line, "STRONG MOTION DATABASE")
             || text::contains(line, "STRONG-MOTION DATA")
@@ -37,7 +37,7 @@ fn counting_line(text: &Text<'_>) -> Option<usize> {
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let Some(counting) = counting_line(text) else {
         return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
     };

@@ -4,12 +4,12 @@
 //! The text names event, station and component; the reals 30 and 32 are the
 //! largest and the least sample, and are checked.
 
-use super::fields::{self, Layout};
-use super::keys;
-use super::text::Text;
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::{self, Layout};
+use crate::keys;
 use crate::record::Channel;
+use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;
@@ -32,7 +32,7 @@ const KINDS: [&str; 6] = [
 ];
 
 /// Whether the first line names one of the format's kinds.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     let line = first_line(text).trim_start().to_ascii_uppercase();
     KINDS.iter().any(|kind| line.starts_with(kind))
 }
@@ -42,7 +42,7 @@ fn first_line<'a>(text: &Text<'a>) -> &'a str {
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let kind = first_line(text).trim_start().to_ascii_uppercase();
     if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
         return Err(text.quantity(0));

@@ -10,12 +10,12 @@
 //! Only the fourth states a unit.
 
 use super::csv::bracketed;
-use super::fields::{self, Forms, one_number};
-use super::number::{self, Reading};
-use super::text::{self, Text};
 use crate::direction::Direction;
 use crate::error::RecordError;
+use crate::fields::{self, Forms, one_number};
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 /// Lines before the count, at most.
@@ -38,7 +38,7 @@ struct Head {
 }
 
 /// Whether the head has a count and an interval.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     head(text).is_some()
 }
 
@@ -126,7 +126,7 @@ fn is_data(line: &str) -> bool {
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let Head { count, dt_s, numbers, first } =
         head(text).ok_or_else(|| {
             text.header(0, "a count and an interval, such as `910 0.0100`")

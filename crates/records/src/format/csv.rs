@@ -10,20 +10,20 @@
 //! file that ends within a number is refused where the number's form tells
 //! it.
 
-use super::fields::{Forms, one_number};
-use super::number;
-use super::sampling::{self, Digits, Sampling};
-use super::text::Text;
 use crate::error::{Fault, RecordError};
+use crate::fields::{Forms, one_number};
+use crate::number;
 use crate::quality::Remark;
 use crate::record::Channel;
+use crate::sampling::{self, Digits, Sampling};
+use crate::text::Text;
 use header::header;
 pub(super) use header::{bracketed, comments};
 
 mod header;
 
 /// Whether the first or second line has two numbers.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     let mut lines = text.lines().filter(|l| !l.starts_with('#'));
     let numbers = |line: Option<&str>, count: usize| {
         line.is_some_and(|line| {
@@ -68,7 +68,7 @@ fn is_numbered(line: &str) -> bool {
 }
 
 /// Reads the file's one channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut times = Vec::with_capacity(text.len());
     let mut samples = Vec::with_capacity(text.len());
     let mut digits = Digits::default();

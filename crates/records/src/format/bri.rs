@@ -5,12 +5,12 @@
 //! per second and samples per channel; `063-GL` in a channel's line is an
 //! azimuth and a place in or under the building. The peak behind it is checked.
 
-use super::fields::{self, Layout};
-use super::number::{self, Reading};
-use super::text::Text;
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
+use crate::fields::{self, Layout};
+use crate::number::{self, Reading};
 use crate::record::Channel;
+use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
 const LAYOUT: Layout = Layout::even(8, 10);
@@ -25,7 +25,7 @@ struct Head<'a> {
 }
 
 /// Whether the first line is a date, a time and three counts.
-pub(super) fn recognises(text: &Text<'_>) -> bool {
+pub(crate) fn recognises(text: &Text<'_>) -> bool {
     head(text).is_some()
 }
 
@@ -53,7 +53,7 @@ fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
 }
 
 /// Reads every channel.
-pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let head = head(text).ok_or_else(|| {
         text.header(0, "a date, a time and three counts of channels, samples")
     })?;

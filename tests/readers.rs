@@ -5,9 +5,10 @@ use std::fs;
 use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
-use rocking::units::AccelerationUnit;
-use rocking_records::{ReadOptions, Remark};
+use rocking_records::{Format, Header, Remark};
 use rocking_statistics::streams::{Streams, below};
+
+use super::compare::committed;
 
 #[path = "fuzz/targets.rs"]
 mod targets;
@@ -33,7 +34,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn the_corpus_gets_the_verdict_in_its_names() {
-    for (target, _) in targets::TARGETS {
+    for target in targets::names() {
         for (name, bytes) in files(&corpus().join(target)) {
             let verdict = targets::run(target, &bytes);
             let valid = name.starts_with("valid-");
@@ -42,7 +43,29 @@ fn the_corpus_gets_the_verdict_in_its_names() {
         }
     }
     let folders = fs::read_dir(corpus()).unwrap().count();
-    assert_eq!(folders, targets::TARGETS.len());
+    assert_eq!(folders, targets::names().count());
+}
+
+/// `.ci/accept` renews the table.
+#[test]
+fn the_page_of_formats_has_a_row_for_each() {
+    const PAGE: &str = "docs/formats.md";
+    const HEAD: &str = "| format | files | source | numbers of channels |\n\
+                        |---|---|---|---|\n";
+    let kept = fs::read_to_string(corpus().join("../../..").join(PAGE));
+    let kept = kept.unwrap();
+    let (before, after) = kept.split_once(HEAD).expect("the table");
+    let (_, after) = after.split_once("\n\n").expect("text behind it");
+    let rows = Format::by_name().into_iter().map(|format| {
+        let Format { name, files, source, .. } = format;
+        let numbers = if format.azimuths { "azimuths" } else { "" };
+        format!("| `{name}` | {files} | {source} | {numbers} |\n")
+    });
+    let rows: String = rows.collect();
+    let page = format!("{before}{HEAD}{rows}\n{after}");
+    if let Some(kept) = committed(PAGE, &page) {
+        assert!(kept == page, "{PAGE}: expected the rows\n{rows}");
+    }
 }
 
 /// The promises of `tests/fuzz/targets.rs` hold for changed files, too.
@@ -53,7 +76,7 @@ fn changed_files_of_the_corpus_are_read_or_refused() {
         b",", b"\n", b"\"", b"-", b"0", b"9", b".", b"e308", b"inf", b"nan",
         b"#", b">", b"\x00", b"\xff", b"1e-320", b"\r",
     ];
-    for (target, _) in targets::TARGETS {
+    for target in targets::names() {
         for (name, bytes) in files(&corpus().join(target)) {
             // Long records are changed by the tests below.
             if bytes.len() > 4096 {
@@ -87,11 +110,7 @@ fn changed_files_of_the_corpus_are_read_or_refused() {
 /// Channels of a file in g and whether its last line is remarked on, or
 /// `None` where the file is refused.
 fn channels(target: &str, bytes: &[u8]) -> Option<(Vec<Vec<f64>>, bool)> {
-    let column = target == "column";
-    let unitless = column || target == "counted";
-    let unit = unitless.then_some(AccelerationUnit::Gravity);
-    let dt_s = column.then_some(0.01);
-    let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
+    let options = targets::options(Format::named(target)?);
     let records = rocking_records::read_all("x", bytes, &options).ok()?;
     let samples =
         |r: &rocking_records::Record| r.accelerogram.samples_g().to_vec();
@@ -170,15 +189,16 @@ fn none(found: &[Passed]) {
     assert!(list.is_empty(), "read differently:\n{}", list.join("\n"));
 }
 
+/// Names of the formats that are `wanted`.
+fn formats(wanted: impl Fn(&Format) -> bool) -> Vec<&'static str> {
+    let all = Format::ALL.iter().filter(|format| wanted(format));
+    all.map(|format| format.name).collect()
+}
+
 /// Formats that state their number of samples.
-const COUNTED: &[&str] = &[
-    "afad", "at2", "bri", "cosmos", "counted", "esm", "geonet", "knet",
-    "resorce", "smc",
-];
-/// Formats of fixed width, or whose seeds are; one AT2 is free text.
-const FIXED: &[&str] =
-    &["afad", "at2", "bri", "cosmos", "geonet", "knet", "resorce", "smc"];
-const FREE: &[&str] = &["column", "csv"];
+fn counted() -> Vec<&'static str> {
+    formats(|format| format.header <= Header::NoUnit)
+}
 
 /// Lines with their ends.
 fn lines(bytes: &[u8]) -> Vec<&[u8]> {
@@ -213,7 +233,7 @@ fn cut(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn a_dropped_or_doubled_line_never_passes() {
-    none(&passed(COUNTED, dropped_and_doubled));
+    none(&passed(&counted(), dropped_and_doubled));
     // Two columns: the times tell, except for lines at the ends and for the
     // head that states the unit.
     let mut found = passed(&["csv"], |bytes| {
@@ -238,12 +258,13 @@ fn a_dropped_or_doubled_line_never_passes() {
 fn a_cut_file_never_passes() {
     // Where a file of several channels ends after one, nothing is missing
     // in those before.
-    let mut found = passed(COUNTED, cut);
+    let mut found = passed(&counted(), cut);
     found.retain(|p| !(p.target == "cosmos" && p.begins));
     none(&found);
     // Without a count, a cut between two lines leaves no trace, and one
     // within the last number a remark.
-    let mut found = passed(FREE, cut);
+    let mut found =
+        passed(&formats(|format| format.header >= Header::NoCount), cut);
     found.retain(|p| !(p.begins && p.whole_lines || p.cut));
     none(&found);
 }
@@ -269,7 +290,7 @@ fn offsets(bytes: &[u8], wanted: impl Fn(&[u8]) -> bool) -> Vec<usize> {
 
 #[test]
 fn a_number_of_another_width_never_passes() {
-    let mut found = passed(FIXED, |bytes| {
+    let mut found = passed(&formats(|format| format.is_fixed), |bytes| {
         let mut changes = Vec::new();
         for at in offsets(bytes, data) {
             let mut narrower = bytes.to_vec();
@@ -292,7 +313,7 @@ fn a_number_of_another_width_never_passes() {
 fn a_changed_count_never_passes() {
     // Every digit of every header line, counts and all else; the scale of
     // counts is the one number there that makes samples.
-    none(&passed(COUNTED, |bytes| {
+    none(&passed(&counted(), |bytes| {
         let mut changes = Vec::new();
         let header =
             |line: &[u8]| !data(line) && !line.starts_with(b"Scale Factor");

@@ -453,12 +453,12 @@ def read_record(
 ) -> Record:
     """Reads one record file; its content tells the format.
 
-    PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC,
-    AFAD, GeoNet, BRI, and samples below a count and an interval (eqsig,
-    EMOD3D, RspMatch). A file of several components is refused: `read_suite`
-    takes the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2")
-    are needed if the file states none, and refused if they contradict it. What
-    is suspicious is in `remarks` and in a `UserWarning`.
+    Formats: RECORD_FORMATS.
+
+    A file of several components is refused: `read_suite` takes the folder that
+    holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are needed if the
+    file states none, and refused if they contradict it. What is suspicious is
+    in `remarks` and in a `UserWarning`.
 
     Raises
     ------
@@ -480,6 +480,11 @@ def read_record(
     record = Record._read(*_rocking.read_record(path, dt, units, gravity))
     record._warn()
     return record
+
+
+read_record.__doc__ = (read_record.__doc__ or "").replace(
+    "RECORD_FORMATS", "; ".join(_rocking.RECORD_FORMATS)
+)
 
 
 def read_suite(

@@ -60,6 +60,11 @@ mod _rocking {
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {
+        let formats = rocking_records::Format::by_name().into_iter();
+        let words = |f: &rocking_records::Format| {
+            format!("{} ({})", f.files, f.source)
+        };
+        m.add("RECORD_FORMATS", formats.map(words).collect::<Vec<_>>())?;
         m.add("__version__", env!("CARGO_PKG_VERSION"))?;
         m.add("STANDARD_GRAVITY", rocking::units::STANDARD_GRAVITY_M_S2)
     }

@@ -1,6 +1,6 @@
 //! What each fuzz target does with its bytes: read them, and hold what was
-//! read to what every reader promises. Also replayed over the corpus, by
-//! `cargo test --test gate readers`.
+//! read to what every reader promises. Each has a folder of its name in
+//! `corpus`, which `cargo test --test gate readers` replays.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -15,7 +15,8 @@ use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking_proof::cases;
 use rocking_records::intensity::Intensity;
 use rocking_records::{
-    Format, ReadOptions, Record, RecordError, Suite, SuiteError, SuiteMember,
+    Format, Header, ReadOptions, Record, RecordError, Suite, SuiteError,
+    SuiteMember, read_all, read_as,
 };
 use rocking_score::Answers;
 use rocking_statistics::Lognormal;
@@ -23,61 +24,52 @@ use rocking_statistics::Lognormal;
 /// Accepts the bytes, or says why not.
 pub type Target = fn(&[u8]) -> Result<(), String>;
 
-/// Targets by name.
-pub const TARGETS: &[(&str, Target)] = &[
-    ("afad", |bytes| format(Format::Afad, bytes)),
+/// Targets by name, beside the formats of records.
+const OTHERS: &[(&str, Target)] = &[
     ("answers", answers),
     ("any", any),
-    ("at2", |bytes| format(Format::At2, bytes)),
     ("blocks", blocks),
-    ("bri", |bytes| format(Format::Bri, bytes)),
     ("case", case),
-    ("column", |bytes| format(Format::Column, bytes)),
-    ("cosmos", |bytes| format(Format::Cosmos, bytes)),
-    ("counted", |bytes| format(Format::Counted, bytes)),
     ("counts", counts),
-    ("csv", |bytes| format(Format::Csv, bytes)),
-    ("esm", |bytes| format(Format::Esm, bytes)),
     ("floors", floors),
-    ("geonet", |bytes| format(Format::Geonet, bytes)),
     ("hazard", hazard),
     ("ida", ida),
     ("index", index),
-    ("knet", |bytes| format(Format::Knet, bytes)),
-    ("resorce", |bytes| format(Format::Resorce, bytes)),
     ("sample", sample),
-    ("smc", |bytes| format(Format::Smc, bytes)),
     ("zip", zip),
 ];
+
+/// Names of all targets: the formats of records, and the others.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    let formats = Format::ALL.iter().map(|format| format.name);
+    formats.chain(OTHERS.iter().map(|(name, _)| *name))
+}
 
 /// Runs the target `name`.
 ///
 /// # Errors
 /// Why the bytes were refused.
 pub fn run(name: &str, bytes: &[u8]) -> Result<(), String> {
-    let (_, target) = TARGETS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .expect("a target of the table");
+    if let Some(format) = Format::named(name) {
+        let options = options(format);
+        return hold(bytes, read_as(format, "x", bytes, &options));
+    }
+    let mut others = OTHERS.iter();
+    let (_, target) = others.find(|other| other.0 == name).expect("a target");
     target(bytes)
 }
 
-/// One column states neither interval nor unit, a head with a count no unit.
-fn options(format: Option<Format>) -> ReadOptions {
-    let column = format == Some(Format::Column);
-    let unitless = column || format == Some(Format::Counted);
-    let unit = unitless.then_some(AccelerationUnit::Gravity);
-    let dt_s = column.then_some(0.01);
+/// What a file of this format does not state.
+pub fn options(format: &Format) -> ReadOptions {
+    let missing = format.header == Header::Missing;
+    let no_unit = missing || format.header == Header::NoUnit;
+    let unit = no_unit.then_some(AccelerationUnit::Gravity);
+    let dt_s = missing.then_some(0.01);
     ReadOptions { dt_s, unit, ..ReadOptions::default() }
 }
 
-fn format(format: Format, bytes: &[u8]) -> Result<(), String> {
-    let options = options(Some(format));
-    hold(bytes, rocking_records::read_as(format, "x", bytes, &options))
-}
-
 fn any(bytes: &[u8]) -> Result<(), String> {
-    hold(bytes, rocking_records::read_all("x", bytes, &options(None)))
+    hold(bytes, read_all("x", bytes, &ReadOptions::default()))
 }
 
 fn hold(
@@ -105,7 +97,8 @@ fn hold(
 
 fn index(bytes: &[u8]) -> Result<(), String> {
     let motion = b"0\n0.2\n-0.1\n";
-    let options = options(Some(Format::Column));
+    let column = Format::named("column").expect("a format");
+    let options = options(column);
     let _ = rocking_records::is_index(bytes);
     let suite =
         Suite::from_index("x.csv", bytes, &options, |_| Ok(motion.to_vec()));

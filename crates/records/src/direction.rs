@@ -1,9 +1,8 @@
 //! Where a sensor points: by what a format's header says of it, or else by
 //! the end of the file's name.
 //!
-//! Each reader says what its format's words mean. A bare number is an azimuth
-//! in AT2, COSMOS, CSMIP and SMC, a code in KiK-net, and the number of a
-//! channel or of a file elsewhere.
+//! A format's row says if a bare number is an azimuth; elsewhere it is a code
+//! (KiK-net) or the number of a channel or a file. A reader may say more.
 
 use super::text;
 
@@ -78,6 +77,12 @@ impl Direction {
     /// format whose numbers are no azimuths.
     pub(super) fn of_words(words: &str) -> Self {
         Self::of_last(words, Self::of_word)
+    }
+
+    /// As [`Direction::of_words`], or as [`Direction::of_azimuth`] where
+    /// numbers are azimuths.
+    pub(super) fn of_label(label: &str, azimuths: bool) -> Self {
+        if azimuths { Self::of_azimuth(label) } else { Self::of_words(label) }
     }
 
     /// As [`Direction::of_words`], in a format whose numbers from 0 to 360

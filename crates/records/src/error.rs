@@ -113,7 +113,7 @@ coded! {
             /// Beginning of the first line that is not blank.
             found: String,
             /// Formats that can be read.
-            expected: &'static str,
+            expected: String,
         } = "unknown-format",
         /// A header that says something else than it should.
         #[error("{found:?}: expected {expected}")]

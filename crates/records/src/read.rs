@@ -7,15 +7,10 @@ use rocking::accelerogram::{Accelerogram, result_name};
 
 use crate::direction::{self, Direction};
 use crate::error::{Fault, RecordError};
-use crate::format::{
-    afad, at2, bri, column, cosmos, counted, csv, esm, geonet, knet, resorce,
-    smc,
-};
+use crate::format::{Channel, Format};
 use crate::given::Given;
 use crate::quality::Remark;
-use crate::record::{
-    Channel, FORMATS, Format, INTERVALS_S, ReadOptions, Record, Settled,
-};
+use crate::record::{INTERVALS_S, ReadOptions, Record, Settled};
 use crate::text::{self, Text, excerpt};
 
 /// Reads the one component of a file with content `bytes`; `file` names it
@@ -83,7 +78,7 @@ pub(crate) fn settle(
     options: &ReadOptions,
 ) -> Result<Vec<Settled>, RecordError> {
     read_text(file, bytes, options, |text| {
-        format_of(text).ok_or_else(|| unknown(text))
+        Format::of(text).ok_or_else(|| unknown(text))
     })
 }
 
@@ -102,11 +97,14 @@ pub(crate) fn settle(
 ///     unit: Some(AccelerationUnit::Gravity),
 ///     ..ReadOptions::default()
 /// };
-/// assert!(rocking_records::read_as(Format::Column, "a", text, &options).is_ok());
-/// assert!(rocking_records::read_as(Format::At2, "a", text, &options).is_err());
+/// let read = |format| {
+///     let format = Format::named(format).expect("a format");
+///     rocking_records::read_as(format, "a", text, &options)
+/// };
+/// assert!(read("column").is_ok() && read("at2").is_err());
 /// ```
 pub fn read_as(
-    format: Format,
+    format: &'static Format,
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
@@ -119,7 +117,7 @@ fn read_text(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
-    format: impl Fn(&Text<'_>) -> Result<Format, RecordError>,
+    format: impl Fn(&Text<'_>) -> Result<&'static Format, RecordError>,
 ) -> Result<Vec<Settled>, RecordError> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
@@ -133,46 +131,12 @@ fn read_text(
     let content = text::decode(file, bytes)?;
     let text = Text::new(file, &content)?;
     let format = format(&text)?;
-    let channels = match format {
-        Format::Smc => vec![smc::read(&text)?],
-        Format::Knet => vec![knet::read(&text)?],
-        Format::Esm => vec![esm::read(&text)?],
-        Format::Afad => afad::read(&text)?,
-        Format::Geonet => geonet::read(&text)?,
-        Format::Resorce => vec![resorce::read(&text)?],
-        Format::At2 => vec![at2::read(&text)?],
-        Format::Cosmos => cosmos::read(&text)?,
-        Format::Bri => bri::read(&text)?,
-        Format::Counted => vec![counted::read(&text)?],
-        Format::Column => vec![column::read(&text)?],
-        Format::Csv => vec![csv::read(&text)?],
-    };
+    let channels = (format.read)(&text)?;
     let several = channels.len() > 1;
     channels
         .into_iter()
         .map(|channel| complete(&text, format, channel, several, options))
         .collect()
-}
-
-/// The format by content; formats that name themselves come first.
-fn format_of(text: &Text<'_>) -> Option<Format> {
-    type Recognises = fn(&Text<'_>) -> bool;
-    let formats: [(Recognises, Format); 12] = [
-        (smc::recognises, Format::Smc),
-        (knet::recognises, Format::Knet),
-        (esm::recognises, Format::Esm),
-        (afad::recognises, Format::Afad),
-        (geonet::recognises, Format::Geonet),
-        (resorce::recognises, Format::Resorce),
-        (at2::recognises, Format::At2),
-        (cosmos::recognises, Format::Cosmos),
-        (bri::recognises, Format::Bri),
-        (counted::recognises, Format::Counted),
-        (column::recognises, Format::Column),
-        (csv::recognises, Format::Csv),
-    ];
-    let found = formats.iter().find(|(recognises, _)| recognises(text));
-    found.map(|(_, format)| *format)
 }
 
 /// Reads the one component of the file at `path`.
@@ -228,15 +192,20 @@ const MOST_BYTES: u64 = u32::MAX as u64;
 /// Whether the content is a record's in one of the formats.
 pub(crate) fn is_record(bytes: &[u8]) -> bool {
     let Ok(content) = text::decode("", bytes) else { return false };
-    Text::new("", &content).is_ok_and(|text| format_of(&text).is_some())
+    Text::new("", &content).is_ok_and(|text| Format::of(&text).is_some())
 }
 
 fn unknown(text: &Text<'_>) -> RecordError {
     let mut lines = text.lines().enumerate();
     let first = lines.find(|(_, line)| !line.trim().is_empty());
     let (index, line) = first.unwrap_or_default();
-    let found = excerpt(line);
-    text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
+    let (found, all) = (excerpt(line), Format::by_name());
+    let words = all.iter().map(|format| match format.content {
+        "" => format.name.to_owned(),
+        content => format!("{format} ({content})"),
+    });
+    let expected = words.collect::<Vec<_>>().join(", ");
+    text.on_line(index, Fault::UnknownFormat { found, expected })
 }
 
 /// Name of the file at `path`, without its folder; what is no UTF-8 in it is
@@ -265,7 +234,7 @@ fn is_component(end: &str) -> bool {
 /// Settles interval and unit between file and caller, and converts.
 fn complete(
     text: &Text<'_>,
-    format: Format,
+    format: &'static Format,
     channel: Channel,
     several: bool,
     options: &ReadOptions,
@@ -304,9 +273,13 @@ fn complete(
     }
     let mut name = stem(text.file()).to_owned();
     // The name of a file of several channels tells of none of them.
-    let direction = channel.direction.or(|| match several {
+    let label = channel.label.as_deref().unwrap_or("");
+    let stated = channel.direction;
+    let stated =
+        stated.unwrap_or_else(|| Direction::of_label(label, format.azimuths));
+    let direction = stated.or(|| match several {
         true => Direction::Unknown,
-        false => Direction::of_name(&name, format == Format::At2),
+        false => Direction::of_name(&name, format.azimuth_in_name),
     });
     let mut remarks = channel.remarks;
     if direction == Direction::Vertical {

@@ -1,72 +1,18 @@
 //! A record as it was read, and what the caller knows about its file.
 
-use std::fmt;
-
 use rocking::accelerogram::Accelerogram;
 use rocking::units::{self, AccelerationUnit};
 use sha2::{Digest as _, Sha256};
 
 use crate::direction::Direction;
 use crate::error::RecordError;
+use crate::format::Format;
 use crate::given::Given;
 use crate::quality::Remark;
-
-/// How a record file is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// PEER's AT2, every generation.
-    At2,
-    /// BRI (Japan), `.ac`.
-    Bri,
-    /// One value a line, without a header.
-    Column,
-    /// A name, number of samples and interval, samples: eqsig, EMOD3D,
-    /// RspMatch.
-    Counted,
-    /// Two columns, time and acceleration.
-    Csv,
-    /// RESORCE, 5E14.7.
-    Resorce,
-    /// COSMOS V1 and V2, and CSMIP V2.
-    Cosmos,
-    /// ESM and ITACA ASCII (DYNA), and AFAD's today.
-    Esm,
-    /// AFAD's text of three columns, until 2018.
-    Afad,
-    /// GeoNet (New Zealand), V1A and V2A.
-    Geonet,
-    /// K-NET and KiK-net ASCII.
-    Knet,
-    /// USGS SMC.
-    Smc,
-}
 
 /// Least and largest sampling interval (s) of a record: a recorder's lies far
 /// inside, and what lies outside is no interval or not in s.
 pub(crate) const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
-
-/// Formats by name, for messages.
-pub(crate) const FORMATS: &str = "afad, at2, bri, cosmos, esm, geonet, knet, resorce, smc, counted (count and interval, samples), csv (time, acceleration), column";
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::At2 => "at2",
-            Self::Bri => "bri",
-            Self::Column => "column",
-            Self::Counted => "counted",
-            Self::Csv => "csv",
-            Self::Resorce => "resorce",
-            Self::Cosmos => "cosmos",
-            Self::Esm => "esm",
-            Self::Afad => "afad",
-            Self::Geonet => "geonet",
-            Self::Knet => "knet",
-            Self::Smc => "smc",
-        })
-    }
-}
 
 /// SHA-256 of `bytes` in hexadecimal (FIPS 180-4), as an index states it of
 /// each file.
@@ -113,7 +59,7 @@ pub struct Record {
     /// The component.
     pub accelerogram: Accelerogram,
     /// Format of the file.
-    pub format: Format,
+    pub format: &'static Format,
     /// Unit in which the file is written (cm/s2 for the counts of K-NET and
     /// for GeoNet's mm/s2).
     pub unit: AccelerationUnit,
@@ -147,22 +93,4 @@ impl Settled {
     pub(crate) fn agreed(self) -> Result<Record, RecordError> {
         self.dt.and(self.unit).map(|()| self.record)
     }
-}
-
-/// What a format's reader finds: one component in the file's own unit.
-#[derive(Default)]
-pub(crate) struct Channel {
-    pub(crate) dt: Option<f64>,
-    pub(crate) unit: Option<AccelerationUnit>,
-    pub(crate) samples: Vec<f64>,
-    /// What the file calls the channel.
-    pub(crate) label: Option<String>,
-    /// Event and station, where the file names both.
-    pub(crate) site: Option<String>,
-    /// Where the sensor points, by the header alone.
-    pub(crate) direction: Direction,
-    /// Whether the sensor is in a borehole.
-    pub(crate) borehole: bool,
-    /// What is suspicious about the text.
-    pub(crate) remarks: Vec<Remark>,
 }

@@ -17,10 +17,11 @@ pub use error::SuiteError;
 pub use survey::Survey;
 
 use crate::error::RecordError;
+use crate::format::Format;
 use crate::given::Given;
 use crate::processing::{Processing, ProcessingError};
 use crate::quality::{Motion, Profile, Remark, Remarked};
-use crate::record::{Format, ReadOptions};
+use crate::record::ReadOptions;
 use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
@@ -57,7 +58,7 @@ pub struct SuiteMember<M = Accelerogram> {
     /// File, relative to the folder or index.
     pub file: String,
     /// Format of the file.
-    pub format: Format,
+    pub format: &'static Format,
     /// Unit in which the file is written.
     pub unit: AccelerationUnit,
     /// Event and station, where the file names both.

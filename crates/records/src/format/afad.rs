@@ -12,12 +12,11 @@
 //! The peaks are those of the samples as they are written, and are checked.
 //! What AFAD gives out today is ESM's format.
 
-use crate::direction::Direction;
+use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields::one_number;
 use crate::keys;
 use crate::number::{self, Form, Reading};
-use crate::record::Channel;
 use crate::text::{Text, excerpt};
 use rocking::units::AccelerationUnit;
 
@@ -29,13 +28,23 @@ const COLUMNS: [&str; 3] = ["N-S", "E-W", "U-D"];
 /// Header lines among which that of the columns is sought.
 const HEADER_LINES: usize = 40;
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "afad",
+    files: "AFAD until 2018",
+    source: "Türkiye",
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the header has the format's keys.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, INTERVAL).is_some() && keys::find(text, COUNT).is_some()
 }
 
 /// Reads the three components.
-pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let dt = keys::positive(text, INTERVAL, "")?;
     let count = keys::count(text, COUNT)?;
     let peaks = peaks(text)?;
@@ -57,7 +66,6 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             unit: Some(unit),
             samples,
             label: Some(name.to_owned()),
-            direction: Direction::of_words(name),
             ..Channel::default()
         })
     };

@@ -6,11 +6,10 @@
 //! the samples (`*** End Data ***`) are left out.
 
 use super::csv::bracketed;
-use crate::direction::Direction;
+use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields;
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::{self, Text, excerpt};
 use rocking::units::AccelerationUnit;
 
@@ -19,8 +18,20 @@ const HEADER_LINES: usize = 20;
 
 const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "at2",
+    files: "AT2",
+    source: "PEER",
+    azimuths: true,
+    azimuth_in_name: true,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the content is AT2's.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     let named = |line: &str| {
         text::contains(line, "STRONG MOTION DATABASE")
             || text::contains(line, "STRONG-MOTION DATA")
@@ -37,7 +48,7 @@ fn counting_line(text: &Text<'_>) -> Option<usize> {
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let Some(counting) = counting_line(text) else {
         return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
     };
@@ -52,8 +63,7 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let samples = fields::read(text, first, end, layout)?;
     text.check_count_at(end - 1, samples.len(), count)?;
     let label = component(text);
-    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
-    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
+    Ok(vec![Channel { dt, unit, samples, label, ..Channel::default() }])
 }
 
 /// The component, which ends the second line: event, date, station,

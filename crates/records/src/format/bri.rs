@@ -5,11 +5,11 @@
 //! per second and samples per channel; `063-GL` in a channel's line is an
 //! azimuth and a place in or under the building. The peak behind it is checked.
 
+use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
@@ -24,8 +24,19 @@ struct Head<'a> {
     station: &'a str,
 }
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "bri",
+    files: "BRI `.ac`",
+    source: "Japan",
+    azimuths: true,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the first line is a date, a time and three counts.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     head(text).is_some()
 }
 
@@ -53,7 +64,7 @@ fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
 }
 
 /// Reads every channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let head = head(text).ok_or_else(|| {
         text.header(0, "a date, a time and three counts of channels, samples")
     })?;
@@ -110,7 +121,7 @@ fn channel(
         samples,
         label: Some(label.to_owned()),
         site: Some(site).filter(|_| known),
-        direction: Direction::of_azimuth(azimuth),
+        direction: Some(Direction::of_azimuth(azimuth)),
         ..Channel::default()
     })
 }

@@ -5,25 +5,37 @@
 //! an index's `npts` or `sha256` does. A file that ends within a number is
 //! refused where the number's form tells it.
 
+use super::{Channel, Format, Header};
 use super::{counted, csv};
 use crate::error::RecordError;
 use crate::fields::{Forms, one_number};
 use crate::number;
-use crate::record::Channel;
 use crate::text::Text;
 
 /// Gravity in m/s2, cm/s2, ft/s2 and in/s2.
 const GRAVITY: [f64; 4] = [9.81, 981.0, 32.17, 386.1];
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "column",
+    files: "one column, acceleration",
+    source: "your own",
+    header: Header::Missing,
+    is_fixed: false,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the first line that is no comment is one number.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     text.lines()
         .find(|line| !line.starts_with('#'))
         .is_some_and(|line| number::is_number(line.trim()))
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut samples = Vec::with_capacity(text.len());
     let mut forms = Forms::default();
     for (index, line) in text.lines().enumerate() {
@@ -37,7 +49,7 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     check_first(text, &samples, &forms)?;
     let remarks = forms.check_ended(text)?;
     let unit = csv::comments(text)?.acceleration;
-    Ok(Channel { unit, samples, remarks, ..Channel::default() })
+    Ok(vec![Channel { unit, samples, remarks, ..Channel::default() }])
 }
 
 /// Refuses a first line that is a count or an interval, and a whole number or

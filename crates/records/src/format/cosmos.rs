@@ -16,11 +16,11 @@
 //! Count, interval, duration and peak are held against whatever else the
 //! header says of them (`stated.rs`).
 
+use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::{self, Text, excerpt};
 use stated::{Header, Series};
 
@@ -35,8 +35,19 @@ struct Block<'a> {
     dt_s: Option<f64>,
 }
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "cosmos",
+    files: "COSMOS and CSMIP V1 and V2",
+    source: "United States",
+    azimuths: true,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether any line announces a block of samples.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     text.lines().any(announces)
 }
 
@@ -67,7 +78,7 @@ fn ends_block(line: &str) -> bool {
 }
 
 /// Reads every acceleration channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::new();
     let mut head = 0;
     let mut reals = Vec::new();
@@ -117,9 +128,14 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             let (label, name) = label(header.lines(), channels.len() + 1);
             let direction = Direction::of_azimuth(&name)
                 .or(|| stated::oriented(&std::mem::take(&mut integers)));
-            let (label, rest) = (Some(label), Channel::default());
-            let read = Channel { dt, unit, samples, label, direction, ..rest };
-            channels.push(read);
+            channels.push(Channel {
+                dt,
+                unit,
+                samples,
+                label: Some(label),
+                direction: Some(direction),
+                ..Channel::default()
+            });
         }
         head = end;
         index = end;

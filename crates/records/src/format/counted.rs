@@ -10,11 +10,10 @@
 //! Only the fourth states a unit.
 
 use super::csv::bracketed;
-use crate::direction::Direction;
+use super::{Channel, Format, Header};
 use crate::error::RecordError;
 use crate::fields::{self, Forms, one_number};
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -37,8 +36,22 @@ struct Head {
     first: usize,
 }
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "counted",
+    files: "name, count and interval, samples",
+    source: "eqsig, EMOD3D, RspMatch",
+    content: "count and interval, samples",
+    azimuths: true,
+    header: Header::NoUnit,
+    is_fixed: false,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the head has a count and an interval.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     head(text).is_some()
 }
 
@@ -126,7 +139,7 @@ fn is_data(line: &str) -> bool {
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let Head { count, dt_s, numbers, first } =
         head(text).ok_or_else(|| {
             text.header(0, "a count and an interval, such as `910 0.0100`")
@@ -167,7 +180,6 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let component = text.line(0).filter(|_| numbers == EMOD3D);
     let component = component.and_then(|l| l.split_ascii_whitespace().nth(1));
     let label = component.map(str::to_owned);
-    let direction = Direction::of_azimuth(component.unwrap_or(""));
     let (dt, rest) = (Some(dt_s), Channel::default());
-    Ok(Channel { dt, unit, samples, label, direction, remarks, ..rest })
+    Ok(vec![Channel { dt, unit, samples, label, remarks, ..rest }])
 }

@@ -10,11 +10,11 @@
 //! file that ends within a number is refused where the number's form tells
 //! it.
 
+use super::{Channel, Format, Header};
 use crate::error::{Fault, RecordError};
 use crate::fields::{Forms, one_number};
 use crate::number;
 use crate::quality::Remark;
-use crate::record::Channel;
 use crate::sampling::{self, Digits, Sampling};
 use crate::text::Text;
 use header::header;
@@ -22,8 +22,21 @@ pub(super) use header::{bracketed, comments};
 
 mod header;
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "csv",
+    files: "two columns, time and acceleration",
+    source: "your own",
+    content: "time, acceleration",
+    header: Header::NoCount,
+    is_fixed: false,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the first or second line has two numbers.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     let mut lines = text.lines().filter(|l| !l.starts_with('#'));
     let numbers = |line: Option<&str>, count: usize| {
         line.is_some_and(|line| {
@@ -68,7 +81,7 @@ fn is_numbered(line: &str) -> bool {
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut times = Vec::with_capacity(text.len());
     let mut samples = Vec::with_capacity(text.len());
     let mut digits = Digits::default();
@@ -127,7 +140,7 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     })?;
     remarks.extend(Remark::of_times(dt_s, off_s));
     let (dt, unit) = (Some(dt_s), units.acceleration);
-    Ok(Channel { dt, unit, samples, remarks, ..Channel::default() })
+    Ok(vec![Channel { dt, unit, samples, remarks, ..Channel::default() }])
 }
 
 /// Adds the decimal places and the significant digits of a written time.

@@ -1,22 +1,32 @@
 //! ESM and ITACA (the DYNA header, which AFAD uses today): lines
 //! `KEY: value`, then one sample a line.
 
-use crate::direction::Direction;
+use super::{Channel, Format};
 use crate::error::RecordError;
 use crate::fields::{Forms, one_number};
 use crate::keys;
-use crate::record::Channel;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "esm",
+    files: "ESM and ITACA, AFAD since 2018",
+    source: "Europe",
+    is_fixed: false,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the header has the format's keys.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "SAMPLING_INTERVAL_S").is_some()
         && keys::find(text, "NDATA").is_some()
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let dt = keys::positive(text, "SAMPLING_INTERVAL_S", "")?;
     let count = keys::count(text, "NDATA")?;
     let (index, quantity) = keys::value(text, "DATA_TYPE")?;
@@ -53,8 +63,7 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, allowed, unit)?;
     }
     let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
-    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
     let (dt, unit) = (Some(dt), Some(unit));
     let rest = Channel::default();
-    Ok(Channel { dt, unit, samples, label, direction, remarks, ..rest })
+    Ok(vec![Channel { dt, unit, samples, label, remarks, ..rest }])
 }

@@ -14,12 +14,12 @@
 //! they must agree, and the peak must be that of the samples. Numbers have as
 //! many decimals as their field has room for.
 
+use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::keys;
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -44,8 +44,18 @@ const INTERVAL_S: usize = 26;
 /// mm/s2 in one cm/s2.
 const PER_GAL: f64 = 10.0;
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "geonet",
+    files: "GeoNet V1A and V2A",
+    source: "New Zealand",
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the first line is that of the format.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     text.line(0).is_some_and(is_first)
 }
 
@@ -55,7 +65,7 @@ fn is_first(line: &str) -> bool {
 }
 
 /// Reads the three components.
-pub(crate) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::with_capacity(COMPONENTS);
     let mut first = 0;
     for _ in 0..COMPONENTS {
@@ -149,7 +159,7 @@ fn component(
         unit: Some(unit),
         samples,
         label: (!label.is_empty()).then(|| label.to_owned()),
-        direction: direction(label),
+        direction: Some(direction(label)),
         ..Channel::default()
     };
     Ok((channel, end))

@@ -5,10 +5,10 @@
 //! in the quality control. The header's maximum is that of the record
 //! without its mean, and is checked.
 
+use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::number::{self, Reading};
-use crate::record::Channel;
 use crate::text::Text;
 use crate::{fields, keys};
 use rocking::accelerogram::mean;
@@ -17,14 +17,24 @@ use rocking::units::AccelerationUnit;
 /// The key of the maximum, in two spellings.
 const MAXIMUM: [&str; 2] = ["Max. Acc. (gal)", "Max Acc. (gal)"];
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "knet",
+    files: "K-NET and KiK-net",
+    source: "Japan",
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the header has the format's keys.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "Scale Factor").is_some()
         && keys::find(text, "Sampling Freq(Hz)").is_some()
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let frequency_hz = keys::positive(text, "Sampling Freq(Hz)", "Hz")?;
     let duration_s = keys::positive(text, "Duration Time(s)", "")?;
     let scale = scale(text)?;
@@ -48,23 +58,18 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     let (dt, dir) = (Some(1.0 / frequency_hz), keys::find(text, "Dir."));
-    let Sensor { label, direction, borehole } =
-        sensor(dir.map_or("", |(_, dir)| dir));
+    let (label, direction, borehole) = sensor(dir.map_or("", |(_, dir)| dir));
     let rest = Channel::default();
-    Ok(Channel { dt, unit, samples, label, direction, borehole, ..rest })
+    Ok(vec![Channel { dt, unit, samples, label, direction, borehole, ..rest }])
 }
 
-/// A sensor by the header's `Dir.`.
-struct Sensor {
-    label: Option<String>,
-    direction: Direction,
-    borehole: bool,
-}
-
+/// Label and direction of a sensor by the header's `Dir.`, and whether it is
+/// in a borehole.
+///
 /// K-NET names the direction. KiK-net numbers its six channels: 1 to 3 are
 /// those of the sensor in the borehole, 4 to 6 those of the one at the
 /// surface, each in the order N-S, E-W, U-D.
-fn sensor(dir: &str) -> Sensor {
+fn sensor(dir: &str) -> (Option<String>, Option<Direction>, bool) {
     let (label, direction, borehole) = match dir {
         "1" => ("N-S borehole", Direction::Horizontal, true),
         "2" => ("E-W borehole", Direction::Horizontal, true),
@@ -75,7 +80,7 @@ fn sensor(dir: &str) -> Sensor {
         word => (word, Direction::of_words(word), false),
     };
     let label = (!label.is_empty()).then(|| label.to_owned());
-    Sensor { label, direction, borehole }
+    (label, Some(direction), borehole)
 }
 
 /// The header's maximum acceleration against the samples less their mean.

@@ -1,24 +1,33 @@
 //! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
 
-use crate::direction::Direction;
+use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::keys;
-use crate::record::Channel;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;
 const LAYOUT: Layout = Layout::even(5, 14);
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "resorce",
+    files: "RESORCE",
+    source: "Europe",
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the header has RESORCE's keys.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     keys::find(text, "Time Increment (s)").is_some()
         && keys::find(text, "Number of Data").is_some()
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let dt = keys::positive(text, "Time Increment (s)", "")?;
     let count = keys::count(text, "Number of Data")?;
     let title = text
@@ -47,7 +56,6 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
     }
     let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
-    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
     let (dt, unit) = (Some(dt), Some(unit));
-    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
+    Ok(vec![Channel { dt, unit, samples, label, ..Channel::default() }])
 }

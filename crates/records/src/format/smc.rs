@@ -4,11 +4,10 @@
 //! The text names event, station and component; the reals 30 and 32 are the
 //! largest and the least sample, and are checked.
 
-use crate::direction::Direction;
+use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::keys;
-use crate::record::Channel;
 use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
@@ -31,8 +30,19 @@ const KINDS: [&str; 6] = [
     "6 FOURIER AMPLITUDE SPECTRA",
 ];
 
+/// The format.
+pub(super) static FORMAT: Format = Format {
+    name: "smc",
+    files: "SMC",
+    source: "USGS",
+    azimuths: true,
+    recognises,
+    read,
+    ..Format::BASE
+};
+
 /// Whether the first line names one of the format's kinds.
-pub(crate) fn recognises(text: &Text<'_>) -> bool {
+fn recognises(text: &Text<'_>) -> bool {
     let line = first_line(text).trim_start().to_ascii_uppercase();
     KINDS.iter().any(|kind| line.starts_with(kind))
 }
@@ -42,7 +52,7 @@ fn first_line<'a>(text: &Text<'a>) -> &'a str {
 }
 
 /// Reads the file's one channel.
-pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let kind = first_line(text).trim_start().to_ascii_uppercase();
     if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
         return Err(text.quantity(0));
@@ -80,10 +90,9 @@ pub(crate) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     check_peak(text, &samples, &reals, unit)?;
     let (label, site) = component(text);
-    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
     let (dt, unit) = (Some(dt), Some(unit));
     let rest = Channel::default();
-    Ok(Channel { dt, unit, samples, label, site, direction, ..rest })
+    Ok(vec![Channel { dt, unit, samples, label, site, ..rest }])
 }
 
 /// The peak against the largest and the least sample in the header.

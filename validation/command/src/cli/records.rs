@@ -54,7 +54,7 @@ pub struct Args {
 /// One record in the list.
 struct Listed {
     file: String,
-    format: Format,
+    format: &'static Format,
     unit: AccelerationUnit,
     motion: rocking::accelerogram::Accelerogram,
     pair: Option<String>,
@@ -88,7 +88,7 @@ impl Listed {
     fn row(&self, gravity_m_s2: f64) -> Row<'_> {
         Row {
             file: &self.file,
-            format: self.format.to_string(),
+            format: self.format.name,
             units: self.unit.to_string(),
             dt_s: self.motion.dt_s(),
             npts: self.motion.samples_g().len(),
@@ -104,7 +104,7 @@ impl Listed {
 #[derive(Serialize)]
 struct Row<'a> {
     file: &'a str,
-    format: String,
+    format: &'static str,
     units: String,
     dt_s: f64,
     npts: usize,

@@ -54,6 +54,19 @@ fn difference<T: PartialEq + Debug>(
     Some((first, words))
 }
 
+/// Fails where the rows of the table under `head` in the page `path` are not
+/// `rows`. Where `.ci/accept` runs the test, it gets the page with these.
+#[track_caller]
+pub fn holds_table(path: &str, head: &str, rows: &str) {
+    let kept = fs::read_to_string(place(path)).unwrap();
+    let (before, after) = kept.split_once(head).expect("the table's head");
+    let (_, after) = after.split_once("\n\n").expect("text behind it");
+    let page = format!("{before}{head}{rows}\n{after}");
+    if let Some(kept) = committed(path, &page) {
+        assert!(kept == page, "{path}: expected the rows\n{rows}");
+    }
+}
+
 /// The text of a committed file, which a test finds to be `found`. None where
 /// `.ci/accept` runs the test: then the text found goes to its folder.
 pub fn committed(path: &str, found: &str) -> Option<String> {
@@ -63,11 +76,15 @@ pub fn committed(path: &str, found: &str) -> Option<String> {
         fs::write(place, found).unwrap();
         return None;
     }
+    Some(fs::read_to_string(place(path)).unwrap())
+}
+
+/// Where a committed file is.
+fn place(path: &str) -> PathBuf {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut places = own.ancestors().map(|root| root.join(path));
     let place = places.find(|place| place.is_file());
-    let place = place.unwrap_or_else(|| panic!("{path}: no such file"));
-    Some(fs::read_to_string(place).unwrap())
+    place.unwrap_or_else(|| panic!("{path}: no such file"))
 }
 
 /// Fails where what was found is not the pin `name`, a text of this

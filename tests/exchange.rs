@@ -6,8 +6,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
+use rocking_exchange::ExchangeFormat;
 use serde_json::Value;
 
+use super::compare::{committed, holds_table};
 use super::support::{
     self, answer, close, json, refused_with as refused, run,
 };
@@ -25,6 +27,35 @@ const HAZARD: &str =
 fn folder(name: &str) -> crate::support::Place {
     let files = [("capacities.txt", SAMPLE), ("hazard.csv", HAZARD)];
     support::folder(&format!("exchange-{name}"), &files)
+}
+
+/// The type of the formats in Python. `.ci/accept` renews it.
+#[test]
+fn python_has_the_names_of_all_formats() {
+    const FILE: &str = "python/rocking/_choices.py";
+    let names = ExchangeFormat::ALL.iter();
+    let names = names.map(|format| format!("    {:?},\n", format.name));
+    let expected = format!(
+        "\"\"\"Names of choices, made of the rows of the program by its \
+         tests.\"\"\"\n\nfrom typing import Literal\n\n\
+         ExchangeFormat = Literal[\n{}]\n",
+        names.collect::<String>()
+    );
+    if let Some(kept) = committed(FILE, &expected) {
+        assert!(kept == expected, "{FILE}: expected\n{expected}");
+    }
+}
+
+/// `.ci/accept` renews the table.
+#[test]
+fn the_page_of_exchange_has_a_row_for_each_format() {
+    const HEAD: &str = "| format | for | intensity measures | shift |\n\
+         |---|---|---|---|\n";
+    let rows = ExchangeFormat::ALL.iter().map(|format| {
+        let ExchangeFormat { name, reader, measures, shifted, .. } = format;
+        format!("| `{name}` | {reader} | {measures} | {shifted} |\n")
+    });
+    holds_table("docs/exchange.md", HEAD, &rows.collect::<String>());
 }
 
 #[test]

@@ -7,11 +7,11 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
 from . import _rocking
+from ._choices import ExchangeFormat
 from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen, pair_of
 from ._outputs import replace
 from ._results import Result
@@ -168,15 +168,15 @@ def export(
     blocks: Sequence[BlockFragility],
     path: str | os.PathLike[str] | None = None,
     *,
-    format: Literal["nrml", "pelicun", "pact", "csv"],
+    format: ExchangeFormat,
     gravity: float = STANDARD_GRAVITY,
 ) -> str:
     """Fragilities of blocks as one file of another program.
 
-    "nrml" is OpenQuake's NRML 0.5, "pelicun" a CSV with a JSON beside it,
-    "pact" median and dispersion, "csv" all parameters. OpenQuake and pelicun
-    have no lognormal with a shift: such a fit is written as points, which are
-    off by at most 5e-4 in probability.
+    Formats: EXCHANGE_FORMATS.
+
+    OpenQuake and pelicun have no lognormal with a shift: such a fit is written
+    as points, which are off by at most 5e-4 in probability.
 
     Returns
     -------
@@ -206,6 +206,11 @@ def export(
     for file, content in files:
         replace(file, content)
     return text
+
+
+export.__doc__ = (export.__doc__ or "").replace(
+    "EXCHANGE_FORMATS", "; ".join(_rocking.EXCHANGE_FORMATS)
+)
 
 
 @dataclass(frozen=True)

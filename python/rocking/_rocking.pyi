@@ -118,6 +118,7 @@ class IdaCurves:
 __version__: str
 STANDARD_GRAVITY: float
 RECORD_FORMATS: list[str]
+EXCHANGE_FORMATS: list[str]
 
 def block(alpha: float, p: float) -> None: ...
 def block_of_size(

@@ -2,7 +2,8 @@
 
 use pyo3::prelude::*;
 use rocking_exchange::{
-    BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
+    BlockFragility, ExchangeFormat, Id, LimitState, unit_intensity,
+    unstated_origin,
 };
 use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
@@ -14,7 +15,7 @@ use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
 use rocking_surrogate::Surrogate;
 
-use crate::given::{block_of, choose, positive_gravity};
+use crate::given::{block_of, positive_gravity};
 use crate::procedures::{Fit, GivenSample, answer, clusters_of, sample_of};
 use crate::work::{self, refuse};
 
@@ -101,12 +102,11 @@ pub fn exchange(
     blocks: Vec<Wanted>,
     gravity: f64,
 ) -> PyResult<(String, Option<(&'static str, String)>)> {
-    let formats = Format::ALL.map(|f| (f.name(), f));
-    let format = choose("format", format, &formats)?;
+    let format = ExchangeFormat::named(format).map_err(refuse)?;
     let all = blocks.into_iter().map(|one| one.fragility(gravity));
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let texts = format.texts(&all).map_err(refuse)?;
-    Ok((texts.main, texts.beside))
+    Ok((texts.main, format.beside.zip(texts.beside)))
 }
 
 /// Longitude and latitude in degrees of a site, or its id.

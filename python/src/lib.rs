@@ -29,6 +29,8 @@ const SOFTWARE: &str = concat!(
 #[pyo3::pymodule(gil_used = false)]
 mod _rocking {
     use pyo3::prelude::*;
+    use rocking_exchange::ExchangeFormat;
+    use rocking_records::Format;
 
     #[pymodule_export]
     use crate::assess::assess;
@@ -60,11 +62,12 @@ mod _rocking {
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {
-        let formats = rocking_records::Format::by_name().into_iter();
-        let words = |f: &rocking_records::Format| {
-            format!("{} ({})", f.files, f.source)
-        };
-        m.add("RECORD_FORMATS", formats.map(words).collect::<Vec<_>>())?;
+        let formats = Format::by_name().into_iter();
+        let words = formats.map(|f| format!("{} ({})", f.files, f.source));
+        m.add("RECORD_FORMATS", words.collect::<Vec<_>>())?;
+        let formats = ExchangeFormat::ALL.iter();
+        let words = formats.map(|f| format!("{:?} ({})", f.name, f.help));
+        m.add("EXCHANGE_FORMATS", words.collect::<Vec<_>>())?;
         m.add("__version__", env!("CARGO_PKG_VERSION"))?;
         m.add("STANDARD_GRAVITY", rocking::units::STANDARD_GRAVITY_M_S2)
     }

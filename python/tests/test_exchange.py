@@ -4,12 +4,13 @@ own readers find in them."""
 import re
 import subprocess
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
 import rocking as rk
 from conftest import Command
+from rocking._choices import ExchangeFormat
 
 SAMPLE = [1.32, 1.41, 1.56, 1.77, 2.04, 2.31, 2.64, 3.1, 3.6, 4.2, 5.3, 7.2]
 SHIFTS = {"pga": (0.0, 1.0), "pgv": (0.0, 0.4)}
@@ -225,8 +226,7 @@ def test_blocks_share_a_file(command: Command, tmp_path: Path) -> None:
             ("second", rk.Block(alpha=0.15, p=2.5)),
         )
     ]
-    formats: list[Any] = ["nrml", "pelicun", "pact", "csv"]
-    for format in formats:
+    for format in get_args(ExchangeFormat):
         out = tmp_path / f"{format}.csv"
         words = ["--sample", sample, "--im", "pga", "--blocks", table]
         words += ["--format", format, "--out", out]

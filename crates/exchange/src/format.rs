@@ -1,12 +1,14 @@
-//! Fragilities as files of other programs.
+//! Fragilities as files of other programs: a module for each format, whose row
+//! in [`ExchangeFormat::ALL`] says all that commands and Python know of it.
 
+mod csv;
 mod nrml;
+mod pact;
 mod pelicun;
-mod tables;
 
-pub use tables::Pact;
+pub use pact::Pact;
 
-use rocking::names::named;
+use rocking::names::{self, UnknownName};
 use rocking_procedures::fragility::points::PointsError;
 use rocking_statistics::lognormal::LognormalError;
 use thiserror::Error;
@@ -106,34 +108,66 @@ pub enum ExchangeError {
     Lognormal(#[from] LognormalError),
 }
 
-named! {
-    /// A format of another program.
-    pub enum Format: "format" {
-        /// OpenQuake's NRML 0.5.
-        Nrml = "nrml",
-        /// pelicun's library: a CSV and a JSON.
-        Pelicun = "pelicun",
-        /// Medians and dispersions for FEMA P-58's PACT.
-        Pact = "pact",
-        /// All parameters, as CSV.
-        Csv = "csv",
-    }
-}
-
-/// Texts of a format: the main file, and one beside it with its extension.
+/// Texts of a format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texts {
     /// The main file.
     pub main: String,
-    /// Extension and text of a second file.
-    pub beside: Option<(&'static str, String)>,
+    /// The file beside it, where the format has one.
+    pub beside: Option<String>,
 }
 
-impl Format {
-    /// Extension of a second file beside the main one.
-    #[must_use]
-    pub fn beside(self) -> Option<&'static str> {
-        (self == Self::Pelicun).then_some("json")
+/// A format of another program.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct ExchangeFormat {
+    /// Name, as commands and Python spell it.
+    pub name: &'static str,
+    /// What its files hold, for the help.
+    pub help: &'static str,
+    /// What reads the files, for the documentation, as the next two.
+    pub reader: &'static str,
+    /// Intensity measures that it holds.
+    pub measures: &'static str,
+    /// What becomes of a lognormal with a shift.
+    pub shifted: &'static str,
+    /// Extension of the main file.
+    pub extension: &'static str,
+    /// Extension of a second file beside it.
+    pub beside: Option<&'static str>,
+    /// Whether an assessment has its files.
+    pub in_assessment: bool,
+    /// Whether the curves of limit states may cross.
+    may_cross: bool,
+    /// Writes fragilities that have limit states.
+    texts: fn(&[BlockFragility]) -> Result<Texts, ExchangeError>,
+}
+
+impl ExchangeFormat {
+    /// All formats.
+    pub const ALL: &[&Self] =
+        &[&nrml::FORMAT, &pelicun::FORMAT, &pact::FORMAT, &csv::FORMAT];
+
+    /// What most formats have in common.
+    const BASE: Self = Self {
+        name: "",
+        help: "",
+        reader: "",
+        measures: "",
+        shifted: "",
+        extension: "csv",
+        beside: None,
+        in_assessment: false,
+        may_cross: false,
+        texts: |_| Ok(Texts { main: String::new(), beside: None }),
+    };
+
+    /// The format of this name, in upper or lower case.
+    ///
+    /// # Errors
+    /// [`UnknownName`] with the names of all formats.
+    pub fn named(name: &str) -> Result<&'static Self, UnknownName> {
+        names::find("format", name, Self::ALL, |format| format.name)
     }
 
     /// The fragilities in this format.
@@ -142,27 +176,17 @@ impl Format {
     /// [`ExchangeError`] for a fragility that the format cannot hold, and,
     /// but in CSV, for limit states whose curves cross.
     pub fn texts(
-        self,
+        &self,
         fragilities: &[BlockFragility],
     ) -> Result<Texts, ExchangeError> {
         for one in fragilities {
             self.check(one)?;
         }
-        let alone = |main| Texts { main, beside: None };
-        match self {
-            Self::Nrml => Ok(alone(nrml::text(fragilities)?)),
-            Self::Pelicun => {
-                let main = pelicun::csv(fragilities)?;
-                let json = pelicun::json(fragilities);
-                Ok(Texts { main, beside: Some(("json", json)) })
-            }
-            Self::Pact => Ok(alone(tables::pact(fragilities)?)),
-            Self::Csv => Ok(alone(tables::csv(fragilities))),
-        }
+        (self.texts)(fragilities)
     }
 
-    /// Whether there are limit states, in the right order.
-    fn check(self, one: &BlockFragility) -> Result<(), ExchangeError> {
+    /// Refuses a block without limit states, and curves that cross.
+    fn check(&self, one: &BlockFragility) -> Result<(), ExchangeError> {
         let id = one.id.clone();
         if one.limit_states.is_empty() {
             return Err(ExchangeError::NoState { id });
@@ -171,7 +195,7 @@ impl Format {
             pair[0].crossed_by(&pair[1], CROSSING).map(|im| (im, pair))
         });
         match crossed {
-            Some((im, pair)) if self != Self::Csv => {
+            Some((im, pair)) if !self.may_cross => {
                 Err(ExchangeError::Crossing {
                     id,
                     name: pair[0].name.clone(),

@@ -10,7 +10,7 @@
 //! use rocking_records::intensity::Intensity;
 //! use rocking_statistics::Lognormal;
 //! use rocking_exchange::{
-//!     BlockFragility, Format, Id, LimitState, unit_intensity,
+//!     BlockFragility, ExchangeFormat, Id, LimitState, unit_intensity,
 //! };
 //! let block = Block::try_new(0.15, 3.0)?;
 //! let pga = Intensity::Pga;
@@ -24,7 +24,7 @@
 //!     limit_states: vec![LimitState { name: "overturning".parse()?, fragility }],
 //!     origin: String::from("86 capacities"),
 //! };
-//! let nrml = Format::Nrml.texts(&[one])?.main;
+//! let nrml = ExchangeFormat::named("nrml")?.texts(&[one])?.main;
 //! assert!(nrml.contains("<fragilityFunction id=\"block_a0_15_p3\""));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -39,7 +39,7 @@ pub mod read;
 pub mod sample;
 pub mod table;
 
-pub use format::{ExchangeError, Format, Pact, Texts};
+pub use format::{ExchangeError, ExchangeFormat, Pact, Texts};
 pub use fragility::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };

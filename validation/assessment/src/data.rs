@@ -4,7 +4,7 @@ use rocking_common::table::columns::{
     ASSESSED_CAPACITIES, ASSESSED_FRAGILITIES, ASSESSED_RESPONSES,
 };
 use rocking_common::table::{Table, number, optional};
-use rocking_exchange::{BlockFragility, Format, Id, LimitState};
+use rocking_exchange::{BlockFragility, ExchangeFormat, Id, LimitState};
 use rocking_procedures::assess::{Assessed, Assessment};
 use serde::Serialize;
 
@@ -103,8 +103,8 @@ pub(crate) fn responses(found: &Assessment) -> String {
 /// A name that other programs do not take, and a block that is none.
 pub(crate) fn exchanged(
     found: &Assessment,
-    format: Format,
-) -> anyhow::Result<Vec<(&'static str, String)>> {
+    format: &ExchangeFormat,
+) -> anyhow::Result<Vec<(String, String)>> {
     let fragility = |one: &Assessed| {
         let id = |name: &str| {
             name.parse::<Id>()
@@ -124,12 +124,8 @@ pub(crate) fn exchanged(
     let all = found.objects.iter().map(fragility);
     let all = all.collect::<anyhow::Result<Vec<_>>>()?;
     let Ok(texts) = format.texts(&all) else { return Ok(Vec::new()) };
-    let main = match format {
-        Format::Nrml => "nrml.xml",
-        Format::Pelicun => "pelicun.csv",
-        Format::Pact => "pact.csv",
-        Format::Csv => "parameters.csv",
-    };
-    let beside = texts.beside.map(|(_, text)| ("pelicun.json", text));
-    Ok(std::iter::once((main, texts.main)).chain(beside).collect())
+    let named = |ending| format!("{}.{ending}", format.name);
+    let beside = format.beside.map(named).zip(texts.beside);
+    let main = (named(format.extension), texts.main);
+    Ok(std::iter::once(main).chain(beside).collect())
 }

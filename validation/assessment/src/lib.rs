@@ -14,7 +14,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking::integrator::{Model, uplift_threshold};
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
-use rocking_exchange::Format;
+use rocking_exchange::ExchangeFormat;
 use rocking_procedures::assess::{
     Alternative, Assessed, Assessment, Damage, Object,
 };
@@ -72,17 +72,19 @@ pub fn files(
     about: &About,
 ) -> anyhow::Result<BTreeMap<String, Vec<u8>>> {
     let mut files = vec![
-        ("assess.json", json(found, about)?),
-        ("capacities.csv", data::capacities(found)),
-        ("fragilities.csv", data::fragilities(found)),
-        ("responses.csv", data::responses(found)),
+        ("assess.json".to_owned(), json(found, about)?),
+        ("capacities.csv".to_owned(), data::capacities(found)),
+        ("fragilities.csv".to_owned(), data::fragilities(found)),
+        ("responses.csv".to_owned(), data::responses(found)),
     ];
-    files.extend(data::exchanged(found, Format::Nrml)?);
-    files.extend(data::exchanged(found, Format::Pelicun)?);
-    let names: Vec<&str> = files.iter().map(|file| file.0).collect();
-    files.push((PAGE, page(found, about, &names)));
+    for format in ExchangeFormat::ALL.iter().filter(|f| f.in_assessment) {
+        files.extend(data::exchanged(found, format)?);
+    }
+    let names: Vec<&str> = files.iter().map(|file| &*file.0).collect();
+    let page = page(found, about, &names);
+    files.push((PAGE.to_owned(), page));
     let named = files.into_iter();
-    Ok(named.map(|(name, text)| (name.into(), text.into_bytes())).collect())
+    Ok(named.map(|(name, text)| (name, text.into_bytes())).collect())
 }
 
 /// The page, beside which `files` lie.

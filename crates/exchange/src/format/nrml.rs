@@ -16,9 +16,22 @@ use rocking_procedures::fragility::points::points;
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
 
-use super::{ExchangeError, TAIL, TOLERANCE};
+use super::{ExchangeError, ExchangeFormat, TAIL, TOLERANCE, Texts};
 use crate::fragility::BlockFragility;
 use crate::table::number;
+
+/// The format.
+pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
+    name: "nrml",
+    help: "OpenQuake's NRML 0.5: PGA, SA, AvgSA in g, PGV in cm/s",
+    reader: "OpenQuake 3.26",
+    measures: "PGA, PGV, SA, AvgSA (NRML does not state its periods)",
+    shifted: "as points of the curve",
+    extension: "xml",
+    in_assessment: true,
+    texts,
+    ..ExchangeFormat::BASE
+};
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 const SPACE: &str = "http://openquake.org/xmlns/nrml/0.5";
@@ -26,9 +39,7 @@ const SPACE: &str = "http://openquake.org/xmlns/nrml/0.5";
 /// Origins that a description states.
 const MOST_ORIGINS: usize = 5;
 
-pub(super) fn text(
-    fragilities: &[BlockFragility],
-) -> Result<String, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
     let names = fragilities.first().map_or(String::new(), states);
     let mut functions = Vec::new();
     for one in fragilities {
@@ -50,7 +61,8 @@ pub(super) fn text(
             } (line)
         } (line)
     };
-    Ok(format!("{HEAD}{}", model.into_string()))
+    let main = format!("{HEAD}{}", model.into_string());
+    Ok(Texts { main, beside: None })
 }
 
 /// Names of the limit states.

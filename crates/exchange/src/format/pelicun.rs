@@ -15,16 +15,32 @@ use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
 use serde_json::{Map, json};
 
-use super::{ExchangeError, TOLERANCE};
+use super::{ExchangeError, ExchangeFormat, TOLERANCE, Texts};
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number};
+
+/// The format.
+pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
+    name: "pelicun",
+    help: "CSV, and JSON beside it: PGA, SA in g, PGV in m/s",
+    reader: "pelicun 3.10; a JSON lies beside the CSV",
+    measures: "PGA, PGV, SA",
+    shifted: "as points of the curve",
+    beside: Some("json"),
+    in_assessment: true,
+    texts,
+    ..ExchangeFormat::BASE
+};
 
 /// Steps that pelicun distinguishes from none.
 const LEAST_STEP: f64 = 1e-8;
 
-pub(super) fn csv(
-    fragilities: &[BlockFragility],
-) -> Result<String, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+    let beside = Some(json(fragilities));
+    Ok(Texts { main: csv(fragilities)?, beside })
+}
+
+fn csv(fragilities: &[BlockFragility]) -> Result<String, ExchangeError> {
     let states = fragilities.iter().map(|one| one.limit_states.len());
     let states = states.max().unwrap_or(0);
     let mut header = String::from(
@@ -96,7 +112,7 @@ fn law(
     Ok(["lognormal".into(), number(median), number(beta)])
 }
 
-pub(super) fn json(fragilities: &[BlockFragility]) -> String {
+fn json(fragilities: &[BlockFragility]) -> String {
     let mut library = Map::new();
     for one in fragilities {
         let (alpha, p) =

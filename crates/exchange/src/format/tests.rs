@@ -32,7 +32,7 @@ fn law(intensity: Intensity, shift: f64) -> Lognormal {
 }
 
 fn nrml(intensity: Intensity, shift: f64) -> String {
-    Format::Nrml.texts(&[one(intensity, shift)]).unwrap().main
+    nrml::FORMAT.texts(&[one(intensity, shift)]).unwrap().main
 }
 
 /// The number of an attribute.
@@ -178,11 +178,11 @@ fn each_reader_has_its_own_unit_of_velocity() {
     let half = continuous(&text, 100.0 * median);
     assert!((half - 0.5).abs() < 1e-8, "{half}");
     assert!(text.contains("imt=\"PGV\""));
-    let at = |format: Format| {
+    let at = |format: &ExchangeFormat| {
         let all = [one(Intensity::Pgv, 0.0)];
         format.texts(&all).unwrap().main
     };
-    let (pelicun, pact) = (at(Format::Pelicun), at(Format::Pact));
+    let (pelicun, pact) = (at(&pelicun::FORMAT), at(&pact::FORMAT));
     let metres = crate::table::number(median);
     let law = format!("lognormal,{metres},0.713,");
     assert!(pelicun.contains(&format!(",mps,0,1,{law}")), "{pelicun}");
@@ -194,7 +194,7 @@ fn each_reader_has_its_own_unit_of_velocity() {
 fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
     let shifted = one(Intensity::Pga, 1.0);
     let fragility = shifted.limit_states[0].fragility;
-    let texts = Format::Pelicun.texts(std::slice::from_ref(&shifted)).unwrap();
+    let texts = pelicun::FORMAT.texts(std::slice::from_ref(&shifted)).unwrap();
     let row = texts.main.lines().nth(1).unwrap();
     let cells = crate::table::cells(row);
     assert_eq!(cells[2..7].join(" "), {
@@ -210,8 +210,7 @@ fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
         let error = interpolated(&xs, &ps, im) - fragility.cdf(im);
         assert!(error.abs() < TOLERANCE, "{im}: {error:e}");
     }
-    let (extension, json) = texts.beside.unwrap();
-    assert_eq!(Some(extension), Format::Pelicun.beside());
+    let json = texts.beside.unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let damage = &json[&cells[0]]["LimitStates"]["LS1"]["DS1"];
     assert_eq!(damage["Description"], "overturning");
@@ -219,16 +218,16 @@ fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
     let narrow = Lognormal::try_new(0.1, -16.0, 0.1).unwrap();
     let mut shifted = shifted;
     shifted.limit_states[0].fragility = narrow;
-    let error = Format::Pelicun.texts(&[shifted]);
+    let error = pelicun::FORMAT.texts(&[shifted]);
     assert!(matches!(error, Err(ExchangeError::Narrow { .. })));
 }
 
 #[test]
 fn pact_is_refused_a_shift_and_csv_tells_all() {
     let shifted = [one(Intensity::Pga, 1.0)];
-    let error = Format::Pact.texts(&shifted).unwrap_err();
+    let error = pact::FORMAT.texts(&shifted).unwrap_err();
     assert!(matches!(error, ExchangeError::Shifted { .. }));
-    let csv = Format::Csv.texts(&shifted).unwrap().main;
+    let csv = csv::FORMAT.texts(&shifted).unwrap().main;
     let rows: Vec<Vec<String>> =
         csv.lines().map(crate::table::cells).collect();
     let cell = |name: &str| {
@@ -263,7 +262,7 @@ fn limit_states_stand_in_one_function_and_one_row() {
     for shift in [0.0, 1.0] {
         let block = several(shift, &[(0.4, 0.6), (0.9, 0.6), (1.6, 0.6)]);
         let blocks = [block.clone()];
-        let text = Format::Nrml.texts(&blocks).unwrap().main;
+        let text = nrml::FORMAT.texts(&blocks).unwrap().main;
         assert!(text.contains("<limitStates>rocks leans falls</limit"));
         for state in &block.limit_states {
             let from = format!(" ls=\"{}\"", state.name);
@@ -281,12 +280,12 @@ fn limit_states_stand_in_one_function_and_one_row() {
                 assert!(error < TOLERANCE, "{} {im}: {error:e}", state.name);
             }
         }
-        let texts = Format::Pelicun.texts(&blocks).unwrap();
+        let texts = pelicun::FORMAT.texts(&blocks).unwrap();
         let rows: Vec<Vec<String>> =
             texts.main.lines().map(crate::table::cells).collect();
         assert_eq!((rows[0].len(), rows[1].len()), (18, 18));
         let json: serde_json::Value =
-            serde_json::from_str(&texts.beside.unwrap().1).unwrap();
+            serde_json::from_str(&texts.beside.unwrap()).unwrap();
         let states = &json[block.id.to_string()]["LimitStates"];
         assert_eq!(states["LS3"]["DS3"]["Description"], "falls");
     }
@@ -296,7 +295,7 @@ fn limit_states_stand_in_one_function_and_one_row() {
 fn limit_states_that_cross_are_refused_where_the_reader_takes_differences() {
     // At a score of ln(0.9)/0.1 both have the probability 0.147.
     let block = several(1.0, &[(0.9, 0.7), (1.0, 0.8)]);
-    for format in [Format::Nrml, Format::Pelicun, Format::Pact] {
+    for format in ExchangeFormat::ALL.iter().filter(|f| !f.may_cross) {
         let error = format.texts(std::slice::from_ref(&block)).unwrap_err();
         let words = error.to_string();
         assert!(
@@ -304,15 +303,15 @@ fn limit_states_that_cross_are_refused_where_the_reader_takes_differences() {
             "{words}"
         );
     }
-    assert!(Format::Csv.texts(&[block]).is_ok());
+    assert!(csv::FORMAT.texts(&[block]).is_ok());
     let backwards = several(1.0, &[(1.0, 0.7), (0.9, 0.7)]);
-    let error = Format::Nrml.texts(&[backwards]);
+    let error = nrml::FORMAT.texts(&[backwards]);
     assert!(matches!(error, Err(ExchangeError::Crossing { .. })));
     let mixed = [several(0.0, &[(1.0, 0.5)]), one(Intensity::Pga, 0.0)];
-    let error = Format::Nrml.texts(&mixed);
+    let error = nrml::FORMAT.texts(&mixed);
     assert!(matches!(error, Err(ExchangeError::Mixed { .. })));
     let none = several(1.0, &[]);
-    let error = Format::Csv.texts(&[none]);
+    let error = csv::FORMAT.texts(&[none]);
     assert!(matches!(error, Err(ExchangeError::NoState { .. })));
 }
 
@@ -322,22 +321,22 @@ fn spectral_accelerations_go_where_the_reader_has_them() {
         let im = im.parse().unwrap();
         [BlockFragility { im, ..one(Intensity::Pga, 0.0) }]
     };
-    let texts = |format: Format, im| format.texts(&with(im));
-    let nrml = |im| texts(Format::Nrml, im).map(|texts| texts.main);
+    let texts = |format: &ExchangeFormat, im| format.texts(&with(im));
+    let nrml = |im| texts(&nrml::FORMAT, im).map(|texts| texts.main);
     assert!(nrml("sa:1").unwrap().contains(" imt=\"SA(1.0)\""));
     assert!(nrml("avgsa:0.5,1").unwrap().contains(" imt=\"AvgSA\""));
-    let pelicun = texts(Format::Pelicun, "sa:0.5").unwrap().main;
+    let pelicun = texts(&pelicun::FORMAT, "sa:0.5").unwrap().main;
     assert!(pelicun.contains(",Spectral Acceleration|0.5,g,0,1,lognormal,"));
     for (format, im) in [
-        (Format::Nrml, "column:x"),
-        (Format::Nrml, "cav"),
-        (Format::Pelicun, "avgsa:0.5,1"),
-        (Format::Pact, "sa:1"),
+        (&nrml::FORMAT, "column:x"),
+        (&nrml::FORMAT, "cav"),
+        (&pelicun::FORMAT, "avgsa:0.5,1"),
+        (&pact::FORMAT, "sa:1"),
     ] {
         let error = texts(format, im).unwrap_err();
         assert!(error.to_string().contains(im), "{error}");
     }
-    let csv = texts(Format::Csv, "avgsa:0.5,1").unwrap().main;
+    let csv = texts(&csv::FORMAT, "avgsa:0.5,1").unwrap().main;
     assert!(csv.contains(",\"avgsa:0.5,1\",g,"), "{csv}");
 }
 
@@ -350,7 +349,7 @@ fn a_description_does_not_grow_with_the_number_of_blocks() {
         ..block.clone()
     };
     let length = |blocks: &[BlockFragility]| {
-        let text = Format::Nrml.texts(blocks).unwrap().main;
+        let text = nrml::FORMAT.texts(blocks).unwrap().main;
         let from = text.split("<description>").nth(1).unwrap();
         from.split('<').next().unwrap().len()
     };

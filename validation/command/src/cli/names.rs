@@ -11,18 +11,19 @@ use rocking_common::paper::{Arm, Intensity, SuiteKind};
 
 /// What each of some values is called, and what the help says of it, if
 /// anything.
-pub fn named<T: Copy + Send + Sync + 'static, const N: usize>(
-    values: [T; N],
+pub fn named<T: Copy + Send + Sync + 'static>(
+    values: impl AsRef<[T]>,
     name: fn(T) -> &'static str,
-    help: [&'static str; N],
+    help: impl IntoIterator<Item = &'static str>,
 ) -> impl TypedValueParser<Value = T> {
-    let names = values.into_iter().zip(help).map(move |(value, help)| {
+    let values = values.as_ref().to_vec();
+    let names = values.clone().into_iter().zip(help).map(|(value, help)| {
         let name = PossibleValue::new(name(value));
         if help.is_empty() { name } else { name.help(help) }
     });
     PossibleValuesParser::new(names).try_map(move |found| {
         let is_it = |value: &T| name(*value).eq_ignore_ascii_case(&found);
-        let value = values.into_iter().find(is_it);
+        let value = values.iter().copied().find(is_it);
         value.ok_or("expected one of the names")
     })
 }

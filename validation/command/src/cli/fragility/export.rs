@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_exchange::{Format, Id};
+use clap::builder::TypedValueParser;
+use rocking_exchange::{ExchangeFormat, Id};
 use rocking_statistics::QuantileType;
 use serde::Serialize;
 
@@ -13,14 +14,6 @@ use crate::cli::shared::JsonArg;
 use crate::failure::{Failure, bail};
 use rocking_common::files::Outputs;
 
-/// What the help says of the formats.
-const FORMATS: [&str; 4] = [
-    "OpenQuake's NRML 0.5: PGA, SA, AvgSA in g, PGV in cm/s",
-    "CSV, and JSON beside it: PGA, SA in g, PGV in m/s",
-    "Median and dispersion, not shifted: g, m/s",
-    "All parameters, any measure",
-];
-
 /// Writes fragilities of blocks for another program.
 #[derive(clap::Args)]
 pub(super) struct Args {
@@ -29,17 +22,19 @@ pub(super) struct Args {
     #[command(flatten)]
     fit: FitArgs,
     /// Format of the file.
-    #[arg(
-        long,
-        value_name = "FORMAT",
-        value_parser = named(Format::ALL, Format::name, FORMATS)
-    )]
-    format: Format,
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    format: &'static ExchangeFormat,
     /// The file; `-` is standard output, and nothing else is printed then.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
     json: JsonArg,
+}
+
+/// Formats by name.
+fn formats() -> impl TypedValueParser<Value = &'static ExchangeFormat> {
+    let all = ExchangeFormat::ALL;
+    named(all, |format| format.name, all.iter().map(|format| format.help))
 }
 
 #[derive(Serialize)]
@@ -75,7 +70,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let texts = args.format.texts(&fragilities)?;
     let is_standard = file.is_standard();
     file.write(texts.main)?;
-    if let (Some(second), Some((_, text))) = (second, texts.beside) {
+    if let (Some(second), Some(text)) = (second, texts.beside) {
         second.write(text)?;
     }
     if is_standard {
@@ -98,7 +93,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 impl Args {
     /// The second file of the format, beside the first.
     fn beside(&self) -> Result<Option<PathBuf>, Failure> {
-        let Some(extension) = self.format.beside() else { return Ok(None) };
+        let Some(extension) = self.format.beside else { return Ok(None) };
         let second = self.out.with_extension(extension);
         if self.out == Path::new("-") || second == self.out {
             bail!(

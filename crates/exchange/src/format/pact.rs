@@ -1,12 +1,22 @@
-//! Tables of parameters: for PACT, and for any program.
+//! A table of medians and dispersions for FEMA P-58's PACT.
 
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::Lognormal;
 
-use super::ExchangeError;
-use crate::columns::FRAGILITIES;
+use super::{ExchangeError, ExchangeFormat, Texts};
 use crate::fragility::BlockFragility;
-use crate::table::{Table, number, optional};
+use crate::table::{Table, number};
+
+/// The format.
+pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
+    name: "pact",
+    help: "Median and dispersion, not shifted: g, m/s",
+    reader: "PACT",
+    measures: "PGA, PGV",
+    shifted: "refused",
+    texts,
+    ..ExchangeFormat::BASE
+};
 
 /// Median and dispersion in the form in which FEMA P-58's PACT takes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,9 +62,7 @@ impl Pact {
     }
 }
 
-pub(super) fn pact(
-    fragilities: &[BlockFragility],
-) -> Result<String, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
     let mut table = Table::new(&[
         "id",
         "damage_state",
@@ -87,29 +95,5 @@ pub(super) fn pact(
             ]);
         }
     }
-    Ok(table.finish())
-}
-
-/// All parameters, with units.
-pub(super) fn csv(fragilities: &[BlockFragility]) -> String {
-    let mut table = Table::of(&FRAGILITIES);
-    for one in fragilities {
-        for state in &one.limit_states {
-            let fragility = &state.fragility;
-            table.row([
-                one.id.to_string(),
-                number(one.block.slenderness_rad()),
-                number(one.block.frequency_rad_s()),
-                optional(one.eta),
-                state.name.to_string(),
-                one.im.to_string(),
-                one.im.unit().into(),
-                number(fragility.shift()),
-                number(fragility.median()),
-                number(fragility.dispersion()),
-                one.origin.clone(),
-            ]);
-        }
-    }
-    table.finish()
+    Ok(Texts { main: table.finish(), beside: None })
 }

@@ -1,0 +1,41 @@
+//! A table of all parameters with their units, for any program.
+
+use super::{ExchangeError, ExchangeFormat, Texts};
+use crate::columns::FRAGILITIES;
+use crate::fragility::BlockFragility;
+use crate::table::{Table, number, optional};
+
+/// The format.
+pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
+    name: "csv",
+    help: "All parameters, any measure",
+    reader: "any program",
+    measures: "all",
+    shifted: "a column",
+    may_cross: true,
+    texts,
+    ..ExchangeFormat::BASE
+};
+
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+    let mut table = Table::of(&FRAGILITIES);
+    for one in fragilities {
+        for state in &one.limit_states {
+            let fragility = &state.fragility;
+            table.row([
+                one.id.to_string(),
+                number(one.block.slenderness_rad()),
+                number(one.block.frequency_rad_s()),
+                optional(one.eta),
+                state.name.to_string(),
+                one.im.to_string(),
+                one.im.unit().into(),
+                number(fragility.shift()),
+                number(fragility.median()),
+                number(fragility.dispersion()),
+                one.origin.clone(),
+            ]);
+        }
+    }
+    Ok(Texts { main: table.finish(), beside: None })
+}

@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::process::Stdio;
 
+use rocking::excitation::{PulseName, PulseParameter};
 use serde_json::Value;
 
 #[path = "cli/assess.rs"]
@@ -124,41 +125,26 @@ fn unknown_flags_are_refused_by_every_command() {
     assert!(refused(&place, "no-such-command").contains("no-such-command"));
 }
 
-/// The flags that each pulse takes, all required but the last of Ricker's.
-const PULSES: &[(&str, &[&str])] = &[
-    ("one-sine", &["--amplitude-m-s2", "--omega-rad-s"]),
-    ("half-sine", &["--amplitude-m-s2", "--omega-rad-s"]),
-    ("one-cosine", &["--amplitude-m-s2", "--omega-rad-s"]),
-    ("rectangle", &["--amplitude-m-s2", "--duration-s"]),
-    ("triangle", &["--amplitude-m-s2", "--duration-s"]),
-    ("ricker-symmetric", &["--amplitude-m-s2", "--period-s"]),
-    ("ricker-antisymmetric", &["--amplitude-m-s2", "--period-s"]),
-    (
-        "mavroeidis-papageorgiou",
-        &["--velocity-m-s", "--frequency-hz", "--gamma", "--phase-rad"],
-    ),
-];
-
 #[test]
 fn a_flag_that_the_pulse_does_not_use_is_refused() {
     let place = folder("pulses", &[]);
-    let flags = || PULSES.iter().flat_map(|(_, flags)| flags.iter().copied());
-    for (pulse, used) in PULSES {
+    for pulse in PulseName::ALL {
         let chosen = format!("respond {BLOCK} --pulse {pulse}");
+        let used = pulse.parameters();
         let given: String =
-            used.iter().map(|flag| format!(" {flag} 1.5")).collect();
+            used.iter().map(|flag| format!(" --{flag} 1.5")).collect();
         let response = json(&place, &format!("{chosen}{given} --json"));
         assert!(response["outcome"].is_string(), "{pulse}");
-        for flag in flags().chain(["--cycles"]) {
-            let ricker = pulse.starts_with("ricker") && flag == "--cycles";
-            if !used.contains(&flag) && !ricker {
-                let arguments = format!("{chosen}{given} {flag} 1.5");
-                refused_for(&place, &arguments, &[flag, pulse]);
-            }
-        }
-        for missing in *used {
-            let without = given.replace(&format!(" {missing} 1.5"), "");
-            refused_for(&place, &format!("{chosen}{without}"), &[missing]);
+        for flag in PulseParameter::ALL {
+            let without = given.replace(&format!(" --{flag} 1.5"), "");
+            let arguments = if !used.contains(&flag) {
+                format!("{chosen}{given} --{flag} 1.5")
+            } else if flag.default_value().is_none() {
+                format!("{chosen}{without}")
+            } else {
+                continue;
+            };
+            refused_for(&place, &arguments, &[flag.name(), pulse.name()]);
         }
     }
     for (arguments, flag) in [

@@ -4,14 +4,17 @@
 
 use std::collections::BTreeMap;
 
+use rocking::excitation::{Pulse, PulseName};
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
 use rocking_proof::cases::{
     Basis, Bound, Case, CaseError, Cost, Fault, Status, load_all, load_family,
 };
 use rocking_proof::methods::{self, Quantities};
+use rocking_proof::oracles::linear;
+use rocking_proof::scene::Forcing;
 use rocking_proof::verdict::judge;
 
-use super::compare::committed;
+use super::compare::{committed, near};
 
 const GOOD: &str = r#"
 [family]
@@ -340,4 +343,26 @@ fn what_is_counted_is_what_is_expected() {
     assert_ne!(changed, cases);
     expect_counters(&mut changed, &csv);
     assert_eq!(changed, cases);
+}
+
+/// The proof computes each pulse of the core anew.
+#[test]
+fn every_pulse_has_its_oracle() {
+    for name in PulseName::ALL {
+        let forcing = Forcing::pulse(name, 2.0, 1.3);
+        let Forcing::Pulse(kind) = forcing else { unreachable!() };
+        let core = Pulse::try_new(kind).unwrap();
+        let end_s = core.duration_s();
+        near(name.name(), forcing.end_s(), end_s, 1e-14 * end_s);
+        for (piece, ends) in forcing.pieces_s().windows(2).enumerate() {
+            for share in [0.1, 0.5, 0.9] {
+                let t_s = ends[0] + share * (ends[1] - ends[0]);
+                let own = forcing.at(piece, t_s);
+                near(name.name(), own, core.acceleration_g(t_s), 1e-12);
+            }
+        }
+        let uplift = linear::respond(kind, 0.9, 1).uplift.unwrap();
+        let at_uplift = core.acceleration_g(uplift).abs();
+        assert!(uplift == 0.0 || (at_uplift - 1.0).abs() < 1e-9, "{name}");
+    }
 }

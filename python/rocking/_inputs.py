@@ -147,6 +147,9 @@ class Block:
         return _rocking.block_size(self.alpha, self.p, gravity)
 
 
+_PULSES = {kind: dict(keys) for kind, keys in _rocking.pulses()}
+
+
 @dataclass(frozen=True, init=False)
 class Pulse:
     """An analytic pulse of ground acceleration, from t = 0.
@@ -154,12 +157,9 @@ class Pulse:
     Parameters
     ----------
     kind : str
-        "one-sine", "half-sine" or "one-cosine" (`amplitude_g`, `omega` in
-        rad/s), "rectangle" or "triangle" (`amplitude_g`, `duration` in s),
-        "ricker-symmetric" or "ricker-antisymmetric" (`amplitude_g`, `period`
-        in s, `cycles`: 4 unless given), "mavroeidis-papageorgiou"
-        (`velocity_g_s`, the velocity over gravity, `frequency_hz`, `gamma`,
-        `phase_rad`).
+        One of these, with these numbers (`omega` in rad/s, times in s,
+        velocities over gravity):
+        PULSES
 
     >>> Pulse("one-sine", amplitude_g=0.3, omega=6.0).pga_g
     0.3
@@ -169,8 +169,9 @@ class Pulse:
     parameters: tuple[tuple[str, float], ...]
 
     def __init__(self, kind: str, **parameters: float) -> None:
-        if kind.startswith("ricker"):
-            parameters = {"cycles": 4.0, **parameters}
+        keys = _PULSES.get(kind, {}).items()
+        defaults = {key: x for key, x in keys if x is not None}
+        parameters = {**defaults, **parameters}
         given = {key: number(x, key) for key, x in parameters.items()}
         _rocking.pulse(kind, given)
         object.__setattr__(self, "kind", kind)
@@ -189,6 +190,22 @@ class Pulse:
     def __repr__(self) -> str:
         known = (f"{key}={value!r}" for key, value in self.parameters)
         return f"Pulse({', '.join([repr(self.kind), *known])})"
+
+
+def _keys(keys: dict[str, float | None]) -> str:
+    texts = (
+        f"`{key}`" if x is None else f"`{key}` ({x:g} unless given)"
+        for key, x in keys.items()
+    )
+    return ", ".join(texts)
+
+
+Pulse.__doc__ = (Pulse.__doc__ or "").replace(
+    "PULSES",
+    "\n        ".join(
+        f'"{kind}": {_keys(keys)}' for kind, keys in _PULSES.items()
+    ),
+)
 
 
 @dataclass(frozen=True, init=False, eq=False)

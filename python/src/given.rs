@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rocking::accelerogram::{Accelerogram, suite_names};
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Pulse, PulseName, PulseParameter};
+use rocking::excitation::{Pulse, PulseName};
 use rocking::integrator::{self, Model, Overturning};
 use rocking::units::AccelerationUnit;
 use rocking_records::intensity::IntensityMeasure;
@@ -162,17 +162,7 @@ pub fn pulse_of(
     let mut left = numbers.clone();
     let pulse: PulseName = name.parse().map_err(refuse)?;
     let kind = pulse.kind(|parameter| {
-        let key = match parameter {
-            PulseParameter::Amplitude => "amplitude_g",
-            PulseParameter::Omega => "omega",
-            PulseParameter::Duration => "duration",
-            PulseParameter::Period => "period",
-            PulseParameter::Cycles => "cycles",
-            PulseParameter::Velocity => "velocity_g_s",
-            PulseParameter::Frequency => "frequency_hz",
-            PulseParameter::Gamma => "gamma",
-            PulseParameter::Phase => "phase_rad",
-        };
+        let key = parameter.name_over_gravity();
         left.remove(key)
             .ok_or_else(|| refuse(format!("pulse {name:?} needs {key}")))
     })?;
@@ -180,6 +170,17 @@ pub fn pulse_of(
         return Err(refuse(format!("pulse {name:?} has no use for {key}")));
     }
     Pulse::try_new(kind).map_err(refuse)
+}
+
+/// The pulses, and for each its keys with their values where none is given.
+#[pyfunction]
+pub fn pulses() -> Vec<(&'static str, Vec<(&'static str, Option<f64>)>)> {
+    let pulses = PulseName::ALL.into_iter().map(|pulse| {
+        let keys = pulse.parameters().iter();
+        let keys = keys.map(|p| (p.name_over_gravity(), p.default_value()));
+        (pulse.name(), keys.collect())
+    });
+    pulses.collect()
 }
 
 /// Checks the parameters of a block.

@@ -40,7 +40,7 @@ mod _rocking {
     use crate::files::{embedded_suite, read_record, read_suite};
     #[pymodule_export]
     use crate::given::{
-        block, block_of_size, block_size, measure, pulse, samples,
+        block, block_of_size, block_size, measure, pulse, pulses, samples,
         sampling_interval, uplift_threshold,
     };
     #[pymodule_export]

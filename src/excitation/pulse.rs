@@ -2,12 +2,11 @@
 
 mod bound;
 mod kind;
-mod peaks;
 
 pub use kind::{PulseError, PulseKind, PulseName, PulseParameter};
 
 use crate::number::{Number, Real};
-use peaks::gauss;
+use kind::{Form, Velocity};
 
 /// An analytic pulse, checked.
 ///
@@ -57,22 +56,9 @@ impl<N: Number> Sine<N> {
     }
 }
 
-/// Peak of (x^2 - 3) x exp(-x^2/2): sqrt(6) sqrt(3 - sqrt(6))
-/// exp(-(3 - sqrt(6))/2) = 1.380119...
-fn ricker_beta<N: Real>() -> N {
-    let root = N::from_f64(6.0).sqrt();
-    let square = N::from_f64(3.0) - root;
-    root * square.sqrt() * (-(square * N::ratio(1, 2))).exp()
-}
-
-/// pi, in the precision of the type.
-fn half_turn<N: Real>() -> N {
-    N::from_f64(2.0) * N::right_angle()
-}
-
-/// 2 pi, in the precision of the type.
-fn full_turn<N: Real>() -> N {
-    N::from_f64(4.0) * N::right_angle()
+/// exp(-x^2/2).
+fn gauss(x: f64) -> f64 {
+    libm::exp(-0.5 * x * x)
 }
 
 impl Pulse {
@@ -82,50 +68,7 @@ impl Pulse {
     /// [`PulseError`] for an amplitude or phase that is not finite, and for a
     /// frequency, period, duration or count that is not positive.
     pub fn try_new(kind: PulseKind) -> Result<Self, PulseError> {
-        let finite = |a: f64| {
-            if a.is_finite() { Ok(()) } else { Err(PulseError::Amplitude(a)) }
-        };
-        let positive = |what, x: f64| {
-            if x > 0.0 && x.is_finite() {
-                Ok(())
-            } else {
-                Err(PulseError::NotPositive { what, found: x })
-            }
-        };
-        match kind {
-            PulseKind::OneSine { amplitude, omega_rad_s }
-            | PulseKind::HalfSine { amplitude, omega_rad_s }
-            | PulseKind::OneCosine { amplitude, omega_rad_s } => {
-                finite(amplitude)?;
-                positive("circular frequency", omega_rad_s)?;
-            }
-            PulseKind::Rectangle { amplitude, duration_s }
-            | PulseKind::Triangle { amplitude, duration_s } => {
-                finite(amplitude)?;
-                positive("duration", duration_s)?;
-            }
-            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
-            | PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } =>
-            {
-                finite(amplitude)?;
-                positive("period", period_s)?;
-                positive("number of cycles", cycles)?;
-            }
-            PulseKind::MavroeidisPapageorgiou {
-                velocity,
-                frequency_hz,
-                gamma,
-                phase_rad,
-            } => {
-                finite(velocity)?;
-                positive("frequency", frequency_hz)?;
-                positive("gamma", gamma)?;
-                if !phase_rad.is_finite() {
-                    return Err(PulseError::Phase(phase_rad));
-                }
-            }
-        }
-        Ok(Self { kind, divisor: 1.0 })
+        Ok(Self { kind: kind.checked()?, divisor: 1.0 })
     }
 
     /// A pulse with its acceleration in m/s2, or its velocity in m/s, where
@@ -158,15 +101,10 @@ impl Pulse {
         self.kind.with_amplitude(self.kind.amplitude() / self.divisor)
     }
 
-    /// Amplitude over gravity.
-    fn amplitude<N: Number>(&self) -> N {
-        N::from_f64(self.kind.amplitude()) / N::from_f64(self.divisor)
-    }
-
     /// The same pulse with every acceleration times `factor`.
     ///
     /// # Errors
-    /// [`PulseError::Amplitude`] if the product is not finite.
+    /// [`PulseError::NotFinite`] if the product is not finite.
     pub fn scaled(&self, factor: f64) -> Result<Self, PulseError> {
         let kind = self.kind();
         Self::try_new(kind.with_amplitude(kind.amplitude() * factor))
@@ -176,154 +114,94 @@ impl Pulse {
     /// amplitude is the peak, to the last bit.
     ///
     /// # Errors
-    /// [`PulseError::Amplitude`] if the amplitude is not finite, as for a
+    /// [`PulseError::NotFinite`] if the amplitude is not finite, as for a
     /// pulse of amplitude zero.
     pub fn with_pga(&self, pga_g: f64) -> Result<Self, PulseError> {
         let own = self.pga_g();
-        let mut kind = self.kind();
-        match &mut kind {
-            PulseKind::OneSine { amplitude: a, .. }
-            | PulseKind::HalfSine { amplitude: a, .. }
-            | PulseKind::OneCosine { amplitude: a, .. }
-            | PulseKind::Rectangle { amplitude: a, .. }
-            | PulseKind::Triangle { amplitude: a, .. }
-            | PulseKind::RickerSymmetric { amplitude: a, .. }
-                if own > 0.0 =>
-            {
-                *a = pga_g.copysign(*a);
-                Self::try_new(kind)
-            }
-            _ => self.scaled(pga_g / own),
+        let kind = self.kind();
+        if !(self.form::<f64>().is_peak && own > 0.0) {
+            return self.scaled(pga_g / own);
         }
+        Self::try_new(kind.with_amplitude(pga_g.copysign(kind.amplitude())))
+    }
+
+    /// The pulse as the core computes it.
+    fn form<N: Real>(&self) -> Form<N> {
+        let gravity = N::from_f64(self.divisor);
+        self.kind.form(N::from_f64(self.kind.amplitude()) / gravity)
+    }
+
+    /// Smooth stretches: where each ends (s) and its shape.
+    pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, Shape<N>)> {
+        self.form().stretches
     }
 
     /// Duration in s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
-        self.duration()
+        self.stretches().last().map_or(0.0, |(end_s, _)| *end_s)
     }
 
-    fn duration<N: Real>(&self) -> N {
-        match self.kind {
-            PulseKind::OneSine { omega_rad_s, .. }
-            | PulseKind::OneCosine { omega_rad_s, .. } => {
-                full_turn::<N>() / N::from_f64(omega_rad_s)
-            }
-            PulseKind::HalfSine { omega_rad_s, .. } => {
-                half_turn::<N>() / N::from_f64(omega_rad_s)
-            }
-            PulseKind::Rectangle { duration_s, .. }
-            | PulseKind::Triangle { duration_s, .. } => {
-                N::from_f64(duration_s)
-            }
-            PulseKind::RickerSymmetric { period_s, cycles, .. }
-            | PulseKind::RickerAntisymmetric { period_s, cycles, .. } => {
-                N::from_f64(cycles) * N::from_f64(period_s)
-            }
-            PulseKind::MavroeidisPapageorgiou {
-                frequency_hz, gamma, ..
-            } => N::from_f64(gamma) / N::from_f64(frequency_hz),
+    /// Peak ground acceleration over g.
+    #[must_use]
+    pub fn pga_g(&self) -> f64 {
+        let form = self.form();
+        if form.is_peak {
+            self.kind().amplitude().abs()
+        } else {
+            self.extreme(|t_s| form.acceleration_g(t_s))
         }
     }
 
-    /// Smooth stretches: where each ends (s) and its shape.
-    pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, Shape<N>)> {
-        let end: N = self.duration();
-        let amplitude: N = self.amplitude();
-        let half = N::ratio(1, 2);
-        let sine = |amplitude, rate_rad_s, phase_rad| Sine {
-            amplitude,
-            rate_rad_s,
-            phase_rad,
-        };
-        let only = |sine| Shape::Sines([sine, Sine::silent(), Sine::silent()]);
-        match self.kind {
-            PulseKind::OneSine { omega_rad_s, .. }
-            | PulseKind::HalfSine { omega_rad_s, .. } => {
-                let rate = N::from_f64(omega_rad_s);
-                vec![(end, only(sine(amplitude, rate, N::zero())))]
-            }
-            PulseKind::OneCosine { omega_rad_s, .. } => {
-                let rate = N::from_f64(omega_rad_s);
-                vec![(end, only(sine(amplitude, rate, N::right_angle())))]
-            }
-            PulseKind::Rectangle { .. } => {
-                let shape =
-                    Shape::Line { at_zero: amplitude, slope: N::zero() };
-                vec![(end, shape)]
-            }
-            PulseKind::Triangle { .. } => {
-                let twice = N::from_f64(2.0) * amplitude;
-                let slope = twice / end;
-                let up = Shape::Line { at_zero: N::zero(), slope };
-                let down = Shape::Line { at_zero: twice, slope: -slope };
-                vec![(half * end, up), (end, down)]
-            }
-            PulseKind::RickerSymmetric { period_s, .. } => {
-                let root = N::from_f64(2.0).sqrt();
-                let shape = Shape::Gauss {
-                    scale: amplitude,
-                    polynomial: [1.0, 0.0, -1.0, 0.0],
-                    rate: root * half_turn() / N::from_f64(period_s),
-                    centre_s: half * end,
-                };
-                vec![(end, shape)]
-            }
-            PulseKind::RickerAntisymmetric { period_s, .. } => {
-                let root = N::from_f64(3.0).sqrt();
-                let shape = Shape::Gauss {
-                    scale: amplitude / ricker_beta(),
-                    polynomial: [0.0, -3.0, 0.0, 1.0],
-                    rate: full_turn::<N>() / (root * N::from_f64(period_s)),
-                    centre_s: half * end,
-                };
-                vec![(end, shape)]
-            }
-            PulseKind::MavroeidisPapageorgiou {
-                frequency_hz,
-                gamma,
-                phase_rad,
-                ..
-            } => {
-                // a = -V W { sin(W u + nu)/2
-                //   + (1 + 1/gamma)/4 sin(W (1 + 1/gamma) u + nu)
-                //   + (1 - 1/gamma)/4 sin(W (1 - 1/gamma) u + nu) },
-                // u = t - gamma/(2 f), hence phases nu - W k gamma/(2 f).
-                let [frequency, gamma, phase] =
-                    [frequency_hz, gamma, phase_rad].map(N::from_f64);
-                let rate = full_turn::<N>() * frequency;
-                let middle = half * gamma / frequency;
-                let term = |weight: N, ratio: N| {
-                    let own = rate * ratio;
-                    sine(
-                        -amplitude * rate * weight,
-                        own,
-                        (-own).mul_add(middle, phase),
-                    )
-                };
-                let quarter = N::ratio(1, 4);
-                let up = N::one() + N::one() / gamma;
-                let down = N::one() - N::one() / gamma;
-                let terms = [
-                    term(half, N::one()),
-                    term(quarter * up, up),
-                    term(quarter * down, down),
-                ];
-                vec![(end, Shape::Sines(terms))]
-            }
+    /// Peak ground velocity over g in s, with v(0) = 0.
+    #[must_use]
+    pub fn pgv_g_s(&self) -> f64 {
+        match self.form::<f64>().velocity {
+            Velocity::Peak(peak) => peak,
+            Velocity::At(velocity) => self.extreme(velocity),
         }
     }
 
     /// Acceleration over g at `t_s`; zero outside the pulse.
     #[must_use]
     pub fn acceleration_g(&self, t_s: f64) -> f64 {
-        if !(t_s >= 0.0) {
-            return 0.0;
+        self.form().acceleration_g(t_s)
+    }
+
+    /// Largest absolute value of `f` over the pulse: a fine scan, then
+    /// golden-section search about the best point.
+    fn extreme(&self, f: impl Fn(f64) -> f64) -> f64 {
+        const SCAN: u32 = 20_000;
+        let end = self.duration_s();
+        let at = |k: u32| end * f64::from(k) / f64::from(SCAN);
+        let mut best = 0;
+        for k in 0..=SCAN {
+            if f(at(k)).abs() > f(at(best)).abs() {
+                best = k;
+            }
         }
-        self.stretches::<f64>()
-            .into_iter()
-            .find(|(end_s, _)| t_s <= *end_s)
-            .map_or(0.0, |(_, shape)| shape.at(t_s))
+        let mut low = at(best.saturating_sub(1));
+        let mut high = at((best + 1).min(SCAN));
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        for _ in 0..60 {
+            let left = high - golden * (high - low);
+            let right = low + golden * (high - low);
+            if f(left).abs() > f(right).abs() {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        f(0.5 * (low + high)).abs().max(f(at(best)).abs())
+    }
+}
+
+impl Form<f64> {
+    fn acceleration_g(&self, t_s: f64) -> f64 {
+        let mut stretches = self.stretches.iter();
+        let here = stretches.find(|(end_s, _)| t_s <= *end_s);
+        let here = here.filter(|_| t_s >= 0.0);
+        here.map_or(0.0, |(_, shape)| shape.at(t_s))
     }
 }
 

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{
-    Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
+    Excitation, NormalisedRecord, Pulse, PulseKind, PulseName,
+    PulseParameter as P, ScaledRecord,
 };
 use rocking::ida::{Analysis, Batch, Grid, IdaError, curve, curves};
 use rocking::integrator::{
@@ -33,29 +34,30 @@ fn scene<'a>(model: Model, eta: f64, excitation: Excitation<'a>) -> Scene<'a> {
 /// Pulses that last about `duration_s`, of peaks of at most an amplitude, and
 /// of most of it.
 fn long(duration_s: f64, amplitude: f64) -> Vec<PulseKind> {
-    let omega_rad_s = 1.0 / duration_s;
-    let kinds = vec![
-        PulseKind::OneSine { amplitude, omega_rad_s },
-        PulseKind::HalfSine { amplitude, omega_rad_s },
-        PulseKind::OneCosine { amplitude, omega_rad_s },
-        PulseKind::Rectangle { amplitude, duration_s },
-        PulseKind::Triangle { amplitude, duration_s },
-    ];
     // Long in one period, and in many.
     let both = [(duration_s / 4.0, 4.0), (1.0, duration_s)];
-    let more = both.into_iter().flat_map(|(period_s, cycles)| {
-        [
-            PulseKind::RickerSymmetric { amplitude, period_s, cycles },
-            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles },
-            PulseKind::MavroeidisPapageorgiou {
-                velocity: amplitude * period_s / (TAU * (1.0 + 1.0 / cycles)),
-                frequency_hz: 1.0 / period_s,
-                gamma: cycles,
-                phase_rad: 0.3,
-            },
-        ]
-    });
-    kinds.into_iter().chain(more).collect()
+    let mut kinds = Vec::new();
+    for (name, (period_s, cycles)) in
+        PulseName::ALL.into_iter().flat_map(|name| both.map(|x| (name, x)))
+    {
+        let kind = name.kind(|parameter| {
+            Ok::<_, ()>(match parameter {
+                P::Amplitude => amplitude,
+                P::Omega => 1.0 / duration_s,
+                P::Duration => duration_s,
+                P::Period => period_s,
+                P::Cycles | P::Gamma => cycles,
+                P::Velocity => {
+                    amplitude * period_s / (TAU * (1.0 + 1.0 / cycles))
+                }
+                P::Frequency => 1.0 / period_s,
+                P::Phase => 0.3,
+            })
+        });
+        kinds.push(kind.unwrap());
+    }
+    kinds.dedup();
+    kinds
 }
 
 /// Under a push that hardly changes the block overturns where it exceeds the

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use rocking::excitation::{Excitation, Pulse, PulseKind};
+use rocking::excitation::{Excitation, Pulse, PulseName, PulseParameter as P};
 use rocking::integrator::{Model, Outcome, Overturning, Response};
 
 use super::CASES;
@@ -100,25 +100,21 @@ proptest! {
     /// A pulse of any kind: mirrored by a negative factor, and never NaN.
     #[test]
     fn holds_mirror_symmetry_of_pulses(
-        body in body(), kind in 0..7_usize,
+        body in body(), name in 0..PulseName::ALL.len(),
         amplitude in 0.05..2.0_f64, duration_s in 0.1..3.0_f64
     ) {
-        let omega_rad_s = 6.0 / duration_s;
-        let period_s = duration_s;
-        let kind = [
-            PulseKind::OneSine { amplitude, omega_rad_s },
-            PulseKind::HalfSine { amplitude, omega_rad_s },
-            PulseKind::OneCosine { amplitude, omega_rad_s },
-            PulseKind::Rectangle { amplitude, duration_s },
-            PulseKind::Triangle { amplitude, duration_s },
-            PulseKind::RickerSymmetric { amplitude, period_s, cycles: 3.0 },
-            PulseKind::MavroeidisPapageorgiou {
-                velocity: amplitude * duration_s / 6.0,
-                frequency_hz: 1.0 / duration_s,
-                gamma: 1.8,
-                phase_rad: 0.7,
-            },
-        ][kind];
+        let kind = PulseName::ALL[name].kind(|parameter| {
+            Ok::<_, ()>(match parameter {
+                P::Amplitude => amplitude,
+                P::Omega => 6.0 / duration_s,
+                P::Duration | P::Period => duration_s,
+                P::Cycles => 3.0,
+                P::Velocity => amplitude * duration_s / 6.0,
+                P::Frequency => 1.0 / duration_s,
+                P::Gamma => 1.8,
+                P::Phase => 0.7,
+            })
+        }).unwrap();
         let pulse = Pulse::try_new(kind).unwrap();
         let mirrored = pulse.scaled(-1.0).unwrap();
         let one = run(body, Excitation::Pulse(&pulse));

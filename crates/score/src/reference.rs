@@ -97,15 +97,9 @@ impl TryFrom<Fields> for Excitation {
                 samples_m_s2: samples.clone(),
             }),
             (name, _) => {
-                use rocking::excitation::PulseParameter as P;
                 let name: PulseName = text(name.parse())?;
-                let kind = name.kind(|parameter| match parameter {
-                    P::Amplitude => number("amplitude_m_s2"),
-                    P::Omega => number("omega_rad_s"),
-                    P::Duration => number("duration_s"),
-                    P::Period => number("period_s"),
-                    P::Cycles => number("cycles"),
-                    other => Err(format!("no pulse with {other:?}")),
+                let kind = name.kind(|parameter| {
+                    number(&parameter.name().replace('-', "_"))
                 });
                 kind.map(Self::Pulse)
             }

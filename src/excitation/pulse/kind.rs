@@ -1,117 +1,148 @@
-//! Shapes of pulses and their parameters.
+//! The pulses: a row and two arms for each, which have all that is known of
+//! it, and the parameters that they take.
 
 use thiserror::Error;
 
+use super::{Shape, Sine, gauss};
 use crate::names::named;
+use crate::number::Real;
 
-/// Shape of a pulse. The constructor says in which unit its amplitude is:
-/// multiples of gravity for [`Pulse::try_new`](super::Pulse::try_new), m/s2
-/// for [`Pulse::try_new_si`](super::Pulse::try_new_si) (a velocity: gravity
-/// times s, or m/s).
-///
-/// Every pulse starts at t = 0 and is zero afterwards (a jump, if it does not
-/// end at zero).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum PulseKind {
-    /// a sin(omega t) for one full period.
-    OneSine {
-        /// Peak acceleration.
-        amplitude: f64,
+named! {
+    /// A parameter of a [`PulseKind`]; its name has its SI unit.
+    pub enum PulseParameter: "pulse parameter" {
+        /// Amplitude of the acceleration.
+        Amplitude = "amplitude-m-s2",
         /// Circular frequency in rad/s.
-        omega_rad_s: f64,
-    },
-    /// a sin(omega t) for half a period.
-    HalfSine {
-        /// Peak acceleration.
-        amplitude: f64,
-        /// Circular frequency in rad/s.
-        omega_rad_s: f64,
-    },
-    /// a cos(omega t) for one full period.
-    OneCosine {
-        /// Peak acceleration.
-        amplitude: f64,
-        /// Circular frequency in rad/s.
-        omega_rad_s: f64,
-    },
-    /// Constant a.
-    Rectangle {
-        /// Acceleration.
-        amplitude: f64,
+        Omega = "omega-rad-s",
         /// Duration in s.
-        duration_s: f64,
-    },
-    /// Isosceles triangle.
-    Triangle {
-        /// Peak acceleration, at half the duration.
-        amplitude: f64,
-        /// Duration in s.
-        duration_s: f64,
-    },
-    /// a (1 - x^2) exp(-x^2/2), x = sqrt(2) pi (t - t_c)/T, over `cycles`
-    /// periods T about the centre t_c.
-    RickerSymmetric {
-        /// Peak acceleration.
-        amplitude: f64,
-        /// Period T in s.
-        period_s: f64,
+        Duration = "duration-s",
+        /// Period in s.
+        Period = "period-s",
         /// Length in periods.
-        cycles: f64,
-    },
-    /// (a / beta) (x^2 - 3) x exp(-x^2/2), x = 2 pi (t - t_c)/(sqrt(3) T),
-    /// with beta = 1.38 such that the peak is a.
-    RickerAntisymmetric {
-        /// Peak acceleration.
-        amplitude: f64,
-        /// Period T in s.
-        period_s: f64,
-        /// Length in periods.
-        cycles: f64,
-    },
-    /// Derivative of the velocity
-    /// (V/2) (1 + cos(2 pi f u/gamma)) cos(2 pi f u + nu), with
-    /// u = t - gamma/(2 f) and |u| <= gamma/(2 f).
-    MavroeidisPapageorgiou {
-        /// Velocity amplitude V.
-        velocity: f64,
-        /// Prevailing frequency f in Hz.
-        frequency_hz: f64,
+        Cycles = "cycles",
+        /// Amplitude of the velocity.
+        Velocity = "velocity-m-s",
+        /// Prevailing frequency in Hz.
+        Frequency = "frequency-hz",
         /// Oscillatory character gamma.
-        gamma: f64,
-        /// Phase nu in rad.
-        phase_rad: f64,
-    },
+        Gamma = "gamma",
+        /// Phase in rad.
+        Phase = "phase-rad",
+    }
 }
 
-/// A parameter of a [`PulseKind`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PulseParameter {
-    /// Amplitude of the acceleration.
-    Amplitude,
-    /// Circular frequency in rad/s.
-    Omega,
-    /// Duration in s.
-    Duration,
-    /// Period in s.
-    Period,
-    /// Length in periods.
-    Cycles,
-    /// Amplitude of the velocity.
-    Velocity,
-    /// Prevailing frequency in Hz.
-    Frequency,
-    /// Oscillatory character gamma.
-    Gamma,
-    /// Phase in rad.
-    Phase,
+impl PulseParameter {
+    /// Quantity, SI unit, and name where accelerations are multiples of
+    /// gravity, as in Python.
+    const fn row(self) -> [&'static str; 3] {
+        match self {
+            Self::Amplitude => ["peak acceleration", "m/s2", "amplitude_g"],
+            Self::Omega => ["circular frequency", "rad/s", "omega"],
+            Self::Duration => ["duration", "s", "duration"],
+            Self::Period => ["period", "s", "period"],
+            Self::Cycles => ["number of periods", "", "cycles"],
+            Self::Velocity => ["velocity amplitude", "m/s", "velocity_g_s"],
+            Self::Frequency => ["prevailing frequency", "Hz", "frequency_hz"],
+            Self::Gamma => ["oscillatory character gamma", "", "gamma"],
+            Self::Phase => ["phase", "rad", "phase_rad"],
+        }
+    }
+
+    /// The quantity, as messages and help texts name it.
+    #[must_use]
+    pub const fn quantity(self) -> &'static str {
+        self.row()[0]
+    }
+
+    /// Its SI unit; empty where it has none.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        self.row()[1]
+    }
+
+    /// Its name where accelerations are multiples of gravity.
+    #[must_use]
+    pub const fn name_over_gravity(self) -> &'static str {
+        self.row()[2]
+    }
+
+    /// Its value where none is given, if it has one.
+    #[must_use]
+    pub const fn default_value(self) -> Option<f64> {
+        match self {
+            Self::Cycles => Some(4.0),
+            _ => None,
+        }
+    }
+
+    fn check(self, value: f64) -> Result<(), PulseError> {
+        let what = self.quantity();
+        match self {
+            Self::Amplitude | Self::Velocity | Self::Phase
+                if !value.is_finite() =>
+            {
+                Err(PulseError::NotFinite { what, found: value })
+            }
+            Self::Amplitude | Self::Velocity | Self::Phase => Ok(()),
+            _ if value > 0.0 && value.is_finite() => Ok(()),
+            _ => Err(PulseError::NotPositive { what, found: value }),
+        }
+    }
 }
 
-/// Makes [`PulseName`] of a table: variant, name, fields and parameters.
+/// Makes [`PulseKind`] and [`PulseName`] of a table: variant, name, fields
+/// and parameters. The first field is the amplitude.
 macro_rules! pulses {
-    ($($kind:ident = $name:literal {
-        $($field:ident: $parameter:ident),+
+    ($($(#[$about:meta])+ $kind:ident = $name:literal {
+        $(#[$of_first:meta])+ $first:ident: $amplitude:ident
+        $(, $(#[$of_field:meta])+ $field:ident: $parameter:ident)* $(,)?
     },)+) => {
+        /// Shape of a pulse. The constructor says in which unit its amplitude
+        /// is: multiples of gravity for
+        /// [`Pulse::try_new`](super::Pulse::try_new), m/s2 for
+        /// [`Pulse::try_new_si`](super::Pulse::try_new_si) (a velocity:
+        /// gravity times s, or m/s).
+        ///
+        /// Every pulse starts at t = 0 and is zero afterwards (a jump, if it
+        /// does not end at zero).
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[non_exhaustive]
+        pub enum PulseKind {
+            $($(#[$about])+ $kind {
+                $(#[$of_first])+ $first: f64,
+                $($(#[$of_field])+ $field: f64),*
+            },)+
+        }
+
+        impl PulseKind {
+            /// The amplitude: an acceleration, or a velocity.
+            pub fn amplitude_mut(&mut self) -> &mut f64 {
+                match self {
+                    $(Self::$kind { $first, .. } => $first,)+
+                }
+            }
+
+            /// Its name.
+            #[must_use]
+            pub fn name(&self) -> PulseName {
+                match self {
+                    $(Self::$kind { .. } => PulseName::$kind,)+
+                }
+            }
+
+            /// Its parameters with their values, the amplitude first.
+            pub fn parameters_mut(
+                &mut self,
+            ) -> Vec<(PulseParameter, &mut f64)> {
+                match self {
+                    $(Self::$kind { $first, $($field),* } => vec![
+                        (PulseParameter::$amplitude, $first),
+                        $((PulseParameter::$parameter, $field)),*
+                    ],)+
+                }
+            }
+        }
+
         named! {
             /// The name of a [`PulseKind`], without its parameters.
             ///
@@ -141,23 +172,25 @@ macro_rules! pulses {
             /// The pulse of this name with the values of its parameters.
             ///
             /// # Errors
-            /// That of `value`.
+            /// The error of `value`.
             pub fn kind<E>(
                 self,
                 mut value: impl FnMut(PulseParameter) -> Result<f64, E>,
             ) -> Result<PulseKind, E> {
                 Ok(match self {
                     $(Self::$kind => PulseKind::$kind {
-                        $($field: value(PulseParameter::$parameter)?),+
-                    }),+
+                        $first: value(PulseParameter::$amplitude)?,
+                        $($field: value(PulseParameter::$parameter)?),*
+                    },)+
                 })
             }
 
-            /// Its parameters, as [`kind`](Self::kind) asks for them.
+            /// Its parameters, in the order of [`kind`](Self::kind).
             #[must_use]
             pub fn parameters(self) -> &'static [PulseParameter] {
+                use PulseParameter as P;
                 match self {
-                    $(Self::$kind => &[$(PulseParameter::$parameter),+]),+
+                    $(Self::$kind => &[P::$amplitude, $(P::$parameter),*],)+
                 }
             }
         }
@@ -165,20 +198,73 @@ macro_rules! pulses {
 }
 
 pulses! {
-    OneSine = "one-sine" { amplitude: Amplitude, omega_rad_s: Omega },
-    HalfSine = "half-sine" { amplitude: Amplitude, omega_rad_s: Omega },
-    OneCosine = "one-cosine" { amplitude: Amplitude, omega_rad_s: Omega },
-    Rectangle = "rectangle" { amplitude: Amplitude, duration_s: Duration },
-    Triangle = "triangle" { amplitude: Amplitude, duration_s: Duration },
+    /// a sin(omega t) for one full period.
+    OneSine = "one-sine" {
+        /// Peak acceleration.
+        amplitude: Amplitude,
+        /// Circular frequency in rad/s.
+        omega_rad_s: Omega,
+    },
+    /// a sin(omega t) for half a period.
+    HalfSine = "half-sine" {
+        /// Peak acceleration.
+        amplitude: Amplitude,
+        /// Circular frequency in rad/s.
+        omega_rad_s: Omega,
+    },
+    /// a cos(omega t) for one full period.
+    OneCosine = "one-cosine" {
+        /// Peak acceleration.
+        amplitude: Amplitude,
+        /// Circular frequency in rad/s.
+        omega_rad_s: Omega,
+    },
+    /// Constant a.
+    Rectangle = "rectangle" {
+        /// Acceleration.
+        amplitude: Amplitude,
+        /// Duration in s.
+        duration_s: Duration,
+    },
+    /// Isosceles triangle.
+    Triangle = "triangle" {
+        /// Peak acceleration, at half the duration.
+        amplitude: Amplitude,
+        /// Duration in s.
+        duration_s: Duration,
+    },
+    /// a (1 - x^2) exp(-x^2/2), x = sqrt(2) pi (t - t_c)/T, over `cycles`
+    /// periods T about the centre t_c.
     RickerSymmetric = "ricker-symmetric" {
-        amplitude: Amplitude, period_s: Period, cycles: Cycles
+        /// Peak acceleration.
+        amplitude: Amplitude,
+        /// Period T in s.
+        period_s: Period,
+        /// Length in periods.
+        cycles: Cycles,
     },
+    /// (a / beta) (x^2 - 3) x exp(-x^2/2), x = 2 pi (t - t_c)/(sqrt(3) T),
+    /// with beta = 1.38 such that the peak is a.
     RickerAntisymmetric = "ricker-antisymmetric" {
-        amplitude: Amplitude, period_s: Period, cycles: Cycles
+        /// Peak acceleration.
+        amplitude: Amplitude,
+        /// Period T in s.
+        period_s: Period,
+        /// Length in periods.
+        cycles: Cycles,
     },
+    /// Derivative of the velocity
+    /// (V/2) (1 + cos(2 pi f u/gamma)) cos(2 pi f u + nu), with
+    /// u = t - gamma/(2 f) and |u| <= gamma/(2 f).
     MavroeidisPapageorgiou = "mavroeidis-papageorgiou" {
-        velocity: Velocity, frequency_hz: Frequency, gamma: Gamma,
-        phase_rad: Phase
+        /// Velocity amplitude V.
+        velocity: Velocity,
+        /// Prevailing frequency f in Hz.
+        frequency_hz: Frequency,
+        /// Oscillatory character gamma.
+        gamma: Gamma,
+        /// Phase nu in rad.
+        phase_rad: Phase,
     },
 }
 
@@ -186,38 +272,60 @@ pulses! {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PulseError {
-    /// Amplitudes must be finite.
-    #[error("pulse amplitude {0}: expected a finite number")]
-    Amplitude(f64),
+    /// Amplitudes and phases must be finite.
+    #[error("pulse {what} {found}: expected a finite number")]
+    NotFinite {
+        /// The quantity.
+        what: &'static str,
+        /// The value.
+        found: f64,
+    },
     /// Frequencies, periods, durations and cycles must be positive.
     #[error("pulse {what} {found}: expected a positive number")]
     NotPositive {
         /// The quantity.
         what: &'static str,
-        /// What was given.
+        /// The value.
         found: f64,
     },
-    /// The phase must be finite.
-    #[error("pulse phase {0} rad: expected a finite number")]
-    Phase(f64),
     /// Gravity must be positive and finite.
     #[error("gravity {0} m/s2: expected a positive number")]
     Gravity(f64),
 }
 
+/// A pulse as the core computes it; accelerations are multiples of gravity.
+pub(super) struct Form<N> {
+    /// Where each smooth stretch ends (s), and its shape.
+    pub stretches: Vec<(N, Shape<N>)>,
+    /// True if the amplitude is the peak ground acceleration.
+    pub is_peak: bool,
+    /// The velocity over gravity, s.
+    pub velocity: Velocity,
+}
+
+/// The velocity of a pulse, 0 at its start.
+pub(super) enum Velocity {
+    /// Its peak.
+    Peak(f64),
+    /// Its value at a time (s).
+    At(Box<dyn Fn(f64) -> f64>),
+}
+
+/// Peak of (x^2 - 3) x exp(-x^2/2): sqrt(6) sqrt(3 - sqrt(6))
+/// exp(-(3 - sqrt(6))/2) = 1.380119...
+fn ricker_beta<N: Real>() -> N {
+    let root = N::from_f64(6.0).sqrt();
+    let square = N::from_f64(3.0) - root;
+    root * square.sqrt() * (-(square * N::ratio(1, 2))).exp()
+}
+
 impl PulseKind {
-    /// The amplitude: an acceleration, or a velocity.
-    pub fn amplitude_mut(&mut self) -> &mut f64 {
-        match self {
-            Self::OneSine { amplitude: a, .. }
-            | Self::HalfSine { amplitude: a, .. }
-            | Self::OneCosine { amplitude: a, .. }
-            | Self::Rectangle { amplitude: a, .. }
-            | Self::Triangle { amplitude: a, .. }
-            | Self::RickerSymmetric { amplitude: a, .. }
-            | Self::RickerAntisymmetric { amplitude: a, .. }
-            | Self::MavroeidisPapageorgiou { velocity: a, .. } => a,
+    /// Refuses parameters out of range.
+    pub(super) fn checked(mut self) -> Result<Self, PulseError> {
+        for (parameter, value) in self.parameters_mut() {
+            parameter.check(*value)?;
         }
+        Ok(self)
     }
 
     /// The amplitude.
@@ -225,9 +333,136 @@ impl PulseKind {
         *self.amplitude_mut()
     }
 
-    /// The same with another amplitude.
+    /// The pulse with another amplitude.
     pub(super) fn with_amplitude(mut self, amplitude: f64) -> Self {
         *self.amplitude_mut() = amplitude;
         self
+    }
+
+    /// What the core computes of the pulse with this amplitude over g.
+    pub(super) fn form<N: Real>(&self, amplitude: N) -> Form<N> {
+        let size = amplitude.to_f64();
+        let half = N::ratio(1, 2);
+        let half_turn = N::from_f64(2.0) * N::right_angle();
+        let full_turn = N::from_f64(4.0) * N::right_angle();
+        // `share` is the peak velocity times omega over the amplitude.
+        let sine = |turn: N, omega_rad_s: f64, phase_rad, share: f64| {
+            let rate_rad_s = N::from_f64(omega_rad_s);
+            let sine = Sine { amplitude, rate_rad_s, phase_rad };
+            let only = [sine, Sine::silent(), Sine::silent()];
+            Form {
+                stretches: vec![(turn / rate_rad_s, Shape::Sines(only))],
+                is_peak: true,
+                velocity: Velocity::Peak(share * size.abs() / omega_rad_s),
+            }
+        };
+        // `integral` is the integral by x of the polynomial times the bell.
+        let bell = |[end, rate, scale, beta]: [N; 4],
+                    polynomial: [f64; 4],
+                    integral: fn(f64) -> f64| {
+            let centre_s = half * end;
+            let [centre, fast] = [centre_s, rate].map(N::to_f64);
+            let speed = size / (beta.to_f64() * fast);
+            let first = integral(fast * (0.0 - centre));
+            let velocity = move |t_s: f64| {
+                speed * (integral(fast * (t_s - centre)) - first)
+            };
+            let shape = Shape::Gauss { scale, polynomial, rate, centre_s };
+            Form {
+                stretches: vec![(end, shape)],
+                is_peak: false,
+                velocity: Velocity::At(Box::new(velocity)),
+            }
+        };
+        match *self {
+            Self::OneSine { omega_rad_s, .. } => {
+                sine(full_turn, omega_rad_s, N::zero(), 2.0)
+            }
+            Self::HalfSine { omega_rad_s, .. } => {
+                sine(half_turn, omega_rad_s, N::zero(), 2.0)
+            }
+            Self::OneCosine { omega_rad_s, .. } => {
+                sine(full_turn, omega_rad_s, N::right_angle(), 1.0)
+            }
+            Self::Rectangle { duration_s, .. } => {
+                let (at_zero, slope) = (amplitude, N::zero());
+                let level = Shape::Line { at_zero, slope };
+                Form {
+                    stretches: vec![(N::from_f64(duration_s), level)],
+                    is_peak: true,
+                    velocity: Velocity::Peak(size.abs() * duration_s),
+                }
+            }
+            Self::Triangle { duration_s, .. } => {
+                let end = N::from_f64(duration_s);
+                let twice = N::from_f64(2.0) * amplitude;
+                let slope = twice / end;
+                let up = Shape::Line { at_zero: N::zero(), slope };
+                let down = Shape::Line { at_zero: twice, slope: -slope };
+                Form {
+                    stretches: vec![(half * end, up), (end, down)],
+                    is_peak: true,
+                    velocity: Velocity::Peak(0.5 * size.abs() * duration_s),
+                }
+            }
+            Self::RickerSymmetric { period_s, cycles, .. } => {
+                let [period, cycles] = [period_s, cycles].map(N::from_f64);
+                let rate = N::from_f64(2.0).sqrt() * half_turn / period;
+                let shape = [cycles * period, rate, amplitude, N::one()];
+                // (1 - x^2) G = (x G)'.
+                let form =
+                    bell(shape, [1.0, 0.0, -1.0, 0.0], |x| x * gauss(x));
+                Form { is_peak: true, ..form }
+            }
+            Self::RickerAntisymmetric { period_s, cycles, .. } => {
+                let [period, cycles] = [period_s, cycles].map(N::from_f64);
+                let rate = full_turn / (N::from_f64(3.0).sqrt() * period);
+                let beta = ricker_beta();
+                let shape = [cycles * period, rate, amplitude / beta, beta];
+                // (x^2 - 3) x G = ((1 - x^2) G)'.
+                let integral = |x| (1.0 - x * x) * gauss(x);
+                bell(shape, [0.0, -3.0, 0.0, 1.0], integral)
+            }
+            Self::MavroeidisPapageorgiou {
+                frequency_hz: f,
+                gamma: g,
+                phase_rad: nu,
+                ..
+            } => {
+                // a = -V W { sin(W u + nu)/2
+                //   + (1 + 1/gamma)/4 sin(W (1 + 1/gamma) u + nu)
+                //   + (1 - 1/gamma)/4 sin(W (1 - 1/gamma) u + nu) },
+                // u = t - gamma/(2 f), hence phases nu - W k gamma/(2 f).
+                let [frequency, gamma, phase] = [f, g, nu].map(N::from_f64);
+                let rate = full_turn * frequency;
+                let middle = half * gamma / frequency;
+                let term = |weight: N, ratio: N| {
+                    let rate_rad_s = rate * ratio;
+                    let amplitude = -amplitude * rate * weight;
+                    let phase_rad = (-rate_rad_s).mul_add(middle, phase);
+                    Sine { amplitude, rate_rad_s, phase_rad }
+                };
+                let quarter = N::ratio(1, 4);
+                let up = N::one() + N::one() / gamma;
+                let down = N::one() - N::one() / gamma;
+                let terms = [
+                    term(half, N::one()),
+                    term(quarter * up, up),
+                    term(quarter * down, down),
+                ];
+                // It is zero at both ends: 1 + cos(pi) = 0.
+                let (w, middle) = (rate.to_f64(), 0.5 * g / f);
+                let velocity = move |t_s: f64| {
+                    let u = t_s - middle;
+                    let envelope = 1.0 + libm::cos(w * u / g);
+                    0.5 * size * envelope * libm::cos(w * u + nu)
+                };
+                Form {
+                    stretches: vec![(gamma / frequency, Shape::Sines(terms))],
+                    is_peak: false,
+                    velocity: Velocity::At(Box::new(velocity)),
+                }
+            }
+        }
     }
 }

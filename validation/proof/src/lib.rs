@@ -11,6 +11,7 @@ pub mod engine;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
+mod pulse;
 mod references;
 pub mod scene;
 pub mod trials;

@@ -13,7 +13,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::arithmetic::decimal;
-use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene, rescaled};
+use crate::pulse::rescaled;
+use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 /// An embedded file, read once.
 pub(crate) struct Reference<T> {

@@ -1,14 +1,14 @@
 //! What a declared case puts before an engine.
 //!
 //! The equation, the criterion and the kind of a pulse are the core's types,
-//! which are data alone. What a pulse's acceleration is, and where it ends,
-//! is computed here anew.
+//! which are data alone. [`pulse`](crate::pulse) computes the acceleration and
+//! the end of a pulse anew.
 //!
 //! Engines (the core behind its public interface, the naive integrator) all
 //! read the same [`Scene`] and answer with the same [`Trace`].
 
 use std::convert::Infallible;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::slice;
 
 use rocking::accelerogram::Accelerogram;
@@ -16,6 +16,8 @@ use rocking::excitation::PulseParameter as P;
 pub use rocking::excitation::{PulseKind, PulseName};
 pub use rocking::integrator::{Impact, Model, Overturning};
 use thiserror::Error;
+
+use crate::pulse;
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,126 +204,12 @@ impl Scene {
     }
 }
 
-/// Peak of (x^2 - 3) x exp(-x^2/2).
-#[must_use]
-pub fn ricker_beta() -> f64 {
-    let r = 3.0 - 6.0_f64.sqrt();
-    6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r)
-}
-
 /// The other equation of motion.
 #[must_use]
 pub fn other(model: Model) -> Model {
     match model {
         Model::Nonlinear => Model::Linearized,
         Model::Linearized => Model::Nonlinear,
-    }
-}
-
-/// A pulse on a block with p = 1 rad/s, as it acts on one with this p; its
-/// acceleration is multiplied by `unit`.
-#[must_use]
-pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
-    use PulseKind as P;
-    *pulse.amplitude_mut() *= unit;
-    match &mut pulse {
-        P::OneSine { omega_rad_s, .. }
-        | P::HalfSine { omega_rad_s, .. }
-        | P::OneCosine { omega_rad_s, .. } => *omega_rad_s *= p,
-        P::Rectangle { duration_s, .. } | P::Triangle { duration_s, .. } => {
-            *duration_s /= p;
-        }
-        P::RickerSymmetric { period_s, .. }
-        | P::RickerAntisymmetric { period_s, .. } => *period_s /= p,
-        P::MavroeidisPapageorgiou { velocity, frequency_hz, .. } => {
-            *velocity /= p;
-            *frequency_hz *= p;
-        }
-        _ => *pulse.amplitude_mut() = f64::NAN,
-    }
-    pulse
-}
-
-/// End of a pulse, s, and the instants at which it turns or has a kink.
-fn turns(pulse: PulseKind) -> (f64, Vec<f64>) {
-    use PulseKind as P;
-    let quarters = |count: u32, end: f64, omega_rad_s: f64| {
-        let at = |k: u32| f64::from(k) * 0.5 * PI / omega_rad_s;
-        (end, (1..count).map(at).collect())
-    };
-    let about = |end: f64, rate: f64, turns: &[f64]| {
-        (end, turns.iter().map(|x| 0.5 * end + x / rate).collect())
-    };
-    match pulse {
-        P::HalfSine { omega_rad_s: w, .. } => quarters(2, PI / w, w),
-        P::OneSine { omega_rad_s: w, .. }
-        | P::OneCosine { omega_rad_s: w, .. } => quarters(4, TAU / w, w),
-        P::Rectangle { duration_s, .. } => (duration_s, Vec::new()),
-        P::Triangle { duration_s, .. } => (duration_s, vec![0.5 * duration_s]),
-        P::RickerSymmetric { period_s, cycles, .. } => {
-            let rate = 2.0_f64.sqrt() * PI / period_s;
-            let x = 3.0_f64.sqrt();
-            about(cycles * period_s, rate, &[-x, 0.0, x])
-        }
-        P::RickerAntisymmetric { period_s, cycles, .. } => {
-            let rate = TAU / (3.0_f64.sqrt() * period_s);
-            let r = 6.0_f64.sqrt();
-            let (far, near) = ((3.0 + r).sqrt(), (3.0 - r).sqrt());
-            about(cycles * period_s, rate, &[-far, -near, near, far])
-        }
-        P::MavroeidisPapageorgiou { frequency_hz, gamma, .. } => {
-            // No closed form of its turns: many short pieces.
-            let end = gamma / frequency_hz;
-            let pieces = (1..256).map(|k| f64::from(k) / 256.0 * end);
-            (end, pieces.collect())
-        }
-        _ => (f64::NAN, Vec::new()),
-    }
-}
-
-/// Acceleration of a pulse at `t_s`, in the unit of its amplitude.
-fn pulse_at(pulse: PulseKind, piece: usize, t_s: f64) -> f64 {
-    match pulse {
-        PulseKind::OneSine { amplitude, omega_rad_s }
-        | PulseKind::HalfSine { amplitude, omega_rad_s } => {
-            amplitude * libm::sin(omega_rad_s * t_s)
-        }
-        PulseKind::OneCosine { amplitude, omega_rad_s } => {
-            amplitude * libm::cos(omega_rad_s * t_s)
-        }
-        PulseKind::Rectangle { amplitude, .. } => amplitude,
-        PulseKind::Triangle { amplitude, duration_s } => {
-            let half = 0.5 * duration_s;
-            let rise = if piece == 0 { t_s } else { duration_s - t_s };
-            amplitude * rise / half
-        }
-        PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
-            let u = t_s - 0.5 * cycles * period_s;
-            let x = 2.0_f64.sqrt() * PI * u / period_s;
-            amplitude * (1.0 - x * x) * libm::exp(-0.5 * x * x)
-        }
-        PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
-            let u = t_s - 0.5 * cycles * period_s;
-            let x = TAU * u / (3.0_f64.sqrt() * period_s);
-            let bell = libm::exp(-0.5 * x * x);
-            amplitude * (x * x - 3.0) * x * bell / ricker_beta()
-        }
-        PulseKind::MavroeidisPapageorgiou {
-            velocity,
-            frequency_hz,
-            gamma,
-            phase_rad,
-        } => {
-            let w = TAU * frequency_hz;
-            let u = t_s - 0.5 * gamma / frequency_hz;
-            let up = 1.0 + 1.0 / gamma;
-            let down = 1.0 - 1.0 / gamma;
-            let sum = 0.5 * libm::sin(w * u + phase_rad)
-                + 0.25 * up * libm::sin(w * up * u + phase_rad)
-                + 0.25 * down * libm::sin(w * down * u + phase_rad);
-            -velocity * w * sum
-        }
-        _ => f64::NAN,
     }
 }
 
@@ -397,7 +285,7 @@ impl Forcing {
     pub fn end_s(&self) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => turns(*kind).0,
+            Self::Pulse(kind) => pulse::turns(*kind).0,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 (acceleration_m_s2.len() - 1) as f64 * dt_s
             }
@@ -412,7 +300,7 @@ impl Forcing {
         let mut at = vec![0.0];
         match *self {
             Self::Free { .. } => {}
-            Self::Pulse(kind) => at.extend(turns(kind).1),
+            Self::Pulse(kind) => at.extend(pulse::turns(kind).1),
             Self::Samples { dt_s, ref acceleration_m_s2 } => {
                 let last = acceleration_m_s2.len() - 1;
                 at.extend((1..last).map(|i| i as f64 * dt_s));
@@ -430,7 +318,7 @@ impl Forcing {
     pub fn at(&self, piece: usize, t_s: f64) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => pulse_at(*kind, piece, t_s),
+            Self::Pulse(kind) => pulse::acceleration(*kind, piece, t_s),
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 let a = acceleration_m_s2[piece];
                 let b = acceleration_m_s2[piece + 1];

@@ -1,10 +1,13 @@
 //! A reader's own block.
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::mem::take;
 
 use rocking::accelerogram::Accelerogram;
-use rocking::excitation::{NormalisedRecord, Pulse, PulseKind, ScaledRecord};
+use rocking::excitation::{
+    NormalisedRecord, Pulse, PulseName, PulseParameter, ScaledRecord,
+};
 use rocking::ida::{self, Analysis, Grid, Overturned};
 use rocking::integrator::{
     Certified, Certify, Model, Response, Solver, certify, uplift_threshold,
@@ -44,14 +47,17 @@ impl Shape {
 
 /// What moves the ground, before it is scaled.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(untagged)]
 pub enum Ground {
-    OneSine { omega_rad_s: f64 },
-    HalfSine { omega_rad_s: f64 },
-    OneCosine { omega_rad_s: f64 },
-    Rectangle { duration_s: f64 },
-    Ricker { period_s: f64 },
-    Record { dt_s: f64, samples_g: Vec<f64> },
+    Record {
+        dt_s: f64,
+        samples_g: Vec<f64>,
+    },
+    Pulse {
+        kind: String,
+        #[serde(flatten)]
+        numbers: BTreeMap<String, f64>,
+    },
 }
 
 /// A record file as a page reads it, and what the caller knows of it.
@@ -129,30 +135,27 @@ pub fn motions() -> Answer<Vec<Component>> {
 
 impl Ground {
     fn motion(&self) -> Answer<Motion> {
-        let amplitude = 1.0;
-        let pulse = match *self {
-            Self::OneSine { omega_rad_s } => {
-                PulseKind::OneSine { amplitude, omega_rad_s }
-            }
-            Self::HalfSine { omega_rad_s } => {
-                PulseKind::HalfSine { amplitude, omega_rad_s }
-            }
-            Self::OneCosine { omega_rad_s } => {
-                PulseKind::OneCosine { amplitude, omega_rad_s }
-            }
-            Self::Rectangle { duration_s } => {
-                PulseKind::Rectangle { amplitude, duration_s }
-            }
-            Self::Ricker { period_s } => {
-                let cycles = 2.0;
-                PulseKind::RickerSymmetric { amplitude, period_s, cycles }
-            }
-            Self::Record { dt_s, ref samples_g } => {
-                let own =
-                    Accelerogram::try_new("ground", dt_s, samples_g.clone())?;
+        let (kind, numbers) = match self {
+            Self::Record { dt_s, samples_g } => {
+                let samples_g = samples_g.clone();
+                let own = Accelerogram::try_new("ground", *dt_s, samples_g)?;
                 return Ok(Motion::Record(NormalisedRecord::new(&own)));
             }
+            Self::Pulse { kind, numbers } => (kind, numbers),
         };
+        let name = match kind.as_str() {
+            "ricker" => PulseName::RickerSymmetric,
+            kind => kind.parse()?,
+        };
+        let pulse = name.kind(|parameter| match parameter {
+            PulseParameter::Amplitude | PulseParameter::Velocity => Ok(1.0),
+            PulseParameter::Cycles => Ok(2.0),
+            _ => {
+                let key = parameter.name().replace('-', "_");
+                let value = numbers.get(&key).copied();
+                value.ok_or_else(|| format!("{name} needs {key}"))
+            }
+        })?;
         Ok(Motion::Pulse(Pulse::try_new(pulse)?))
     }
 }

@@ -16,6 +16,7 @@ use super::shared::positive;
 use crate::failure::{Failure, bail, ensure};
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
+use rocking_common::words::capital;
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]
@@ -37,37 +38,12 @@ pub struct ExcitationArgs {
     #[arg(
         long,
         value_name = "KIND",
-        value_parser = named(PulseName::ALL, PulseName::name, [""; 8]),
+        value_parser = named(PulseName::ALL, PulseName::name, [""; _]),
         conflicts_with = "free"
     )]
     pulse: Option<PulseName>,
-    /// Peak acceleration in m/s2 (all pulses but mavroeidis-papageorgiou).
-    #[arg(long, value_name = "A")]
-    amplitude_m_s2: Option<f64>,
-    /// Circular frequency in rad/s (one-sine, half-sine, one-cosine).
-    #[arg(long, value_name = "W")]
-    omega_rad_s: Option<f64>,
-    /// Duration in s (rectangle, triangle).
-    #[arg(long, value_name = "D")]
-    duration_s: Option<f64>,
-    /// Period in s (Ricker pulses).
-    #[arg(long, value_name = "T")]
-    period_s: Option<f64>,
-    /// Length in periods (Ricker pulses) [default: 4].
-    #[arg(long, value_name = "N")]
-    cycles: Option<f64>,
-    /// Velocity amplitude in m/s (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "V")]
-    velocity_m_s: Option<f64>,
-    /// Prevailing frequency in Hz (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "F")]
-    frequency_hz: Option<f64>,
-    /// Oscillatory character gamma (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "G")]
-    gamma: Option<f64>,
-    /// Phase in rad (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "N")]
-    phase_rad: Option<f64>,
+    #[command(flatten)]
+    parameters: PulseParameters,
     /// No ground motion: released at rest from an initial rotation.
     #[arg(long, requires = "initial_ratio")]
     free: bool,
@@ -206,22 +182,6 @@ impl ExcitationArgs {
         self.pga.or(self.im.map(by_im))
     }
 
-    /// The parameters of pulses: flags and values.
-    fn parameters(&self) -> [(PulseParameter, &str, Option<f64>); 9] {
-        use PulseParameter as P;
-        [
-            (P::Amplitude, "--amplitude-m-s2", self.amplitude_m_s2),
-            (P::Omega, "--omega-rad-s", self.omega_rad_s),
-            (P::Duration, "--duration-s", self.duration_s),
-            (P::Period, "--period-s", self.period_s),
-            (P::Cycles, "--cycles", self.cycles),
-            (P::Velocity, "--velocity-m-s", self.velocity_m_s),
-            (P::Frequency, "--frequency-hz", self.frequency_hz),
-            (P::Gamma, "--gamma", self.gamma),
-            (P::Phase, "--phase-rad", self.phase_rad),
-        ]
-    }
-
     /// Refuses a flag that the chosen excitation has no use for.
     fn refuse_unused(&self) -> Result<(), Failure> {
         let chosen = match self.pulse {
@@ -242,9 +202,9 @@ impl ExcitationArgs {
             "--im-kind is not used without --im"
         );
         let used = self.pulse.map_or(&[][..], PulseName::parameters);
-        for (parameter, flag, given) in self.parameters() {
-            if given.is_some() && !used.contains(&parameter) {
-                return unused(flag);
+        for (parameter, _) in &self.parameters.0 {
+            if !used.contains(parameter) {
+                return unused(&format!("--{parameter}"));
             }
         }
         Ok(())
@@ -256,17 +216,74 @@ impl ExcitationArgs {
             bail!("expected --record, --pulse or --free");
         };
         name.kind(|parameter| {
-            let mut all = self.parameters().into_iter();
-            let own = all.find(|(own, ..)| *own == parameter);
-            match own {
-                Some((_, _, Some(value))) => Ok(value),
-                Some((PulseParameter::Cycles, ..)) => Ok(4.0),
-                own => bail!(
-                    "--pulse {name} needs {}",
-                    own.map_or("", |(_, flag, _)| flag)
-                ),
+            let mut given = self.parameters.0.iter();
+            let own = given.find(|(own, _)| *own == parameter);
+            let value = own.map(|(_, value)| *value);
+            match value.or(parameter.default_value()) {
+                Some(value) => Ok(value),
+                None => bail!("--pulse {name} needs --{parameter}"),
             }
         })
+    }
+}
+
+/// Values of flags of pulses: a flag for each [`PulseParameter`].
+#[derive(Clone, Debug)]
+struct PulseParameters(Vec<(PulseParameter, f64)>);
+
+/// The help of a parameter: quantity, unit, and the pulses that take it.
+fn parameter_help(parameter: PulseParameter) -> String {
+    let (takers, others): (Vec<_>, Vec<_>) = PulseName::ALL
+        .into_iter()
+        .partition(|pulse| pulse.parameters().contains(&parameter));
+    let most = takers.len() > others.len();
+    let pulses = if most { &others } else { &takers }.iter();
+    let pulses: Vec<_> = pulses.map(|pulse| pulse.name()).collect();
+    let mut help = capital(parameter.quantity());
+    if !parameter.unit().is_empty() {
+        help += &format!(" in {}", parameter.unit());
+    }
+    let but = if most { "all pulses but " } else { "" };
+    help += &format!(" ({but}{})", pulses.join(", "));
+    if let Some(value) = parameter.default_value() {
+        help += &format!(" [default: {value}]");
+    }
+    help
+}
+
+impl clap::Args for PulseParameters {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        command.args(PulseParameter::ALL.map(|parameter| {
+            clap::Arg::new(parameter.name())
+                .long(parameter.name())
+                .value_name("X")
+                .value_parser(clap::value_parser!(f64))
+                .help(parameter_help(parameter))
+        }))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+impl clap::FromArgMatches for PulseParameters {
+    fn from_arg_matches(
+        matches: &clap::ArgMatches,
+    ) -> Result<Self, clap::Error> {
+        let given = PulseParameter::ALL.into_iter().filter_map(|parameter| {
+            let value = matches.get_one::<f64>(parameter.name())?;
+            Some((parameter, *value))
+        });
+        Ok(Self(given.collect()))
+    }
+
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &clap::ArgMatches,
+    ) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
     }
 }
 

@@ -7,9 +7,8 @@ use crate::edge::{around, edge};
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};
-use crate::scene::{
-    Engine, Forcing, Model, Overturning, PulseName, Scene, rescaled,
-};
+use crate::pulse::rescaled;
+use crate::scene::{Engine, Forcing, Model, Overturning, PulseName, Scene};
 
 /// Free rocking of every combination of block, loss and release.
 pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {

@@ -2,9 +2,8 @@
 //! theta/alpha and a/(g alpha). A pulse is that of a block with p = 1 rad/s
 //! and g alpha = 1 m/s2.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
-
-use crate::scene::{Forcing, PulseKind, ricker_beta};
+use crate::pulse::{Particular, kinks, particular};
+use crate::scene::PulseKind;
 
 /// What the block does.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -17,124 +16,6 @@ pub struct Response {
     pub impacts: Vec<(f64, f64)>,
     /// When |theta| reaches alpha.
     pub overturned: Option<f64>,
-}
-
-/// Acceleration and particular solution P'' - P = -A with its derivative.
-struct Particular {
-    a: f64,
-    p: f64,
-    v: f64,
-}
-
-fn kinks(pulse: PulseKind) -> Vec<f64> {
-    match pulse {
-        PulseKind::Triangle { duration_s, .. } => {
-            vec![0.0, 0.5 * duration_s, duration_s]
-        }
-        _ => vec![0.0, Forcing::Pulse(pulse).end_s()],
-    }
-}
-
-/// At `t` of the smooth stretch `piece`.
-fn at(pulse: PulseKind, piece: usize, t: f64) -> Particular {
-    match pulse {
-        PulseKind::OneSine { amplitude, omega_rad_s }
-        | PulseKind::HalfSine { amplitude, omega_rad_s } => {
-            sine(amplitude, omega_rad_s, 0.0, t)
-        }
-        PulseKind::OneCosine { amplitude, omega_rad_s } => {
-            sine(amplitude, omega_rad_s, 0.5 * PI, t)
-        }
-        PulseKind::Rectangle { amplitude: a, .. } => {
-            Particular { a, p: a, v: 0.0 }
-        }
-        PulseKind::Triangle { amplitude, duration_s } => {
-            let slope = 2.0 * amplitude / duration_s;
-            if piece == 0 {
-                Particular { a: slope * t, p: slope * t, v: slope }
-            } else {
-                let value = slope * (duration_s - t);
-                Particular { a: value, p: value, v: -slope }
-            }
-        }
-        PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
-            let rate = SQRT_2 * PI / period_s;
-            let bell = Bell::at(rate, t - 0.5 * cycles * period_s);
-            let scale = amplitude / (rate * rate);
-            Particular {
-                a: -scale * bell.second,
-                p: scale * (bell.value + bell.w),
-                v: scale * (bell.first + bell.w_first),
-            }
-        }
-        PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
-            let rate = TAU / (3.0_f64.sqrt() * period_s);
-            let bell = Bell::at(rate, t - 0.5 * cycles * period_s);
-            let scale = amplitude / (ricker_beta() * rate * rate * rate);
-            // w'' = w + G.
-            Particular {
-                a: -scale * bell.third,
-                p: scale * (bell.first + bell.w_first),
-                v: scale * (bell.second + bell.w + bell.value),
-            }
-        }
-        PulseKind::MavroeidisPapageorgiou {
-            velocity,
-            frequency_hz,
-            gamma,
-            phase_rad,
-        } => {
-            let w = TAU * frequency_hz;
-            let u = t - 0.5 * gamma / frequency_hz;
-            let mut sum = Particular { a: 0.0, p: 0.0, v: 0.0 };
-            let (up, down) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
-            for (share, rate) in
-                [(0.5, 1.0), (0.25 * up, up), (0.25 * down, down)]
-            {
-                let scale = -velocity * w * share;
-                let part = sine(scale, w * rate, phase_rad, u);
-                sum.a += part.a;
-                sum.p += part.p;
-                sum.v += part.v;
-            }
-            sum
-        }
-        _ => Particular { a: f64::NAN, p: f64::NAN, v: f64::NAN },
-    }
-}
-
-fn sine(a: f64, omega: f64, phase: f64, t: f64) -> Particular {
-    let (s, c) = (libm::sin(omega * t + phase), libm::cos(omega * t + phase));
-    let scale = a / (1.0 + omega * omega);
-    Particular { a: a * s, p: scale * s, v: scale * omega * c }
-}
-
-/// G = exp(-(rate u)^2/2) with its derivatives, and w with w'' - w = G.
-struct Bell {
-    value: f64,
-    first: f64,
-    second: f64,
-    third: f64,
-    w: f64,
-    w_first: f64,
-}
-
-impl Bell {
-    fn at(rate: f64, u: f64) -> Self {
-        let x = rate * u;
-        let value = libm::exp(-0.5 * x * x);
-        let c = (0.5 * PI).sqrt() / rate * libm::exp(0.5 / (rate * rate));
-        let plus = libm::exp(u) * libm::erf((x + 1.0 / rate) / SQRT_2);
-        let minus = libm::exp(-u) * libm::erf((x - 1.0 / rate) / SQRT_2);
-        Self {
-            value,
-            first: -rate * x * value,
-            second: rate * rate * (x * x - 1.0) * value,
-            third: rate * rate * rate * (3.0 - x * x) * x * value,
-            w: 0.5 * c * (plus - minus),
-            w_first: 0.5 * c * (plus + minus),
-        }
-    }
 }
 
 /// Points of a piece that are looked at, closer together at its start.
@@ -160,7 +41,7 @@ impl Hop {
         t: f64,
         (z, w): (f64, f64),
     ) -> Self {
-        let part = particular(pulse, t);
+        let part = in_flight(pulse, t);
         let y = z - 1.0 - side * part.p;
         let v = w - side * part.v;
         Self {
@@ -174,7 +55,7 @@ impl Hop {
 
     fn state(&self, t: f64) -> (f64, f64) {
         let x = t - self.start;
-        let part = particular(self.pulse, t);
+        let part = in_flight(self.pulse, t);
         let up = self.growing * libm::exp(x);
         let down = self.decaying * libm::exp(-x);
         (1.0 + self.side * part.p + up + down, self.side * part.v + up - down)
@@ -190,9 +71,9 @@ impl Hop {
     }
 }
 
-fn particular(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
+fn in_flight(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
     pulse.map_or(Particular { a: 0.0, p: 0.0, v: 0.0 }, |(pulse, piece)| {
-        at(pulse, piece, t)
+        particular(pulse, piece, t)
     })
 }
 
@@ -205,7 +86,8 @@ pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
     let Some((piece, uplift)) = uplift(pulse, &kinks) else {
         return response;
     };
-    let side = -at(pulse, piece, inside(uplift, &kinks, piece)).a.signum();
+    let side =
+        -particular(pulse, piece, inside(uplift, &kinks, piece)).a.signum();
     response.uplift = Some(uplift);
     response.side = side;
     let (mut t, mut z, mut w, mut side) = (uplift, 0.0, 0.0, side);
@@ -288,7 +170,7 @@ fn inside(t: f64, kinks: &[f64], piece: usize) -> f64 {
 fn uplift(pulse: PulseKind, kinks: &[f64]) -> Option<(usize, f64)> {
     for (piece, ends) in kinks.windows(2).enumerate() {
         let (start, end) = (ends[0], ends[1]);
-        let over = |t: f64| at(pulse, piece, t).a.abs() - 1.0;
+        let over = |t: f64| particular(pulse, piece, t).a.abs() - 1.0;
         if over(start) > 0.0 {
             return Some((piece, start));
         }

@@ -1,7 +1,7 @@
 //! Scenes whose observation ends where it decides, and scenes whose ground
 //! acceleration has its peak at the uplift threshold.
 
-use rocking::excitation::Pulse;
+use rocking::excitation::{Pulse, PulseName};
 use rocking::integrator::{Observe, Outcome};
 
 use super::draw::Draw;
@@ -22,8 +22,8 @@ const LONGEST: usize = 400;
 /// Time (in 1/p) after the ground motion that is looked at, at most.
 const AFTER: f64 = 4.0;
 
-/// Pulses whose amplitude is the peak, and two more.
-const PULSES: usize = 8;
+/// Kinds of pulse.
+const PULSES: usize = PulseName::ALL.len();
 
 /// A scene whose observation ends about an overturning, about the first
 /// uplift, or anywhere; one kind after the other.

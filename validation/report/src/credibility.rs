@@ -121,7 +121,7 @@ pub fn tables(
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
 ) -> anyhow::Result<Vec<PlainTable>> {
-    let suites = [&results.ordinary, &results.pulse];
+    let suites = results.suites();
     let shift = suites
         .iter()
         .map(|s| s.work.certainty.largest_shift)

@@ -61,7 +61,7 @@ pub fn head(
         env!("CARGO_PKG_VERSION"),
         sha256_hex(LOCK.as_bytes())
     );
-    let [ordinary, pulse] = [&results.ordinary, &results.pulse].map(|suite| {
+    let [ordinary, pulse] = results.suites().map(|suite| {
         let (records, sha256) = (suite.records.len(), &suite.sha256);
         let from = &suite.source;
         (

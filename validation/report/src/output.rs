@@ -234,7 +234,7 @@ fn single_csv(results: &Results) -> String {
         .filter(|s| *s != REFERENCE)
         .map(|s| SLENDERNESSES_RAD[s])
         .collect();
-    for suite in [&results.ordinary, &results.pulse] {
+    for suite in results.suites() {
         for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
             for (record, apart) in suite.records.iter().zip(&single.apart) {
                 for (alpha, a) in others.iter().zip(apart) {

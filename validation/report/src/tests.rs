@@ -27,11 +27,11 @@ use rocking_common::suites::inputs::{read_suite, sha256_hex};
 use rocking_common::suites::{Source, StudySuite};
 use rocking_proof::cases::load_all;
 use rocking_study::Study;
-use rocking_study::analyses::{Plan, SuiteResults, Work};
+use rocking_study::analyses::{Plan, SuiteResults};
 use rocking_study::certainty::Certainty;
 use rocking_study::findings::set_aside as findings_of;
 use rocking_study::results::Results;
-use rocking_study::runs::Setup;
+use rocking_study::runs::{Setup, Work};
 
 /// The plan whose settings kept results have.
 fn plan(way: Execution) -> Plan {

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::distances::{self, Distances};
+use crate::distances::{Distances, all_distances};
 use crate::inference::{Draws, Judged, MORE, Rule, judge, share};
 use crate::measures::{Criterion, Measure, Source};
 use crate::results::Results;
@@ -171,7 +171,7 @@ pub fn limit_of(measure: Measure, intensity: Intensity) -> f64 {
 /// # Errors
 /// Where a measure cannot be computed.
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
-    let distances = distances::all(results, draws);
+    let distances = all_distances(results, draws)?;
     let more = OnceCell::new();
     let drawn = Drawn { results, draws, more: &more, distances: &distances };
     declared().iter().map(|claim| measured(claim, &drawn)).collect()
@@ -214,12 +214,12 @@ fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
                     intensity: claim.intensity.unwrap_or(Intensity::Pga),
                 };
                 let asked = Asked { claim, measure, rule, shown: *shown };
-                let Some(first) = asked.judged(&source)? else { continue };
-                let judged = if first.more {
-                    asked.with_more(&source, drawn.more)?.unwrap_or(first)
-                } else {
-                    first
-                };
+                let mut judged = asked.judged(&source)?;
+                if judged.more {
+                    let more = || results.draws(MORE);
+                    let draws = drawn.more.get_or_init(more);
+                    judged = asked.judged(&Source { draws, ..source })?;
+                }
                 found.push(judged.result);
             }
         }
@@ -255,12 +255,9 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// The verdict by the draws of a source; none where what it needs was
-    /// not run.
-    fn judged(&self, source: &Source<'_>) -> anyhow::Result<Option<Judged>> {
-        let Some(prepared) = self.measure.prepare(source)? else {
-            return Ok(None);
-        };
+    /// The verdict by the draws of a source.
+    fn judged(&self, source: &Source<'_>) -> anyhow::Result<Judged> {
+        let prepared = self.measure.prepare(source)?;
         let mut judged = judge(
             source.draws,
             source.tested,
@@ -276,18 +273,7 @@ impl Asked<'_> {
             by_criterion(source.draws, own, criterion, result);
         }
         result.details.extend(prepared.details);
-        Ok(Some(judged))
-    }
-
-    /// The verdict by more draws than all claims share; none of distances
-    /// from a lognormal, whose draws cost too much.
-    fn with_more(
-        &self,
-        source: &Source<'_>,
-        more: &OnceCell<Draws>,
-    ) -> anyhow::Result<Option<Judged>> {
-        let draws = more.get_or_init(|| source.results.draws(MORE));
-        self.judged(&Source { draws, distances: &[], ..*source })
+        Ok(judged)
     }
 }
 

@@ -3,15 +3,9 @@
 
 use std::sync::LazyLock;
 
-use indicatif::ProgressBar;
 use rocking::block::Block;
-use rocking::capacity::ResponseCurve;
-use rocking::excitation::NormalisedRecord;
-use rocking::ida::Adjust;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
-
-use crate::analyses::Plan;
 
 const INCH_M: f64 = 0.0254;
 
@@ -74,25 +68,4 @@ pub fn items() -> &'static [Item] {
             .collect()
     });
     &ITEMS
-}
-
-impl Plan {
-    /// Curves of the [`items`], by item, then by record, in the common arm.
-    ///
-    /// # Errors
-    /// Where an analysis cannot be done.
-    pub(super) fn contents(
-        &self,
-        records: &[NormalisedRecord],
-        progress: &ProgressBar,
-    ) -> anyhow::Result<Vec<Vec<ResponseCurve>>> {
-        let blocks: Vec<Block> =
-            items().iter().map(Item::block).collect::<Result<_, _>>()?;
-        progress.inc_length((blocks.len() * records.len()) as u64);
-        let (arm, method) = ([self.common()], Adjust::RecordScaling);
-        let done = || progress.inc(1);
-        let chains =
-            self.setup.chains(&blocks, records, &arm, method, done)?;
-        Ok(chains.curves.into_iter().flatten().collect())
-    }
 }

@@ -67,7 +67,7 @@ pub struct Distances {
     pub(crate) arm: Arm,
     /// The excess of D, `Tests` by block, then that without the earliest
     /// records; then the accepted shares, `Tests` by block.
-    pub(crate) found: Replicated,
+    pub(crate) replicated: Replicated,
     /// Levels at which every record is finite, of all, by block.
     pub(crate) levels: Vec<(usize, usize)>,
 }
@@ -150,20 +150,22 @@ impl Tested15 {
 }
 
 impl Distances {
-    /// The distances of a suite in an arm; none if it was not run.
-    #[must_use]
+    /// The distances of a suite in an arm.
+    ///
+    /// # Errors
+    /// If the arm was not run.
     pub fn new(
         results: &Results,
         draws: &Draws,
         suite: SuiteKind,
         arm: Arm,
-    ) -> Option<Self> {
+    ) -> anyhow::Result<Self> {
         let of = |intensity| results.distributions(suite, arm, intensity);
         let (pga, pgv) = (of(Intensity::Pga)?, of(Intensity::Pgv)?);
-        let facts = results.suite(suite);
-        let n = facts.records.len();
+        let records = &results.suite(suite).records;
+        let n = records.len();
         let means: Option<Vec<f64>> =
-            facts.records.iter().map(|r| r.mean_over_study).collect();
+            records.iter().map(|r| r.mean_over_study).collect();
         let mut all: Vec<Option<Tested15>> = Vec::new();
         // Values of the claims: they use all levels.
         let mut whole: Vec<OverLevels> = Vec::new();
@@ -176,7 +178,7 @@ impl Distances {
                     }
                     Tests::OriginalPgv | Tests::ShiftedPgv => (
                         &pgv.blocks[at],
-                        Some(factors(facts, Intensity::Pgv, p)),
+                        Some(factors(records, Intensity::Pgv, p)),
                     ),
                     Tests::ShiftedGeometricMean => {
                         (&pga.blocks[at], means.clone())
@@ -230,11 +232,11 @@ impl Distances {
                 (b.samples.iter().filter(finite).count(), b.samples.len())
             })
             .collect();
-        Some(Self { suite, arm, found: found.moved_to(&whole), levels })
+        Ok(Self { suite, arm, replicated: found.moved_to(&whole), levels })
     }
 }
 
-/// The numbers of a draw in the order of [`Distances::found`].
+/// The numbers of a draw in the order of [`Distances::replicated`].
 fn row(each: &[OverLevels], without_earliest: f64) -> Vec<f64> {
     let excess = each.iter().map(|one| one.excess).chain([without_earliest]);
     excess.chain(each.iter().map(|one| one.accepted)).collect()
@@ -285,14 +287,19 @@ pub(crate) fn accepted(row: &[f64], tests: Tests) -> &[f64] {
     &row[first..first + COUNT]
 }
 
-/// Suites and arms whose distances are needed.
-#[must_use]
-pub fn all(results: &Results, draws: &Draws) -> Vec<Distances> {
-    let mut out = Vec::new();
-    for suite in SuiteKind::ALL {
-        for arm in results.plan.drawn() {
-            out.extend(Distances::new(results, draws, suite, arm));
-        }
-    }
-    out
+/// The distances of both suites in every arm drawn.
+///
+/// # Errors
+/// If an arm was not run.
+pub fn all_distances(
+    results: &Results,
+    draws: &Draws,
+) -> anyhow::Result<Vec<Distances>> {
+    let arms = results.plan.drawn();
+    let places = SuiteKind::ALL
+        .into_iter()
+        .flat_map(|suite| arms.iter().map(move |arm| (suite, *arm)));
+    places
+        .map(|(suite, arm)| Distances::new(results, draws, suite, arm))
+        .collect()
 }

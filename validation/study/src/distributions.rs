@@ -5,9 +5,9 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking_statistics::acceptance::NullBand;
 use rocking_statistics::lilliefors::Assessment;
 
-use crate::analyses::SuiteResults;
+use crate::analyses::Facts;
 use crate::normality::{accepted_share, along, null_band};
-use crate::runs::capacities;
+use crate::runs::{ArmCurves, capacities};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, demands,
 };
@@ -32,6 +32,12 @@ pub struct BlockSamples {
 }
 
 impl BlockSamples {
+    /// Capacities at overturning, the last of the demand levels.
+    #[must_use]
+    pub fn overturning(&self) -> &[f64] {
+        self.samples.last().map_or(&[], Vec::as_slice)
+    }
+
     /// Accepted share of the levels: original, shifted.
     #[must_use]
     pub fn shares(&self) -> (f64, f64) {
@@ -57,57 +63,55 @@ pub struct Distributions {
 ///
 /// # Errors
 /// None in practice: the levels are positive.
-pub fn of_suite(
-    suite: &SuiteResults,
+pub fn suite_distributions(
+    kind: SuiteKind,
+    records: &[Facts],
+    arms: &[ArmCurves],
     banded: Arm,
 ) -> anyhow::Result<Vec<Distributions>> {
     let levels = demands();
     let mut out = Vec::new();
-    for arm in &suite.arms {
+    for arm in arms {
         let by_block: Vec<Vec<Vec<f64>>> = arm
             .curves
             .iter()
             .map(|curves| samples(curves, &levels))
             .collect::<Result<_, _>>()?;
         for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let banded = (arm.arm == banded).then_some(kind);
             let blocks = by_block
                 .iter()
                 .enumerate()
-                .map(|(i, s)| block(suite, intensity, i, s, arm.arm == banded))
+                .map(|(i, s)| block(records, intensity, i, s, banded))
                 .collect::<Result<_, _>>()?;
-            out.push(Distributions {
-                kind: suite.kind,
-                arm: arm.arm,
-                intensity,
-                blocks,
-            });
+            let arm = arm.arm;
+            out.push(Distributions { kind, arm, intensity, blocks });
         }
     }
     Ok(out)
 }
 
+/// One block of the paper; with null bands where `banded` names the suite.
 fn block(
-    suite: &SuiteResults,
+    records: &[Facts],
     intensity: Intensity,
     position: usize,
     pga: &[Vec<f64>],
-    banded: bool,
+    banded: Option<SuiteKind>,
 ) -> anyhow::Result<BlockSamples> {
     let slendernesses = SLENDERNESSES_RAD.len();
     let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
     let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
-    let factors = factors(suite, intensity, p_rad_s);
+    let factors = factors(records, intensity, p_rad_s);
     let samples: Vec<Vec<f64>> =
         pga.iter().map(|sample| scaled(sample, &factors)).collect();
     let shift = least(&factors);
     let band = |shift: f64| {
-        let kind = if shift > 0.0 { "shifted" } else { "original" };
-        let name = format!(
-            "study/band/{}/{}/{p_rad_s}/{alpha_rad}/{kind}",
-            suite.kind,
-            intensity.name()
-        );
-        banded.then(|| null_band(&samples, shift, &name)).flatten()
+        let sample = if shift > 0.0 { "shifted" } else { "original" };
+        let (suite, im) = (banded?, intensity.name());
+        let name =
+            format!("study/band/{suite}/{im}/{p_rad_s}/{alpha_rad}/{sample}");
+        null_band(&samples, shift, &name)
     };
     Ok(BlockSamples {
         bands: [band(0.0), band(shift)],
@@ -147,7 +151,7 @@ pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
 /// p PGV/PGA. The least of them is IM_R: at uplift PGA/(g tan alpha) is 1.
 #[must_use]
 pub fn factors(
-    suite: &SuiteResults,
+    records: &[Facts],
     intensity: Intensity,
     p_rad_s: f64,
 ) -> Vec<f64> {
@@ -155,7 +159,7 @@ pub fn factors(
         Intensity::Pga => 1.0,
         Intensity::Pgv => p_rad_s * ratio_s,
     };
-    suite.records.iter().map(|r| of(r.velocity_ratio_s)).collect()
+    records.iter().map(|r| of(r.velocity_ratio_s)).collect()
 }
 
 /// The least of some numbers; infinite if there is none.

@@ -1,18 +1,12 @@
 //! Estimates that tables of the study show: medians, shares of records,
 //! paired ratios.
 
-use rocking::capacity::InversionRule;
 use rocking_statistics::boxplot::median_interval;
-use rocking_statistics::paired::Pairs;
 use rocking_statistics::{ExtendedSample, QuantileType};
 
-use crate::analyses::no_arm;
 use crate::analyses::{Apart, SuiteResults};
-use crate::results::Results;
-use crate::runs::capacities;
-use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;
-use rocking_common::paper::{FREQUENCIES_RAD_S, position};
+use rocking_common::paper::FREQUENCIES_RAD_S;
 
 /// Level of the intervals.
 pub(crate) const LEVEL: f64 = 0.95;
@@ -89,28 +83,6 @@ pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
             }
         })
         .collect()
-}
-
-/// Paired capacities at a demand: another choice over the study's.
-///
-/// # Errors
-/// Where a curve cannot be inverted.
-pub fn varied_ratios(
-    results: &Results,
-    varied: &Varied,
-    demand: f64,
-) -> anyhow::Result<Pairs> {
-    let curves = results.ordinary.curves(results.plan.common());
-    let base = &curves.ok_or_else(no_arm)?
-        [position(varied.frequency, varied.slenderness)];
-    let (mut a, mut b) = (Vec::new(), Vec::new());
-    for (curve, base) in varied.curves.iter().zip(base) {
-        if let Some(curve) = curve {
-            a.extend(capacities(curve, &[demand], InversionRule::Median)?);
-            b.extend(capacities(base, &[demand], InversionRule::Median)?);
-        }
-    }
-    Ok(Pairs::try_new(&a, &b)?)
 }
 
 #[cfg(test)]

@@ -26,23 +26,18 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     out.push(single::motions(&results.pulse, one, 3));
     out.push(single::curves(&results.ordinary, one, 4)?);
     out.push(single::curves(&results.pulse, one, 5)?);
+    let ordinary = &results.ordinary;
     for number in [6, 7] {
         for arm in &drawn {
-            out.extend(ratios::slendernesses(
-                &results.ordinary,
-                *arm,
-                number,
-            )?);
+            out.push(ratios::slendernesses(ordinary, *arm, number)?);
         }
     }
-    for arm in &drawn {
-        out.push(quantiles::slendernesses(&results.ordinary, *arm)?);
-    }
-    for arm in &drawn {
-        out.extend(ratios::adjusted(&results.ordinary, *arm)?);
-    }
-    for arm in &drawn {
-        out.push(quantiles::adjusted(&results.ordinary, *arm)?);
+    for figure in
+        [quantiles::slendernesses, ratios::adjusted, quantiles::adjusted]
+    {
+        for arm in &drawn {
+            out.push(figure(ordinary, *arm)?);
+        }
     }
     out.push(distributions::inverted(results, one)?);
     out.push(distributions::shares(results, 12)?);

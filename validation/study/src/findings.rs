@@ -8,7 +8,9 @@ use crate::estimates;
 use crate::figures::adjusted_boxes;
 use crate::questions::{self, Answer};
 use crate::results::Results;
-use crate::stripes::{adjusted_split, of_arm};
+use crate::runs::capacities_at;
+use crate::sensitivities::Choice;
+use crate::stripes::adjusted_split;
 use rocking_common::findings::{
     Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Suite,
     Table, Topic, Unit,
@@ -30,7 +32,7 @@ pub fn all(
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION").into(),
         settings: results.plan.settings(),
-        suites: [&results.ordinary, &results.pulse].map(suite).into(),
+        suites: results.suites().map(suite).into(),
         claims,
         tables: vec![
             shares(results),
@@ -90,7 +92,8 @@ fn count(n: usize) -> Measured {
 fn uplift(results: &Results) -> Table {
     let row = |block| Row {
         at: Place::of(block),
-        values: [&results.ordinary, &results.pulse]
+        values: results
+            .suites()
             .map(|suite| count(suite.uplift_unscaled(block)))
             .into(),
     };
@@ -174,7 +177,7 @@ fn resurrections(results: &Results) -> Table {
 
 fn single(results: &Results) -> Table {
     let mut rows = Vec::new();
-    for suite in [&results.ordinary, &results.pulse] {
+    for suite in results.suites() {
         for row in estimates::single_rows(suite) {
             let ratios = [row.distance, row.peak_ratio, row.mean_ln_im];
             let mut values = vec![count(row.usable)];
@@ -219,8 +222,12 @@ fn single(results: &Results) -> Table {
 
 fn varied(results: &Results) -> anyhow::Result<Table> {
     let mut rows = Vec::new();
-    for v in &results.varied {
-        let pairs = estimates::varied_ratios(results, v, 1.0)?;
+    for (v, base) in results.varied(&Choice::ALL)? {
+        let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
+        let base = capacities_at(base.iter().map(Some), 1.0)?;
+        let ratios = own.iter().zip(&base).map(|(own, base)| own / base);
+        let ratios: Vec<f64> =
+            ratios.filter(|x| x.is_finite() && *x > 0.0).collect();
         let at = Place {
             choice: Some(v.choice.name().into()),
             p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
@@ -228,8 +235,8 @@ fn varied(results: &Results) -> anyhow::Result<Table> {
             edp: Some(1.0),
             ..Place::default()
         };
-        let ratio = estimates::median(&pairs.ratios);
-        rows.push(Row { at, values: vec![count(pairs.ratios.len()), ratio] });
+        let ratio = estimates::median(&ratios);
+        rows.push(Row { at, values: vec![count(ratios.len()), ratio] });
     }
     Ok(Table {
         topic: Topic::Sensitivities,
@@ -252,7 +259,7 @@ fn adjustment(results: &Results) -> anyhow::Result<Table> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
-        let Some(demands) = of_arm(suite, arm) else { continue };
+        let demands = suite.stripes(arm)?;
         for (frequency, (p_rad_s, stripes)) in
             adjusted_boxes(suite, arm)?.into_iter().enumerate()
         {
@@ -331,8 +338,6 @@ fn overturning(results: &Results) -> Table {
     let mut rows = Vec::new();
     for d in results.distributions.iter().filter(|d| d.arm == arm) {
         for block in &d.blocks {
-            // The last of the demand levels is overturning.
-            let last = block.samples.last().map_or(&[][..], Vec::as_slice);
             rows.push(Row {
                 at: Place {
                     suite: Some(d.kind),
@@ -342,7 +347,7 @@ fn overturning(results: &Results) -> Table {
                     alpha_rad: Some(block.alpha_rad),
                     ..Place::default()
                 },
-                values: vec![estimates::median(last)],
+                values: vec![estimates::median(block.overturning())],
             });
         }
     }

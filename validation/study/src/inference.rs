@@ -5,7 +5,6 @@
 //! replicate takes the same earthquakes everywhere and recomputes the whole
 //! measure of a claim. The two suites are resampled independently of each other.
 
-mod counted;
 mod drawn;
 mod draws;
 mod known;
@@ -20,8 +19,8 @@ use rocking_common::paper::{Arm, Verdict};
 
 pub use drawn::by_cell;
 pub use draws::{
-    Draw, Draws, LEAST_DECIDING, MORE, Measure, REPLICATES, Replicated,
-    SUBSAMPLES, Scheme,
+    Draw, Draws, LEAST_DECIDING, MORE, REPLICATES, Replicated, SUBSAMPLES,
+    Scheme,
 };
 use known::{Caution, Known, p_of};
 pub use rule::{Cell, Rule};

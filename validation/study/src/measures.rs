@@ -19,14 +19,13 @@ pub use source::{Criterion, Prepared, Source};
 pub use stripes::without_closed_form;
 
 use rocking_common::findings::Unit;
-use source::Found;
 
 /// A measure as it is registered.
 struct Row {
     unit: Unit,
     /// Ends that no value can cross.
     range: (f64, f64),
-    prepare: fn(&Source<'_>) -> Found,
+    prepare: fn(&Source<'_>) -> anyhow::Result<Prepared>,
 }
 
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -70,7 +69,7 @@ measures! {
     FirstOverturningByCriterion: One, ANY, capacities::criterion;
     /// Overturning with another restitution over the study's, paired.
     RestitutionEffect: One, ANY, capacities::restitution;
-    /// What restitution does to overturning over what the size does.
+    /// Effect of restitution on overturning over the effect of size.
     RestitutionBesideSize: Share, NOT_NEGATIVE, capacities::restitution_beside_size;
     /// Capacities of the other component over the study's, paired.
     ComponentEffect: One, ANY, capacities::component;
@@ -91,28 +90,29 @@ measures! {
     /// Paired ratio stocky over slender with Housner's restitution.
     HousnerSpread: One, NOT_NEGATIVE, capacities::housner;
     /// Share of histories further than 5 % from the reference's.
-    HistoriesApart: Share, FROM_0_TO_1, single::histories_apart;
+    HistoriesApart: Share, FROM_0_TO_1, |s| Ok(single::histories_apart(s));
     /// Median distance of histories.
-    HistoryDistance: Distance, NOT_NEGATIVE, single::history_distance;
+    HistoryDistance: Distance, NOT_NEGATIVE, |s| Ok(single::history_distance(s));
     /// Distance of histories, ordinary over pulse-type motions.
-    HistoryContrast: One, NOT_NEGATIVE, single::histories;
+    HistoryContrast: One, NOT_NEGATIVE, |s| Ok(single::histories(s));
     /// Difference of peaks.
-    PeakDifference: One, NOT_NEGATIVE, single::peaks;
+    PeakDifference: One, NOT_NEGATIVE, |s| Ok(single::peaks(s));
     /// Share of stripes at which blocks of one p have different fates.
     MixedFates: Share, FROM_0_TO_1, single::fates;
     /// Difference of single IDA curves.
-    CurveDifference: One, NOT_NEGATIVE, single::curves;
+    CurveDifference: One, NOT_NEGATIVE, |s| Ok(single::curves(s));
     /// Difference of single IDA curves, ordinary over pulse-type motions.
-    CurveContrast: One, NOT_NEGATIVE, single::curve_contrast;
+    CurveContrast: One, NOT_NEGATIVE, |s| Ok(single::curve_contrast(s));
     /// Median paired ratios on stripes, p = 1, all but the exception.
     StripeRatiosLarge: One, ANY, |s| stripes::ratios(s, &[0]);
     /// The paper's exception: alpha = 0.25 on the lowest stripe.
     StripeRatioException: One, ANY, stripes::only_exception;
-    /// Deviation of the smaller over that of the larger demands there.
+    /// Deviation of the smaller over the deviation of the larger demands, in the
+    /// cell of the paper's exception.
     SmallAmplitudes: One, NOT_NEGATIVE, stripes::small_amplitudes;
     /// Median paired ratios on stripes, p = 3 and 4.
     StripeRatiosSmall: One, ANY, |s| stripes::ratios(s, &[1, 2]);
-    /// All of them, the closed form divided out.
+    /// Median paired ratios on stripes of all blocks, the closed form divided out.
     StripeRatiosCorrected: One, ANY, stripes::corrected;
     /// Share of ratios far from 1.
     StripeOutliers: Share, FROM_0_TO_1, stripes::outliers;
@@ -122,20 +122,21 @@ measures! {
     Quantiles: One, ANY, capacities::quantiles;
     /// Median paired ratios, slenderness adjusted over records scaled.
     AdjustmentRatios: One, ANY, |s| stripes::adjusted(s, None);
-    /// The same where the adjusted slenderness is at most 0.25.
+    /// Median paired ratios where the adjusted slenderness is at most 0.25.
     AdjustmentRatiosSlender: One, ANY, |s| stripes::adjusted(s, Some(true));
-    /// The same where it is above.
+    /// Median paired ratios where the adjusted slenderness is above 0.25.
     AdjustmentRatiosStocky: One, ANY, |s| stripes::adjusted(s, Some(false));
-    /// Both, with the closed form divided out record by record.
+    /// Median paired ratios of Figure 9, the closed form divided out record by
+    /// record.
     AdjustmentRatiosCorrected: One, ANY, stripes::adjusted_corrected;
     /// 16, 50 and 84 % quantiles, adjusted over scaled.
     AdjustmentQuantiles: One, ANY, capacities::adjusted_quantiles;
     /// 84 over 16 % quantile of the onset in PGV.
-    OnsetSpreadPgv: One, ANY, capacities::onset;
+    OnsetSpreadPgv: One, ANY, |s| Ok(capacities::onset(s));
     /// Distance from a lognormal (Lilliefors' D less its mean for a lognormal),
     /// original samples.
     DistanceOriginal: Probability, SIGNED, distances::original;
-    /// That distance for p = 3 and 4 minus that for p = 1.
+    /// Distance from a lognormal for p = 3 and 4 minus the distance for p = 1.
     DistanceSmallMinusLarge: Probability, SIGNED, distances::small_minus_large;
     /// Reduction of the distance by shifting.
     DistanceGain: Probability, SIGNED, distances::gain;
@@ -145,9 +146,9 @@ measures! {
     DistanceSlender: Probability, SIGNED, distances::slender;
     /// Reduction of the distance without the three earliest overturnings.
     DistanceEarliestRemoved: Probability, SIGNED, distances::earliest_removed;
-    /// Distance for alpha = 0.05 minus that for 0.20, p = 3, shifted PGA.
+    /// Distance for alpha = 0.05 minus the distance for 0.20, p = 3, shifted PGA.
     DistanceSlenderMinusStocky: Probability, SIGNED, distances::less_slender;
-    /// Distance of original samples in PGA minus that in PGV.
+    /// Distance of original samples in PGA minus the distance in PGV.
     DistancePgvGain: Probability, SIGNED, distances::pgv_gain;
     /// Gain in distance to the sample by shifting.
     ShiftGain: Probability, SIGNED, fragilities::shift_gain;
@@ -163,17 +164,19 @@ measures! {
     ShiftedRate: One, NOT_NEGATIVE, fragilities::shifted_rate;
     /// Reduction of the distance of USFL7 to SSFL by trimming.
     TrimmingGain: Probability, SIGNED, fragilities::trimming_gain;
-    /// Reduction of that distance by c = 0.5 to 1 instead of 0.25, trimmed.
+    /// Reduction of the distance of trimmed USFL7 to SSFL by c = 0.5 to 1 instead
+    /// of 0.25.
     HighConstantGain: Probability, SIGNED, fragilities::high_constant_gain;
     /// Distance of untrimmed USFL7 to SSFL.
     UntrimmedToSsfl: Probability, FROM_0_TO_1, fragilities::untrimmed;
-    /// Gain in that distance from c = 1 to c = 0.25.
+    /// Gain in the distance of untrimmed USFL7 to SSFL from c = 1 to c = 0.25.
     LowConstantGain: Probability, SIGNED, fragilities::low_constant;
-    /// Distance of trimmed USFL7 for c = 0.25 to that for c = 1.
+    /// Distance of trimmed USFL7 for c = 0.25 to USFL7 for c = 1.
     ConstantSpread: Probability, FROM_0_TO_1, fragilities::constant_spread;
-    /// Dispersion of the whole over that of the trimmed sample.
+    /// Dispersion of the whole sample over the dispersion of the trimmed one.
     TailInflation: One, ANY, fragilities::tail_inflation;
-    /// Scatter of the dispersion by quantiles over that by the deviation.
+    /// Scatter of the dispersion by quantiles over its scatter by the standard
+    /// deviation.
     QuantileScatter: One, ANY, fragilities::scatter;
 }
 
@@ -185,11 +188,11 @@ impl Measure {
         (row.unit, row.range)
     }
 
-    /// The cells of the measure; none where what it needs was not run.
+    /// The cells of the measure.
     ///
     /// # Errors
-    /// Where a curve cannot be read.
-    pub fn prepare(self, source: &Source<'_>) -> Found {
+    /// Where a curve cannot be read, or an arm was not run.
+    pub fn prepare(self, source: &Source<'_>) -> anyhow::Result<Prepared> {
         (self.row().prepare)(source)
     }
 }

@@ -1,9 +1,11 @@
 //! What the analyses gave: what claims, questions, figures and findings read.
 
-use crate::analyses::{Plan, SuiteResults, no_arm};
+use crate::analyses::{Plan, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::inference::Draws;
-use crate::sensitivities::Varied;
+use crate::runs::not_run;
+use crate::sensitivities::{Choice, Varied};
+use rocking::capacity::ResponseCurve;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
 
 /// The analyses of both suites.
@@ -26,15 +28,19 @@ impl Results {
     /// many as are enough for most claims.
     #[must_use]
     pub fn draws(&self, times: usize) -> Draws {
-        let clusters = [&self.ordinary, &self.pulse].map(|s| &s.clusters);
-        Draws::new(clusters.map(Clone::clone), times)
+        Draws::new(self.suites().map(|s| s.clusters.clone()), times)
     }
 
     /// Whether the suites are the embedded ones.
     #[must_use]
     pub fn embedded(&self) -> bool {
-        let suites = [&self.ordinary, &self.pulse];
-        suites.iter().all(|suite| suite.source.is_embedded())
+        self.suites().iter().all(|suite| suite.source.is_embedded())
+    }
+
+    /// The ordinary and the pulse-type suite.
+    #[must_use]
+    pub fn suites(&self) -> [&SuiteResults; 2] {
+        [&self.ordinary, &self.pulse]
     }
 
     /// The suite of that kind.
@@ -44,16 +50,19 @@ impl Results {
     }
 
     /// The capacity samples of a suite in an arm and a measure.
-    #[must_use]
+    ///
+    /// # Errors
+    /// If the arm was not run.
     pub fn distributions(
         &self,
         kind: SuiteKind,
         arm: Arm,
         intensity: Intensity,
-    ) -> Option<&Distributions> {
-        self.distributions.iter().find(|d| {
+    ) -> anyhow::Result<&Distributions> {
+        let is = |d: &&Distributions| {
             d.kind == kind && d.arm == arm && d.intensity == intensity
-        })
+        };
+        self.distributions.iter().find(is).ok_or_else(|| not_run(arm))
     }
 
     /// The capacity samples in the arm of all suites: ordinary and
@@ -64,6 +73,21 @@ impl Results {
         let arm = self.plan.common();
         let own = self.distributions.iter().filter(move |d| d.arm == arm);
         own.map(|d| (self.suite(d.kind), d))
+    }
+
+    /// The ordinary curves under these choices, each with the study's own
+    /// curves of that block.
+    ///
+    /// # Errors
+    /// If the arm was not run.
+    pub(crate) fn varied(
+        &self,
+        choices: &[Choice],
+    ) -> anyhow::Result<Vec<(&Varied, &[ResponseCurve])>> {
+        let curves = self.ordinary.curves(self.plan.common())?;
+        let of = |v: &Varied| position(v.frequency, v.slenderness);
+        let found = self.varied.iter().filter(|v| choices.contains(&v.choice));
+        Ok(found.map(|v| (v, curves[of(v)].as_slice())).collect())
     }
 
     /// One block of the ordinary suite.
@@ -78,8 +102,7 @@ impl Results {
         slenderness: usize,
     ) -> anyhow::Result<&BlockSamples> {
         let kind = self.ordinary.kind;
-        let found = self.distributions(kind, arm, intensity);
-        let found = found.ok_or_else(no_arm)?;
+        let found = self.distributions(kind, arm, intensity)?;
         Ok(&found.blocks[position(frequency, slenderness)])
     }
 }

@@ -1,12 +1,14 @@
 //! The analyses of the study: chains of rising intensity, stripes,
 //! histories.
 
+use anyhow::anyhow;
+use indicatif::ProgressBar;
 use rocking::block::{Block, Restitution};
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
 use rocking::integrator::{
-    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
+    Model, Observe, Overturning, Scene, respond, uplift_threshold,
 };
 
 use crate::certainty::{Certainty, certainty};
@@ -27,37 +29,57 @@ pub struct Setup {
     pub way: Execution,
 }
 
-/// The curves of blocks under records, and what they took.
-#[derive(Clone, Debug)]
-pub struct Chains {
-    /// Curves by arm (in the order asked for), by block, by record.
-    pub curves: Vec<Vec<Vec<ResponseCurve>>>,
-    /// Analyses made.
+/// What the chains of a suite took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    /// Analyses, bisection included.
     pub analyses: u64,
     /// Levels whose fate double precision cannot tell.
     pub certainty: Certainty,
 }
 
+/// All curves of one arm.
+#[derive(Clone, Debug)]
+pub struct ArmCurves {
+    /// The arm.
+    pub arm: Arm,
+    /// Curves by block, then by record.
+    pub curves: Vec<Vec<ResponseCurve>>,
+}
+
+/// The curves of an arm, by block, then by record.
+///
+/// # Errors
+/// If the arm was not run.
+pub fn curves_of(
+    arms: &[ArmCurves],
+    arm: Arm,
+) -> anyhow::Result<&[Vec<ResponseCurve>]> {
+    let found = arms.iter().find(|own| own.arm == arm);
+    found.map(|own| own.curves.as_slice()).ok_or_else(|| not_run(arm))
+}
+
+/// The error where results of an arm are read that was not run.
+pub(crate) fn not_run(arm: Arm) -> anyhow::Error {
+    anyhow!("arm {} of the grid was not run", arm.letter())
+}
+
 impl Setup {
-    /// What an arm asks of a block.
+    /// The analysis of a block in an arm.
     fn analysis(&self, block: Block, arm: Arm, adjust: Adjust) -> Analysis {
-        Analysis {
-            overturning: self.overturning,
-            grid: match arm {
-                Arm::A | Arm::B => Grid::Pga { step_g: 0.01 },
-                Arm::C => Grid::Im { step: 0.02 },
-            },
-            adjust,
-            refine: match arm {
-                Arm::A => None,
-                Arm::B | Arm::C => Some(self.tolerance),
-            },
-            ..Analysis::paper(block, self.restitution)
-        }
+        let hundredths = Grid::Pga { step_g: 0.01 };
+        let (grid, refine) = match arm {
+            Arm::A => (hundredths, None),
+            Arm::B => (hundredths, Some(self.tolerance)),
+            Arm::C => (Grid::Im { step: 0.02 }, Some(self.tolerance)),
+        };
+        let overturning = self.overturning;
+        let paper = Analysis::paper(block, self.restitution);
+        Analysis { overturning, grid, adjust, refine, ..paper }
     }
 
-    /// The curves of every block and record in the arms asked for; A and B
-    /// are one scan. `done` is called after each chain.
+    /// The curves of every block and record in each of the arms, and the work
+    /// of making them; A and B are one scan. `progress` counts the chains.
     ///
     /// # Errors
     /// Where a record cannot be scaled, or there is no such
@@ -68,41 +90,40 @@ impl Setup {
         records: &[NormalisedRecord],
         arms: &[Arm],
         adjust: Adjust,
-        done: impl Fn() + Sync,
-    ) -> anyhow::Result<Chains> {
+        progress: &ProgressBar,
+    ) -> anyhow::Result<(Vec<ArmCurves>, Work)> {
         let scans = Self::scans(arms);
-        let analyses: Vec<Analysis> = scans
-            .iter()
-            .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
-            .map(|(block, arm)| self.analysis(block, arm, adjust))
-            .collect();
-        let runs = self.way.curves(records, &analyses, &done)?;
-        let all = || runs.iter().flatten();
-        let curves = arms
-            .iter()
-            .map(|arm| {
-                let own = |scan: &Arm| (*scan == Arm::C) == (*arm == Arm::C);
-                let first = scans.iter().position(own).unwrap_or(0);
-                let first = first * blocks.len();
-                runs[first..first + blocks.len()]
-                    .iter()
-                    .map(|runs| {
-                        runs.iter()
-                            .map(|run| Ok(run.response(overturned(*arm))?))
-                            .collect()
-                    })
-                    .collect()
-            })
-            .collect::<anyhow::Result<_>>()?;
-        Ok(Chains {
-            curves,
-            analyses: all().map(|run| run.analyses).sum(),
+        let of_scan = |arm: &Arm| {
+            let arm = *arm;
+            blocks.iter().map(move |b| self.analysis(*b, arm, adjust))
+        };
+        let analyses: Vec<Analysis> = scans.iter().flat_map(of_scan).collect();
+        progress.inc_length((analyses.len() * records.len()) as u64);
+        let runs = self.way.curves(records, &analyses, &|| progress.inc(1))?;
+        let of_arm = |arm: &Arm| -> anyhow::Result<ArmCurves> {
+            let own = |scan: &Arm| (*scan == Arm::C) == (*arm == Arm::C);
+            let scan = scans.iter().position(own).unwrap_or(0);
+            let overturned = match arm {
+                Arm::A => Overturned::Scanned,
+                Arm::B | Arm::C => Overturned::Refined,
+            };
+            let curves = runs[scan * blocks.len()..][..blocks.len()]
+                .iter()
+                .map(|runs| runs.iter().map(|r| r.response(overturned)))
+                .map(|curves| curves.collect::<Result<_, _>>())
+                .collect::<Result<_, _>>()?;
+            Ok(ArmCurves { arm: *arm, curves })
+        };
+        let work = Work {
+            analyses: runs.iter().flatten().map(|run| run.analyses).sum(),
             certainty: certainty(&analyses, records, &runs)?,
-        })
+        };
+        let curves = arms.iter().map(of_arm).collect::<Result<_, _>>()?;
+        Ok((curves, work))
     }
 
     /// Arms as they are scanned: A and B once, bisected if B is asked for.
-    pub(super) fn scans(arms: &[Arm]) -> Vec<Arm> {
+    fn scans(arms: &[Arm]) -> Vec<Arm> {
         let hundredths = if arms.contains(&Arm::B) { Arm::B } else { Arm::A };
         let mut scans: Vec<Arm> = arms
             .iter()
@@ -128,26 +149,6 @@ impl Setup {
         Ok(ida::demand_at(record, &analysis, im)?.edp())
     }
 
-    /// The response of `block` to the record scaled to `pga_g`.
-    fn respond(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-        pga_g: f64,
-        observe: &Observe,
-    ) -> anyhow::Result<Response> {
-        let scaled = ScaledRecord::to_pga(record, pga_g);
-        let scene = Scene {
-            block,
-            restitution: self.restitution,
-            model: Model::Nonlinear,
-            overturning: self.overturning,
-            excitation: Excitation::Record(scaled),
-            initial_ratio: 0.0,
-        };
-        Ok(respond(&scene, observe)?)
-    }
-
     /// History of theta/alpha every `interval_s`, and the peak (infinite
     /// when overturned).
     ///
@@ -161,17 +162,21 @@ impl Setup {
         interval_s: f64,
     ) -> anyhow::Result<(Vec<f64>, f64)> {
         let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
+        let excitation =
+            Excitation::Record(ScaledRecord::to_pga(record, pga_g));
+        let scene = Scene {
+            overturning: self.overturning,
+            ..Scene::new(block, self.restitution, excitation)
+        };
         let observe = Observe {
             history_interval_s: Some(interval_s),
             ..Observe::default()
         };
-        let response = self.respond(block, record, pga_g, &observe)?;
-        let ratio = response
-            .history
-            .iter()
-            .map(|point| point.rotation_rad / block.slenderness_rad())
-            .collect();
-        Ok((ratio, response.outcome.edp()))
+        let response = respond(&scene, &observe)?;
+        let ratio = |rotation_rad: f64| rotation_rad / block.slenderness_rad();
+        let history = response.history.iter();
+        let history = history.map(|point| ratio(point.rotation_rad));
+        Ok((history.collect(), response.outcome.edp()))
     }
 }
 
@@ -188,20 +193,26 @@ pub fn capacities(
     levels.iter().map(|e| Ok(curve.capacity(*e, rule)?.im())).collect()
 }
 
-/// What is known of a curve's first overturning: the intensity twice, or the
+/// Capacities at a demand by the median point; NaN where there is no curve.
+///
+/// # Errors
+/// For a demand that is not positive.
+pub fn capacities_at<'a>(
+    curves: impl IntoIterator<Item = Option<&'a ResponseCurve>>,
+    demand: f64,
+) -> anyhow::Result<Vec<f64>> {
+    let of = |curve: &ResponseCurve| {
+        anyhow::Ok(curve.capacity(demand, InversionRule::Median)?.im())
+    };
+    curves.into_iter().map(|c| c.map_or(Ok(f64::NAN), of)).collect()
+}
+
+/// The bounds of a curve's first overturning: the intensity twice, or the
 /// last one that was run and infinity.
 #[must_use]
 pub fn overturning(curve: &ResponseCurve) -> (f64, f64) {
     let last = (curve.last_im(), f64::INFINITY);
     curve.overturning_im().map_or(last, |im| (im, im))
-}
-
-/// What an arm counts as the first overturning.
-fn overturned(arm: Arm) -> Overturned {
-    match arm {
-        Arm::A => Overturned::Scanned,
-        Arm::B | Arm::C => Overturned::Refined,
-    }
 }
 
 #[cfg(test)]

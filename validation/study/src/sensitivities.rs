@@ -1,6 +1,7 @@
 //! What other choices would do to the capacities: restitution, criterion,
 //! component.
 
+use indicatif::ProgressBar;
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
@@ -10,8 +11,8 @@ use rocking::names::named;
 
 use crate::analyses::Plan;
 use crate::runs::Setup;
-use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
-use rocking_common::suites::StudySuite;
+use rocking_common::paper::{BLOCKS, position};
+use rocking_common::suites::{Motion, StudySuite};
 
 named! {
     /// A choice other than the study's.
@@ -79,44 +80,34 @@ impl Plan {
         &self,
         suite: &StudySuite,
     ) -> anyhow::Result<Vec<Varied>> {
-        let full = self.full;
-        let study: Vec<Option<NormalisedRecord>> = suite
-            .motions
-            .iter()
-            .map(|m| Some(NormalisedRecord::new(&m.study)))
-            .collect();
-        let other: Vec<Option<NormalisedRecord>> = suite
-            .motions
-            .iter()
-            .map(|m| m.other.as_ref().map(NormalisedRecord::new))
-            .collect();
-        let frequencies: &[usize] = if full { &[0, 1, 2] } else { &[1] };
+        let frequencies: &[usize] = if self.full { &[0, 1, 2] } else { &[1] };
+        let progress = ProgressBar::hidden();
         let mut out = Vec::new();
         for choice in Choice::ALL {
-            let records = match choice {
-                Choice::OtherComponent => &other,
-                _ => &study,
+            let component = |motion: &Motion| match choice {
+                Choice::OtherComponent => motion.other.clone(),
+                _ => Some(motion.study.clone()),
             };
+            let records: Vec<Option<NormalisedRecord>> = suite
+                .motions
+                .iter()
+                .map(|m| component(m).as_ref().map(NormalisedRecord::new))
+                .collect();
+            let present: Vec<NormalisedRecord> =
+                records.iter().flatten().cloned().collect();
             for &frequency in frequencies {
-                for &slenderness in choice.slendernesses(full) {
-                    let block = Block::try_new(
-                        SLENDERNESSES_RAD[slenderness],
-                        FREQUENCIES_RAD_S[frequency],
-                    )?;
+                for &slenderness in choice.slendernesses(self.full) {
+                    let block = BLOCKS[position(frequency, slenderness)];
                     let setup = choice.setup(self.setup.clone(), &block)?;
-                    let arm = [self.common()];
-                    let present: Vec<NormalisedRecord> =
-                        records.iter().flatten().cloned().collect();
-                    let method = Adjust::RecordScaling;
-                    let chains = setup.chains(
+                    let (arms, _) = setup.chains(
                         &[block],
                         &present,
-                        &arm,
-                        method,
-                        || {},
+                        &[self.common()],
+                        Adjust::RecordScaling,
+                        &progress,
                     )?;
-                    let mut found =
-                        chains.curves.into_iter().flatten().flatten();
+                    let curves = arms.into_iter().flat_map(|a| a.curves);
+                    let mut found = curves.flatten();
                     let curves = records
                         .iter()
                         .map(|r| r.as_ref().and_then(|_| found.next()))

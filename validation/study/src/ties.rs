@@ -25,7 +25,7 @@ pub(crate) fn grid_alone(block: &BlockSamples) -> Option<f64> {
 /// The lognormal above the shift of a block's first overturnings, the step of
 /// the 0.01 g grid, and how many they are.
 fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
-    let sample = block.samples.last()?;
+    let sample = block.overturning();
     let extended = ExtendedSample::try_new(sample).ok()?;
     let method = FitMethod::MaximumLikelihood;
     let truth = fit(&extended, block.shift, method).ok()?.distribution;

@@ -4,7 +4,7 @@ use indicatif::ProgressBar;
 
 use crate::analyses::Plan;
 use crate::claims;
-use crate::distributions::of_suite;
+use crate::distributions::suite_distributions;
 use crate::figures;
 use crate::findings;
 use crate::questions::{self, Answer};
@@ -37,11 +37,18 @@ impl Study {
         progress: &ProgressBar,
     ) -> anyhow::Result<Self> {
         let [first, second] = suites;
-        let ordinary = plan.run(first, progress)?;
-        let pulse = plan.run(second, progress)?;
-        let common = plan.common();
-        let mut distributions = of_suite(&ordinary, common)?;
-        distributions.extend(of_suite(&pulse, common)?);
+        let ordinary = plan.run_suite(first, progress)?;
+        let pulse = plan.run_suite(second, progress)?;
+        let mut distributions = Vec::new();
+        for own in [&ordinary, &pulse] {
+            let (kind, common) = (own.kind, plan.common());
+            distributions.extend(suite_distributions(
+                kind,
+                &own.records,
+                &own.arms,
+                common,
+            )?);
+        }
         let varied = plan.sensitivities(first)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let draws = results.draws(1);

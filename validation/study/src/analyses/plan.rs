@@ -1,15 +1,8 @@
 //! What a study runs.
 
-use anyhow::anyhow;
-
 use crate::runs::Setup;
 use rocking_common::findings::Settings;
 use rocking_common::paper::Arm;
-
-/// Refuses to read an arm that was not run.
-pub(crate) fn no_arm() -> anyhow::Error {
-    anyhow!("no arm of the grid: expected one of A, B, C")
-}
 
 /// What a study runs.
 #[derive(Clone, Debug)]
@@ -45,10 +38,9 @@ impl Plan {
     /// The arm whose grid the single-record figures use: C, else the first.
     #[must_use]
     pub fn common(&self) -> Arm {
-        if self.arms.contains(&Arm::C) {
-            Arm::C
-        } else {
-            self.arms.first().copied().unwrap_or(Arm::A)
+        match self.arms.as_slice() {
+            arms if arms.contains(&Arm::C) => Arm::C,
+            arms => arms.first().copied().unwrap_or(Arm::A),
         }
     }
 }

@@ -2,15 +2,13 @@
 //! histories and curves are apart. The rules were fixed before any result.
 
 use rayon::prelude::*;
-use rocking::block::Block;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
-use super::plan::{Plan, no_arm};
-use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
-use crate::runs::capacities;
+use super::suite::{Apart, Facts, ShownHistory, SingleRecords};
+use crate::runs::{Setup, capacities};
 use rocking_common::paper::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+    BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 
 /// Interval at which histories are compared and drawn, in s.
@@ -25,107 +23,101 @@ pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
 /// and rotation over slenderness there.
 const ROCKS: (f64, f64) = (1.5, 0.05);
 
-impl Plan {
-    /// The records that are shown alone: those at ranks 1/6, 3/6 and 5/6 of
-    /// PGV/PGA among the records under which the smallest block of every
-    /// slenderness rocks ([`ROCKS`]), or among all if these are fewer than
-    /// three.
-    pub(super) fn shown_alone(
-        &self,
-        results: &SuiteResults,
-        ratios: &[f64],
-    ) -> anyhow::Result<[usize; 3]> {
-        let curves = results.curves(self.common()).ok_or_else(no_arm)?;
-        let smallest = FREQUENCIES_RAD_S.len() - 1;
-        let rocks = |record: usize| {
-            (0..SLENDERNESSES_RAD.len()).all(|s| {
-                let curve = &curves[position(smallest, s)][record];
-                let demand = curve.edp_at(ROCKS.0);
-                demand.is_some_and(|e| e.is_finite() && e >= ROCKS.1)
-            })
-        };
-        Ok(by_rank_among(ratios, rocks))
-    }
-
-    pub(super) fn single(
-        &self,
-        frequency: usize,
-        blocks: &[Block],
-        records: &[NormalisedRecord],
-        results: &SuiteResults,
-    ) -> anyhow::Result<SingleRecords> {
-        let Some(curves) = results.curves(self.common()) else {
-            return Err(no_arm());
-        };
-        let of = |slenderness, record: usize| -> &ResponseCurve {
-            &curves[position(frequency, slenderness)][record]
-        };
-        let last = |curve: &ResponseCurve| match curve.overturning_im() {
-            Some(_) => curve.last_im(),
-            None => f64::INFINITY,
-        };
-        let slendernesses = 0..SLENDERNESSES_RAD.len();
-        let standing: Vec<Vec<f64>> = results
-            .chosen
-            .iter()
-            .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
-            .collect();
-        let im = common_level(&standing);
-        let at_level = |record: usize, im: f64| -> anyhow::Result<_> {
-            let histories: Vec<(Vec<f64>, f64)> = slendernesses
-                .clone()
-                .map(|s| {
-                    self.setup.history(
-                        blocks[position(frequency, s)],
-                        &records[record],
-                        im,
-                        HISTORY_INTERVAL_S,
-                    )
-                })
-                .collect::<Result<_, _>>()?;
-            let apart = slendernesses
-                .clone()
-                .filter(|s| *s != REFERENCE)
-                .map(|s| {
-                    let (a, b) = (&histories[s], &histories[REFERENCE]);
-                    let curves = (of(s, record), of(REFERENCE, record));
-                    apart(a, b, curves)
-                })
-                .collect::<Result<Vec<Apart>, _>>()?;
-            Ok((histories, apart))
-        };
-        let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
-            .into_par_iter()
-            .map(|record| {
-                let (histories, apart) = at_level(record, im)?;
-                let kept = if results.chosen.contains(&record) {
-                    histories
-                        .into_iter()
-                        .map(|(h, peak)| (h, peak.is_infinite()))
-                        .collect()
-                } else {
-                    Vec::new()
-                };
-                Ok((kept, apart))
-            })
-            .collect::<anyhow::Result<_>>()?;
-        let by_level = LEVELS_IM
-            .into_iter()
-            .map(|im| {
-                let apart = (0..records.len())
-                    .into_par_iter()
-                    .map(|record| Ok(at_level(record, im)?.1))
-                    .collect::<anyhow::Result<_>>()?;
-                Ok((im, apart))
-            })
-            .collect::<anyhow::Result<_>>()?;
-        let histories =
-            results.chosen.iter().map(|r| all[*r].0.clone()).collect();
-        let apart = all.into_iter().map(|(_, apart)| apart).collect();
-        Ok(SingleRecords { im, histories, apart, by_level })
-    }
+/// The records that are shown alone: those at ranks 1/6, 3/6 and 5/6 of
+/// PGV/PGA among the records under which the smallest block of every
+/// slenderness rocks ([`ROCKS`]), or among all if these are fewer than
+/// three. The curves are by block, then by record.
+pub(super) fn shown_alone(
+    curves: &[Vec<ResponseCurve>],
+    records: &[Facts],
+) -> [usize; 3] {
+    let smallest = FREQUENCIES_RAD_S.len() - 1;
+    let rocks = |record: usize| {
+        (0..SLENDERNESSES_RAD.len()).all(|s| {
+            let curve = &curves[position(smallest, s)][record];
+            let demand = curve.edp_at(ROCKS.0);
+            demand.is_some_and(|e| e.is_finite() && e >= ROCKS.1)
+        })
+    };
+    let ratios: Vec<f64> =
+        records.iter().map(|record| record.velocity_ratio_s).collect();
+    by_rank_among(&ratios, rocks)
 }
 
+/// Histories of the `chosen` records, and how far the histories and curves
+/// of all records are apart, for one frequency parameter.
+pub(super) fn single(
+    setup: &Setup,
+    frequency: usize,
+    records: &[NormalisedRecord],
+    curves: &[Vec<ResponseCurve>],
+    chosen: [usize; 3],
+) -> anyhow::Result<SingleRecords> {
+    let of = |slenderness, record: usize| -> &ResponseCurve {
+        &curves[position(frequency, slenderness)][record]
+    };
+    let last = |curve: &ResponseCurve| match curve.overturning_im() {
+        Some(_) => curve.last_im(),
+        None => f64::INFINITY,
+    };
+    let slendernesses = 0..SLENDERNESSES_RAD.len();
+    let standing: Vec<Vec<f64>> = chosen
+        .iter()
+        .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
+        .collect();
+    let im = common_level(&standing);
+    let at_level = |record: usize, im: f64| -> anyhow::Result<_> {
+        let histories: Vec<(Vec<f64>, f64)> = slendernesses
+            .clone()
+            .map(|s| {
+                setup.history(
+                    BLOCKS[position(frequency, s)],
+                    &records[record],
+                    im,
+                    HISTORY_INTERVAL_S,
+                )
+            })
+            .collect::<Result<_, _>>()?;
+        let apart = slendernesses
+            .clone()
+            .filter(|s| *s != REFERENCE)
+            .map(|s| {
+                let (a, b) = (&histories[s], &histories[REFERENCE]);
+                let curves = (of(s, record), of(REFERENCE, record));
+                apart(a, b, curves)
+            })
+            .collect::<Result<Vec<Apart>, _>>()?;
+        Ok((histories, apart))
+    };
+    let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
+        .into_par_iter()
+        .map(|record| {
+            let (histories, apart) = at_level(record, im)?;
+            let kept = if chosen.contains(&record) {
+                histories
+                    .into_iter()
+                    .map(|(h, peak)| (h, peak.is_infinite()))
+                    .collect()
+            } else {
+                Vec::new()
+            };
+            Ok((kept, apart))
+        })
+        .collect::<anyhow::Result<_>>()?;
+    let by_level = LEVELS_IM
+        .into_iter()
+        .map(|im| {
+            let apart = (0..records.len())
+                .into_par_iter()
+                .map(|record| Ok(at_level(record, im)?.1))
+                .collect::<anyhow::Result<_>>()?;
+            Ok((im, apart))
+        })
+        .collect::<anyhow::Result<_>>()?;
+    let histories = chosen.iter().map(|r| all[*r].0.clone()).collect();
+    let apart = all.into_iter().map(|(_, apart)| apart).collect();
+    Ok(SingleRecords { im, histories, apart, by_level })
+}
 fn apart(
     compared: &(Vec<f64>, f64),
     reference: &(Vec<f64>, f64),

@@ -6,124 +6,82 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use super::plan::Plan;
-use super::suite::{ArmCurves, StripeDemands, SuiteResults};
+use super::references;
+use super::suite::StripeDemands;
+use crate::runs::{ArmCurves, Setup, curves_of};
 use rocking_common::paper::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
+    BLOCKS, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };
 
-impl Plan {
-    /// One run a block, stripe and record; what an arm's scan makes of it
-    /// is a matter of its first overturning.
-    pub(super) fn stripes(
-        &self,
-        blocks: &[Block],
-        records: &[NormalisedRecord],
-        results: &SuiteResults,
-    ) -> anyhow::Result<Vec<StripeDemands>> {
-        let used = self.used_stripes(results);
-        let scaling = Adjust::RecordScaling;
-        let runs: Vec<Vec<Vec<f64>>> = blocks
-            .iter()
-            .map(|block| {
-                on_levels(&used, records, |im, record| {
-                    self.setup.demand(*block, record, im, scaling)
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let adjusted_runs: Vec<Vec<Vec<f64>>> = (0..FREQUENCIES_RAD_S.len())
-            .map(|frequency| {
-                let block = blocks[position(frequency, REFERENCE)];
-                on_levels(&used, records, |im, record| {
-                    let method = Adjust::SlendernessAdjustment;
-                    self.setup.demand(block, record, im, method)
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let mut out = Vec::new();
-        for ArmCurves { arm, curves: adjusted } in &results.adjusted {
-            let Some(curves) = results.curves(*arm) else { continue };
-            let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
-                used.iter()
-                    .zip(runs)
-                    .map(|(im, row)| {
-                        row.iter()
-                            .zip(curves)
-                            .map(|(run, curve)| {
-                                on_stripe(*im, curve.overturning_im(), *run)
-                            })
-                            .collect::<Vec<f64>>()
-                    })
-                    .collect::<Vec<_>>()
-            };
-            let demands: Vec<Vec<Vec<f64>>> =
-                runs.iter().zip(curves).map(|(r, c)| apply(r, c)).collect();
-            let adjusted = adjusted_runs
-                .iter()
-                .zip(adjusted)
-                .map(|(r, c)| apply(r, c))
-                .collect();
-            // Overturned by the rule, yet finite by its own run.
-            let stands_again = demands
-                .iter()
-                .zip(&runs)
-                .map(|(demands, runs): (&Vec<Vec<f64>>, &Vec<Vec<f64>>)| {
-                    let again = |d: &Vec<f64>, r: &Vec<f64>| {
-                        d.iter()
-                            .zip(r)
-                            .map(|(d, r)| d.is_infinite() && r.is_finite())
-                            .collect()
-                    };
-                    demands
-                        .iter()
-                        .zip(runs)
-                        .map(|(d, r)| again(d, r))
-                        .collect()
-                })
-                .collect();
-            out.push(StripeDemands {
-                arm: *arm,
-                stands_again,
-                demands,
-                adjusted,
-            });
-        }
-        Ok(out)
-    }
+/// Numbers by block, then by stripe, then by record.
+type OnStripes<T> = Vec<Vec<Vec<T>>>;
 
-    /// Stripes at which at least ten records stand in the reference block
-    /// of some frequency parameter, in any arm drawn.
-    fn used_stripes(&self, results: &SuiteResults) -> Vec<f64> {
-        let stands = |im: f64| {
-            self.drawn().iter().any(|arm| {
-                let curves = results.curves(*arm).unwrap_or_default();
-                (0..FREQUENCIES_RAD_S.len()).any(|frequency| {
-                    let block = curves.get(position(frequency, REFERENCE));
-                    let standing = block.map_or(0, |records| {
-                        records
-                            .iter()
-                            .filter(|c| {
-                                c.overturning_im().is_none_or(|o| im < o)
-                            })
-                            .count()
-                    });
-                    standing >= LEAST_USABLE
-                })
-            })
+/// Demands on the stripes for every arm of `adjusted`, the arms drawn: one
+/// run a block, stripe and record, which an arm's first overturnings cut.
+pub(super) fn stripes(
+    setup: &Setup,
+    records: &[NormalisedRecord],
+    arms: &[ArmCurves],
+    adjusted: &[ArmCurves],
+) -> anyhow::Result<Vec<StripeDemands>> {
+    let drawn: Vec<(&ArmCurves, &[Vec<ResponseCurve>])> = adjusted
+        .iter()
+        .map(|own| Ok((own, curves_of(arms, own.arm)?)))
+        .collect::<anyhow::Result<_>>()?;
+    let used: Vec<f64> = STRIPES
+        .into_iter()
+        .filter(|im| drawn.iter().any(|(_, own)| is_used(*im, own)))
+        .collect();
+    let run = |blocks: &[Block], adjust| -> anyhow::Result<OnStripes<f64>> {
+        let on_stripe = |block: &Block, im: &f64| {
+            let demand = |r| setup.demand(*block, r, *im, adjust);
+            records.par_iter().map(demand).collect()
         };
-        STRIPES.iter().copied().filter(|im| stands(*im)).collect()
-    }
+        let on_block =
+            |block| used.iter().map(|im| on_stripe(block, im)).collect();
+        blocks.iter().map(on_block).collect()
+    };
+    let runs = run(&BLOCKS, Adjust::RecordScaling)?;
+    let adjusted_runs = run(&references(), Adjust::SlendernessAdjustment)?;
+    let cut = |runs: &OnStripes<f64>, curves: &[Vec<ResponseCurve>]| {
+        let blocks = runs.iter().zip(curves);
+        let of_block = blocks.map(|(runs, curves)| {
+            let stripes = used.iter().zip(runs);
+            let of_stripe = stripes.map(|(im, runs)| {
+                let each = runs.iter().zip(curves);
+                each.map(|(run, curve)| {
+                    on_stripe(*im, curve.overturning_im(), *run)
+                })
+                .collect()
+            });
+            of_stripe.collect()
+        });
+        of_block.collect::<OnStripes<f64>>()
+    };
+    let of_arm = |(own, curves): (&ArmCurves, &[Vec<ResponseCurve>])| {
+        let demands = cut(&runs, curves);
+        // Overturned by the rule, yet finite by its own run.
+        let again = |(d, r): (&f64, &f64)| d.is_infinite() && r.is_finite();
+        let blocks = demands.iter().zip(&runs).map(|(demands, runs)| {
+            let stripes = demands.iter().zip(runs);
+            stripes.map(|(d, r)| d.iter().zip(r).map(again).collect())
+        });
+        let stands_again = blocks.map(Iterator::collect).collect();
+        let adjusted = cut(&adjusted_runs, &own.curves);
+        StripeDemands { arm: own.arm, stands_again, demands, adjusted }
+    };
+    Ok(drawn.into_iter().map(of_arm).collect())
 }
 
-fn on_levels(
-    levels: &[f64],
-    records: &[NormalisedRecord],
-    run: impl Fn(f64, &NormalisedRecord) -> anyhow::Result<f64> + Sync,
-) -> anyhow::Result<Vec<Vec<f64>>> {
-    levels
-        .iter()
-        .map(|im| records.par_iter().map(|r| run(*im, r)).collect())
-        .collect()
+/// Whether at least ten records stand at a stripe in the reference block of
+/// some frequency parameter.
+fn is_used(im: f64, curves: &[Vec<ResponseCurve>]) -> bool {
+    let stands =
+        |c: &&ResponseCurve| c.overturning_im().is_none_or(|o| im < o);
+    (0..FREQUENCIES_RAD_S.len()).any(|frequency| {
+        let records = &curves[position(frequency, REFERENCE)];
+        records.iter().filter(stands).count() >= LEAST_USABLE
+    })
 }
 
 /// Demand of a record on a stripe: infinite once the scan along rising

@@ -7,7 +7,7 @@ use rocking_records::SetAside;
 use rocking_records::intensity::{Measures, Settings};
 use rocking_statistics::Clusters;
 
-use crate::certainty::Certainty;
+use crate::runs::{ArmCurves, Work, curves_of, not_run};
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{Arm, SuiteKind};
 use rocking_common::suites::{Motion, Source};
@@ -31,24 +31,6 @@ pub struct Facts {
     /// Intensity measures of the component applied, its spectrum at
     /// [`SPECTRUM_PERIODS_S`].
     pub measures: Measures,
-}
-
-/// What the chains of a suite took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Work {
-    /// Analyses, bisection included.
-    pub analyses: u64,
-    /// Levels whose fate double precision cannot tell.
-    pub certainty: Certainty,
-}
-
-/// All curves of one arm, by block, then by record.
-#[derive(Clone, Debug)]
-pub struct ArmCurves {
-    /// The arm.
-    pub arm: Arm,
-    /// Curves by block (15), then by record.
-    pub curves: Vec<Vec<ResponseCurve>>,
 }
 
 /// Demands on the stripes for one arm's first overturnings.
@@ -104,11 +86,21 @@ pub struct SuiteResults {
 }
 
 impl SuiteResults {
-    /// Curves of an arm by block, then by record; none if it was not run.
-    #[must_use]
-    pub fn curves(&self, arm: Arm) -> Option<&[Vec<ResponseCurve>]> {
-        let found = self.arms.iter().find(|a| a.arm == arm)?;
-        Some(&found.curves)
+    /// Curves of an arm by block, then by record.
+    ///
+    /// # Errors
+    /// If the arm was not run.
+    pub fn curves(&self, arm: Arm) -> anyhow::Result<&[Vec<ResponseCurve>]> {
+        curves_of(&self.arms, arm)
+    }
+
+    /// Demands on the stripes of an arm.
+    ///
+    /// # Errors
+    /// If the arm was not run.
+    pub fn stripes(&self, arm: Arm) -> anyhow::Result<&StripeDemands> {
+        let found = self.stripes.iter().find(|own| own.arm == arm);
+        found.ok_or_else(|| not_run(arm))
     }
 
     /// Number of records that uplift the block without scaling.

@@ -2,7 +2,6 @@
 
 use rocking_statistics::lilliefors::Assessment;
 
-use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
 use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
 use crate::results::Results;
@@ -39,7 +38,7 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
         onsets.push((three_quantiles(&block.samples[0])?, block.shift));
-        let last = block.samples.last().ok_or_else(no_arm)?;
+        let last = block.overturning();
         cut = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
         let shown: Vec<(&str, Vec<f64>)> = records
@@ -208,13 +207,13 @@ pub(super) fn shares(
     let mut means = Vec::new();
     let mut fewest = usize::MAX;
     let mut banded: Vec<Arm> = Vec::new();
-    for suite in [&results.ordinary, &results.pulse] {
+    for suite in results.suites() {
         for shifted in [false, true] {
             let mut shares: Vec<Share> = Vec::new();
             for (arm, of) in drawn.iter().enumerate() {
-                let found = results.distributions(suite.kind, *of, intensity);
-                let blocks = &found.ok_or_else(no_arm)?.blocks;
-                for (block, one) in blocks.iter().enumerate() {
+                let found =
+                    results.distributions(suite.kind, *of, intensity)?;
+                for (block, one) in found.blocks.iter().enumerate() {
                     let (original, above) = one.shares();
                     let tests =
                         if shifted { &one.shifted } else { &one.original };

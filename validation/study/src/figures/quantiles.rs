@@ -5,8 +5,8 @@ use rocking::capacity::ResponseCurve;
 
 use super::single::demand;
 use crate::analyses::SuiteResults;
-use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
+use crate::runs::curves_of;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
@@ -46,7 +46,7 @@ pub(super) fn slendernesses(
     suite: &SuiteResults,
     arm: Arm,
 ) -> anyhow::Result<Figure> {
-    let curves = suite.curves(arm).ok_or_else(no_arm)?;
+    let curves = suite.curves(arm)?;
     let panels = panels(|frequency| {
         SLENDERNESSES_RAD
             .iter()
@@ -176,18 +176,14 @@ pub(super) fn adjusted(
     suite: &SuiteResults,
     arm: Arm,
 ) -> anyhow::Result<Figure> {
-    let curves = suite.curves(arm).ok_or_else(no_arm)?;
-    let adjusted = suite.adjusted.iter().find(|a| a.arm == arm);
+    let curves = suite.curves(arm)?;
+    let adjusted = curves_of(&suite.adjusted, arm)?;
     let panels = panels(|frequency| {
         let scaled = &curves[position(frequency, REFERENCE)];
-        let mut groups = vec![group("scaled records".into(), scaled)?];
-        if let Some(adjusted) = adjusted {
-            groups.push(group(
-                "adjusted slenderness".into(),
-                &adjusted.curves[frequency],
-            )?);
-        }
-        Ok(groups)
+        Ok(vec![
+            group("scaled records".into(), scaled)?,
+            group("adjusted slenderness".into(), &adjusted[frequency])?,
+        ])
     })?;
     let words = overturning_in_words(&panels);
     let heading = Heading::numbered(

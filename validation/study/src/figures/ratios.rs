@@ -5,7 +5,7 @@ use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::estimates::median;
 use crate::inference::LEAST_DECIDING;
-use crate::stripes::{adjusted_slenderness, of_arm, pairs};
+use crate::stripes::adjusted_slenderness;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
     STRIPES, closed_form, position,
@@ -14,13 +14,13 @@ use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
 use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe};
 
-/// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
+/// Figure 6 (p = 1) or 7 (p = 3 and 4).
 pub(super) fn slendernesses(
     suite: &SuiteResults,
     arm: Arm,
     number: u32,
-) -> anyhow::Result<Option<Figure>> {
-    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
+) -> anyhow::Result<Figure> {
+    let stripes = suite.stripes(arm)?;
     let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
     let mut panels = Vec::new();
     for frequency in frequencies {
@@ -28,15 +28,11 @@ pub(super) fn slendernesses(
             SLENDERNESSES_RAD.into_iter().enumerate()
         {
             if slenderness != REFERENCE {
+                let own = Some(slenderness);
                 panels.push(BoxPanel {
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
                     alpha_rad,
-                    stripes: boxes(
-                        suite,
-                        stripes,
-                        *frequency,
-                        Some(slenderness),
-                    )?,
+                    stripes: boxes(suite, stripes, *frequency, own)?,
                 });
             }
         }
@@ -53,26 +49,19 @@ pub(super) fn slendernesses(
     );
     let ratio_label = "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into();
     let boxes = Boxplots { ratio_label, panels, columns: 4 };
-    Ok(Some(boxes.figure(&heading, reading)))
+    Ok(boxes.figure(&heading, reading))
 }
 
-/// Figure 9; none where stripes were not run.
+/// Figure 9.
 pub(super) fn adjusted(
     suite: &SuiteResults,
     arm: Arm,
-) -> anyhow::Result<Option<Figure>> {
-    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
-    let panels = FREQUENCIES_RAD_S
+) -> anyhow::Result<Figure> {
+    let alpha_rad = SLENDERNESSES_RAD[REFERENCE];
+    let panels: Vec<BoxPanel> = adjusted_boxes(suite, arm)?
         .into_iter()
-        .enumerate()
-        .map(|(frequency, p_rad_s)| {
-            Ok(BoxPanel {
-                p_rad_s,
-                alpha_rad: SLENDERNESSES_RAD[REFERENCE],
-                stripes: boxes(suite, stripes, frequency, None)?,
-            })
-        })
-        .collect::<anyhow::Result<Vec<_>>>()?;
+        .map(|(p_rad_s, stripes)| BoxPanel { p_rad_s, alpha_rad, stripes })
+        .collect();
     let reading = medians_in_words(&panels);
     let heading = Heading::numbered(
         9,
@@ -84,16 +73,15 @@ pub(super) fn adjusted(
     );
     let ratio_label = "*θ̃*_{adjusted} / *θ̃*_{scaled}".into();
     let boxes = Boxplots { ratio_label, panels, columns: 3 };
-    Ok(Some(boxes.figure(&heading, reading)))
+    Ok(boxes.figure(&heading, reading))
 }
 
-/// Boxes of Figure 9 by frequency parameter; none where stripes were not
-/// run.
+/// Boxes of Figure 9 by frequency parameter.
 pub(crate) fn adjusted_boxes(
     suite: &SuiteResults,
     arm: Arm,
 ) -> anyhow::Result<Vec<(f64, Vec<Stripe>)>> {
-    let Some(stripes) = of_arm(suite, arm) else { return Ok(Vec::new()) };
+    let stripes = suite.stripes(arm)?;
     FREQUENCIES_RAD_S
         .into_iter()
         .enumerate()
@@ -108,7 +96,8 @@ fn boxes(
     frequency: usize,
     slenderness: Option<usize>,
 ) -> anyhow::Result<Vec<Stripe>> {
-    pairs(stripes, frequency, slenderness)?
+    stripes
+        .pairs(frequency, slenderness)?
         .into_iter()
         .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
         .enumerate()

@@ -1,6 +1,5 @@
 //! Figures 1 to 5: the block, and single records.
 
-use crate::analyses::no_arm;
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
@@ -115,7 +114,7 @@ pub(super) fn curves(
     arm: Arm,
     number: u32,
 ) -> anyhow::Result<Figure> {
-    let all = suite.curves(arm).ok_or_else(no_arm)?;
+    let all = suite.curves(arm)?;
     let mut panels = Vec::new();
     for (frequency, p_rad_s) in FREQUENCIES_RAD_S.into_iter().enumerate() {
         for record in suite.chosen {

@@ -24,51 +24,43 @@ pub const LEAST_DECIDING: usize = 30;
 
 /// How often a replicate holds each record, by suite.
 #[derive(Clone, Copy, Debug)]
-pub struct Draw<'a> {
-    ordinary: &'a [u32],
-    pulse: &'a [u32],
-}
+pub struct Draw<'a>([&'a [u32]; 2]);
 
 impl<'a> Draw<'a> {
     /// The multiplicities of a suite's records.
     #[must_use]
     pub fn of(&self, suite: SuiteKind) -> &'a [u32] {
-        match suite {
-            SuiteKind::Ordinary => self.ordinary,
-            SuiteKind::PulseType => self.pulse,
-        }
+        self.0[suite as usize]
     }
 }
 
-/// Sets of draws, one for each suite.
+/// Draws of both suites: by suite, then by replicate, then by record.
 #[derive(Debug)]
-struct Set([Vec<Vec<u32>>; 2]);
+struct DrawSet([Vec<Vec<u32>>; 2]);
 
-impl Set {
+impl DrawSet {
     fn draw(&self, index: usize) -> Draw<'_> {
-        Draw { ordinary: &self.0[0][index], pulse: &self.0[1][index] }
+        Draw(self.0.each_ref().map(|own| own[index].as_slice()))
     }
 
-    fn map(&self, f: &Measure<'_>) -> Vec<Vec<f64>> {
-        (0..self.0[0].len())
-            .into_par_iter()
-            .map(|index| f(self.draw(index)))
-            .collect()
+    fn map(
+        &self,
+        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
+    ) -> Vec<Vec<f64>> {
+        let all = (0..self.0[0].len()).into_par_iter();
+        all.map(|index| f(self.draw(index))).collect()
     }
 }
-
-/// Cells of a measure in a replicate.
-pub type Measure<'a> = dyn Fn(Draw<'_>) -> Vec<f64> + Sync + 'a;
 
 /// The draws that all claims share.
 #[derive(Debug)]
 pub struct Draws {
     clusters: [Clusters; 2],
-    whole: Set,
-    bootstrap: Set,
-    subsamples: Set,
-    halves: Set,
-    without_one: [Set; 2],
+    whole: DrawSet,
+    bootstrap: DrawSet,
+    subsamples: DrawSet,
+    halves: DrawSet,
+    without_one: [DrawSet; 2],
     rules: [Subsampling; 2],
 }
 
@@ -103,16 +95,20 @@ impl Draws {
             let left: Vec<Vec<u32>> =
                 (0..own.count()).map(|g| own.without(g)).collect();
             let other = vec![ones(1 - place); own.count()];
-            if place == 0 { Set([left, other]) } else { Set([other, left]) }
+            if place == 0 {
+                DrawSet([left, other])
+            } else {
+                DrawSet([other, left])
+            }
         };
         let both = [0, 1];
         Self {
-            whole: Set(both.map(|place| vec![ones(place)])),
-            bootstrap: Set(both.map(bootstrap)),
-            subsamples: Set(
-                both.map(|place| drawn(nine_tenths(place), SUBSAMPLES))
+            whole: DrawSet(both.map(|place| vec![ones(place)])),
+            bootstrap: DrawSet(both.map(bootstrap)),
+            subsamples: DrawSet(
+                both.map(|place| drawn(nine_tenths(place), SUBSAMPLES)),
             ),
-            halves: Set(both.map(|place| {
+            halves: DrawSet(both.map(|place| {
                 let half = rule("halves", place, |n| n / 2);
                 drawn(half, SUBSAMPLES / 5)
             })),
@@ -143,22 +139,25 @@ impl Draws {
         self.whole.draw(0)
     }
 
-    /// A smooth measure over the replicates of the bootstrap.
+    /// Numbers that are smooth in the records, over the replicates of the
+    /// bootstrap.
     #[must_use]
-    pub fn smooth(&self, tested: Tested, f: &Measure<'_>) -> Replicated {
-        let without_one = match tested {
-            Tested::Ordinary => self.without_one[0].map(f),
-            Tested::PulseType => self.without_one[1].map(f),
-            Tested::None | Tested::Both => Vec::new(),
+    pub fn smooth(
+        &self,
+        tested: Tested,
+        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
+    ) -> Replicated {
+        let without: &[DrawSet] = match tested {
+            Tested::Ordinary => &self.without_one[..1],
+            Tested::PulseType => &self.without_one[1..],
+            Tested::None | Tested::Both => &[],
         };
         Replicated {
             scheme: Scheme::Bootstrap,
             points: f(self.whole()),
             replicates: self.bootstrap.map(f),
-            without_one,
-            halves: Vec::new(),
-            counts: Vec::new(),
-            samples: Vec::new(),
+            without_one: without.iter().flat_map(|own| own.map(f)).collect(),
+            ..Replicated::default()
         }
     }
 
@@ -178,32 +177,35 @@ impl Draws {
         Replicated { samples, ..medians }
     }
 
-    /// A measure that ties spoil, over subsamples without replacement.
+    /// Numbers that ties spoil, over subsamples without replacement.
     #[must_use]
-    pub fn subsampled(&self, tested: Tested, f: &Measure<'_>) -> Replicated {
-        let own = |place: usize| self.without_one[place].map(f);
-        let without_one = match tested {
-            Tested::Ordinary => own(0),
-            Tested::PulseType => own(1),
-            Tested::None => Vec::new(),
-            Tested::Both => [own(0), own(1)].concat(),
+    pub fn subsampled(
+        &self,
+        tested: Tested,
+        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
+    ) -> Replicated {
+        let without: &[DrawSet] = match tested {
+            Tested::Ordinary => &self.without_one[..1],
+            Tested::PulseType => &self.without_one[1..],
+            Tested::None => &[],
+            Tested::Both => &self.without_one,
         };
         Replicated {
             scheme: Scheme::Subsampling,
             points: f(self.whole()),
             replicates: self.subsamples.map(f),
-            without_one,
+            without_one: without.iter().flat_map(|own| own.map(f)).collect(),
             halves: self.halves.map(f),
-            counts: Vec::new(),
-            samples: Vec::new(),
+            ..Replicated::default()
         }
     }
 }
 
 /// Where the intervals of a measure's cells come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scheme {
     /// Replicates drawn with replacement.
+    #[default]
     Bootstrap,
     /// Replicates drawn without.
     Subsampling,
@@ -213,7 +215,7 @@ pub enum Scheme {
 }
 
 /// The cells of a measure: of all records, and of every replicate.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Replicated {
     pub(super) scheme: Scheme,
     pub(super) points: Vec<f64>,
@@ -222,11 +224,22 @@ pub struct Replicated {
     pub(super) halves: Vec<Vec<f64>>,
     /// The cells where they are counts; empty otherwise.
     pub(super) counts: Vec<Proportion>,
-    /// What the cells are the medians of; empty where they are none.
+    /// The values that the cells are medians of; empty otherwise.
     pub(super) samples: Vec<Ranked>,
 }
 
 impl Replicated {
+    /// Probabilities from counts of records.
+    #[must_use]
+    pub fn of_counts(counts: Vec<Proportion>) -> Self {
+        Self {
+            scheme: Scheme::Counted,
+            points: counts.iter().map(|count| count.share()).collect(),
+            counts,
+            ..Self::default()
+        }
+    }
+
     /// Other measures made of this one's cells; of counts they have no
     /// interval, and of medians no exact one.
     #[must_use]
@@ -238,8 +251,7 @@ impl Replicated {
             replicates: all(&self.replicates),
             without_one: all(&self.without_one),
             halves: all(&self.halves),
-            counts: Vec::new(),
-            samples: Vec::new(),
+            ..Self::default()
         }
     }
 

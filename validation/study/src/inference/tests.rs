@@ -142,7 +142,7 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
     };
     let cells: Vec<Cell> = counts.iter().enumerate().map(cell).collect();
     let all = counts.iter().map(|(k, n)| Proportion::try_new(*k, *n).unwrap());
-    let measured = Replicated::counted(all.collect());
+    let measured = Replicated::of_counts(all.collect());
     let rule =
         Rule { range: (0.0, 1.0), ..rule(quantifier, Region::Below(0.05)) };
     judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result

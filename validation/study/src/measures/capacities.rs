@@ -1,21 +1,20 @@
 //! Sections 2 to 4: measures of capacities, the intensities that reach a
 //! demand.
 
-use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::source::{
-    Found, Prepared, Source, block, geometric_means, ratios, weighted_mean,
+    CellValues, Prepared, Source, block, compared_blocks, geometric_means,
+    ratios, weighted_mean,
 };
-use crate::analyses::no_arm;
 use crate::distributions::factors;
 use crate::estimates::mean;
-use crate::inference::{Cell, Draw, Replicated};
-use crate::runs::capacities;
+use crate::fits::THRESHOLDS;
+use crate::inference::{Cell, Replicated};
+use crate::runs::{capacities, capacities_at, curves_of};
 use crate::sensitivities::{Choice, Varied};
-use crate::stripes::of_arm;
 use rocking_common::paper::{
-    FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, STRIPES,
+    BLOCKS, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD,
     demand_index, position,
 };
 use rocking_statistics::Proportion;
@@ -24,9 +23,6 @@ use rocking_statistics::resampling::Ranked;
 /// Demands at which intensities are compared.
 pub const DEMANDS: [f64; 10] =
     [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
-
-/// Demands of other choices' capacities: the paper's thresholds.
-const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];
 
 /// The quantiles of Figures 8 and 10.
 const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
@@ -38,77 +34,47 @@ struct Pair {
     reference: Ranked,
 }
 
+impl Pair {
+    fn new(at: String, own: &[f64], reference: &[f64]) -> Self {
+        let [own, reference] = [own, reference].map(Ranked::new);
+        Self { at, own, reference }
+    }
+}
+
 /// Quantiles of one sample over those of another, for all pairs of samples;
 /// NaN where one of the two is infinite.
 fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
-    let kind = source.kind();
-    let mut cells = Vec::new();
-    for pair in pairs {
-        let records = pair.own.records().min(pair.reference.records());
-        for p in QUANTILES {
-            let at = format!("{}, {:.0} %", pair.at, 100.0 * p);
-            cells.push(Cell { at, records });
-        }
-    }
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        let mut out = Vec::with_capacity(cells.len());
-        for pair in pairs {
-            for p in QUANTILES {
-                let ratio = pair.own.quantile(counts, p)
-                    / pair.reference.quantile(counts, p);
-                out.push(if ratio > 0.0 { ratio } else { f64::NAN });
-            }
-        }
-        out
+    let all = || pairs.iter().flat_map(|pair| QUANTILES.map(|p| (pair, p)));
+    let cell = |(pair, p): (&Pair, f64)| Cell {
+        at: format!("{}, {:.0} %", pair.at, 100.0 * p),
+        records: pair.own.records().min(pair.reference.records()),
     };
-    let measured = source.draws.smooth(source.tested, &of);
-    Prepared::new(cells, measured)
+    let measured = source.smooth(|counts| {
+        let ratio = |(pair, p): (&Pair, f64)| {
+            let ratio = pair.own.quantile(counts, p)
+                / pair.reference.quantile(counts, p);
+            if ratio > 0.0 { ratio } else { f64::NAN }
+        };
+        all().map(ratio).collect()
+    });
+    Prepared::new(all().map(cell).collect(), measured)
 }
 
-/// Medians of paired ratios, cell by cell.
-fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
-    let (cells, ranked) = cells
-        .into_iter()
-        .map(|(at, values)| {
-            let ranked = Ranked::new(&values);
-            (Cell { at, records: ranked.records() }, ranked)
-        })
-        .unzip();
-    let measured = source.draws.medians(source.kind(), ranked);
-    Prepared::new(cells, measured)
+/// Capacities at a demand under a choice; NaN for a record without a curve.
+fn varied_at(varied: &Varied, demand: f64) -> anyhow::Result<Vec<f64>> {
+    capacities_at(varied.curves.iter().map(Option::as_ref), demand)
 }
 
-/// Other choices that were run, and the study's own curves of that block.
-fn varied<'a>(
-    source: &Source<'a>,
-    choices: &'a [Choice],
-) -> anyhow::Result<Vec<(&'a Varied, &'a [ResponseCurve])>> {
-    let results = source.results;
-    let curves = results.ordinary.curves(results.plan.common());
-    let curves = curves.ok_or_else(no_arm)?;
-    let of = |v: &'a Varied| {
-        let at = position(v.frequency, v.slenderness);
-        (v, curves[at].as_slice())
-    };
-    let found = results.varied.iter();
-    Ok(found.filter(|v| choices.contains(&v.choice)).map(of).collect())
+/// Capacities at a demand of every record's curve.
+fn all_at(curves: &[ResponseCurve], demand: f64) -> anyhow::Result<Vec<f64>> {
+    capacities_at(curves.iter().map(Some), demand)
 }
 
-/// Capacity of a curve at a demand; NaN where there is no curve.
-fn capacity(
-    curve: Option<&ResponseCurve>,
-    demand: f64,
-) -> anyhow::Result<f64> {
-    let of = |c: &ResponseCurve| {
-        Ok(c.capacity(demand, InversionRule::Median)?.im())
-    };
-    curve.map_or(Ok(f64::NAN), of)
-}
-
-/// First overturning of a curve; infinite where it never overturns.
-fn first(curve: &ResponseCurve) -> f64 {
-    curve.overturning_im().unwrap_or(f64::INFINITY)
+/// First overturning of a curve; infinite where it never overturns, NaN where
+/// there is no curve.
+fn first(curve: Option<&ResponseCurve>) -> f64 {
+    let first = |c: &ResponseCurve| c.overturning_im();
+    curve.map_or(f64::NAN, |c| first(c).unwrap_or(f64::INFINITY))
 }
 
 /// Paired ratios of other choices over the study's, by cell.
@@ -118,17 +84,10 @@ fn varied_ratios(
     demands: &[f64],
 ) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
     let mut cells = Vec::new();
-    for (varied, base) in varied(source, choices)? {
+    for (varied, base) in source.results.varied(choices)? {
         for demand in demands {
-            let own: Vec<f64> = varied
-                .curves
-                .iter()
-                .map(|c| capacity(c.as_ref(), *demand))
-                .collect::<Result<_, _>>()?;
-            let reference: Vec<f64> = base
-                .iter()
-                .map(|c| capacity(Some(c), *demand))
-                .collect::<Result<_, _>>()?;
+            let own = varied_at(varied, *demand)?;
+            let reference = all_at(base, *demand)?;
             let at = block(varied.frequency, varied.slenderness);
             let at = match (choices, demands) {
                 ([_], [_]) => at,
@@ -141,61 +100,54 @@ fn varied_ratios(
     Ok(cells)
 }
 
-pub(super) fn criterion(source: &Source<'_>) -> Found {
-    let mut cells = Vec::new();
-    for (varied, base) in varied(source, &[Choice::OtherCriterion])? {
-        let own: Vec<f64> = varied
-            .curves
-            .iter()
-            .map(|c| c.as_ref().map_or(f64::NAN, first))
-            .collect();
-        let reference: Vec<f64> = base.iter().map(first).collect();
+/// First overturning by the other criterion over the study's.
+pub(super) fn criterion(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    let all = source.results.varied(&[Choice::OtherCriterion])?.into_iter();
+    let cells = all.map(|(varied, base)| {
+        let own = varied.curves.iter().map(|c| first(c.as_ref()));
+        let reference = base.iter().map(|c| first(Some(c)));
+        let [own, reference]: [Vec<f64>; 2] =
+            [own.collect(), reference.collect()];
         let at = block(varied.frequency, varied.slenderness);
-        cells.push((at, ratios(&own, &reference, 1.0)));
-    }
-    Ok(Some(geometric_means(source, cells)))
+        (at, ratios(&own, &reference, 1.0))
+    });
+    Ok(geometric_means(source, cells.collect()))
 }
 
-pub(super) fn restitution(source: &Source<'_>) -> Found {
+/// Overturning with another restitution over the study's.
+pub(super) fn restitution(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let choices = [Choice::Eta085, Choice::Eta097];
     let cells = varied_ratios(source, &choices, &[1.0])?;
-    Ok(Some(geometric_means(source, cells)))
+    Ok(geometric_means(source, cells))
 }
 
-pub(super) fn component(source: &Source<'_>) -> Found {
+/// Capacities of the other component over the study's.
+pub(super) fn component(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let choices = [Choice::OtherComponent];
     let cells = varied_ratios(source, &choices, &THRESHOLDS)?;
-    Ok(Some(geometric_means(source, cells)))
+    Ok(geometric_means(source, cells))
 }
 
-/// What restitution does to overturning beside what the size does: the mean
-/// |ln| of the paired ratio between eta = 0.85 and 0.97 over that between
+/// Effect of restitution on overturning beside the effect of size: the mean
+/// |ln| of the paired ratio between eta = 0.85 and 0.97 over the mean between
 /// p = 1 and 4, by slenderness.
-pub(super) fn restitution_beside_size(source: &Source<'_>) -> Found {
+pub(super) fn restitution_beside_size(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     let results = source.results;
-    let curves = results.ordinary.curves(results.plan.common());
-    let curves = curves.ok_or_else(no_arm)?;
-    let at_overturning =
-        |curves: &[ResponseCurve]| -> anyhow::Result<Vec<f64>> {
-            curves.iter().map(|c| capacity(Some(c), 1.0)).collect()
-        };
-    let low = varied(source, &[Choice::Eta085])?;
-    let high = varied(source, &[Choice::Eta097])?;
+    let curves = results.ordinary.curves(results.plan.common())?;
+    let low = results.varied(&[Choice::Eta085])?;
+    let high = results.varied(&[Choice::Eta097])?;
     let logs = |a: &[f64], b: &[f64]| -> Vec<f64> {
         ratios(a, b, 1.0).into_iter().map(libm::log).collect()
     };
     let (mut cells, mut pairs) = (Vec::new(), Vec::new());
-    for ((low, _), (high, _)) in low.iter().zip(&high) {
-        // With --full there are three p, which share this comparison.
-        if low.frequency != 1 {
-            continue;
-        }
-        let of = |varied: &Varied| -> anyhow::Result<Vec<f64>> {
-            varied.curves.iter().map(|c| capacity(c.as_ref(), 1.0)).collect()
-        };
-        let own = logs(&of(low)?, &of(high)?);
+    let both = low.iter().zip(&high);
+    // With --full there are three p, which share this comparison.
+    for ((low, _), (high, _)) in both.filter(|(low, _)| low.0.frequency == 1) {
+        let own = logs(&varied_at(low, 1.0)?, &varied_at(high, 1.0)?);
         let by_size = |frequency| {
-            at_overturning(&curves[position(frequency, low.slenderness)])
+            all_at(&curves[position(frequency, low.slenderness)], 1.0)
         };
         let size = logs(&by_size(0)?, &by_size(2)?);
         cells.push(Cell {
@@ -204,144 +156,97 @@ pub(super) fn restitution_beside_size(source: &Source<'_>) -> Found {
         });
         pairs.push((own, size));
     }
-    let kind = source.kind();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
+    let measured = source.smooth(|counts| {
         let ratio = |(own, size): &(Vec<f64>, Vec<f64>)| {
             (weighted_mean(own, counts) / weighted_mean(size, counts)).abs()
         };
         pairs.iter().map(ratio).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared::new(cells, measured)))
+    });
+    Ok(Prepared::new(cells, measured))
 }
 
-/// Samples of a suite at a demand, by block.
+/// Samples of a block and of the reference block at a demand.
 fn samples<'a>(
     source: &Source<'a>,
     frequency: usize,
     slenderness: usize,
     demand: f64,
-) -> Option<&'a [f64]> {
-    let results = source.results;
-    let found =
-        results.distributions(source.kind(), source.arm, Intensity::Pga)?;
-    let block = &found.blocks[position(frequency, slenderness)];
-    Some(&block.samples[demand_index(demand)])
+) -> anyhow::Result<[&'a [f64]; 2]> {
+    let (kind, arm) = (source.kind(), source.arm);
+    let found = source.results.distributions(kind, arm, Intensity::Pga)?;
+    let of = |slenderness| {
+        let block = &found.blocks[position(frequency, slenderness)];
+        block.samples[demand_index(demand)].as_slice()
+    };
+    Ok([of(slenderness), of(REFERENCE)])
 }
 
-pub(super) fn demand_ratios(source: &Source<'_>) -> Found {
-    let Some(cells) = demand_cells(source) else { return Ok(None) };
-    Ok(Some(paired(source, cells)))
-}
-
-fn demand_cells(source: &Source<'_>) -> Option<Vec<(String, Vec<f64>)>> {
+/// Median paired ratios of intensities at equal demand.
+pub(super) fn demand_ratios(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let mut cells = Vec::new();
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
-            if slenderness == REFERENCE {
-                continue;
-            }
-            for demand in DEMANDS {
-                let own = samples(source, frequency, slenderness, demand)?;
-                let reference = samples(source, frequency, REFERENCE, demand)?;
-                let at = format!(
-                    "{}, demand {demand}",
-                    block(frequency, slenderness)
-                );
-                cells.push((at, ratios(own, reference, 1.0)));
-            }
+    for (frequency, slenderness) in compared_blocks() {
+        for demand in DEMANDS {
+            let [own, reference] =
+                samples(source, frequency, slenderness, demand)?;
+            let name = block(frequency, slenderness);
+            let at = format!("{name}, demand {demand}");
+            cells.push(CellValues::ratios(at, own, reference));
         }
     }
-    Some(cells)
+    Ok(source.medians(cells))
 }
 
 /// Figure 8: intensity given demand, and demand given intensity.
-pub(super) fn quantiles(source: &Source<'_>) -> Found {
-    Ok(quantile_pairs(source).map(|pairs| quantile_ratios(source, &pairs)))
-}
-
-fn quantile_pairs(source: &Source<'_>) -> Option<Vec<Pair>> {
-    let suite = source.results.suite(source.kind());
-    let stripes = of_arm(suite, source.arm)?;
+pub(super) fn quantiles(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    let stripes = source.stripes()?;
     let mut pairs = Vec::new();
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
-            if slenderness == REFERENCE {
-                continue;
-            }
-            let name = block(frequency, slenderness);
-            for demand in DEMANDS {
-                let own = samples(source, frequency, slenderness, demand)?;
-                let reference = samples(source, frequency, REFERENCE, demand)?;
-                pairs.push(Pair {
-                    at: format!("{name}, intensity at demand {demand}"),
-                    own: Ranked::new(own),
-                    reference: Ranked::new(reference),
-                });
-            }
-            let of = |s| &stripes.demands[position(frequency, s)];
-            let levels = of(slenderness).iter().zip(of(REFERENCE));
-            for (im, (own, reference)) in STRIPES.iter().zip(levels) {
-                pairs.push(Pair {
-                    at: format!("{name}, demand at intensity {im}"),
-                    own: Ranked::new(own),
-                    reference: Ranked::new(reference),
-                });
-            }
+    for (frequency, slenderness) in compared_blocks() {
+        let name = block(frequency, slenderness);
+        for demand in DEMANDS {
+            let [own, reference] =
+                samples(source, frequency, slenderness, demand)?;
+            let at = format!("{name}, intensity at demand {demand}");
+            pairs.push(Pair::new(at, own, reference));
         }
+        let levels = stripes.compared(frequency, Some(slenderness));
+        pairs.extend(levels.map(|(im, own, reference)| {
+            let at = format!("{name}, demand at intensity {im}");
+            Pair::new(at, own, reference)
+        }));
     }
-    Some(pairs)
+    Ok(quantile_ratios(source, &pairs))
 }
 
-/// Figure 10: the same, slenderness adjusted over records scaled.
-pub(super) fn adjusted_quantiles(source: &Source<'_>) -> Found {
-    let suite = source.results.suite(source.kind());
-    let stripes = of_arm(suite, source.arm);
-    let curves = suite.adjusted.iter().find(|a| a.arm == source.arm);
-    let (Some(stripes), Some(curves)) = (stripes, curves) else {
-        return Ok(None);
-    };
+/// Figure 10: both quantiles, slenderness adjusted over records scaled.
+pub(super) fn adjusted_quantiles(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
+    let stripes = source.stripes()?;
+    let curves = curves_of(&source.suite().adjusted, source.arm)?;
     let mut pairs = Vec::new();
     for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
         for demand in DEMANDS {
-            let own: Vec<f64> = curves.curves[frequency]
-                .iter()
-                .map(|c| capacity(Some(c), demand))
-                .collect::<Result<_, _>>()?;
-            let Some(reference) =
-                samples(source, frequency, REFERENCE, demand)
-            else {
-                return Ok(None);
-            };
-            pairs.push(Pair {
-                at: format!("p = {p}, intensity at demand {demand}"),
-                own: Ranked::new(&own),
-                reference: Ranked::new(reference),
-            });
+            let own = all_at(&curves[frequency], demand)?;
+            let [reference, _] =
+                samples(source, frequency, REFERENCE, demand)?;
+            let at = format!("p = {p}, intensity at demand {demand}");
+            pairs.push(Pair::new(at, &own, reference));
         }
-        let scaled = &stripes.demands[position(frequency, REFERENCE)];
-        let levels = stripes.adjusted[frequency].iter().zip(scaled);
-        for (im, (own, reference)) in STRIPES.iter().zip(levels) {
-            pairs.push(Pair {
-                at: format!("p = {p}, demand at intensity {im}"),
-                own: Ranked::new(own),
-                reference: Ranked::new(reference),
-            });
-        }
+        let levels = stripes.compared(frequency, None);
+        pairs.extend(levels.map(|(im, own, reference)| {
+            let at = format!("p = {p}, demand at intensity {im}");
+            Pair::new(at, own, reference)
+        }));
     }
-    Ok(Some(quantile_ratios(source, &pairs)))
+    Ok(quantile_ratios(source, &pairs))
 }
 
-/// Mean capacity by the median point over that by the monotone inversion,
+/// Mean capacity by the median point over the mean by the monotone inversion,
 /// mean over blocks and demands.
-pub(super) fn inversion(source: &Source<'_>) -> Found {
-    let kind = source.kind();
-    let suite = source.results.suite(kind);
-    let Some(curves) = suite.curves(source.arm) else { return Ok(None) };
+pub(super) fn inversion(source: &Source<'_>) -> anyhow::Result<Prepared> {
     // By cell, by record: median-point and monotone capacity.
     let mut values: Vec<Vec<(f64, f64)>> = Vec::new();
-    for own in curves {
+    for own in source.suite().curves(source.arm)? {
         let by = |rule| -> anyhow::Result<Vec<Vec<f64>>> {
             own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
         };
@@ -352,10 +257,8 @@ pub(super) fn inversion(source: &Source<'_>) -> Found {
             values.push(pairs.map(|(a, b)| (a[k], b[k])).collect());
         }
     }
-    let records = suite.records.len();
     let at = format!("mean over {} blocks and demands", values.len());
-    Ok(Some(source.value(&at, records, move |draw| {
-        let counts = draw.of(kind);
+    Ok(source.value(&at, source.records(), |counts| {
         mean(values.iter().map(|pairs| {
             let (mut a, mut b) = (0.0, 0.0);
             for ((x, y), count) in pairs.iter().zip(counts) {
@@ -366,55 +269,44 @@ pub(super) fn inversion(source: &Source<'_>) -> Found {
             }
             a / b
         }))
-    })))
+    }))
 }
 
-/// Capacities with Housner's restitution, stocky over slender, by way of the
-/// study's: what the slenderness's own ratio does is divided out.
-pub(super) fn housner(source: &Source<'_>) -> Found {
-    let found = varied(source, &[Choice::Housner])?;
-    let of = |slenderness| -> anyhow::Result<Option<Vec<f64>>> {
-        let is =
-            |v: &&Varied| v.frequency == 1 && v.slenderness == slenderness;
-        let one = found.iter().find(|(v, _)| is(v));
-        let Some((varied, base)) = one else { return Ok(None) };
-        let pairs = varied.curves.iter().zip(*base);
-        let each = pairs.map(|(own, base)| {
-            Ok(capacity(own.as_ref(), 1.0)? / capacity(Some(base), 1.0)?)
-        });
-        each.collect::<anyhow::Result<_>>().map(Some)
-    };
-    let (Some(stocky), Some(slender)) = (of(4)?, of(0)?) else {
-        return Ok(None);
-    };
+/// Capacities with Housner's restitution over the study's, stocky over
+/// slender, so that the slenderness's own ratio is divided out.
+pub(super) fn housner(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    let mut by_slenderness = [const { Vec::new() }; SLENDERNESSES_RAD.len()];
+    let found = source.results.varied(&[Choice::Housner])?.into_iter();
+    for (varied, base) in found.filter(|(v, _)| v.frequency == 1) {
+        let (own, base) = (varied_at(varied, 1.0)?, all_at(base, 1.0)?);
+        let each = own.iter().zip(&base).map(|(own, base)| own / base);
+        by_slenderness[varied.slenderness] = each.collect::<Vec<f64>>();
+    }
+    let [slender, .., stocky] = by_slenderness;
     let ranked = Ranked::new(&ratios(&stocky, &slender, 1.0));
-    let kind = source.kind();
     let at = "p = 3, alpha = 0.25 over 0.05";
-    let records = ranked.records();
-    Ok(Some(source.value(at, records, move |draw| {
-        (ranked.median(draw.of(kind)) - 1.0).abs()
-    })))
+    Ok(source.value(at, ranked.records(), |counts| {
+        (ranked.median(counts) - 1.0).abs()
+    }))
 }
 
-pub(super) fn uplift(source: &Source<'_>) -> Found {
-    let records = &source.results.suite(source.kind()).records;
-    let stockiest = SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1];
-    let moved = records.iter().filter(|r| r.pga_g > tan(stockiest));
-    let share = Proportion::try_new(moved.count(), records.len())?;
-    let cell = Cell { at: "alpha = 0.25".into(), records: records.len() };
-    let measured = Replicated::counted(vec![share]);
-    Ok(Some(Prepared::new(vec![cell], measured)))
+/// Share of records that uplift the stockiest block unscaled.
+pub(super) fn uplift(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    let stockiest = &BLOCKS[SLENDERNESSES_RAD.len() - 1];
+    let (suite, records) = (source.suite(), source.records());
+    let share =
+        Proportion::try_new(suite.uplift_unscaled(stockiest), records)?;
+    let cell = Cell { at: "alpha = 0.25".into(), records };
+    Ok(Prepared::new(vec![cell], Replicated::of_counts(vec![share])))
 }
 
 /// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by
 /// definition.
-pub(super) fn onset(source: &Source<'_>) -> Found {
-    let kind = source.kind();
-    let suite = source.results.suite(kind);
-    let onsets = factors(suite, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
+pub(super) fn onset(source: &Source<'_>) -> Prepared {
+    let records = &source.suite().records;
+    let onsets = factors(records, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
     let ranked = Ranked::new(&onsets);
-    Ok(Some(source.value("p = 1", onsets.len(), move |draw| {
-        let counts = draw.of(kind);
+    source.value("p = 1", onsets.len(), |counts| {
         ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
-    })))
+    })
 }

@@ -5,12 +5,13 @@
 //! are from a lognormal. The accepted share, which the paper gives, stands
 //! beside it.
 
-use super::source::{Criterion, Found, Prepared, Source, block};
+use super::source::{Criterion, Prepared, Source, block};
 use crate::distances::{
     Distances, SLENDER, Tests, WITHOUT_EARLIEST, accepted, excesses, place,
 };
 use crate::estimates::mean;
 use crate::inference::Cell;
+use crate::runs::not_run;
 use rocking_common::findings::{Detail, Measured};
 use rocking_common::paper::{Intensity, SLENDERNESSES_RAD, position};
 
@@ -35,82 +36,77 @@ fn above(shares: &[f64], limit: f64) -> f64 {
     found as f64 / tested as f64
 }
 
-/// The distances of the source's suite and arm; none if it was not run.
-fn of_source<'a>(source: &Source<'a>) -> Option<&'a Distances> {
-    let kind = source.kind();
-    let is = |d: &&Distances| d.suite == kind && d.arm == source.arm;
-    source.distances.iter().find(is)
-}
+/// A number of a draw with its name.
+type Named<'a> = (&'a str, &'a dyn Fn(&[f64]) -> f64);
 
-/// What is shown beside a measure: its name, and a number of a draw.
-type Beside<'a> = (&'a str, &'a dyn Fn(&[f64]) -> f64);
-
-/// Some numbers of the excesses, by cell; of the accepted shares, what is
-/// shown beside them, by name.
+/// Numbers of the excesses, by cell, with numbers of the accepted shares: the
+/// details, and the one by which the paper judges.
 fn of_cells(
     source: &Source<'_>,
     cells: &[String],
     f: impl Fn(&[f64]) -> Vec<f64>,
-    beside: &[Beside<'_>],
-) -> Found {
-    let Some(own) = of_source(source) else { return Ok(None) };
-    let records = source.results.suite(source.kind()).records.len();
+    details: &[Named<'_>],
+    criterion: Option<Named<'_>>,
+) -> anyhow::Result<Prepared> {
+    let replicated = &of_source(source)?.replicated;
+    let records = source.records();
     let cell = |at: &String| Cell { at: at.clone(), records };
-    let detail = |(name, of): &Beside<'_>| Detail {
+    let one = |of: &dyn Fn(&[f64]) -> f64| replicated.map(|row| vec![of(row)]);
+    let detail = |(name, of): &Named<'_>| Detail {
         name: (*name).into(),
-        measured: Measured::exact(own.found.map(|row| vec![of(row)]).point(0)),
+        measured: Measured::exact(one(of).point(0)),
     };
-    Ok(Some(Prepared {
-        details: beside.iter().map(detail).collect(),
-        ..Prepared::new(cells.iter().map(cell).collect(), own.found.map(f))
-    }))
+    Ok(Prepared {
+        cells: cells.iter().map(cell).collect(),
+        measured: replicated.map(f),
+        criterion: criterion.map(|(name, of)| Criterion {
+            name: name.into(),
+            measured: one(of),
+        }),
+        details: details.iter().map(detail).collect(),
+    })
+}
+
+/// The distances of the source's suite and arm.
+fn of_source<'a>(source: &Source<'a>) -> anyhow::Result<&'a Distances> {
+    let (kind, arm) = (source.kind(), source.arm);
+    let is = |d: &&Distances| d.suite == kind && d.arm == arm;
+    source.distances.iter().find(is).ok_or_else(|| not_run(arm))
 }
 
 /// One number of all blocks.
 fn of_blocks(
     source: &Source<'_>,
     f: impl Fn(&[f64]) -> f64,
-    beside: &[Beside<'_>],
-) -> Found {
-    let Some(own) = of_source(source) else { return Ok(None) };
-    let untested = own.levels.iter().filter(|(a, b)| a < b).count();
+    details: &[Named<'_>],
+    criterion: Option<Named<'_>>,
+) -> anyhow::Result<Prepared> {
+    let levels = &of_source(source)?.levels;
+    let untested = levels.iter().filter(|(a, b)| a < b).count();
     let mut at = String::from("all 15 blocks");
     if untested > 0 {
-        let least = own.levels.iter().map(|(a, _)| *a).min().unwrap_or(0);
+        let least = levels.iter().map(|(a, _)| *a).min().unwrap_or(0);
         at += &format!(
             "; {untested} of them have levels that some record never \
              reaches, and {least} or more of 200 levels are tested"
         );
     }
-    of_cells(source, &[at], |row| vec![f(row)], beside)
+    of_cells(source, &[at], |row| vec![f(row)], details, criterion)
 }
 
-/// The same, with what the paper judges by: a number of the accepted shares.
-fn with_criterion(
-    source: &Source<'_>,
-    found: Found,
-    name: &str,
-    of: impl Fn(&[f64]) -> f64,
-) -> Found {
-    let (Some(own), Some(mut prepared)) = (of_source(source), found?) else {
-        return Ok(None);
-    };
-    let measured = own.found.map(|row| vec![of(row)]);
-    prepared.criterion = Some(Criterion { name: name.into(), measured });
-    Ok(Some(prepared))
+/// Mean accepted share of the blocks.
+fn mean_share(tests: Tests) -> impl Fn(&[f64]) -> f64 {
+    move |row| over_blocks(accepted(row, tests))
 }
 
-/// The share of the blocks whose accepted share is above a limit.
-fn with_blocks_above(
-    source: &Source<'_>,
-    found: Found,
-    tests: Tests,
-    limit: f64,
-) -> Found {
-    let name =
-        format!("share of the blocks whose accepted share is above {limit}");
-    let of = |row: &[f64]| above(accepted(row, tests), limit);
-    with_criterion(source, found, &name, of)
+/// Mean excess of the blocks by one set of tests less the mean by another.
+fn reduction(from: Tests, to: Tests) -> impl Fn(&[f64]) -> f64 {
+    move |row| apart(excesses(row, from), excesses(row, to))
+}
+
+/// Accepted share of the block `SLENDER`.
+fn slender_share(tests: Tests) -> impl Fn(&[f64]) -> f64 {
+    move |row| accepted(row, tests)[position(SLENDER.0, SLENDER.1)]
 }
 
 fn tests_of(intensity: Intensity) -> (Tests, Tests) {
@@ -123,121 +119,118 @@ fn tests_of(intensity: Intensity) -> (Tests, Tests) {
 const ORIGINAL: &str = "mean accepted share, original";
 const SHIFTED: &str = "mean accepted share, shifted";
 
-/// The excess of one set of tests.
-fn excess(source: &Source<'_>, tests: Tests, beside: &[Beside<'_>]) -> Found {
-    of_blocks(source, |row| over_blocks(excesses(row, tests)), beside)
+/// The excess of one set of tests, with the mean accepted share as a detail
+/// or, by the limit that the paper names for PGV, the share of the blocks
+/// above it as the criterion.
+fn excess(
+    source: &Source<'_>,
+    tests: Tests,
+    details: &[Named<'_>],
+    limit: f64,
+) -> anyhow::Result<Prepared> {
+    let mean = |row: &[f64]| over_blocks(excesses(row, tests));
+    let name =
+        format!("share of the blocks whose accepted share is above {limit}");
+    let share = |row: &[f64]| above(accepted(row, tests), limit);
+    let is_judged = source.intensity == Intensity::Pgv;
+    let criterion = is_judged.then_some((name.as_str(), &share as &_));
+    of_blocks(source, mean, details, criterion)
 }
 
-pub(super) fn original(source: &Source<'_>) -> Found {
+/// Distance of original samples from a lognormal.
+pub(super) fn original(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let (tests, _) = tests_of(source.intensity);
-    let share = |row: &[f64]| over_blocks(accepted(row, tests));
+    let share = mean_share(tests);
     match source.intensity {
         Intensity::Pga => {
-            let found = excess(source, tests, &[]);
-            with_criterion(source, found, ORIGINAL, share)
+            let mean = |row: &[f64]| over_blocks(excesses(row, tests));
+            of_blocks(source, mean, &[], Some((ORIGINAL, &share)))
         }
-        Intensity::Pgv => {
-            let found = excess(source, tests, &[(ORIGINAL, &share)]);
-            with_blocks_above(source, found, tests, 0.7)
-        }
+        Intensity::Pgv => excess(source, tests, &[(ORIGINAL, &share)], 0.7),
     }
 }
 
-pub(super) fn shifted(source: &Source<'_>) -> Found {
+/// Distance of shifted samples from a lognormal.
+pub(super) fn shifted(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let (_, tests) = tests_of(source.intensity);
-    let share = |row: &[f64]| over_blocks(accepted(row, tests));
-    let found = excess(source, tests, &[(SHIFTED, &share)]);
-    match source.intensity {
-        Intensity::Pga => found,
-        Intensity::Pgv => with_blocks_above(source, found, tests, 0.9),
-    }
+    excess(source, tests, &[(SHIFTED, &mean_share(tests))], 0.9)
 }
 
-/// What shifting takes off the distance.
-pub(super) fn gain(source: &Source<'_>) -> Found {
+/// Reduction of the distance by shifting.
+pub(super) fn gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let (original, shifted) = tests_of(source.intensity);
-    let found = of_blocks(
+    let gain =
+        |row: &[f64]| apart(accepted(row, shifted), accepted(row, original));
+    of_blocks(
         source,
-        |row| apart(excesses(row, original), excesses(row, shifted)),
-        &[
-            (ORIGINAL, &|row| over_blocks(accepted(row, original))),
-            (SHIFTED, &|row| over_blocks(accepted(row, shifted))),
-        ],
-    );
-    with_criterion(source, found, "gain of the accepted share", |row| {
-        apart(accepted(row, shifted), accepted(row, original))
-    })
+        reduction(original, shifted),
+        &[(ORIGINAL, &mean_share(original)), (SHIFTED, &mean_share(shifted))],
+        Some(("gain of the accepted share", &gain)),
+    )
 }
 
-/// What PGV instead of PGA takes off the distance of original samples.
-pub(super) fn pgv_gain(source: &Source<'_>) -> Found {
+/// Reduction of the distance of original samples by PGV instead of PGA.
+pub(super) fn pgv_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let (pga, pgv) = (Tests::OriginalPga, Tests::OriginalPgv);
-    of_blocks(
-        source,
-        |row| apart(excesses(row, pga), excesses(row, pgv)),
-        &[
-            ("mean accepted share, PGA", &|row| {
-                over_blocks(accepted(row, pga))
-            }),
-            ("mean accepted share, PGV", &|row| {
-                over_blocks(accepted(row, pgv))
-            }),
-        ],
-    )
+    let details: [Named<'_>; 2] = [
+        ("mean accepted share, PGA", &mean_share(pga)),
+        ("mean accepted share, PGV", &mean_share(pgv)),
+    ];
+    of_blocks(source, reduction(pga, pgv), &details, None)
 }
 
-pub(super) fn geometric_mean(source: &Source<'_>) -> Found {
+/// Change of the distance by the geometric mean's intensity.
+pub(super) fn geometric_mean(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let (own, mean) = (Tests::ShiftedPga, Tests::ShiftedGeometricMean);
-    of_blocks(
-        source,
-        |row| apart(excesses(row, mean), excesses(row, own)),
-        &[
-            ("mean accepted share, component", &|row| {
-                over_blocks(accepted(row, own))
-            }),
-            ("mean accepted share, geometric mean", &|row| {
-                over_blocks(accepted(row, mean))
-            }),
-        ],
-    )
+    let details: [Named<'_>; 2] = [
+        ("mean accepted share, component", &mean_share(own)),
+        ("mean accepted share, geometric mean", &mean_share(mean)),
+    ];
+    of_blocks(source, reduction(mean, own), &details, None)
 }
 
-pub(super) fn small_minus_large(source: &Source<'_>) -> Found {
+/// Distance of original samples for p = 3 and 4 minus the distance for p = 1.
+pub(super) fn small_minus_large(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     let apart = |values: &[f64]| {
         let (large, small) = values.split_at(SLENDERNESSES_RAD.len());
         over_blocks(small) - over_blocks(large)
     };
-    let of = |row: &[f64]| apart(excesses(row, Tests::OriginalPga));
-    let found = of_blocks(source, of, &[]);
-    let name = "accepted share, large minus small blocks";
-    with_criterion(source, found, name, |row| {
-        -apart(accepted(row, Tests::OriginalPga))
-    })
+    let share = |row: &[f64]| -apart(accepted(row, Tests::OriginalPga));
+    of_blocks(
+        source,
+        |row| apart(excesses(row, Tests::OriginalPga)),
+        &[],
+        Some(("accepted share, large minus small blocks", &share)),
+    )
 }
 
-pub(super) fn slender(source: &Source<'_>) -> Found {
+/// Distance for alpha = 0.05, p = 3, original and shifted samples in PGA.
+pub(super) fn slender(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let name = block(SLENDER.0, SLENDER.1);
     let cells = ["original", "shifted"].map(|of| format!("{name}, {of}"));
     let tests = [Tests::OriginalPga, Tests::ShiftedPga];
-    let share = |row: &[f64], tests| {
-        accepted(row, tests)[position(SLENDER.0, SLENDER.1)]
+    let [original, shifted] = tests.map(slender_share);
+    let larger = |row: &[f64]| {
+        let (a, b) = (original(row), shifted(row));
+        if a > b { a } else { b }
     };
-    let found = of_cells(
+    of_cells(
         source,
         &cells,
         |row| tests.map(|tests| row[place(tests, SLENDER)]).into(),
         &[
-            ("accepted share, original", &|row| share(row, tests[0])),
-            ("accepted share, shifted", &|row| share(row, tests[1])),
+            ("accepted share, original", &original),
+            ("accepted share, shifted", &shifted),
         ],
-    );
-    with_criterion(source, found, "the larger of the two", |row| {
-        let [a, b] = tests.map(|tests| share(row, tests));
-        if a > b { a } else { b }
-    })
+        Some(("the larger of the two", &larger)),
+    )
 }
 
-pub(super) fn less_slender(source: &Source<'_>) -> Found {
+/// Distance for alpha = 0.05 minus the distance for 0.20, p = 3, shifted
+/// samples in PGA.
+pub(super) fn less_slender(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let at = "p = 3, alpha = 0.05 minus 0.20".into();
     let of = |block| place(Tests::ShiftedPga, block);
     let share = |row: &[f64]| {
@@ -250,16 +243,20 @@ pub(super) fn less_slender(source: &Source<'_>) -> Found {
         &[at],
         |row| vec![row[of(SLENDER)] - row[of(LESS_SLENDER)]],
         &[("accepted share, alpha = 0.05 minus 0.20", &share)],
+        None,
     )
 }
 
-/// What leaving out the earliest overturnings takes off the distance.
-pub(super) fn earliest_removed(source: &Source<'_>) -> Found {
+/// Reduction of the distance without the three earliest overturnings.
+pub(super) fn earliest_removed(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     let whole = place(Tests::ShiftedPga, SLENDER);
     of_cells(
         source,
         &[block(SLENDER.0, SLENDER.1)],
         |row| vec![row[whole] - row[WITHOUT_EARLIEST]],
         &[],
+        None,
     )
 }

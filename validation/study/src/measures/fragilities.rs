@@ -3,19 +3,18 @@
 
 use libm::log;
 use rocking_procedures::fragility::risk::HazardCurve;
-use rocking_statistics::resampling::Subsampling;
+use rocking_statistics::resampling::{Ranked, Subsampling};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
-use super::source::{Found, Prepared, Source};
-use crate::distributions::{BlockSamples, factors};
+use super::source::{Prepared, Source};
+use crate::distributions::factors;
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
-use rocking_common::paper::demand_index;
-use rocking_statistics::resampling::Ranked;
+use rocking_common::paper::{demand_index, position};
 
-/// Dispersion of a lognormal sample over that of the same sample without its
-/// largest twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
+/// Dispersion of a lognormal sample over the dispersion without its largest
+/// twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
 /// quantile).
 const LOGNORMAL_INFLATION: f64 = 1.104;
 
@@ -34,19 +33,18 @@ pub(crate) struct Thresholds {
 }
 
 impl Thresholds {
-    pub(crate) fn new(source: &Source<'_>) -> Option<Self> {
+    pub(crate) fn new(source: &Source<'_>) -> anyhow::Result<Self> {
         let (kind, intensity) = (source.kind(), source.intensity);
         let found =
             source.results.distributions(kind, source.arm, intensity)?;
-        let at = rocking_common::paper::position(BLOCK.0, BLOCK.1);
-        let block: &BlockSamples = &found.blocks[at];
-        let suite = source.results.suite(kind);
+        let block = &found.blocks[position(BLOCK.0, BLOCK.1)];
         let ranked = THRESHOLDS
             .iter()
             .map(|edp| Ranked::new(&block.samples[demand_index(*edp)]))
             .collect();
-        let onsets = factors(suite, intensity, block.p_rad_s);
-        Some(Self { ranked, onsets })
+        let records = &source.suite().records;
+        let onsets = factors(records, intensity, block.p_rad_s);
+        Ok(Self { ranked, onsets })
     }
 
     fn shift(&self, counts: &[u32]) -> f64 {
@@ -85,20 +83,20 @@ pub(crate) fn to_ssfl(usfl: Option<Lognormal>, at: &At, c: f64) -> f64 {
 pub(crate) fn by_demand(
     source: &Source<'_>,
     thresholds: &Thresholds,
-    f: &(dyn Fn(&At) -> f64 + Sync),
+    f: impl Fn(&At) -> f64 + Sync,
 ) -> Replicated {
-    let kind = source.kind();
-    let of = |draw: Draw<'_>| thresholds.each(draw.of(kind), f);
-    source.draws.smooth(source.tested, &of)
+    source.smooth(|counts| thresholds.each(counts, &f))
 }
 
 /// A number of each threshold as a measure.
-fn each(source: &Source<'_>, f: &(dyn Fn(&At) -> f64 + Sync)) -> Found {
-    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
-    let records = source.results.suite(source.kind()).records.len();
+fn each(
+    source: &Source<'_>,
+    f: impl Fn(&At) -> f64 + Sync,
+) -> anyhow::Result<Prepared> {
+    let records = source.records();
     let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
-    let measured = by_demand(source, &thresholds, f);
-    Ok(Some(Prepared::new(THRESHOLDS.map(cell).into(), measured)))
+    let measured = by_demand(source, &Thresholds::new(source)?, f);
+    Ok(Prepared::new(THRESHOLDS.map(cell).into(), measured))
 }
 
 /// A number of one threshold as a measure.
@@ -106,15 +104,25 @@ fn at_place(
     source: &Source<'_>,
     place: usize,
     f: impl Fn(&At) -> f64 + Sync,
-) -> Found {
-    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
-    let kind = source.kind();
-    let records = source.results.suite(kind).records.len();
+) -> anyhow::Result<Prepared> {
+    let thresholds = Thresholds::new(source)?;
     let at = format!("demand {:.2}", THRESHOLDS[place]);
-    Ok(Some(source.value(&at, records, |draw| {
-        let at = thresholds.at(draw.of(kind), place);
-        at.as_ref().map_or(f64::NAN, &f)
-    })))
+    Ok(source.value(&at, source.records(), |counts| {
+        thresholds.at(counts, place).as_ref().map_or(f64::NAN, &f)
+    }))
+}
+
+/// Name of a cell that is a mean over the thresholds.
+const MEAN: &str = "mean over demands 0.15, 0.35 and 1.00";
+
+/// Mean over the thresholds, over draws with replacement.
+fn mean_of(
+    source: &Source<'_>,
+    f: impl Fn(&At) -> f64 + Sync,
+) -> anyhow::Result<Prepared> {
+    let thresholds = Thresholds::new(source)?;
+    let of = |counts: &[u32]| mean(thresholds.each(counts, &f));
+    Ok(source.value(MEAN, source.records(), of))
 }
 
 /// Mean over the thresholds, from subsamples: a draw with replacement would
@@ -122,20 +130,17 @@ fn at_place(
 fn mean_over(
     source: &Source<'_>,
     f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
-) -> Found {
-    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
+) -> anyhow::Result<Prepared> {
+    let thresholds = Thresholds::new(source)?;
     let kind = source.kind();
     let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
-    let cell = Cell {
-        at: "mean over demands 0.15, 0.35 and 1.00".into(),
-        records: source.results.suite(kind).records.len(),
-    };
+    let cell = Cell { at: MEAN.into(), records: source.records() };
     let measured = source.draws.subsampled(source.tested, &of);
-    Ok(Some(Prepared::new(vec![cell], measured)))
+    Ok(Prepared::new(vec![cell], measured))
 }
 
-/// What shifting gains in distance to the sample.
-pub(super) fn shift_gain(source: &Source<'_>) -> Found {
+/// Gain in distance to the sample by shifting.
+pub(super) fn shift_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
     mean_over(source, |thresholds, counts| {
         thresholds.each(counts, |at| {
             distance(at.fits.usfl, &at.sample)
@@ -144,41 +149,31 @@ pub(super) fn shift_gain(source: &Source<'_>) -> Found {
     })
 }
 
-pub(super) fn trimmed(source: &Source<'_>) -> Found {
-    each(source, &|at| to_ssfl(at.fits.trimmed, at, 1.0))
+/// Distance of trimmed USFL7 to SSFL.
+pub(super) fn trimmed(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    each(source, |at| to_ssfl(at.fits.trimmed, at, 1.0))
 }
 
 /// Probability that the unshifted fit of the trimmed sample gives to the
 /// demand at uplift, where it is 0.
-pub(super) fn at_uplift(source: &Source<'_>) -> Found {
-    each(source, &|at| {
+pub(super) fn at_uplift(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    each(source, |at| {
         at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
     })
 }
 
-/// Mean over the thresholds, over draws with replacement.
-fn mean_of(source: &Source<'_>, f: impl Fn(&At) -> f64 + Sync) -> Found {
-    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
-    let kind = source.kind();
-    let records = source.results.suite(kind).records.len();
-    let at = "mean over demands 0.15, 0.35 and 1.00";
-    Ok(Some(
-        source.value(at, records, |draw| {
-            mean(thresholds.each(draw.of(kind), &f))
-        }),
-    ))
-}
-
-/// What trimming takes off the distance of USFL7 to the SSFL.
-pub(super) fn trimming_gain(source: &Source<'_>) -> Found {
+/// Reduction of the distance of USFL7 to the SSFL by trimming.
+pub(super) fn trimming_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
     mean_of(source, |at| {
         to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.trimmed, at, 1.0)
     })
 }
 
-/// What c = 0.5 to 1 instead of 0.25 takes off the distance of the trimmed
-/// USFL7 to the SSFL.
-pub(super) fn high_constant_gain(source: &Source<'_>) -> Found {
+/// Reduction of the distance of the trimmed USFL7 to the SSFL by c = 0.5 to 1
+/// instead of 0.25.
+pub(super) fn high_constant_gain(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     mean_of(source, |at| {
         let of = |c| to_ssfl(at.fits.trimmed, at, c);
         of(0.25) - mean([0.5, 0.75, 1.0].map(of))
@@ -190,18 +185,19 @@ pub(super) fn high_constant_gain(source: &Source<'_>) -> Found {
 const SLOPES: [f64; 5] = [1.5, 2.0, 2.5, 3.0, 4.0];
 
 /// Overturning under each slope of the hazard.
-fn by_slope(source: &Source<'_>, f: impl Fn(f64, &At) -> f64 + Sync) -> Found {
-    let Some(thresholds) = Thresholds::new(source) else { return Ok(None) };
-    let kind = source.kind();
-    let records = source.results.suite(kind).records.len();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let at = thresholds.at(draw.of(kind), THRESHOLDS.len() - 1);
+fn by_slope(
+    source: &Source<'_>,
+    f: impl Fn(f64, &At) -> f64 + Sync,
+) -> anyhow::Result<Prepared> {
+    let thresholds = Thresholds::new(source)?;
+    let records = source.records();
+    let cell = |k| Cell { at: format!("hazard of slope {k}"), records };
+    let measured = source.smooth(|counts| {
+        let at = thresholds.at(counts, THRESHOLDS.len() - 1);
         let of = |k| at.as_ref().map_or(f64::NAN, |at| f(k, at));
         SLOPES.map(of).into()
-    };
-    let cell = |k| Cell { at: format!("hazard of slope {k}"), records };
-    let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared::new(SLOPES.map(cell).into(), measured)))
+    });
+    Ok(Prepared::new(SLOPES.map(cell).into(), measured))
 }
 
 /// Annual frequency by a sample's own fragility under H = x^-k, from the
@@ -216,7 +212,7 @@ fn sample_rate(at: &At, k: f64, above: f64) -> f64 {
 
 /// Share of the annual frequency of overturning that comes from the
 /// capacities above the 84 % quantile.
-pub(super) fn tail_rate(source: &Source<'_>) -> Found {
+pub(super) fn tail_rate(source: &Source<'_>) -> anyhow::Result<Prepared> {
     by_slope(source, |k, at| {
         let quantile = QuantileType::default().of_extended(&at.sample, 0.84);
         let quantile = quantile.unwrap_or(f64::NAN);
@@ -233,34 +229,45 @@ fn rate_of(fit: Option<Lognormal>, k: f64, at: &At) -> f64 {
     hazard.annual_frequency(&fit).truncation_lower / sample_rate(at, k, 0.0)
 }
 
-pub(super) fn shifted_rate(source: &Source<'_>) -> Found {
+/// Annual frequency by the SSFL over the sample's.
+pub(super) fn shifted_rate(source: &Source<'_>) -> anyhow::Result<Prepared> {
     by_slope(source, |k, at| rate_of(at.fits.ssfl, k, at))
 }
 
-pub(super) fn transformed_rate(source: &Source<'_>) -> Found {
+/// Annual frequency by trimmed USFL7 over the sample's.
+pub(super) fn transformed_rate(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     by_slope(source, |k, at| {
         rate_of(usfl7(at.fits.trimmed, at.shift, 1.0), k, at)
     })
 }
 
-pub(super) fn untrimmed(source: &Source<'_>) -> Found {
-    each(source, &|at| to_ssfl(at.fits.usfl, at, 1.0))
+/// Distance of untrimmed USFL7 to SSFL.
+pub(super) fn untrimmed(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    each(source, |at| to_ssfl(at.fits.usfl, at, 1.0))
 }
 
-pub(super) fn low_constant(source: &Source<'_>) -> Found {
+/// Gain in the distance of untrimmed USFL7 to SSFL from c = 1 to c = 0.25.
+pub(super) fn low_constant(source: &Source<'_>) -> anyhow::Result<Prepared> {
     at_place(source, 0, |at| {
         to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
     })
 }
 
-pub(super) fn constant_spread(source: &Source<'_>) -> Found {
+/// Distance of trimmed USFL7 for c = 0.25 to USFL7 for c = 1.
+pub(super) fn constant_spread(
+    source: &Source<'_>,
+) -> anyhow::Result<Prepared> {
     at_place(source, 0, |at| {
         let of = |c| usfl7(at.fits.trimmed, at.shift, c);
         apart(of(0.25), of(1.0))
     })
 }
 
-pub(super) fn tail_inflation(source: &Source<'_>) -> Found {
+/// Dispersion of the whole sample over the dispersion of the trimmed one, over
+/// the ratio of a lognormal.
+pub(super) fn tail_inflation(source: &Source<'_>) -> anyhow::Result<Prepared> {
     at_place(source, THRESHOLDS.len() - 1, |at| {
         let of =
             |fit: Option<Lognormal>| fit.map_or(f64::NAN, |f| f.dispersion());
@@ -271,7 +278,7 @@ pub(super) fn tail_inflation(source: &Source<'_>) -> Found {
 /// Scatter of the dispersion by the 16 and 84 % quantiles over that by the
 /// standard deviation of the logarithms: root of the ratio of their variances
 /// over halves of the drawn records, mean over the demands.
-pub(super) fn scatter(source: &Source<'_>) -> Found {
+pub(super) fn scatter(source: &Source<'_>) -> anyhow::Result<Prepared> {
     const HALVES: u64 = 200;
     mean_over(source, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =

@@ -1,164 +1,128 @@
 //! Section 4, Figures 2 to 5: measures of records one by one.
 
-use super::source::{Found, Prepared, Source, mean_of_medians};
+use super::source::{CellValues, Prepared, Source, mean_of_medians};
 use crate::analyses::{Apart, SuiteResults};
 use crate::estimates::mean;
-use crate::inference::{Cell, LEAST_DECIDING};
-use crate::stripes::of_arm;
-use rocking_common::paper::{
-    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, position,
-};
+use crate::inference::LEAST_DECIDING;
+use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_statistics::resampling::Ranked;
 
-/// A frequency parameter at an intensity: what a record's histories or peaks
-/// differ by, mean over the slendernesses.
+/// Cells by frequency parameter and intensity: a distance of each record's
+/// histories or peaks, mean over the slendernesses.
 fn at_levels(
     suite: &SuiteResults,
     of: impl Fn(&Apart) -> f64,
-) -> Vec<(String, Ranked)> {
-    let mut out = Vec::new();
+) -> Vec<CellValues> {
+    let mut cells = Vec::new();
     for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
         for (im, apart) in &single.by_level {
-            let by_record: Vec<f64> = apart
-                .iter()
-                .map(|apart| mean(apart.iter().map(&of)))
-                .collect();
-            out.push((
-                format!("p = {p}, intensity {im}"),
-                Ranked::new(&by_record),
-            ));
+            let each = apart.iter().map(|apart| mean(apart.iter().map(&of)));
+            cells.push(CellValues {
+                at: format!("p = {p}, intensity {im}"),
+                values: Ranked::new(&each.collect::<Vec<f64>>()),
+            });
         }
     }
-    out
+    cells
 }
 
-/// Cells that have enough records to decide.
-fn deciding(cells: &[(String, Ranked)]) -> Vec<Ranked> {
-    let enough = |r: &&Ranked| r.records() >= LEAST_DECIDING;
-    cells.iter().map(|(_, r)| r).filter(enough).cloned().collect()
+/// Whether a cell has enough records to decide.
+fn decides(cell: &CellValues) -> bool {
+    cell.values.records() >= LEAST_DECIDING
 }
 
-/// Median distance of histories, ordinary over pulse-type, at the same
+/// Median distance of histories, ordinary over pulse-type, at equal
 /// intensities; geometric mean over frequency parameters and intensities at
 /// which enough records stand in both suites.
-pub(super) fn histories(source: &Source<'_>) -> Found {
-    let [ordinary, pulse] = SuiteKind::ALL
-        .map(|kind| at_levels(source.results.suite(kind), |a| a.distance));
-    let pairs: Vec<(Ranked, Ranked)> = ordinary
+pub(super) fn histories(source: &Source<'_>) -> Prepared {
+    let [ordinary, pulse] =
+        source.results.suites().map(|suite| at_levels(suite, |a| a.distance));
+    let pairs: Vec<(CellValues, CellValues)> = ordinary
         .into_iter()
         .zip(pulse)
-        .map(|((_, a), (_, b))| (a, b))
-        .filter(|(a, b)| {
-            a.records() >= LEAST_DECIDING && b.records() >= LEAST_DECIDING
-        })
+        .filter(|(a, b)| decides(a) && decides(b))
         .collect();
     let records = source.results.pulse.records.len();
     let at = format!("mean over {} pairs of p and intensity", pairs.len());
-    Ok(Some(source.value(&at, records, move |draw| {
-        let ratio = |(ordinary, pulse): &(Ranked, Ranked)| {
-            libm::log(
-                ordinary.median(draw.of(SuiteKind::Ordinary))
-                    / pulse.median(draw.of(SuiteKind::PulseType)),
-            )
+    source.contrast(&at, records, |ordinary, pulse| {
+        let ratio = |(a, b): &(CellValues, CellValues)| {
+            libm::log(a.values.median(ordinary) / b.values.median(pulse))
         };
         libm::exp(mean(pairs.iter().map(ratio)))
-    })))
+    })
 }
 
 /// Median distance of histories of one suite; mean over frequency parameters
 /// and intensities at which enough records stand.
-pub(super) fn history_distance(source: &Source<'_>) -> Found {
-    let kind = source.kind();
-    let suite = source.results.suite(kind);
-    let ranked = deciding(&at_levels(suite, |a| a.distance));
-    let at = format!("mean over {} pairs of p and intensity", ranked.len());
-    let records = suite.records.len();
-    Ok(Some(source.value(&at, records, move |draw| {
-        mean_of_medians(&ranked, draw.of(kind))
-    })))
+pub(super) fn history_distance(source: &Source<'_>) -> Prepared {
+    let mut cells = at_levels(source.suite(), |a| a.distance);
+    cells.retain(decides);
+    let at = format!("mean over {} pairs of p and intensity", cells.len());
+    source
+        .value(&at, source.records(), |counts| mean_of_medians(&cells, counts))
 }
 
-/// Share of the histories that are further than 5 % from that of the
-/// reference.
-pub(super) fn histories_apart(source: &Source<'_>) -> Found {
-    let suite = source.results.suite(source.kind());
+/// Share of the histories that are further than 5 % from the reference's.
+pub(super) fn histories_apart(source: &Source<'_>) -> Prepared {
+    let suite = source.suite();
     let n = suite.records.len();
     let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for (_, by_record) in suite.single.iter().flat_map(|s| &s.by_level) {
         for (record, apart) in by_record.iter().enumerate() {
-            let there = apart.iter().filter(|a| a.distance.is_finite());
-            for a in there {
+            for a in apart.iter().filter(|a| a.distance.is_finite()) {
                 all[record] += 1;
                 far[record] += u32::from(a.distance > 0.05);
             }
         }
     }
     let at = format!("{} histories", all.iter().sum::<u32>());
-    Ok(Some(source.share(&at, far, all)))
+    source.share(&at, &far, &all)
 }
 
-pub(super) fn peaks(source: &Source<'_>) -> Found {
-    let kind = source.kind();
-    let suite = source.results.suite(kind);
-    let (cells, ranked) = at_levels(suite, |a| (a.peak_ratio - 1.0).abs())
-        .into_iter()
-        .map(|(at, r)| (Cell { at, records: r.records() }, r))
-        .unzip();
-    let measured = source.draws.medians(kind, ranked);
-    Ok(Some(Prepared::new(cells, measured)))
+/// Median difference of the peaks, cell by cell.
+pub(super) fn peaks(source: &Source<'_>) -> Prepared {
+    let away = |a: &Apart| (a.peak_ratio - 1.0).abs();
+    source.medians(at_levels(source.suite(), away))
 }
 
 /// Mean |ln| of the ratio of intensities at equal demand, by record.
 fn apart_by_record(suite: &SuiteResults) -> Ranked {
-    let by_record: Vec<f64> = (0..suite.records.len())
-        .map(|record| {
-            let of = |single: &crate::analyses::SingleRecords| {
-                single.apart[record].iter().map(|a| a.mean_ln_im).collect()
-            };
-            let all: Vec<Vec<f64>> = suite.single.iter().map(of).collect();
-            mean(all.into_iter().flatten())
-        })
-        .collect();
-    Ranked::new(&by_record)
+    let of = |record: usize| {
+        let apart = suite.single.iter().flat_map(|s| &s.apart[record]);
+        mean(apart.map(|a| a.mean_ln_im))
+    };
+    Ranked::new(&(0..suite.records.len()).map(of).collect::<Vec<f64>>())
 }
 
 /// Distance of single curves, median over the records.
-pub(super) fn curves(source: &Source<'_>) -> Found {
-    let kind = source.kind();
-    let ranked = apart_by_record(source.results.suite(kind));
-    let records = ranked.records();
-    Ok(Some(source.value("all blocks", records, move |draw| {
-        ranked.median(draw.of(kind))
-    })))
+pub(super) fn curves(source: &Source<'_>) -> Prepared {
+    let ranked = apart_by_record(source.suite());
+    let median = |counts: &[u32]| ranked.median(counts);
+    source.value("all blocks", ranked.records(), median)
 }
 
-/// That median of ordinary over that of pulse-type motions.
-pub(super) fn curve_contrast(source: &Source<'_>) -> Found {
-    let [ordinary, pulse] =
-        SuiteKind::ALL.map(|kind| apart_by_record(source.results.suite(kind)));
-    let records = pulse.records();
-    Ok(Some(source.value("all blocks", records, move |draw| {
-        ordinary.median(draw.of(SuiteKind::Ordinary))
-            / pulse.median(draw.of(SuiteKind::PulseType))
-    })))
+/// Median distance of single curves, ordinary over pulse-type motions.
+pub(super) fn curve_contrast(source: &Source<'_>) -> Prepared {
+    let [a, b] = source.results.suites().map(apart_by_record);
+    source.contrast("all blocks", b.records(), |ordinary, pulse| {
+        a.median(ordinary) / b.median(pulse)
+    })
 }
 
 /// Share of the stripes of a record and a frequency parameter at which some
 /// of the five blocks have overturned and some have not.
-pub(super) fn fates(source: &Source<'_>) -> Found {
-    let suite = source.results.suite(source.kind());
-    let Some(stripes) = of_arm(suite, source.arm) else { return Ok(None) };
-    let n = suite.records.len();
+pub(super) fn fates(source: &Source<'_>) -> anyhow::Result<Prepared> {
+    let stripes = source.stripes()?;
+    let n = source.records();
     let (mut mixed, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for frequency in 0..FREQUENCIES_RAD_S.len() {
-        let blocks: Vec<&Vec<Vec<f64>>> = (0..SLENDERNESSES_RAD.len())
-            .map(|s| &stripes.demands[position(frequency, s)])
-            .collect();
-        let used = blocks.iter().map(|b| b.len()).min().unwrap_or(0);
+        let first = position(frequency, 0);
+        let blocks = &stripes.demands[first..][..SLENDERNESSES_RAD.len()];
+        let used = blocks.iter().map(Vec::len).min().unwrap_or(0);
         for stripe in 0..used {
             for record in 0..n {
                 let fell =
-                    |b: &&&Vec<Vec<f64>>| b[stripe][record].is_infinite();
+                    |b: &&Vec<Vec<f64>>| b[stripe][record].is_infinite();
                 let fallen = blocks.iter().filter(fell).count();
                 all[record] += 1;
                 mixed[record] +=
@@ -166,6 +130,5 @@ pub(super) fn fates(source: &Source<'_>) -> Found {
             }
         }
     }
-    let at = "of all records, p and stripes";
-    Ok(Some(source.share(at, mixed, all)))
+    Ok(source.share("of all records, p and stripes", &mixed, &all))
 }

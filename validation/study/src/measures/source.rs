@@ -2,17 +2,15 @@
 
 use rocking_statistics::resampling::Ranked;
 
+use crate::analyses::{StripeDemands, SuiteResults};
 use crate::distances::Distances;
 use crate::estimates::mean;
 use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::results::Results;
 use rocking_common::findings::{Detail, Tested};
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
+    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
-
-/// The cells of a measure; none where what it needs was not run.
-pub type Found = anyhow::Result<Option<Prepared>>;
 
 /// What a measure reads.
 #[derive(Clone, Copy)]
@@ -27,7 +25,7 @@ pub struct Source<'a> {
     pub tested: Tested,
     /// The arm.
     pub arm: Arm,
-    /// The intensity measure: of a claim that names none, PGA.
+    /// The intensity measure: PGA where the claim names none.
     pub intensity: Intensity,
 }
 
@@ -37,28 +35,29 @@ pub struct Prepared {
     pub cells: Vec<Cell>,
     /// Their values.
     pub measured: Replicated,
-    /// What the paper judges by, where it says so.
+    /// The share that meets the paper's own criterion, where it has one.
     pub criterion: Option<Criterion>,
-    /// What else is shown.
+    /// Further numbers for the reader.
     pub details: Vec<Detail>,
 }
 
 /// The share that meets the paper's own criterion.
 pub struct Criterion {
-    /// What it is a share of.
+    /// Its name.
     pub name: String,
     /// The share.
     pub measured: Replicated,
 }
 
 impl Prepared {
-    /// Cells and nothing beside them.
+    /// Cells without a criterion and without details.
     pub(super) fn new(cells: Vec<Cell>, measured: Replicated) -> Self {
         Self { cells, measured, criterion: None, details: Vec::new() }
     }
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
+    /// The kind of the suite; the ordinary one of a comparison of both.
     pub(crate) fn kind(&self) -> SuiteKind {
         match self.tested {
             Tested::PulseType => SuiteKind::PulseType,
@@ -66,35 +65,105 @@ impl Source<'_> {
         }
     }
 
-    /// One value, smooth in the records.
+    /// The suite of that kind.
+    pub(crate) fn suite(&self) -> &'a SuiteResults {
+        self.results.suite(self.kind())
+    }
+
+    /// Number of the suite's records.
+    pub(super) fn records(&self) -> usize {
+        self.suite().records.len()
+    }
+
+    /// Demands on the stripes of the suite and arm.
+    pub(super) fn stripes(&self) -> anyhow::Result<&'a StripeDemands> {
+        self.suite().stripes(self.arm)
+    }
+
+    /// Numbers that are smooth in the suite's records, each drawn so often.
+    pub(crate) fn smooth(
+        &self,
+        f: impl Fn(&[u32]) -> Vec<f64> + Sync,
+    ) -> Replicated {
+        let kind = self.kind();
+        let of = |draw: Draw<'_>| f(draw.of(kind));
+        self.draws.smooth(self.tested, &of)
+    }
+
+    /// One value, smooth in the suite's records.
     pub(super) fn value(
         &self,
         at: &str,
         records: usize,
-        f: impl Fn(Draw<'_>) -> f64 + Sync,
+        f: impl Fn(&[u32]) -> f64 + Sync,
     ) -> Prepared {
         let cell = Cell { at: at.into(), records };
-        let measured = self.draws.smooth(self.tested, &|d| vec![f(d)]);
-        Prepared::new(vec![cell], measured)
+        Prepared::new(vec![cell], self.smooth(|counts| vec![f(counts)]))
     }
 
-    /// A share of what the records count together: `found` of `all`, by
-    /// record.
+    /// One value, smooth in the ordinary and in the pulse-type records.
+    pub(super) fn contrast(
+        &self,
+        at: &str,
+        records: usize,
+        f: impl Fn(&[u32], &[u32]) -> f64 + Sync,
+    ) -> Prepared {
+        let cell = Cell { at: at.into(), records };
+        let of = |draw: Draw<'_>| {
+            let [ordinary, pulse] = SuiteKind::ALL.map(|kind| draw.of(kind));
+            vec![f(ordinary, pulse)]
+        };
+        Prepared::new(vec![cell], self.draws.smooth(self.tested, &of))
+    }
+
+    /// A share of all records' counts: `found` of `all`, by record.
     pub(super) fn share(
         &self,
         at: &str,
-        found: Vec<u32>,
-        all: Vec<u32>,
+        found: &[u32],
+        all: &[u32],
     ) -> Prepared {
-        let kind = self.kind();
-        let sum = |of: &[u32], counts: &[u32]| {
-            f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
-        };
-        self.value(at, all.len(), move |draw| {
-            let counts = draw.of(kind);
-            sum(&found, counts) / sum(&all, counts)
+        self.value(at, all.len(), |counts| {
+            weighted_count(found, counts) / weighted_count(all, counts)
         })
     }
+
+    /// Medians of the cells.
+    pub(super) fn medians(&self, cells: Vec<CellValues>) -> Prepared {
+        let (cells, values) =
+            cells.into_iter().map(|own| (own.cell(), own.values)).unzip();
+        let measured = self.draws.medians(self.kind(), values);
+        Prepared::new(cells, measured)
+    }
+}
+
+/// The values of the records in one cell.
+pub(super) struct CellValues {
+    pub(super) at: String,
+    pub(super) values: Ranked,
+}
+
+impl CellValues {
+    /// Paired ratios of demands or capacities.
+    pub(super) fn ratios(at: String, a: &[f64], b: &[f64]) -> Self {
+        Self { at, values: Ranked::new(&ratios(a, b, 1.0)) }
+    }
+
+    /// The cell.
+    pub(super) fn cell(&self) -> Cell {
+        Cell { at: self.at.clone(), records: self.values.records() }
+    }
+}
+
+/// The 15 blocks by the positions of frequency parameter and slenderness.
+pub(super) fn blocks() -> impl Iterator<Item = (usize, usize)> {
+    (0..FREQUENCIES_RAD_S.len())
+        .flat_map(|f| (0..SLENDERNESSES_RAD.len()).map(move |s| (f, s)))
+}
+
+/// The blocks that are compared with the reference slenderness.
+pub(super) fn compared_blocks() -> impl Iterator<Item = (usize, usize)> {
+    blocks().filter(|(_, slenderness)| *slenderness != REFERENCE)
 }
 
 /// A block in words: `p = 3, alpha = 0.20`.
@@ -105,39 +174,26 @@ pub(super) fn block(frequency: usize, slenderness: usize) -> String {
     )
 }
 
-/// Mean over cells of the medians of a draw.
-pub(super) fn mean_of_medians(ranked: &[Ranked], counts: &[u32]) -> f64 {
-    mean(ranked.iter().map(|r| r.median(counts)))
-}
-
-/// Geometric means of paired ratios, cell by cell: the records of a pair
-/// answer twice, so that the mean of ln of the ratio has little scatter. A
-/// ratio that is not finite does not count.
+/// Geometric means of paired ratios, cell by cell: the two values of a record
+/// are close, so that the mean of the logarithm of their ratio has little
+/// scatter. A ratio that is not finite does not count.
 pub(super) fn geometric_means(
     source: &Source<'_>,
     cells: Vec<(String, Vec<f64>)>,
 ) -> Prepared {
-    let kind = source.kind();
-    let (at, logs): (Vec<String>, Vec<Vec<f64>>) = cells
-        .into_iter()
-        .map(|(at, x)| (at, x.into_iter().map(libm::log).collect()))
-        .unzip();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
+    let logs = cells.into_iter().map(|(at, ratios)| {
+        let logs: Vec<f64> = ratios.into_iter().map(libm::log).collect();
+        let records = logs.iter().filter(|x| x.is_finite()).count();
+        (Cell { at, records }, logs)
+    });
+    let (cells, logs): (Vec<Cell>, Vec<Vec<f64>>) = logs.unzip();
+    let measured = source.smooth(|counts| {
         logs.iter().map(|x| libm::exp(weighted_mean(x, counts))).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    let records =
-        logs.iter().map(|x| x.iter().filter(|x| x.is_finite()).count());
-    let cells = at
-        .into_iter()
-        .zip(records)
-        .map(|(at, records)| Cell { at, records })
-        .collect();
+    });
     Prepared::new(cells, measured)
 }
 
-/// Mean of the finite ones among the values of records, each drawn so often.
+/// Mean of the finite values of the records, each drawn so often.
 pub(super) fn weighted_mean(values: &[f64], counts: &[u32]) -> f64 {
     let (mut sum, mut drawn) = (0.0, 0.0);
     for (x, count) in values.iter().zip(counts) {
@@ -147,6 +203,16 @@ pub(super) fn weighted_mean(values: &[f64], counts: &[u32]) -> f64 {
         }
     }
     sum / drawn
+}
+
+/// Sum of the records' counts, each record drawn so often.
+pub(super) fn weighted_count(of: &[u32], counts: &[u32]) -> f64 {
+    f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
+}
+
+/// Mean over cells of the medians of a draw.
+pub(super) fn mean_of_medians(cells: &[CellValues], counts: &[u32]) -> f64 {
+    mean(cells.iter().map(|cell| cell.values.median(counts)))
 }
 
 /// Paired ratios a/b, by record; NaN where one is infinite or missing.

@@ -1,7 +1,5 @@
 //! Answers, and the tables behind them.
 
-use crate::analyses::SuiteResults;
-use crate::results::Results;
 use rocking_common::table::{PlainTable, Table};
 use rocking_draw::figures::Figure;
 
@@ -172,8 +170,4 @@ pub fn count(of: usize) -> Cell {
 
 pub fn number(x: f64, decimals: usize) -> Cell {
     Cell::Number(x, decimals)
-}
-
-pub fn both(results: &Results) -> [&SuiteResults; 2] {
-    [&results.ordinary, &results.pulse]
 }

@@ -4,7 +4,7 @@
 use libm::{exp, log};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::answer::{Answer, Rows, both, number, word};
+use super::answer::{Answer, Rows, number, word};
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
 use crate::estimates::mean;
@@ -92,7 +92,7 @@ pub(super) fn answer(
     results: &Results,
     draws: &Draws,
 ) -> anyhow::Result<Answer> {
-    let [ordinary, pulse] = both(results);
+    let [ordinary, pulse] = results.suites();
     let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
     let mut table = Rows::default();
     for (k, item) in items().iter().enumerate() {

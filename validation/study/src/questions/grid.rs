@@ -4,8 +4,7 @@ use rocking::capacity::ResponseCurve;
 use rocking_statistics::ExtendedSample;
 use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 
-use super::answer::{Answer, Rows, both, count, number, word};
-use crate::analyses::no_arm;
+use super::answer::{Answer, Rows, count, number, word};
 use crate::fits::{Fits, of_intervals};
 use crate::results::Results;
 use crate::ties::grid_alone;
@@ -41,7 +40,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut by_suite = Vec::new();
-    for suite in both(results) {
+    for suite in results.suites() {
         let rows = rows(results, suite.kind)?;
         for (i, row) in rows.iter().enumerate() {
             let share = |x: f64| number(x, 3);
@@ -106,7 +105,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
 
 fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
     let of = |arm| results.distributions(kind, arm, Intensity::Pga);
-    let finest = of(results.plan.common()).ok_or_else(no_arm)?;
+    let finest = of(results.plan.common())?;
     (0..finest.blocks.len())
         .map(|i| {
             let mut row = Row {
@@ -117,10 +116,10 @@ fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
                 grid_alone: grid_alone(&finest.blocks[i]).unwrap_or(f64::NAN),
             };
             for (arm, found) in ARMS.into_iter().map(of).enumerate() {
-                let Some(block) = found.map(|d| &d.blocks[i]) else {
+                let Ok(block) = found.map(|d| &d.blocks[i]) else {
                     continue;
                 };
-                let overturning = block.samples.last().ok_or_else(no_arm)?;
+                let overturning = block.overturning();
                 row.rejected[arm] = 1.0 - block.shares().1;
                 let taken = dispersion(overturning, block.shift);
                 if arm < 2 {
@@ -130,7 +129,7 @@ fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
                 row.tied[arm] =
                     block.shifted.iter().filter(|a| tied(a)).count();
             }
-            if let Some(curves) = results.suite(kind).curves(Arm::A) {
+            if let Ok(curves) = results.suite(kind).curves(Arm::A) {
                 let intervals = by_intervals(&curves[i], 1.0);
                 row.dispersions[1] = intervals.unwrap_or(f64::NAN);
             }

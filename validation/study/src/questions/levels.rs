@@ -6,7 +6,7 @@ use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 use rocking_statistics::multiple::{benjamini_hochberg, holm};
 use rocking_statistics::normality::Battery;
 
-use super::answer::{Cell, Part, Rows, both, count, number, word};
+use super::answer::{Cell, Part, Rows, count, number, word};
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
@@ -20,7 +20,7 @@ const REPLICATES: u64 = 20_000;
 pub(super) fn part(results: &Results) -> Part {
     let mut table = Rows::default();
     let mut words = Vec::new();
-    let batteries = both(results).map(|suite| {
+    let batteries = results.suites().map(|suite| {
         Battery::simulate(suite.records.len(), REPLICATES, 0).ok()
     });
     for (suite, found) in results.common() {

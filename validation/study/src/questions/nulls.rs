@@ -3,7 +3,7 @@
 use rocking_statistics::lilliefors::{ShiftedNull, Table};
 
 use super::answer::{Part, Rows, count, number, word};
-use crate::analyses::SuiteResults;
+use crate::analyses::Facts;
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
 use crate::normality::{LEVEL, over_critical};
@@ -38,7 +38,7 @@ pub(super) fn part(results: &Results) -> Part {
         let mut changes = Vec::new();
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
-            let row = of_block(suite, block);
+            let row = of_block(&suite.records, block);
             let given = block.shares().1;
             let finite: Vec<f64> =
                 row.ratios.into_iter().filter(|x| x.is_finite()).collect();
@@ -81,8 +81,8 @@ pub(super) fn part(results: &Results) -> Part {
     )
 }
 
-fn of_block(suite: &SuiteResults, block: &BlockSamples) -> Row {
-    let onsets = factors(suite, Intensity::Pgv, block.p_rad_s);
+fn of_block(records: &[Facts], block: &BlockSamples) -> Row {
+    let onsets = factors(records, Intensity::Pgv, block.p_rad_s);
     let tabulated = Table::embedded().critical_value(onsets.len(), LEVEL);
     let mut redrawn: f64 = 0.0;
     let ratios: Vec<f64> = PLACES

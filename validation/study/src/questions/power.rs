@@ -9,7 +9,7 @@ use rocking_statistics::normality::{
 };
 use rocking_statistics::streams::{Streams, standard_normal};
 
-use super::answer::{Answer, Rows, both, count, number};
+use super::answer::{Answer, Rows, count, number};
 use super::{levels, nulls, trimming};
 use crate::normality::LEVEL;
 use crate::results::Results;
@@ -24,7 +24,7 @@ const DISPERSION: f64 = 0.6;
 const TRIALS: u64 = 1000;
 
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
-    let sizes = both(results).map(|suite| suite.records.len());
+    let sizes = results.suites().map(|suite| suite.records.len());
     let mut table = Rows::default();
     // At an excess median of 1, in percent.
     let mut at = Vec::new();

@@ -29,9 +29,10 @@ fn chain(
 ) -> Vec<ResponseCurve> {
     let records = std::slice::from_ref(record);
     let method = Adjust::RecordScaling;
-    let chains = setup.chains(&[block], records, arms, method, || {});
-    let curves = chains.expect("chain").curves;
-    curves.into_iter().flatten().flatten().collect()
+    let progress = ProgressBar::hidden();
+    let chains = setup.chains(&[block], records, arms, method, &progress);
+    let (arms, _) = chains.expect("chain");
+    arms.into_iter().flat_map(|arm| arm.curves).flatten().collect()
 }
 
 #[test]

@@ -5,12 +5,12 @@ use rocking_statistics::Lognormal;
 use super::curves::{
     KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,
 };
-use crate::analyses::no_arm;
 use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
 use crate::results::Results;
+use anyhow::Context as _;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::axis::Axis;
@@ -118,17 +118,16 @@ pub(in super::super) fn thresholds(
         };
         let measure = pair.measure();
         let limit = limit_of(measure, intensity);
-        let read = Thresholds::new(&source).ok_or_else(no_arm)?;
+        let read = Thresholds::new(&source)?;
         let (_, range) = measure.unit();
         let judged = |measured: &Replicated| {
             by_cell(draws, source.tested, range, measured)
         };
         let decide = if pair == Pair::Shifted {
-            let prepared = measure.prepare(&source)?;
-            prepared.map_or(Vec::new(), |p| judged(&p.measured))
+            judged(&measure.prepare(&source)?.measured)
         } else {
             let apart = |at: &At| to_ssfl(pair.first(at), at, 1.0);
-            judged(&by_demand(&source, &read, &apart))
+            judged(&by_demand(&source, &read, apart))
         };
         let name = intensity.name().to_uppercase();
         words.push(if pair == Pair::Shifted {
@@ -195,7 +194,7 @@ fn panel(
 ) -> anyhow::Result<ChartPanel> {
     let kind = source.results.ordinary.kind;
     let whole = source.draws.whole();
-    let at = read.at(whole.of(kind), of.place).ok_or_else(no_arm)?;
+    let at = read.at(whole.of(kind), of.place).context("no capacities")?;
     let (first, second) = (pair.first(&at), pair.second(&at));
     let sample = at.sample.sorted();
     let axis = range(sample);

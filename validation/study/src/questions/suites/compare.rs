@@ -1,7 +1,7 @@
 //! The comparison of recorded suites with the embedded ones.
 
+use indicatif::ProgressBar;
 use rayon::prelude::*;
-use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking_statistics::Clusters;
 use rocking_statistics::ExtendedSample;
@@ -9,16 +9,13 @@ use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 
 use super::row::{Group, Interval, Row, Side};
-use crate::analyses::no_arm;
-use crate::analyses::{
-    ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
-};
-use crate::distributions::{BlockSamples, Distributions, of_suite};
+use crate::analyses::{Facts, SPECTRUM_PERIODS_S, facts, normalised};
+use crate::distributions::{BlockSamples, Distributions, suite_distributions};
 use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
 use crate::results::Results;
-use rocking_common::paper::{Arm, BLOCKS, demand_index};
+use rocking_common::paper::{BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 
 /// Draws of the bootstrap.
@@ -31,71 +28,38 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
     let mut out = Vec::new();
     for embedded in StudySuite::embedded()? {
         let recorded = results.suite(embedded.kind);
-        let embedded = capacities(results, &embedded, arm)?;
+        let kind = recorded.kind;
+        let facts: Vec<Facts> =
+            embedded.motions.iter().map(facts).collect::<Result<_, _>>()?;
+        let (curves, _) = results.plan.setup.chains(
+            &BLOCKS,
+            &normalised(&embedded),
+            &[arm],
+            Adjust::RecordScaling,
+            &ProgressBar::hidden(),
+        )?;
         let draws = |side: &str, clusters: &Clusters| -> Vec<Vec<usize>> {
-            let name = format!("study/suites/{side}/{}", recorded.kind);
+            let name = format!("study/suites/{side}/{kind}");
             Bootstrap::of(&name, 0, clusters, REPLICATES).map(<[_]>::to_vec)
         };
         let pair = Pair {
-            kind: recorded.kind.name(),
+            kind: kind.name(),
             draws: [
                 draws("embedded", &embedded.clusters),
                 draws("recorded", &recorded.clusters),
             ],
             clusters: recorded.clusters.clone(),
-            records: [&embedded, recorded].map(|s| s.records.len()),
+            records: [facts.len(), recorded.records.len()],
         };
         out.push(pair.row(Group::Source, recorded.sha256.clone()));
-        out.extend(pair.motions(&embedded.records, &recorded.records)?);
-        let of_embedded = of_suite(&embedded, arm)?;
-        for own in &of_embedded {
-            let other =
-                results.distributions(recorded.kind, arm, own.intensity);
-            let other = other.ok_or_else(no_arm)?;
-            out.extend(pair.capacities(own, other)?);
-            out.extend(pair.accepted(own, other));
+        out.extend(pair.motions(&facts, &recorded.records)?);
+        for own in suite_distributions(kind, &facts, &curves, arm)? {
+            let other = results.distributions(kind, arm, own.intensity)?;
+            out.extend(pair.capacities(&own, other)?);
+            out.extend(pair.accepted(&own, other));
         }
     }
     Ok(out)
-}
-
-/// What of a suite's results the comparison needs.
-fn capacities(
-    results: &Results,
-    suite: &StudySuite,
-    arm: Arm,
-) -> anyhow::Result<SuiteResults> {
-    let records: Vec<NormalisedRecord> = suite
-        .motions
-        .iter()
-        .map(|m| NormalisedRecord::new(&m.study))
-        .collect();
-    let chains = results.plan.setup.chains(
-        &BLOCKS,
-        &records,
-        &[arm],
-        Adjust::RecordScaling,
-        || (),
-    )?;
-    let curves = chains.curves.into_iter();
-    Ok(SuiteResults {
-        kind: suite.kind,
-        source: suite.source.clone(),
-        component_rule: suite.component_rule.clone(),
-        remarks: suite.remarks.words(),
-        set_aside: suite.set_aside.clone(),
-        list: Vec::new(),
-        sha256: suite.sha256(),
-        work: Work { analyses: chains.analyses, certainty: chains.certainty },
-        records: suite.motions.iter().map(facts).collect::<Result<_, _>>()?,
-        chosen: [0; 3],
-        arms: curves.map(|curves| ArmCurves { arm, curves }).collect(),
-        single: Vec::new(),
-        stripes: Vec::new(),
-        adjusted: Vec::new(),
-        contents: Vec::new(),
-        clusters: suite.clusters.clone(),
-    })
 }
 
 /// Both suites of one kind.

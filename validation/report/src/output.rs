@@ -209,10 +209,9 @@ fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
         )
     });
     let questions = study.answers.iter().flat_map(|answer| {
-        let own = std::iter::once(answer.id.to_owned());
-        let more = answer.files.iter();
-        let more = more.map(|(name, _)| name.replace(".csv", ""));
-        own.chain(more).map(|name| (name, answer.question.to_owned()))
+        let names = answer.files.iter().map(|(name, _)| name);
+        let names = names.map(|name| name.replace(".csv", ""));
+        names.map(|name| (name, answer.question.to_owned()))
     });
     let known = [
         ("findings", "Every statement with its results by suite and grid"),

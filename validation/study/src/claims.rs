@@ -7,14 +7,14 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::distances::{Distances, all_distances};
+use crate::distances::all_distances;
 use crate::inference::{Draws, Judged, MORE, Rule, judge, share};
-use crate::measures::{Criterion, Measure, Source};
+use crate::measures::{Criterion, Measure, Prepared, Source};
 use crate::results::Results;
 use rocking_common::findings::{
-    Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
+    Claim, ClaimResult, Detail, Kind, Region, Tested,
 };
-use rocking_common::paper::{Arm, Intensity, Section};
+use rocking_common::paper::Intensity;
 
 /// The declared claims, in the order of the page.
 const FILES: [(&str, &str); 4] = [
@@ -24,63 +24,30 @@ const FILES: [(&str, &str); 4] = [
     ("fragilities.toml", include_str!("../claims/fragilities.toml")),
 ];
 
-/// A claim as it is declared.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Declared {
-    /// Unique name.
-    pub id: String,
-    /// What sort of statement it is.
-    pub kind: Kind,
-    /// What it is about.
-    pub theme: Theme,
-    /// Where the paper says it.
-    pub section: Section,
-    /// The paper's words.
-    pub quote: String,
-    /// The statement in plain words, of a finding.
-    #[serde(default)]
-    pub plain: String,
-    /// Registered name of the measure of a finding.
-    pub measure: Option<Measure>,
-    /// Intensity that the measure is of; PGA where none is named.
-    pub intensity: Option<Intensity>,
-    /// What is measured, in words.
-    #[serde(default)]
-    pub words: String,
-    /// Blocks measured.
-    #[serde(default)]
-    pub blocks: String,
-    /// How many of the cells.
-    pub quantifier: Option<Quantifier>,
-    /// Where a value has to lie.
-    pub region: Option<Region>,
-    /// Why there.
-    #[serde(default)]
-    pub reason: String,
-    /// The paper's own criterion.
-    pub criterion: Option<OwnCriterion>,
-    /// Suites that it is tested on.
-    #[serde(default)]
-    pub suites: Vec<Tested>,
-    /// Arms that it is tested on.
-    pub arms: Option<Arms>,
-    /// Declared case of an identity.
-    #[serde(default)]
-    pub case: String,
-    /// What else a reader must know.
-    #[serde(default)]
-    pub note: String,
+/// A claim as it is declared, without results.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// The statement.
+    pub claim: Claim,
+    /// How a finding is tested.
+    pub test: Option<ClaimTest>,
 }
 
-/// What the paper itself judges by.
+/// How a finding is tested.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct OwnCriterion {
-    /// The criterion in words.
-    pub words: String,
-    /// Where the share of what meets it has to lie.
-    pub share: Region,
+pub struct ClaimTest {
+    /// Registered name of the measure.
+    pub measure: Measure,
+    /// Intensity that the measure is of; PGA where none is named.
+    pub intensity: Option<Intensity>,
+    /// Suites that it is tested on.
+    pub suites: Vec<Tested>,
+    /// Arms that it is tested on.
+    pub arms: Arms,
+    /// By the paper's own criterion, where the share that meets it has to
+    /// lie.
+    pub share: Option<Region>,
 }
 
 /// Arms of the grid that a claim is tested on.
@@ -95,31 +62,33 @@ pub enum Arms {
     None,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    claim: Vec<Declared>,
-}
-
 /// The declared claims.
 ///
 /// # Panics
 /// If a file is not of the expected form: the files are compiled in, and a
 /// test reads them.
 #[must_use]
-pub fn declared() -> &'static [Declared] {
-    static CLAIMS: LazyLock<Vec<Declared>> = LazyLock::new(|| {
+pub fn declared() -> &'static [Declaration] {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct ClaimFile {
+        claim: Vec<toml::Table>,
+    }
+    static CLAIMS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         let mut out = Vec::new();
-        for (name, text) in FILES {
-            let file: File = toml::from_str(text)
-                .unwrap_or_else(|error| panic!("{name}: {error}"));
-            out.extend(file.claim);
-        }
         let mut ids = BTreeSet::new();
-        for claim in &out {
-            assert!(ids.insert(&claim.id), "two claims named {}", claim.id);
-            if let Err(error) = claim.check() {
-                panic!("claim {}: {error}", claim.id);
+        for (name, text) in FILES {
+            let file: ClaimFile = toml::from_str(text)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
+            for table in file.claim {
+                let declaration = Declaration::new(table)
+                    .unwrap_or_else(|error| panic!("{name}: {error}"));
+                let id = &declaration.claim.id;
+                assert!(ids.insert(id.clone()), "two claims named {id}");
+                if let Err(error) = declaration.check() {
+                    panic!("claim {id}: {error}");
+                }
+                out.push(declaration);
             }
         }
         out
@@ -127,32 +96,108 @@ pub fn declared() -> &'static [Declared] {
     &CLAIMS
 }
 
-impl Declared {
+impl Declaration {
+    fn new(mut table: toml::Table) -> Result<Self, toml::de::Error> {
+        let test = table.remove("test").map(ClaimTest::deserialize);
+        // Texts that not every claim has.
+        for key in [
+            "plain",
+            "measure",
+            "blocks",
+            "reason",
+            "criterion",
+            "case",
+            "note",
+        ] {
+            table.entry(key).or_insert_with(|| "".into());
+        }
+        table.insert("results".into(), toml::Value::Array(Vec::new()));
+        Ok(Self { claim: table.try_into()?, test: test.transpose()? })
+    }
+
     /// What a claim of its kind must have, and nothing else.
     fn check(&self) -> Result<(), &'static str> {
-        let judged = self.measure.is_some()
-            && self.quantifier.is_some()
-            && self.region.is_some()
-            && !self.reason.is_empty()
-            && !self.plain.is_empty()
-            && !self.suites.is_empty()
-            && self.arms.is_some();
-        let bare = self.measure.is_none()
-            && self.intensity.is_none()
-            && self.region.is_none()
-            && self.plain.is_empty()
-            && self.suites.is_empty();
-        match self.kind {
-            Kind::Finding if judged && self.case.is_empty() => Ok(()),
+        let Claim { quantifier, region, reason, plain, case, .. } =
+            &self.claim;
+        let has_case = !case.is_empty();
+        let judged = quantifier.is_some()
+            && region.is_some()
+            && !reason.is_empty()
+            && !plain.is_empty()
+            && self.test.as_ref().is_some_and(|t| !t.suites.is_empty());
+        let bare = self.test.is_none() && region.is_none() && plain.is_empty();
+        match self.claim.kind {
+            Kind::Finding if judged && !has_case => Ok(()),
             Kind::Finding => Err(
                 "a finding has plain words, a measure, a quantifier, a region \
                  with its reason, suites and arms, and no case",
             ),
-            Kind::Identity if bare && !self.case.is_empty() => Ok(()),
+            Kind::Identity if bare && has_case => Ok(()),
             Kind::Identity => Err("an identity names its declared case"),
-            Kind::Description if bare && self.case.is_empty() => Ok(()),
+            Kind::Description if bare && !has_case => Ok(()),
             Kind::Description => Err("a description is quoted alone"),
         }
+    }
+
+    /// The results by suite and arm; none of a claim that is not tested.
+    /// `more` are the draws for verdicts that the source's cannot settle.
+    fn results(
+        &self,
+        source: &Source<'_>,
+        more: &OnceCell<Draws>,
+    ) -> anyhow::Result<Vec<ClaimResult>> {
+        let (Some(test), Some(quantifier), Some(region)) =
+            (&self.test, self.claim.quantifier, self.claim.region)
+        else {
+            return Ok(Vec::new());
+        };
+        let (unit, range) = test.measure.unit();
+        let rule = Rule { quantifier, region, unit, range };
+        let plan = &source.results.plan;
+        let arms = match test.arms {
+            Arms::Drawn => plan.drawn(),
+            Arms::Common | Arms::None => vec![plan.common()],
+        };
+        let intensity = test.intensity.unwrap_or(Intensity::Pga);
+        let mut found = Vec::new();
+        for &tested in &test.suites {
+            for &arm in &arms {
+                let source = Source { tested, arm, intensity, ..*source };
+                let mut judged = test.judged(&rule, &source)?;
+                if judged.more {
+                    let more = more.get_or_init(|| source.results.draws(MORE));
+                    let source = Source { draws: more, ..source };
+                    judged = test.judged(&rule, &source)?;
+                }
+                found.push(judged.result);
+            }
+        }
+        Ok(found)
+    }
+}
+
+impl ClaimTest {
+    /// The verdict by the draws of a source.
+    fn judged(
+        &self,
+        rule: &Rule,
+        source: &Source<'_>,
+    ) -> anyhow::Result<Judged> {
+        let prepared = self.measure.prepare(source)?;
+        let arm = (self.arms != Arms::None).then_some(source.arm);
+        let (draws, tested) = (source.draws, source.tested);
+        let Prepared { cells, measured, .. } = &prepared;
+        let mut judged = judge(draws, tested, arm, rule, cells, measured);
+        let result = &mut judged.result;
+        if let (Some(region), Some(Criterion { name, measured })) =
+            (self.share, prepared.criterion)
+        {
+            let (measured, verdict) = share(draws, tested, &measured, region);
+            result.by_criterion = Some(verdict);
+            result.details.push(Detail { name, measured });
+        }
+        result.details.extend(prepared.details);
+        Ok(judged)
     }
 }
 
@@ -160,134 +205,36 @@ impl Declared {
 /// infinity; NaN where no claim has that measure of that intensity.
 #[must_use]
 pub fn limit_of(measure: Measure, intensity: Intensity) -> f64 {
-    let of = (Some(measure), Some(intensity));
-    let named = |claim: &&Declared| (claim.measure, claim.intensity) == of;
-    let region = declared().iter().find(named).and_then(|claim| claim.region);
+    let is = |test: &ClaimTest| {
+        test.measure == measure && test.intensity == Some(intensity)
+    };
+    let named = |own: &&Declaration| own.test.as_ref().is_some_and(is);
+    let region = declared().iter().find(named).and_then(|d| d.claim.region);
     region.map_or(f64::NAN, |region| region.nearest_end(f64::INFINITY))
 }
 
-/// All claims, with what came out.
+/// All claims with their results.
 ///
 /// # Errors
 /// Where a measure cannot be computed.
-pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
-    let distances = all_distances(results, draws)?;
-    let more = OnceCell::new();
-    let drawn = Drawn { results, draws, more: &more, distances: &distances };
-    declared().iter().map(|claim| measured(claim, &drawn)).collect()
-}
-
-/// The draws that all claims share, and more of them, made where a verdict
-/// needs them.
-struct Drawn<'a> {
-    results: &'a Results,
-    draws: &'a Draws,
-    more: &'a OnceCell<Draws>,
-    distances: &'a [Distances],
-}
-
-fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
-    let results = drawn.results;
-    let mut found = Vec::new();
-    if let (Some(measure), Some(quantifier), Some(region)) =
-        (claim.measure, claim.quantifier, claim.region)
-    {
-        let (unit, range) = measure.unit();
-        let rule = Rule { quantifier, region, unit, range };
-        let common = results.plan.common();
-        let arms: Vec<(Arm, Option<Arm>)> = match claim.arms {
-            Some(Arms::Drawn) => {
-                let drawn = results.plan.drawn();
-                drawn.into_iter().map(|arm| (arm, Some(arm))).collect()
-            }
-            Some(Arms::Common) => vec![(common, Some(common))],
-            Some(Arms::None) | None => vec![(common, None)],
-        };
-        for suite in &claim.suites {
-            for (arm, shown) in &arms {
-                let source = Source {
-                    results,
-                    draws: drawn.draws,
-                    distances: drawn.distances,
-                    tested: *suite,
-                    arm: *arm,
-                    intensity: claim.intensity.unwrap_or(Intensity::Pga),
-                };
-                let asked = Asked { claim, measure, rule, shown: *shown };
-                let mut judged = asked.judged(&source)?;
-                if judged.more {
-                    let more = || results.draws(MORE);
-                    let draws = drawn.more.get_or_init(more);
-                    judged = asked.judged(&Source { draws, ..source })?;
-                }
-                found.push(judged.result);
-            }
-        }
-    }
-    Ok(Claim {
-        id: claim.id.clone(),
-        kind: claim.kind,
-        theme: claim.theme,
-        section: claim.section,
-        quote: claim.quote.clone(),
-        plain: claim.plain.clone(),
-        measure: claim.words.clone(),
-        blocks: claim.blocks.clone(),
-        quantifier: claim.quantifier,
-        region: claim.region,
-        reason: claim.reason.clone(),
-        criterion: claim
-            .criterion
-            .as_ref()
-            .map_or_else(String::new, |own| own.words.clone()),
-        case: claim.case.clone(),
-        note: claim.note.clone(),
-        results: found,
-    })
-}
-
-/// A claim on a suite and arm.
-struct Asked<'a> {
-    claim: &'a Declared,
-    measure: Measure,
-    rule: Rule,
-    shown: Option<Arm>,
-}
-
-impl Asked<'_> {
-    /// The verdict by the draws of a source.
-    fn judged(&self, source: &Source<'_>) -> anyhow::Result<Judged> {
-        let prepared = self.measure.prepare(source)?;
-        let mut judged = judge(
-            source.draws,
-            source.tested,
-            self.shown,
-            &self.rule,
-            &prepared.cells,
-            &prepared.measured,
-        );
-        let result = &mut judged.result;
-        if let (Some(own), Some(criterion)) =
-            (&self.claim.criterion, &prepared.criterion)
-        {
-            by_criterion(source.draws, own, criterion, result);
-        }
-        result.details.extend(prepared.details);
-        Ok(judged)
-    }
-}
-
-/// The verdict by the paper's own criterion.
-fn by_criterion(
+pub fn measured_claims(
+    results: &Results,
     draws: &Draws,
-    own: &OwnCriterion,
-    found: &Criterion,
-    result: &mut ClaimResult,
-) {
-    let (measured, verdict) =
-        share(draws, result.suite, &found.measured, own.share);
-    result.by_criterion = Some(verdict);
-    result.details.push(Detail { name: found.name.clone(), measured });
+) -> anyhow::Result<Vec<Claim>> {
+    let source = Source {
+        results,
+        draws,
+        distances: &all_distances(results, draws)?,
+        tested: Tested::None,
+        arm: results.plan.common(),
+        intensity: Intensity::Pga,
+    };
+    let more = OnceCell::new();
+    let measured = |own: &Declaration| {
+        let results = own.results(&source, &more)?;
+        Ok(Claim { results, ..own.claim.clone() })
+    };
+    declared().iter().map(measured).collect()
 }
 
 #[cfg(test)]
@@ -298,8 +245,10 @@ mod tests {
     fn every_measure_has_a_claim_and_every_claim_its_measure() {
         // A finding without a measure does not load; so what is left is a
         // measure that no claim names.
-        let named: BTreeSet<Measure> =
-            declared().iter().filter_map(|claim| claim.measure).collect();
+        let named: BTreeSet<Measure> = declared()
+            .iter()
+            .filter_map(|d| Some(d.test.as_ref()?.measure))
+            .collect();
         for measure in Measure::ALL {
             assert!(named.contains(measure), "{measure:?}: no claim");
         }
@@ -308,7 +257,7 @@ mod tests {
 
     #[test]
     fn quotations_are_whole_sentences() {
-        for claim in declared() {
+        for Declaration { claim, .. } in declared() {
             let quote = &claim.quote;
             let first = quote.chars().next().unwrap();
             assert!(first.is_uppercase(), "{}: {quote}", claim.id);

@@ -4,9 +4,7 @@
 use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::{ExtendedSample, QuantileType};
 
-use crate::analyses::{Apart, SuiteResults};
 use rocking_common::findings::Measured;
-use rocking_common::paper::FREQUENCIES_RAD_S;
 
 /// Level of the intervals.
 pub(crate) const LEVEL: f64 = 0.95;
@@ -44,45 +42,6 @@ pub(crate) fn three_quantiles(values: &[f64]) -> anyhow::Result<[f64; 3]> {
     let sample = ExtendedSample::try_new(values)?;
     let at = |p| QuantileType::default().of_extended(&sample, p);
     Ok([at(0.16)?, at(0.5)?, at(0.84)?])
-}
-
-/// One frequency parameter of a suite's single-record comparison, medians
-/// over records and slendernesses.
-#[derive(Clone, Copy, Debug)]
-pub struct SingleRow {
-    /// Frequency parameter.
-    pub p_rad_s: f64,
-    /// Level of the histories.
-    pub im: f64,
-    /// Number of pairs of histories in which both blocks stand.
-    pub usable: usize,
-    /// Normalized L2 distance.
-    pub distance: f64,
-    /// Ratio of the peaks.
-    pub peak_ratio: f64,
-    /// Mean |ln| of the ratio of intensities at equal demand.
-    pub mean_ln_im: f64,
-}
-
-/// The single-record comparison by frequency parameter.
-#[must_use]
-pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
-    suite
-        .single
-        .iter()
-        .zip(FREQUENCIES_RAD_S)
-        .map(|(single, p_rad_s)| {
-            let stands = |a: &&Apart| a.distance.is_finite();
-            SingleRow {
-                p_rad_s,
-                im: single.im,
-                usable: single.apart.iter().flatten().filter(stands).count(),
-                distance: single.median_of(|a| a.distance),
-                peak_ratio: single.median_of(|a| a.peak_ratio),
-                mean_ln_im: single.median_of(|a| a.mean_ln_im),
-            }
-        })
-        .collect()
 }
 
 #[cfg(test)]

@@ -1,9 +1,13 @@
 //! Everything that a study found, as [`Findings`].
 
+use std::sync::LazyLock;
+
 use rocking_records::{AsideCount, SetAside};
 use rocking_statistics::Proportion;
+use serde::Deserialize;
 
-use crate::analyses::SuiteResults;
+use crate::analyses::{Apart, StripeDemands, SuiteResults};
+use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
 use crate::questions::{self, Answer};
@@ -12,8 +16,7 @@ use crate::runs::capacities_at;
 use crate::sensitivities::Choice;
 use crate::stripes::adjusted_split;
 use rocking_common::findings::{
-    Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Suite,
-    Table, Topic, Unit,
+    Aside, Claim, Findings, Measured, Place, Row, SCHEMA, Suite, Table, Topic,
 };
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_common::suites::earthquakes;
@@ -23,28 +26,45 @@ use rocking_draw::figures::Stripe;
 ///
 /// # Errors
 /// Where a number cannot be computed.
-pub fn all(
+pub fn study_findings(
     results: &Results,
     claims: Vec<Claim>,
     answers: &[Answer],
 ) -> anyhow::Result<Findings> {
+    let tables = [
+        table(Topic::AcceptedShares, shares(results)),
+        table(Topic::SlendernessAdjustment, adjustment(results)?),
+        table(Topic::Overturning, overturning(results)),
+        table(Topic::Resurrections, resurrections(results)),
+        table(Topic::SingleRecords, single(results)),
+        table(Topic::Sensitivities, varied(results)?),
+        table(Topic::UpliftUnscaled, uplift(results)),
+    ];
     Ok(Findings {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION").into(),
         settings: results.plan.settings(),
         suites: results.suites().map(suite).into(),
         claims,
-        tables: vec![
-            shares(results),
-            adjustment(results)?,
-            overturning(results),
-            resurrections(results),
-            single(results),
-            varied(results)?,
-            uplift(results),
-        ],
+        tables: tables.into(),
         questions: questions::findings(answers),
     })
+}
+
+/// The table of a topic with these rows; its quantities are declared in
+/// `tables.toml`.
+fn table(topic: Topic, rows: Vec<Row>) -> Table {
+    #[derive(Deserialize)]
+    struct TableFile {
+        table: Vec<Table>,
+    }
+    static FILE: LazyLock<TableFile> = LazyLock::new(|| {
+        let file = toml::from_str(include_str!("tables.toml"));
+        file.unwrap_or_else(|error| panic!("tables.toml: {error}"))
+    });
+    let declared = FILE.table.iter().find(|table| table.topic == topic);
+    let quantities = declared.map_or(Vec::new(), |t| t.quantities.clone());
+    Table { topic, quantities, rows }
 }
 
 /// A suite of a study, and the work on it.
@@ -80,77 +100,52 @@ pub fn set_aside(found: &SetAside) -> Vec<Aside> {
     found.counts().into_iter().map(reason).collect()
 }
 
-fn quantity(name: &str, unit: Unit, words: &str) -> Quantity {
-    Quantity { name: name.into(), unit, words: words.into() }
-}
-
+/// A number that is counted or computed exactly.
 fn count(n: usize) -> Measured {
     Measured::exact(n as f64)
 }
 
-/// How many records uplift each block without being scaled.
-fn uplift(results: &Results) -> Table {
-    let row = |block| Row {
-        at: Place::of(block),
-        values: results
-            .suites()
-            .map(|suite| count(suite.uplift_unscaled(block)))
-            .into(),
-    };
-    Table {
-        topic: Topic::UpliftUnscaled,
-        quantities: vec![
-            quantity(
-                "ordinary",
-                Unit::Count,
-                "ordinary records that move the block",
-            ),
-            quantity(
-                "pulse_type",
-                Unit::Count,
-                "pulse-type records that move the block",
-            ),
-        ],
-        rows: BLOCKS.iter().map(row).collect(),
+/// A block of a suite, an arm and an intensity measure.
+fn place_of(found: &Distributions, block: &BlockSamples) -> Place {
+    Place {
+        suite: Some(found.kind),
+        arm: Some(found.arm),
+        intensity: Some(found.intensity),
+        p_rad_s: Some(block.p_rad_s),
+        alpha_rad: Some(block.alpha_rad),
+        ..Place::default()
     }
 }
 
-fn shares(results: &Results) -> Table {
+/// How many records uplift each block without being scaled.
+fn uplift(results: &Results) -> Vec<Row> {
+    let row = |block| {
+        let suites = results.suites();
+        let values = suites.map(|suite| count(suite.uplift_unscaled(block)));
+        Row { at: Place::of(block), values: values.into() }
+    };
+    BLOCKS.iter().map(row).collect()
+}
+
+/// Shift and accepted shares of each block, suite, arm and measure.
+fn shares(results: &Results) -> Vec<Row> {
     let mut rows = Vec::new();
-    for d in &results.distributions {
-        for block in &d.blocks {
+    for found in &results.distributions {
+        rows.extend(found.blocks.iter().map(|block| {
             let (original, shifted) = block.shares();
             let values = [block.shift, original, shifted];
-            rows.push(Row {
-                at: Place {
-                    suite: Some(d.kind),
-                    arm: Some(d.arm),
-                    intensity: Some(d.intensity),
-                    p_rad_s: Some(block.p_rad_s),
-                    alpha_rad: Some(block.alpha_rad),
-                    ..Place::default()
-                },
+            Row {
+                at: place_of(found, block),
                 values: values.map(Measured::exact).into(),
-            });
-        }
+            }
+        }));
     }
-    let share = "share of demand levels accepted as";
-    let (plain, shifted) =
-        (format!("{share} lognormal"), format!("{share} shifted lognormal"));
-    Table {
-        topic: Topic::AcceptedShares,
-        quantities: vec![
-            quantity("im_r", Unit::One, "shift IM_R"),
-            quantity("original", Unit::Share, &plain),
-            quantity("shifted", Unit::Share, &shifted),
-        ],
-        rows,
-    }
+    rows
 }
 
-fn resurrections(results: &Results) -> Table {
-    let stripes = &results.ordinary.stripes;
-    let rows = stripes.iter().map(|stripes| {
+/// How many overturned on a stripe, and how many of them stand there again.
+fn resurrections(results: &Results) -> Vec<Row> {
+    let row = |stripes: &StripeDemands| {
         let demands = stripes.demands.iter().flatten().flatten();
         let again = stripes.stands_again.iter().flatten().flatten();
         Row {
@@ -160,67 +155,39 @@ fn resurrections(results: &Results) -> Table {
                 count(again.filter(|again| **again).count()),
             ],
         }
-    });
-    Table {
-        topic: Topic::Resurrections,
-        quantities: vec![
-            quantity("overturned", Unit::Count, "overturned on a stripe"),
-            quantity(
-                "stand_again",
-                Unit::Count,
-                "overturned on a stripe that stand at that intensity",
-            ),
-        ],
-        rows: rows.collect(),
-    }
+    };
+    results.ordinary.stripes.iter().map(row).collect()
 }
 
-fn single(results: &Results) -> Table {
+/// The single-record comparison by suite and frequency parameter: medians
+/// over records and slendernesses.
+fn single(results: &Results) -> Vec<Row> {
     let mut rows = Vec::new();
     for suite in results.suites() {
-        for row in estimates::single_rows(suite) {
-            let ratios = [row.distance, row.peak_ratio, row.mean_ln_im];
-            let mut values = vec![count(row.usable)];
-            values.push(Measured::exact(row.im));
-            values.extend(ratios.map(Measured::exact));
+        for (single, p_rad_s) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
+            let stands = |a: &&Apart| a.distance.is_finite();
+            let usable = single.apart.iter().flatten().filter(stands).count();
+            let values = [
+                usable as f64,
+                single.im,
+                single.median_of(|a| a.distance),
+                single.median_of(|a| a.peak_ratio),
+                single.median_of(|a| a.mean_ln_im),
+            ];
             let at = Place {
                 suite: Some(suite.kind),
-                p_rad_s: Some(row.p_rad_s),
+                p_rad_s: Some(p_rad_s),
                 ..Place::default()
             };
-            rows.push(Row { at, values });
+            rows.push(Row { at, values: values.map(Measured::exact).into() });
         }
     }
-    Table {
-        topic: Topic::SingleRecords,
-        quantities: vec![
-            quantity("usable", Unit::Count, "usable histories"),
-            quantity(
-                "im_pga",
-                Unit::One,
-                "PGA/(g tan alpha) of the histories",
-            ),
-            quantity(
-                "median_distance",
-                Unit::Distance,
-                "median normalized distance of histories to alpha = 0.10",
-            ),
-            quantity(
-                "median_peak_ratio",
-                Unit::One,
-                "median ratio of peaks to alpha = 0.10",
-            ),
-            quantity(
-                "median_ln_im",
-                Unit::Distance,
-                "median |ln| of the ratio of intensities to alpha = 0.10",
-            ),
-        ],
-        rows,
-    }
+    rows
 }
 
-fn varied(results: &Results) -> anyhow::Result<Table> {
+/// Paired overturning capacities by choice and block, the choice over the
+/// study's.
+fn varied(results: &Results) -> anyhow::Result<Vec<Row>> {
     let mut rows = Vec::new();
     for (v, base) in results.varied(&Choice::ALL)? {
         let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
@@ -235,88 +202,46 @@ fn varied(results: &Results) -> anyhow::Result<Table> {
             edp: Some(1.0),
             ..Place::default()
         };
-        let ratio = estimates::median(&ratios);
-        rows.push(Row { at, values: vec![count(ratios.len()), ratio] });
+        let values = vec![count(ratios.len()), estimates::median(&ratios)];
+        rows.push(Row { at, values });
     }
-    Ok(Table {
-        topic: Topic::Sensitivities,
-        quantities: vec![
-            quantity("usable", Unit::Count, "usable pairs"),
-            quantity(
-                "median_ratio",
-                Unit::One,
-                "median ratio of capacities, this choice over the study's",
-            ),
-        ],
-        rows,
-    })
+    Ok(rows)
 }
 
 /// Figure 9, a row a box: usable count with its exact 95 % interval, and
-/// median; the same apart by whether the adjusted slenderness is within the
-/// paper's.
-fn adjustment(results: &Results) -> anyhow::Result<Table> {
+/// median; the median also apart by whether the adjusted slenderness is within
+/// the paper's.
+fn adjustment(results: &Results) -> anyhow::Result<Vec<Row>> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
-        let demands = suite.stripes(arm)?;
-        for (frequency, (p_rad_s, stripes)) in
-            adjusted_boxes(suite, arm)?.into_iter().enumerate()
-        {
-            let splits = adjusted_split(suite, demands, frequency)?;
+        let boxes = adjusted_boxes(suite, arm)?.into_iter().enumerate();
+        for (frequency, (p_rad_s, stripes)) in boxes {
+            let splits =
+                adjusted_split(suite, suite.stripes(arm)?, frequency)?;
             for (stripe, split) in stripes.iter().zip(splits) {
                 let median = stripe.summary.as_ref().map(|b| b.median);
                 let part =
                     |of: &[f64]| Measured::exact(estimates::median(of).value);
-                rows.push(Row {
-                    at: Place {
-                        arm: Some(arm),
-                        p_rad_s: Some(p_rad_s),
-                        im_pga: Some(split.im),
-                        ..Place::default()
-                    },
-                    values: vec![
-                        count(stripe.records),
-                        usable(stripe)?,
-                        Measured::exact(median.unwrap_or(f64::NAN)),
-                        part(&split.within),
-                        part(&split.above),
-                        count(split.above.len()),
-                    ],
-                });
+                let at = Place {
+                    arm: Some(arm),
+                    p_rad_s: Some(p_rad_s),
+                    im_pga: Some(split.im),
+                    ..Place::default()
+                };
+                let values = vec![
+                    count(stripe.records),
+                    usable(stripe)?,
+                    Measured::exact(median.unwrap_or(f64::NAN)),
+                    part(&split.within),
+                    part(&split.above),
+                    count(split.above.len()),
+                ];
+                rows.push(Row { at, values });
             }
         }
     }
-    Ok(Table {
-        topic: Topic::SlendernessAdjustment,
-        quantities: vec![
-            quantity("records", Unit::Count, "records"),
-            quantity("usable", Unit::Count, "usable ratios of demands"),
-            quantity(
-                "median",
-                Unit::One,
-                "median ratio of demands, adjusted over scaled",
-            ),
-            quantity(
-                "median_alpha_to_0.25",
-                Unit::One,
-                "median ratio of demands where the adjusted alpha is 0.25 \
-                 at most",
-            ),
-            quantity(
-                "median_alpha_above_0.25",
-                Unit::One,
-                "median ratio of demands where the adjusted alpha is above \
-                 0.25",
-            ),
-            quantity(
-                "usable_alpha_above_0.25",
-                Unit::Count,
-                "usable ratios where the adjusted alpha is above 0.25",
-            ),
-        ],
-        rows,
-    })
+    Ok(rows)
 }
 
 /// Of as many records of the kind, how many would be usable.
@@ -331,33 +256,14 @@ fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
 }
 
 /// Median overturning intensities, a row a block, suite and measure, in the
-/// arm that figures share: the median intensity at demand 1.00 with its
-/// order-statistic interval.
-fn overturning(results: &Results) -> Table {
-    let arm = results.plan.common();
+/// arm that figures share, with the order-statistic interval.
+fn overturning(results: &Results) -> Vec<Row> {
     let mut rows = Vec::new();
-    for d in results.distributions.iter().filter(|d| d.arm == arm) {
-        for block in &d.blocks {
-            rows.push(Row {
-                at: Place {
-                    suite: Some(d.kind),
-                    arm: Some(d.arm),
-                    intensity: Some(d.intensity),
-                    p_rad_s: Some(block.p_rad_s),
-                    alpha_rad: Some(block.alpha_rad),
-                    ..Place::default()
-                },
-                values: vec![estimates::median(block.overturning())],
-            });
-        }
+    for (_, found) in results.common() {
+        rows.extend(found.blocks.iter().map(|block| Row {
+            at: place_of(found, block),
+            values: vec![estimates::median(block.overturning())],
+        }));
     }
-    Table {
-        topic: Topic::Overturning,
-        quantities: vec![quantity(
-            "median",
-            Unit::One,
-            "median overturning intensity",
-        )],
-        rows,
-    }
+    rows
 }

@@ -47,9 +47,6 @@ pub fn findings(answers: &[Answer]) -> Vec<Question> {
 
 /// The answers' CSV files, by name.
 pub fn files(answers: &[Answer]) -> impl Iterator<Item = (String, Vec<u8>)> {
-    answers.iter().flat_map(|answer| {
-        let own = (format!("{}.csv", answer.id), answer.csv.clone());
-        let all = std::iter::once(own).chain(answer.files.iter().cloned());
-        all.map(|(name, csv)| (name, csv.into_bytes()))
-    })
+    let files = answers.iter().flat_map(|answer| answer.files.iter().cloned());
+    files.map(|(name, csv)| (name, csv.into_bytes()))
 }

@@ -6,7 +6,7 @@ use crate::analyses::Plan;
 use crate::claims;
 use crate::distributions::suite_distributions;
 use crate::figures;
-use crate::findings;
+use crate::findings::study_findings;
 use crate::questions::{self, Answer};
 use crate::results::Results;
 use rocking_common::findings::Findings;
@@ -57,8 +57,8 @@ impl Study {
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }
-        let claims = claims::all(&results, &draws)?;
-        let findings = findings::all(&results, claims, &answers)?;
+        let claims = claims::measured_claims(&results, &draws)?;
+        let findings = study_findings(&results, claims, &answers)?;
         Ok(Self { results, figures, findings, answers })
     }
 }

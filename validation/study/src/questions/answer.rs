@@ -4,51 +4,20 @@ use rocking_common::table::{PlainTable, Table};
 use rocking_draw::figures::Figure;
 
 /// A question with its answer and the numbers behind it.
+#[derive(Default)]
 pub struct Answer {
-    /// Short name, also of the CSV: `grid`.
+    /// Short name, also of the first file: `grid`.
     pub id: &'static str,
-    /// What is asked.
+    /// The question.
     pub question: &'static str,
-    /// What came out, in a sentence or two made from the numbers.
+    /// The answer, in a sentence or two made from the numbers.
     pub answer: String,
-    /// The numbers, full and as CSV.
-    pub csv: String,
-    /// What the page shows of them.
+    /// The tables that the page shows.
     pub tables: Vec<PlainTable>,
     /// Drawings.
     pub figures: Vec<Figure>,
-    /// Other CSV files, by name.
+    /// CSV files by name, the numbers of the first table first.
     pub files: Vec<(String, String)>,
-}
-
-impl Answer {
-    pub(super) fn new(
-        id: &'static str,
-        question: &'static str,
-        answer: String,
-    ) -> Self {
-        Self {
-            id,
-            question,
-            answer,
-            csv: String::new(),
-            tables: Vec::new(),
-            figures: Vec::new(),
-            files: Vec::new(),
-        }
-    }
-}
-
-/// One of several tables that answer a question.
-pub struct Part {
-    /// Short name, also of the CSV.
-    pub id: &'static str,
-    /// What it adds to the answer.
-    pub words: String,
-    /// What the page shows.
-    pub table: PlainTable,
-    /// The numbers.
-    pub csv: String,
 }
 
 /// Rows for a CSV and a table of the page at once: each cell stands beside
@@ -93,22 +62,26 @@ impl Rows {
         reading: &str,
     ) -> Answer {
         let reading = format!("{answer}\n{reading}");
-        let Part { table, csv, .. } = self.part(id, "", title, &reading);
-        let tables = vec![table];
-        Answer { csv, tables, ..Answer::new(id, question, answer) }
+        let part = self.part(id, answer, title, &reading);
+        Answer { question, ..part }
     }
 
     /// A part of an answer, with these rows under a title.
     pub fn part(
         self,
         id: &'static str,
-        words: impl Into<String>,
+        answer: String,
         title: &str,
         reading: &str,
-    ) -> Part {
+    ) -> Answer {
         let reading = format!("{reading} All rows: {id}.csv.");
-        let table = self.table(format!("table-{id}"), title, reading);
-        Part { id, words: words.into(), table, csv: self.csv() }
+        Answer {
+            id,
+            answer,
+            tables: vec![self.table(format!("table-{id}"), title, reading)],
+            files: vec![(format!("{id}.csv"), self.csv())],
+            ..Answer::default()
+        }
     }
 
     /// A table of the page with the rows shown.

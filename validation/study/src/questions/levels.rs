@@ -6,7 +6,7 @@ use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 use rocking_statistics::multiple::{benjamini_hochberg, holm};
 use rocking_statistics::normality::Battery;
 
-use super::answer::{Cell, Part, Rows, count, number, word};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
@@ -17,7 +17,7 @@ use rocking_common::words::capital;
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
-pub(super) fn part(results: &Results) -> Part {
+pub(super) fn part(results: &Results) -> Answer {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let batteries = results.suites().map(|suite| {

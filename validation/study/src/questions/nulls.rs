@@ -2,7 +2,7 @@
 
 use rocking_statistics::lilliefors::{ShiftedNull, Table};
 
-use super::answer::{Part, Rows, count, number, word};
+use super::answer::{Answer, Rows, count, number, word};
 use crate::analyses::Facts;
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
@@ -30,7 +30,7 @@ struct Row {
     redrawn: f64,
 }
 
-pub(super) fn part(results: &Results) -> Part {
+pub(super) fn part(results: &Results) -> Answer {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let all = results.common();

@@ -106,10 +106,10 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
              paper's block alone, or with --full); for PACT: options-pact.csv."
         ),
     );
-    answer.files = vec![
+    answer.files.extend([
         ("options-by-block.csv".into(), by_block(&entries)),
         ("options-pact.csv".into(), pact(&entries)?),
-    ];
+    ]);
     answer.figures.push(drawing::figure(&summaries, arm));
     Ok(answer)
 }

@@ -59,7 +59,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         levels::part(results),
         trimming::part(results)?,
     ];
-    let words = parts.iter().map(|part| part.words.clone());
+    let words = parts.iter().map(|part| part.answer.clone());
     let words: Vec<String> = std::iter::once(own).chain(words).collect();
     let mut answer = table.answer(
         "power",
@@ -71,8 +71,8 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
          at most 0.016.",
     );
     for part in parts {
-        answer.tables.push(part.table);
-        answer.files.push((format!("{}.csv", part.id), part.csv));
+        answer.tables.extend(part.tables);
+        answer.files.extend(part.files);
     }
     Ok(answer)
 }

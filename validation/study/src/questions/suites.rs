@@ -37,7 +37,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         row::from_csv(&row::to_csv(&compare::rows(results)?))
     };
     let kinds = SuiteKind::ALL.map(SuiteKind::name);
-    let answer = Answer::new("suites", QUESTION, words(&rows, kinds));
+    let answer = words(&rows, kinds);
     let origin = if own {
         "The recorded suites are not part of this run: the numbers are kept \
          from a run with the default settings on 86 ordinary and 44 \
@@ -47,13 +47,15 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         "The recorded suites are those of this run; the embedded ones were \
          run beside them with the same choices."
     };
-    let mut tables = vec![motions(&rows, &answer.answer, origin)];
+    let mut tables = vec![motions(&rows, &answer, origin)];
     let mut figures = vec![drawing::motions(&rows, kinds)];
     if has_capacities(&rows) {
         tables.extend([capacities(&rows, kinds), accepted(&rows)]);
         figures.push(drawing::capacities(&rows, kinds));
     }
-    Ok(Answer { csv: row::to_csv(&rows), tables, figures, ..answer })
+    let files = vec![("suites.csv".into(), row::to_csv(&rows))];
+    let (id, question) = ("suites", QUESTION);
+    Ok(Answer { id, question, answer, tables, figures, files })
 }
 
 /// The committed comparison: with other settings than its own only what no

@@ -6,7 +6,7 @@ use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
-use super::answer::{self, Cell, Part, Rows, number, word};
+use super::answer::{self, Answer, Cell, Rows, number, word};
 use crate::estimates::mean;
 use crate::normality::every;
 use crate::results::Results;
@@ -26,7 +26,7 @@ const DRAWS: u64 = 1000;
 #[derive(Clone, Copy, Default)]
 struct Count([usize; 4]);
 
-pub(super) fn part(results: &Results) -> anyhow::Result<Part> {
+pub(super) fn part(results: &Results) -> anyhow::Result<Answer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     for (suite, found) in results.common() {

@@ -6,7 +6,6 @@ use serde::Deserialize;
 
 use crate::basis::Basis;
 use crate::evidence::Proof;
-use crate::page::AnswerRow;
 use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
 use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score, turned};
@@ -249,6 +248,18 @@ impl Asked {
         }
         out
     }
+}
+
+/// A row of the first table.
+pub(super) struct AnswerRow {
+    /// What is asked.
+    pub question: String,
+    /// The answer: a sentence of 25 words at most.
+    pub answer: String,
+    /// Its numbers, each with interval, unit and suite.
+    pub effect: String,
+    /// Anchor and words of where it is shown.
+    pub shown: Vec<(String, String)>,
 }
 
 /// A question with what the findings of one study answer.

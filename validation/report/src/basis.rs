@@ -18,6 +18,9 @@ const HISTORIES: [u32; 2] = [2, 3];
 /// The last of the paper's figures.
 const LAST: u32 = 18;
 
+/// Findings under the name of their suites, such as "recorded suites".
+pub(crate) type Column<'a> = (&'static str, &'a Findings);
+
 /// The findings of a run and, if it has their settings, the kept ones.
 pub(crate) struct Basis<'a> {
     /// What the run found.
@@ -50,8 +53,8 @@ impl<'a> Basis<'a> {
         self.recorded().unwrap_or(self.here)
     }
 
-    /// All findings, those that answer first, by the name of their suites.
-    pub fn all(&self) -> Vec<(&'static str, &Findings)> {
+    /// All findings, those that answer first.
+    pub fn columns(&self) -> Vec<Column<'_>> {
         let here = match self.embedded {
             true => "embedded suites",
             false => "your suites",
@@ -87,10 +90,11 @@ impl<'a> Basis<'a> {
 
     /// A word on the suites of each side.
     fn each(&self, of: impl Fn(&[Suite]) -> String) -> String {
-        let side = |(name, findings): (&str, &Findings)| {
+        let side = |(name, findings): Column<'_>| {
             format!("{} ({name})", of(&findings.suites))
         };
-        let sides: Vec<String> = self.all().into_iter().map(side).collect();
+        let sides: Vec<String> =
+            self.columns().into_iter().map(side).collect();
         sides.join(" and ")
     }
 

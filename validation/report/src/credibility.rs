@@ -2,9 +2,10 @@
 //! the paper prints a number, and a credibility assessment with its gaps.
 
 use rocking::block::{BlockError, Restitution};
+use serde::Deserialize;
 
 use crate::evidence::{NOT_RUN, Proof};
-use crate::words::{Words, words};
+use crate::words::Words;
 use rocking_common::findings::{Claim, Findings, Measured};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
@@ -111,43 +112,26 @@ fn ratios(results: &Results, claims: &[Claim]) -> Vec<Compared> {
     out
 }
 
-/// Comparison errors, then the assessment.
+/// Our numbers beside those that the paper prints.
 ///
 /// # Errors
-/// For a block out of range, and for damaged words.
-pub fn tables(
+/// [`BlockError`] for a block out of range.
+pub fn comparison(
     results: &Results,
     claims: &[Claim],
-    proof: Option<&Proof>,
-    recorded: Option<&Findings>,
-) -> anyhow::Result<Vec<PlainTable>> {
+) -> Result<PlainTable, BlockError> {
     let suites = results.suites();
     let shift = suites
         .iter()
         .map(|s| s.work.certainty.largest_shift)
         .fold(0.0, |a: f64, b| if b > a { b } else { a });
     let compared = [printed()?, ratios(results, claims)].concat();
-    let assessment = assessment(results, proof, recorded)?;
-    Ok(vec![comparison(&compared, shift), assessment])
-}
-
-/// The levels of the assessment, in a sentence.
-pub fn levels(assessment: &PlainTable) -> String {
-    let of = |row: &Vec<String>| {
-        let name = row.first()?.to_lowercase();
-        Some(format!("{name} {}", row.get(1)?))
-    };
-    let all: Vec<String> = assessment.rows.iter().filter_map(of).collect();
-    format!(
-        "Credibility after NASA-STD-7009B, from 0 (insufficient evidence) to \
-         4, by the project's own judgement: {}. The reasons follow.",
-        all.join(", ")
-    )
+    Ok(comparison_table(&compared, shift))
 }
 
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
 /// relative change that wrong first overturnings make.
-fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
+fn comparison_table(compared: &[Compared], shift: f64) -> PlainTable {
     let rows = compared.iter().map(|one| row(one, shift)).collect();
     let header = [
         "quantity",
@@ -269,50 +253,92 @@ fn synthetic(recorded: Option<&Findings>) -> (String, &'static str) {
     )
 }
 
-/// After NASA-STD-7009B, by our own judgement: factor, level of 0 to 4,
-/// evidence, gaps.
-fn assessment(
+/// A factor of the assessment.
+#[derive(Clone, Deserialize)]
+pub struct Factor {
+    /// `Verification`.
+    pub name: String,
+    /// Level of 0 to 4.
+    pub level: String,
+    /// Evidence for it.
+    pub evidence: String,
+    /// What is missing.
+    pub gaps: String,
+}
+
+/// After NASA-STD-7009B, by our own judgement.
+pub struct Assessment(Vec<Factor>);
+
+/// The assessment of a study.
+pub fn assessment(
     results: &Results,
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
-) -> anyhow::Result<PlainTable> {
-    let (evidence, gap) = synthetic(recorded);
-    let row = |cells: [&str; 4]| cells.map(String::from).into();
-    let Words { mut assessment, verified, given, .. } = words()?;
-    assessment.insert(
+    words: &Words,
+) -> Assessment {
+    let factor = |name: &str, level: &str, evidence: String, gaps: &str| {
+        let (name, level, gaps) = (name.into(), level.into(), gaps.into());
+        Factor { name, level, evidence, gaps }
+    };
+    let mut factors = words.assessment.clone();
+    let verification =
+        |evidence, gaps| factor("Verification", "0", evidence, gaps);
+    factors.insert(
         1,
         match proof {
-            Some(proof) if proof.failed() == 0 => verified,
-            Some(proof) => row([
-                "Verification",
-                "0",
-                &format!(
+            Some(proof) if proof.failed() == 0 => words.verified.clone(),
+            Some(proof) => verification(
+                format!(
                     "{} of {} declared cases fail.",
                     proof.failed(),
                     proof.results().len()
                 ),
                 "The annex has the cases that fail.",
-            ]),
-            None => row(["Verification", "0", "Not run here.", NOT_RUN]),
+            ),
+            None => verification("Not run here.".into(), NOT_RUN),
         },
     );
-    assessment.insert(
-        3,
-        match results.embedded() {
-            true => row(["Input pedigree", "1", &evidence, gap]),
-            false => given,
-        },
-    );
-    let header = ["factor", "level", "evidence", "gaps"];
-    Ok(PlainTable::new(
-        "credibility-assessment",
-        "Credibility, after NASA-STD-7009B",
-        "Levels from 0, insufficient evidence, to 4, by the \
-                  project's own judgement; no one has certified them. The \
-                  least of them bounds what the whole can be trusted for.",
-        &header,
-        assessment,
-    ))
+    let input = if results.embedded() {
+        let (evidence, gaps) = synthetic(recorded);
+        factor("Input pedigree", "1", evidence, gaps)
+    } else {
+        words.given.clone()
+    };
+    factors.insert(3, input);
+    Assessment(factors)
+}
+
+impl Assessment {
+    /// The levels, in a sentence.
+    pub fn levels(&self) -> String {
+        let all: Vec<String> = self
+            .0
+            .iter()
+            .map(|one| format!("{} {}", one.name.to_lowercase(), one.level))
+            .collect();
+        format!(
+            "Credibility after NASA-STD-7009B, from 0 (insufficient evidence) \
+             to 4, by the project's own judgement: {}. The reasons follow.",
+            all.join(", ")
+        )
+    }
+
+    /// The factors, a row each.
+    pub fn table(&self) -> PlainTable {
+        let row = |one: &Factor| {
+            let Factor { name, level, evidence, gaps } = one.clone();
+            vec![name, level, evidence, gaps]
+        };
+        PlainTable::new(
+            "credibility-assessment",
+            "Credibility, after NASA-STD-7009B",
+            "Levels from 0, insufficient evidence, to 4, by the \
+             project's own judgement; no one has certified them. The \
+             least of them bounds what the whole can be trusted for.",
+            &["factor", "level", "evidence", "gaps"],
+            self.0.iter().map(row).collect(),
+        )
+    }
 }
 
 #[cfg(test)]
@@ -336,7 +362,7 @@ mod tests {
             one(1.03, 1.0, Some((1.013_551_463_7, 1.046_448_536_3)), None),
             one(f64::NAN, 1.0, None, None),
         ];
-        let rows = comparison(&compared, 0.0).rows;
+        let rows = comparison_table(&compared, 0.0).rows;
         let ends = |row: usize| (rows[row][7].as_str(), rows[row][8].as_str());
         assert_eq!(ends(0), ("0.0", "E within its uncertainty"));
         // -0.0018 over 0.005/sqrt(3).
@@ -345,7 +371,7 @@ mod tests {
         assert!(ends(2).1.starts_with("E beyond it"));
         assert_eq!(ends(3), ("–", "nothing: no data"));
         // Open fates widen what records give: sqrt(0.01^2 + 0.0309^2).
-        let rows = comparison(&compared[2..3], 0.03).rows;
+        let rows = comparison_table(&compared[2..3], 0.03).rows;
         assert_eq!(rows[0][7], "0.9");
     }
 
@@ -364,7 +390,7 @@ mod tests {
                 records: true,
                 without_closed_form: left,
             };
-            comparison(&[one], 0.0).rows[0][8].clone()
+            comparison_table(&[one], 0.0).rows[0][8].clone()
         };
         let unknown = "E beyond it: model, suite or procedure differ";
         assert_eq!(says(None), unknown);
@@ -389,7 +415,7 @@ mod tests {
 
     #[test]
     fn numbers_that_the_paper_prints_are_met() {
-        for row in comparison(&printed().unwrap(), 0.0).rows {
+        for row in comparison_table(&printed().unwrap(), 0.0).rows {
             assert_eq!(row[8], "E within its uncertainty", "{row:?}");
         }
     }

@@ -3,26 +3,15 @@
 //! forms.
 
 mod defect;
-pub mod families;
 mod fates;
 mod proof;
 mod spectrum;
 mod tables;
 
-use families::{Family, families};
 pub use proof::{NOT_RUN, Proof};
 
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
-use rocking_proof::cases::load_all;
-
-/// Declared cases with their results, family by family.
-///
-/// # Errors
-/// Where the cases cannot be read.
-pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
-    Ok(families(&load_all()?, proof.results()))
-}
 
 /// The tables of the proof: digits and pulses against closed forms, if
 /// results were handed in, and critical values beside published ones.
@@ -30,10 +19,10 @@ pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
 /// # Errors
 /// Where the cases cannot be read.
 pub fn checks(proof: Option<&Proof>) -> anyhow::Result<Vec<PlainTable>> {
-    let pulses = proof.map(|proof| tables::similarity(proof.results()));
-    let digits = proof.map(Proof::digits_table);
-    let mut all: Vec<PlainTable> =
-        digits.into_iter().chain(pulses.transpose()?).collect();
+    let mut all = Vec::new();
+    if let Some(proof) = proof {
+        all.extend([proof.digits_table(), tables::similarity(proof)]);
+    }
     all.push(tables::critical_values()?);
     Ok(all)
 }
@@ -51,7 +40,6 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use rocking_proof::cases::Cost;
 
     #[test]
     fn charts_have_something_in_every_series() {
@@ -71,18 +59,5 @@ mod tests {
             }
             assert!(drawn.values().all(|n| *n >= 2), "{drawn:?}");
         }
-    }
-
-    #[test]
-    fn every_quick_case_is_shown_with_its_result() {
-        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
-        let proof = Proof::read(data.as_ref()).unwrap();
-        let families = shown(&proof).unwrap();
-        let cases: usize = families.iter().map(|f| f.cases.len()).sum();
-        let all = load_all().unwrap();
-        let quick = all.iter().filter(|c| c.cost == Cost::Quick).count();
-        assert_eq!(cases, quick);
-        let shown = families.iter().flat_map(|f| &f.cases);
-        assert!(shown.into_iter().all(|(_, result)| result.is_some()));
     }
 }

@@ -1,65 +1,8 @@
-//! The findings of a study for the page: by theme, recorded suites first.
+//! Tables of claims: the limits of findings, and what is not judged.
 
-use crate::basis::Basis;
-use crate::page::{Column, Shown};
 use crate::quantity::rule_text;
-use crate::verdicts;
-use rocking_common::findings::{Claim, Findings, Kind, Theme};
+use rocking_common::findings::{Claim, Findings, Kind};
 use rocking_common::table::PlainTable;
-use rocking_draw::figures::{Figure, Place};
-
-/// Where the numbers of the recorded suites come from: name and words.
-pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
-    let row = |suite: &rocking_common::findings::Suite| {
-        let words = format!(
-            "{} records, sha256 {}; kept results, not run here",
-            suite.records, suite.sha256
-        );
-        (format!("Recorded, {}", suite.kind), words)
-    };
-    recorded.suites.iter().map(row).collect()
-}
-
-/// Columns of the page: those that answer first.
-pub(crate) fn columns(basis: &Basis<'_>) -> Vec<Column> {
-    let first = verdicts::first_arm(basis.here);
-    let one = |(name, findings): (&'static str, &Findings)| Column {
-        name,
-        findings: findings.clone(),
-        first,
-        score: verdicts::score(findings),
-    };
-    basis.all().into_iter().map(one).collect()
-}
-
-/// The themes with what came out about each, and those of the figures that
-/// belong to it.
-pub(crate) fn themes<'a>(
-    basis: &Basis<'_>,
-    figures: &[&'a Figure],
-) -> Vec<Shown<'a>> {
-    let order = [
-        Theme::SingleRecords,
-        Theme::Statistics,
-        Theme::Lognormality,
-        Theme::Fragilities,
-        Theme::Choices,
-        Theme::Beyond,
-    ];
-    let shown = |theme| Shown {
-        theme,
-        paragraph: verdicts::by_theme(theme, basis),
-        figures: placed(figures, Place::Opens(theme)),
-        more: placed(figures, Place::Folded(theme)),
-    };
-    order.map(shown).into()
-}
-
-/// Those of the figures that belong there.
-pub fn placed<'a>(figures: &[&'a Figure], place: Place) -> Vec<&'a Figure> {
-    let there = |f: &&&Figure| f.heading.place == place;
-    figures.iter().filter(there).copied().collect()
-}
 
 /// The limits of the findings and their reasons, each with what it is for.
 pub fn criteria(here: &Findings) -> PlainTable {

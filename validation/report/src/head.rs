@@ -1,6 +1,8 @@
 //! Where the page comes from: which program ran on what, and who signs for
 //! it.
 
+use rocking::integrator::Overturning;
+use rocking_common::findings::{Findings, Suite};
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_study::results::Results;
 
@@ -29,23 +31,35 @@ pub struct Signatures {
 }
 
 impl Signatures {
-    /// Each with what it is.
-    pub fn shown(&self) -> Vec<(String, Option<String>)> {
+    /// What is signed for, and by whom or when if that was given.
+    pub(crate) fn lines(&self) -> [(&'static str, Option<&str>); 4] {
         [
-            ("Issued", &self.issued),
-            ("Prepared by", &self.prepared_by),
-            ("Reviewed by", &self.reviewed_by),
-            ("Approved by", &self.approved_by),
+            ("Issued", self.issued.as_deref()),
+            ("Prepared by", self.prepared_by.as_deref()),
+            ("Reviewed by", self.reviewed_by.as_deref()),
+            ("Approved by", self.approved_by.as_deref()),
         ]
-        .map(|(what, given)| (what.to_owned(), given.clone()))
-        .into()
     }
 }
 
-/// The program, its input and the command; whether results of the declared
-/// cases were handed in. A committed page cannot name the commit that holds
+/// The program, its input, the command and the kept results of recorded
+/// suites, by name; `proved`: whether results of the declared cases were
+/// handed in.
+pub(crate) fn inputs(
+    results: &Results,
+    proved: bool,
+    signatures: &Signatures,
+    recorded: Option<&Findings>,
+) -> Vec<(String, String)> {
+    let mut rows = program(results, proved, signatures);
+    rows.extend(recorded.into_iter().flat_map(kept));
+    rows.extend(provenance(results));
+    rows
+}
+
+/// The program, its input and the command. A committed page cannot name the commit that holds
 /// it, so the commit stands on issued copies alone.
-pub fn head(
+fn program(
     results: &Results,
     proved: bool,
     signatures: &Signatures,
@@ -78,8 +92,56 @@ pub fn head(
     ]
 }
 
+/// Where the numbers of the recorded suites come from.
+fn kept(recorded: &Findings) -> impl Iterator<Item = (String, String)> {
+    let row = |suite: &Suite| {
+        let words = format!(
+            "{} records, sha256 {}; kept results, not run here",
+            suite.records, suite.sha256
+        );
+        (format!("Recorded, {}", suite.kind), words)
+    };
+    recorded.suites.iter().map(row)
+}
+
+/// The settings, and what is to be known of the suites.
+fn provenance(results: &Results) -> Vec<(String, String)> {
+    let setup = &results.plan.setup;
+    let overturning = match setup.overturning {
+        Overturning::Alpha => "|theta| reaches alpha",
+        Overturning::HalfPi => "|theta| exceeds pi/2",
+    };
+    let refinement = format!("{} in dimensionless intensity", setup.tolerance);
+    let arms = results.plan.arms.iter();
+    let arms: Vec<&str> = arms.map(|arm| arm.words()).collect();
+    let restitution = setup.restitution.velocity_ratio().to_string();
+    let mut out = vec![
+        ("Revisions".into(), revisions()),
+        ("Restitution".into(), restitution),
+        ("Overturning".into(), overturning.into()),
+        ("Refinement".into(), refinement),
+        ("Arms of the grid".into(), arms.join("; ")),
+    ];
+    for suite in [&results.ordinary, &results.pulse] {
+        let (records, rule) = (suite.records.len(), &suite.component_rule);
+        out.push((
+            format!("Suite, {}", suite.kind),
+            format!("{records} records, component: {rule}"),
+        ));
+        if let Some(remarks) = &suite.remarks {
+            let name = format!("Remarks on records, {}", suite.kind);
+            out.push((name, remarks.clone()));
+        }
+        if !suite.set_aside.is_empty() {
+            let name = format!("Set aside, {} suite", suite.kind);
+            out.push((name, suite.set_aside.to_string()));
+        }
+    }
+    out
+}
+
 /// Headings of the changelog, newest first, with the version of this one.
-pub fn revisions() -> String {
+fn revisions() -> String {
     let headings =
         rocking::changelog::TEXT.lines().filter_map(|l| l.strip_prefix("## "));
     let all: Vec<&str> = headings.collect();

@@ -2,22 +2,21 @@
 
 mod answers;
 mod basis;
-pub mod credibility;
+mod credibility;
 pub mod diff;
 pub mod evidence;
-pub mod findings;
+mod findings;
 pub mod head;
-pub mod input;
 pub mod lab;
-pub mod ledger;
+mod ledger;
 pub mod marked;
 pub mod output;
-pub mod page;
-pub mod quantity;
+mod page;
+mod quantity;
 pub mod scored;
 pub mod speed;
 pub mod stale;
-pub mod timings;
+mod timings;
 mod verdicts;
 mod words;
 

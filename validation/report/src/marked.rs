@@ -3,10 +3,9 @@
 
 use anyhow::{Context as _, bail};
 
-use crate::answers;
+use crate::answers::{self, AnswerRow};
 use crate::basis::Basis;
 use crate::evidence::Proof;
-use crate::page::AnswerRow;
 use crate::scored::codes_table;
 use crate::timings::Timings;
 use rocking_common::findings::Findings;

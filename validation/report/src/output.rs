@@ -5,16 +5,15 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use crate::answers;
+use crate::answers::{self, AnswerRow};
 use crate::basis::{self, Basis};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
-use crate::input;
-use crate::page;
-use crate::page::AnswerRow;
+use crate::page::{Page, TITLE, annexes};
 use crate::quantity::{rule_text, value_text};
 use crate::scored;
 use crate::timings::Timings;
+use crate::words::words;
 use rocking_common::files::{SUMS, sums};
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
@@ -77,7 +76,7 @@ pub fn foreign(folder: &Path) -> Option<String> {
 /// Whether it is the page of a study, of whatever version.
 fn is_page(text: &[u8]) -> bool {
     let head = &text[..text.len().min(1 << 12)];
-    let title = format!("<title>{}</title>", input::TITLE);
+    let title = format!("<title>{}</title>", TITLE);
     text.starts_with(b"<!DOCTYPE html>")
         && String::from_utf8_lossy(head).contains(&title)
 }
@@ -107,7 +106,8 @@ pub fn files(
     lab: bool,
 ) -> anyhow::Result<Files> {
     let mut files = Files::new();
-    let mut charts = vec![Timings::kept()?.figure(), scored::codes_figure()?];
+    let timings = Timings::kept()?;
+    let mut charts = vec![timings.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
     let basis = Basis::of(study.results.embedded(), &study.findings)?;
     let figures = basis.figures(&study.figures)?;
@@ -124,24 +124,27 @@ pub fn files(
     for (name, text) in questions::files(&study.answers) {
         put(&mut files, name, text)?;
     }
-    let mut input = input::input(
-        &study.results,
-        &figures,
-        &charts,
-        &basis,
-        &study.answers,
+    let page = Page {
+        study,
+        basis: &basis,
+        figures: &figures,
+        charts: &charts,
         proof,
         signatures,
-    )?;
-    input.lab = lab;
+        timings: &timings,
+        words: words()?,
+        lab,
+    };
+    let annexes = annexes(&page)?;
     let mut titles = titles(study, &charts);
-    let filed = input.annexes.iter().filter(|a| FILED.contains(&a.id));
+    let filed = annexes.iter().filter(|annex| annex.is_filed);
     for table in filed.flat_map(|annex| &annex.tables) {
         put(&mut files, format!("{}.csv", table.name), csv(table))?;
         titles.insert(table.name.clone(), table.title.clone());
     }
-    input.files = list(&files, proof, &titles);
-    files.insert(PAGE.into(), page::page(&input).into_bytes());
+    let listed = list(&files, proof, &titles);
+    let html = page.html(&annexes, &listed)?;
+    files.insert(PAGE.into(), html.into_bytes());
     let mut files = laid_out(files);
     files.insert(SUMS.into(), sums(&files));
     Ok(files)
@@ -158,10 +161,6 @@ fn put(
     files.insert(name, text.into());
     Ok(())
 }
-
-/// Annexes whose tables no other file has.
-const FILED: [&str; 5] =
-    ["blocks", "comparison", "speed-tried", "others", "requirements"];
 
 /// A table of the page as CSV.
 fn csv(printed: &PlainTable) -> String {

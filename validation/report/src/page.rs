@@ -1,72 +1,124 @@
 //! The report: one HTML file that reads without network and without
 //! scripts, on a phone, on paper, light or dark.
 //!
-//! [`page`] is a pure function: findings, cases and figures arrive as they
-//! are, the rest as words and numbers already formatted.
+//! Each section of the [`Page`] is a function of the results themselves.
 
-mod input;
+mod annexes;
+mod cases;
+mod chapter;
+mod findings;
 mod sections;
 
-use maud::{DOCTYPE, Markup, html};
+use maud::{DOCTYPE, html};
 
-use rocking_draw::page::head;
-
+use crate::basis::Basis;
+use crate::evidence::Proof;
+use crate::head::Signatures;
 use crate::lab::LAB;
-use input::Part;
+use crate::timings::Timings;
+use crate::words::Words;
+use rocking_common::paper::Arm;
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::{Figure, Place};
+use rocking_draw::page::head;
+use rocking_study::Study;
 
-pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
+pub(crate) use annexes::{Annex, annexes};
+#[cfg(test)]
+pub(crate) use sections::limits_of;
 
-/// The page.
-///
-/// ```
-/// use rocking_report::page::{ReportInput, page};
-/// let html = page(&ReportInput {
-///     title: "A & B".into(),
-///     ..ReportInput::default()
-/// });
-/// assert!(html.starts_with("<!DOCTYPE html>"));
-/// assert!(html.contains("<h1>A &amp; B</h1>"));
-/// ```
-pub fn page(input: &ReportInput<'_>) -> String {
-    let parts = sections::all(input);
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head(&input.title))
-            body {
-                a.skip href="#main" { "Skip to the content" }
-                header {
-                    (sections::head(input))
-                }
-                nav aria-label="Contents" { (contents(&parts, input.lab)) }
-                main id="main" tabindex="-1" {
-                    @for part in &parts {
-                        section id=(part.id)
-                            aria-labelledby={ (part.id) "-title" }
-                        {
-                            h2 id={ (part.id) "-title" } { (part.title) }
-                            (part.body)
-                        }
-                    }
-                }
-                footer {
-                    p { "Drawn from the data files beside this page." }
-                }
-            }
-        }
-    }
-    .into_string()
-        + "\n"
+/// Title of the page.
+pub(crate) const TITLE: &str = "The statistics of rocking";
+
+/// Results from which every section takes its own.
+pub(crate) struct Page<'a> {
+    /// The run at hand.
+    pub study: &'a Study,
+    /// The findings of the run, and the kept ones.
+    pub basis: &'a Basis<'a>,
+    /// Figures of the study, those of the recorded suites among them.
+    pub figures: &'a [Figure],
+    /// Figures of proof, speed and other codes.
+    pub charts: &'a [Figure],
+    /// Results of the declared cases, if they were handed in.
+    pub proof: Option<&'a Proof>,
+    /// Who signs.
+    pub signatures: &'a Signatures,
+    /// The kept timings.
+    pub timings: &'a Timings,
+    /// Words that no run changes.
+    pub words: Words,
+    /// Whether the page that recomputes lies beside this one.
+    pub lab: bool,
 }
 
-fn contents(parts: &[Part], lab: bool) -> Markup {
-    html! {
-        ul {
-            @for part in parts {
-                li { a href={ "#" (part.id) } { (part.title) } }
+impl<'a> Page<'a> {
+    /// Whether a figure stands in the annex of the paper's grid: one of arm A
+    /// that arm C has as well.
+    fn is_on_the_papers_grid(&self, figure: &Figure) -> bool {
+        self.study.results.plan.drawn().len() > 1
+            && figure.heading.own_arm() == Some(Arm::A)
+    }
+
+    /// The figures that stand outside that annex.
+    fn shown(&self) -> Vec<&'a Figure> {
+        let all = self.figures.iter().chain(self.charts);
+        all.filter(|figure| !self.is_on_the_papers_grid(figure)).collect()
+    }
+
+    /// The figures that belong to a place.
+    fn placed(&self, place: Place) -> Vec<&'a Figure> {
+        let mut figures = self.shown();
+        figures.retain(|figure| figure.heading.place == place);
+        figures
+    }
+
+    /// The page with these annexes and this list of files.
+    ///
+    /// # Errors
+    /// For kept files that cannot be read.
+    pub fn html(
+        &self,
+        annexes: &[Annex<'_>],
+        files: &PlainTable,
+    ) -> anyhow::Result<String> {
+        let sections = sections::all(self, annexes, files)?;
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                (head(TITLE))
+                body {
+                    a.skip href="#main" { "Skip to the content" }
+                    header { (sections::head(self)) }
+                    nav aria-label="Contents" {
+                        ul {
+                            @for (id, title, _) in &sections {
+                                li { a href={ "#" (id) } { (title) } }
+                            }
+                            @if self.lab {
+                                li {
+                                    a href=(LAB) { "Recompute in your browser" }
+                                }
+                            }
+                        }
+                    }
+                    main id="main" tabindex="-1" {
+                        @for (id, title, body) in &sections {
+                            section id=(id)
+                                aria-labelledby={ (id) "-title" }
+                            {
+                                h2 id={ (id) "-title" } { (title) }
+                                (body)
+                            }
+                        }
+                    }
+                    footer {
+                        p { "Drawn from the data files beside this page." }
+                    }
+                }
             }
-            @if lab { li { a href=(LAB) { "Recompute in your browser" } } }
-        }
+        };
+        Ok(page.into_string() + "\n")
     }
 }
 

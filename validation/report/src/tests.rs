@@ -11,14 +11,15 @@ use rocking_statistics::Clusters;
 
 use crate::answers;
 use crate::basis::{self, Basis};
-use crate::credibility;
+use crate::credibility::{assessment, comparison};
 use crate::evidence::{NOT_RUN, Proof};
 use crate::findings;
 use crate::head::{self, Signatures};
-use crate::input;
 use crate::ledger::requirements;
 use crate::output::{self, FINDINGS, Files};
+use crate::page::limits_of;
 use crate::quantity::measured_text;
+use crate::words::words;
 use rocking_common::curves::Execution;
 use rocking_common::files::SUMS;
 use rocking_common::findings::{Findings, Kind, Tested, Topic};
@@ -45,7 +46,7 @@ fn plan(way: Execution) -> Plan {
 }
 
 /// Results of nothing on the embedded suites.
-fn on_embedded_suites() -> Results {
+pub fn on_embedded_suites() -> Results {
     empty(&Source::Embedded { streams: "x" })
 }
 
@@ -78,6 +79,17 @@ fn empty(source: &Source) -> Results {
     }
 }
 
+/// Where the page of a study comes from.
+fn inputs(results: &Results, proved: bool) -> Vec<(String, String)> {
+    head::inputs(results, proved, &Signatures::default(), None)
+}
+
+/// The command that makes its page again.
+fn command(results: &Results, proved: bool) -> String {
+    let mut rows = inputs(results, proved).into_iter();
+    rows.find(|(name, _)| name == "Command").expect("a command").1
+}
+
 /// What is set aside in a folder of a record and a note.
 fn set_aside() -> SetAside {
     let folder = tempfile::tempdir().expect("folder");
@@ -94,17 +106,16 @@ fn set_aside() -> SetAside {
 #[test]
 fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
     let mut results = on_embedded_suites();
-    assert!(
-        input::provenance(&results).iter().all(|r| !r.0.contains("aside"))
-    );
+    let shown = |results: &Results| {
+        let mut rows = inputs(results, false);
+        rows.retain(|row| row.0.contains("aside"));
+        rows
+    };
+    assert_eq!(shown(&results), []);
     results.pulse.set_aside = set_aside();
-    let shown: Vec<_> = input::provenance(&results)
-        .into_iter()
-        .filter(|row| row.0.contains("aside"))
-        .collect();
     let words = "1 in no known format (first: <notes>.txt)";
     assert_eq!(
-        shown,
+        shown(&results),
         [("Set aside, pulse-type suite".to_owned(), words.to_owned())]
     );
     let found = findings_of(&results.pulse.set_aside);
@@ -171,9 +182,12 @@ fn answer_alike(page: &str, terminal: &str) {
 /// Everything that is said of where the records come from.
 fn said_of(source: &Source) -> String {
     let results = empty(source);
-    let limits = input::limits(&results).concat();
-    let tables =
-        credibility::tables(&results, &[], None, None).expect("tables");
+    let limits = limits_of(&results).concat();
+    let words = words().expect("words");
+    let tables = [
+        comparison(&results, &[]).expect("table"),
+        assessment(&results, None, None, &words).table(),
+    ];
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
     let mut found = basis::recorded();
@@ -205,9 +219,9 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 #[test]
 fn verification_is_claimed_only_if_every_case_passes() {
     let results = on_embedded_suites();
+    let words = words().expect("words");
     let row = |proof: Option<&Proof>| {
-        let tables = credibility::tables(&results, &[], proof, None);
-        let rows = tables.expect("tables").into_iter().flat_map(|t| t.rows);
+        let rows = assessment(&results, proof, None, &words).table().rows;
         rows.into_iter().find(|row| row[0] == "Verification").expect("a row")
     };
     assert_eq!(row(None)[1], "0");
@@ -220,15 +234,10 @@ fn verification_is_claimed_only_if_every_case_passes() {
 #[test]
 fn the_command_names_the_proof_only_where_one_was_handed_in() {
     let results = on_embedded_suites();
-    let command = |proved| {
-        let rows = head::head(&results, proved, &Signatures::default());
-        let row = rows.into_iter().find(|(name, _)| name == "Command");
-        row.expect("a command").1
-    };
-    let plain = command(false);
+    let plain = command(&results, false);
     assert!(!plain.contains("--proof"), "{plain}");
     assert!(!plain.contains("validate"), "{plain}");
-    assert!(command(true).contains("--proof FOLDER/data"));
+    assert!(command(&results, true).contains("--proof FOLDER/data"));
 }
 
 #[test]
@@ -236,8 +245,7 @@ fn the_command_says_that_other_choices_ran_on_all_blocks() {
     let mut results = on_embedded_suites();
     for full in [false, true] {
         results.plan.full = full;
-        let rows = head::head(&results, false, &Signatures::default());
-        let command = &rows.last().expect("a command").1;
+        let command = command(&results, false);
         assert_eq!(command.contains("--full"), full, "{command}");
     }
 }

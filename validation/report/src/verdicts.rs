@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::basis::Basis;
+use crate::basis::{Basis, Column};
 use rocking_common::findings::{Claim, ClaimResult, Findings, Suite, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::{capital, rounded_text};
@@ -20,7 +20,7 @@ pub(super) const FALSE_DISCOVERIES: f64 = 0.05;
 /// What the work on the suites of a side was, and what rounding may have
 /// changed.
 pub(super) fn work(
-    (name, findings): (&str, &Findings),
+    (name, findings): Column<'_>,
 ) -> impl Iterator<Item = String> {
     let name = capital(name);
     findings.suites.iter().map(move |suite| of_suite(&name, suite))

@@ -3,6 +3,8 @@
 use anyhow::Context as _;
 use serde::Deserialize;
 
+use crate::credibility::Factor;
+
 const WORDS: &str = include_str!("../words.toml");
 
 /// What the file has, in its order.
@@ -21,12 +23,12 @@ pub struct Words {
     pub method: Vec<String>,
     /// Terms, and what they mean.
     pub glossary: Vec<(String, String)>,
-    /// Factor, level, evidence and gaps, a row each.
-    pub assessment: Vec<Vec<String>>,
+    /// The factors of the credibility assessment.
+    pub assessment: Vec<Factor>,
     /// The row of verification, where cases were run.
-    pub verified: Vec<String>,
+    pub verified: Factor,
     /// The row of the input, where the user gave the suites.
-    pub given: Vec<String>,
+    pub given: Factor,
 }
 
 /// The words.

@@ -301,7 +301,8 @@ fn what_rounding_changed_is_said_of_both_suites() {
     let recorded = format!("{wrong} of {all} (recorded suites)");
     assert!(said.contains(&recorded), "{said}");
     assert!(said.contains("7 of 98 (embedded suites)"), "{said}");
-    let annex: Vec<String> = basis.all().into_iter().flat_map(work).collect();
+    let annex: Vec<String> =
+        basis.columns().into_iter().flat_map(work).collect();
     let of = |start: &str| {
         let own = annex.iter().find(|words| words.starts_with(start));
         own.expect(start).clone()

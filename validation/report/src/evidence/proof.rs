@@ -12,9 +12,9 @@ use rocking_common::findings::LEVEL;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
-use rocking_proof::cases::{Case, CaseError, Cost, load_all};
+use rocking_proof::cases::{Case, Cost, load_all};
 use rocking_proof::methods::DIGITS_HEADER;
-use rocking_proof::verdict::snapshot;
+use rocking_proof::verdict::snapshot::{self, CaseResult};
 
 /// File of the results of the declared cases.
 const RESULTS: &str = "validation.json";
@@ -34,6 +34,7 @@ pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
 #[derive(Clone, Debug)]
 pub struct Proof {
     place: String,
+    cases: Vec<Case>,
     results: snapshot::Results,
     digits: String,
     hash: String,
@@ -103,12 +104,14 @@ impl Proof {
         let hash = sha256_hex(results.as_bytes());
         let results: snapshot::Results = serde_json::from_str(results)
             .map_err(|e| anyhow!("{}: {e}, expected JSON", path.display()))?;
-        same_cases(&path, &load_all()?, &results)?;
+        let mut cases = load_all()?;
+        cases.retain(|case| case.cost == Cost::Quick);
+        same_cases(&path, &cases, &results)?;
         whole_table(&folder.join(DIGITS), &digits)?;
         // The same words wherever the folder lies.
         let place = Path::new(folder.file_name().unwrap_or_default());
         let place = place.join(RESULTS).display().to_string();
-        Ok(Self { place, results, digits, hash })
+        Ok(Self { place, cases, results, digits, hash })
     }
 
     /// What a folder holds; none where neither file is there.
@@ -143,24 +146,33 @@ impl Proof {
         self.results.len() - self.passed()
     }
 
+    /// The declared cases with their results, in the order of the files.
+    pub fn cases(&self) -> impl Iterator<Item = (&Case, &CaseResult)> {
+        // Every case has a result, or the results were refused.
+        self.cases.iter().filter_map(|case| {
+            self.results.get(&case.id).map(|result| (case, result))
+        })
+    }
+
+    /// Those cases by family, under its name.
+    pub fn families(&self) -> Vec<(&str, Vec<(&Case, &CaseResult)>)> {
+        let all: Vec<_> = self.cases().collect();
+        let families = all.chunk_by(|a, b| a.0.family == b.0.family);
+        families.map(|own| (own[0].0.family.as_str(), own.to_vec())).collect()
+    }
+
     /// How often the intervals of the study hold the truth of simulated
     /// suites, by the cases that simulate them.
-    ///
-    /// # Errors
-    /// [`CaseError`] where the declared cases cannot be read.
-    pub fn coverage(&self) -> Result<Coverage, CaseError> {
-        let share = |id: &str| {
-            let rate = self.results.get(id)?.quantities.get("rate")?;
-            rate.first.first().map(|rate| rate.0)
-        };
-        let cases = load_all()?;
-        let own = cases.iter().filter(|case| case.method == COVERAGE);
-        let row = |case: &Case| {
+    pub fn coverage(&self) -> Coverage {
+        let own = self.cases().filter(|(case, _)| case.method == COVERAGE);
+        let row = |(case, result): (&Case, &CaseResult)| {
             let nominal = case.input.get("nominal")?.as_float()?;
-            let share = share(&case.id).unwrap_or(f64::NAN);
+            let rate = result.quantities.get("rate");
+            let rate = rate.and_then(|rate| rate.first.first());
+            let share = rate.map_or(f64::NAN, |rate| rate.0);
             Some((case.claim.clone(), nominal, share))
         };
-        Ok(Coverage { rows: own.filter_map(row).collect() })
+        Coverage { rows: own.filter_map(row).collect() }
     }
 
     /// Number of wrong models that the cases rejected.
@@ -250,8 +262,8 @@ fn same_cases(
     cases: &[Case],
     results: &snapshot::Results,
 ) -> anyhow::Result<()> {
-    let quick = cases.iter().filter(|case| case.cost == Cost::Quick);
-    let declared: BTreeSet<&str> = quick.map(|c| c.id.as_str()).collect();
+    let declared = cases.iter().map(|case| case.id.as_str());
+    let declared: BTreeSet<&str> = declared.collect();
     let found: BTreeSet<&str> = results.keys().map(String::as_str).collect();
     if declared == found {
         return Ok(());

@@ -4,10 +4,11 @@
 use rocking_statistics::lilliefors::{LillieforsError, Table};
 use serde::Deserialize;
 
+use super::Proof;
 use rocking_common::table::{PlainTable, digits};
 use rocking_common::words::percent;
 use rocking_proof::cases::{Case, CaseError, load_all};
-use rocking_proof::verdict::snapshot;
+use rocking_proof::verdict::snapshot::CaseResult;
 
 /// The pulses of the closed forms, in the order in which the cases name them.
 const PULSES: &str = rocking_fixtures::text("references/linear_pulses.json");
@@ -41,18 +42,13 @@ struct Pulse {
 }
 
 /// Errors against the closed forms, pulse by pulse; by the results handed in.
-///
-/// # Errors
-/// [`CaseError`] where the declared cases cannot be read.
-pub fn similarity(
-    results: &snapshot::Results,
-) -> Result<PlainTable, CaseError> {
+pub fn similarity(proof: &Proof) -> PlainTable {
     let pulses: Vec<Pulse> = serde_json::from_str::<Pulses>(PULSES)
         .map_or_else(|_| Vec::new(), |found| found.cases);
-    let row = |case: &Case| {
+    let row = |(case, result): (&Case, &CaseResult)| {
         let entry = case.input.get("entry")?.as_integer()?;
         let pulse = pulses.get(usize::try_from(entry).ok()?)?;
-        let quantities = &results.get(&case.id)?.quantities;
+        let quantities = &result.quantities;
         let error = |name: &str| {
             let Some(of) = quantities.get(name) else {
                 return "–".to_owned();
@@ -76,8 +72,7 @@ pub fn similarity(
             error("impact-speeds"),
         ])
     };
-    let cases = load_all()?;
-    let own = cases.iter().filter(|case| case.method == PULSE_METHOD);
+    let own = proof.cases().filter(|(case, _)| case.method == PULSE_METHOD);
     let header = [
         "pulse",
         "frequency over p",
@@ -88,7 +83,7 @@ pub fn similarity(
         "impact times p t, error",
         "impact speeds, relative error",
     ];
-    Ok(PlainTable::new(
+    PlainTable::new(
         "sine-pulse-similarity",
         "Pulses in Eq. 2 against closed forms",
         "Each row runs six blocks of alpha 0.001 to 0.4 rad and p \
@@ -98,7 +93,7 @@ pub fn similarity(
                   compare it.",
         &header,
         own.filter_map(row).collect(),
-    ))
+    )
 }
 
 /// A number without the words in brackets behind it.
@@ -261,10 +256,7 @@ mod tests {
 
     #[test]
     fn every_pulse_has_a_row_with_its_errors() {
-        let folder =
-            concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
-        let proof = super::super::Proof::read(folder.as_ref()).unwrap();
-        let table = similarity(proof.results()).unwrap();
+        let table = similarity(&Proof::committed(0));
         assert!(table.rows.len() > 10);
         assert!(
             table.rows.iter().any(|r| r[0] == "one-sine" && r[1] == "3.0")

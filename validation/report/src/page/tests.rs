@@ -1,13 +1,13 @@
-//! The page from made-up words.
+//! The page of a study without records.
 
 use super::*;
-use crate::evidence::{self, Proof};
-use rocking_common::findings::Theme;
-use rocking_common::paper::{Arm, Verdict};
-use rocking_common::table::PlainTable;
+use crate::basis;
+use crate::tests::on_embedded_suites;
+use crate::words::words;
 use rocking_draw::colour;
-use rocking_draw::figures::{BlockSketch, Figure, Heading};
+use rocking_draw::figures::{BlockSketch, Heading};
 use rocking_draw::page::STYLE;
+use rocking_study::questions::Answer;
 
 fn sketches() -> [Figure; 3] {
     [1, 6, 8].map(|number| {
@@ -19,116 +19,89 @@ fn sketches() -> [Figure; 3] {
     })
 }
 
-fn made_up(figures: &[Figure]) -> ReportInput<'_> {
-    let recorded = crate::basis::recorded();
-    let column = |name| Column {
-        name,
-        findings: recorded.clone(),
-        first: Arm::C,
-        score: vec![(Verdict::Confirmed, 18)],
+/// Names that users give.
+#[derive(Default)]
+struct Names {
+    rule: String,
+    signature: Option<String>,
+    cell: String,
+    title: String,
+    own_suites: bool,
+}
+
+/// The page of a study without records that found what is kept.
+fn page_of(names: Names) -> String {
+    let mut results = on_embedded_suites();
+    results.ordinary.component_rule = names.rule;
+    let table = PlainTable::new(
+        "made-up",
+        &names.title,
+        "Nothing.",
+        &["name"],
+        vec![vec![names.cell]],
+    );
+    let answer = Answer {
+        id: "made-up",
+        question: "What?",
+        answer: String::new(),
+        csv: String::new(),
+        tables: vec![table],
+        figures: Vec::new(),
+        files: Vec::new(),
     };
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
-    let proof = Proof::read(data.as_ref()).unwrap();
-    let words = |cells: &[&str]| -> Vec<String> {
-        cells.iter().map(|c| (*c).into()).collect()
+    let study = Study {
+        results,
+        figures: Vec::new(),
+        findings: basis::recorded(),
+        answers: vec![answer],
     };
-    ReportInput {
-        title: "Rocking: what was verified, what was found".into(),
-        intro: vec!["Free-standing blocks under 86 + 44 records".into()],
+    let page = Page {
+        study: &study,
+        basis: &Basis::of(!names.own_suites, &study.findings).expect("kept"),
+        figures: &sketches(),
+        charts: &[],
+        proof: Some(&Proof::committed(0)),
+        signatures: &Signatures {
+            approved_by: names.signature,
+            ..Signatures::default()
+        },
+        timings: &Timings::kept().expect("timings"),
+        words: words().expect("words"),
         lab: false,
-        signatures: vec![
-            ("Issued".into(), Some("a day".into())),
-            ("Approved by".into(), None),
-        ],
-        answers: vec![AnswerRow {
-            question: "Is slenderness normalized out?".into(),
-            answer: "Nearly: for ratios; open for quantiles.".into(),
-            effect: "-0.9 % (-1 to -0.8 %)".into(),
-            shown: vec![("figure-08-c".into(), "Figure 8".into())],
-        }],
-        otherwise: Some("Other motions say the same.".into()),
-        first: Vec::new(),
-        scope: Chapter {
-            text: vec!["Made-up numbers.".into()],
-            ..Chapter::titled("scope", "Scope")
-        },
-        columns: ["recorded suites", "embedded suites"].map(column).into(),
-        findings: vec![Shown {
-            theme: Theme::Statistics,
-            paragraph: "On average it does.".into(),
-            figures: figures.iter().collect(),
-            more: Vec::new(),
-        }],
-        proof: "By the results handed in: all cases pass.".into(),
-        families: evidence::shown(&proof).unwrap(),
-        identities: PlainTable::default(),
-        method: vec!["As one would.".into()],
-        glossary: vec![("p".into(), "frequency parameter".into())],
-        evidence: Chapter::default(),
-        chapters: vec![Chapter {
-            text: vec!["Two suites only.".into()],
-            ..Chapter::titled("limits", "Limits")
-        }],
-        head: vec![(
-            "suite ordinary".into(),
-            "sha256 ".to_owned() + &"ab1".repeat(21),
-        )],
-        files: PlainTable {
-            name: "list-of-files".into(),
-            title: "Files".into(),
-            reading: "Each with its hash.".into(),
-            header: words(&["file", "SHA-256"]),
-            rows: vec![words(&["data/table-1.csv", &"ab1".repeat(21)])],
-        },
-        annexes: vec![Chapter {
-            id: "blocks",
-            title: "Blocks".into(),
-            tables: vec![PlainTable {
-                name: "table-1".into(),
-                title: "Table 1. The blocks".into(),
-                reading: "Sizes follow from p and alpha.".into(),
-                header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
-                rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
-            }],
-            ..Chapter::default()
-        }],
-    }
+    };
+    let annexes = annexes(&page).expect("annexes");
+    page.html(&annexes, &PlainTable::default()).expect("page")
 }
 
 /// Writes the page where `ROCKING_FIGURES` says, to be looked at.
 #[test]
 fn writes_it_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    std::fs::write(
-        format!("{folder}/index.html"),
-        page(&made_up(&sketches())),
-    )
-    .unwrap();
+    let html = page_of(Names::default());
+    std::fs::write(format!("{folder}/index.html"), html).unwrap();
 }
 
 #[test]
 fn suites_are_named_without_a_second_article() {
-    let figures = sketches();
-    let mut input = made_up(&figures);
-    input.columns.truncate(1);
-    input.columns[0].name = "your suites";
-    let html = page(&input);
+    let names = Names { own_suites: true, ..Names::default() };
+    let html = page_of(names);
     assert!(html.contains("Your suites, "), "your suites are not named");
     assert!(!html.contains("the your"));
 }
 
 #[test]
 fn same_bytes_twice() {
-    assert_eq!(page(&made_up(&sketches())), page(&made_up(&sketches())));
+    assert_eq!(page_of(Names::default()), page_of(Names::default()));
 }
 
 #[test]
 fn asks_nothing_of_network_or_scripts() {
-    let html = page(&made_up(&sketches()));
+    let html = page_of(Names::default());
     for word in ["<script", "<link", "@import", "url(", "src="] {
         assert!(!html.contains(word), "{word}");
     }
     let plain = html.replace("http://www.w3.org/2000/svg", "");
+    let plain = plain.replace("http://www.w3.org/1998/Math/MathML", "");
     let plain = plain.replace("meta http-equiv=", "");
     assert!(!plain.contains("http"));
     // And a browser lets nothing through.
@@ -138,25 +111,24 @@ fn asks_nothing_of_network_or_scripts() {
 /// Suites and files are named by users.
 #[test]
 fn hostile_names_stay_text() {
-    let name = "<script>alert(1)</script>\" onload='b()' x=\"&lt;";
-    let figures = sketches();
-    let mut input = made_up(&figures);
-    input.head[0].1 = name.into();
-    input.chapters[0].text[0] = name.into();
-    input.annexes[0].tables[0].rows[0][0] = name.into();
-    input.annexes[0].tables[0].title = name.into();
-    input.intro[0] = name.into();
-    let html = page(&input);
+    let name = || "<script>alert(1)</script>\" onload='b()' x=\"&lt;".into();
+    let html = page_of(Names {
+        rule: name(),
+        signature: Some(name()),
+        cell: name(),
+        title: name(),
+        own_suites: false,
+    });
     let escaped = "&lt;script&gt;alert(1)&lt;/script&gt;&quot; onload='b()' \
                    x=&quot;&amp;lt;";
     // The title of a table also names its box.
-    assert_eq!(html.matches(escaped).count(), 6);
+    assert_eq!(html.matches(escaped).count(), 5);
     assert!(!html.contains("<script") && !html.contains("\" onload"));
 }
 
 #[test]
 fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
-    let html = page(&made_up(&sketches()));
+    let html = page_of(Names::default());
     let values = |key: &str| -> Vec<String> {
         let parts = html.split(key).skip(1);
         parts.map(|p| p.split('"').next().unwrap().to_owned()).collect()
@@ -174,7 +146,8 @@ fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
 
 #[test]
 fn figures_share_one_style_sheet() {
-    assert_eq!(page(&made_up(&sketches())).matches(colour::STYLE).count(), 1);
+    let html = page_of(Names::default());
+    assert_eq!(html.matches(colour::STYLE).count(), 1);
 }
 
 /// WCAG 2 contrast of two colours.

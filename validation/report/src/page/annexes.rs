@@ -1,0 +1,232 @@
+//! Annexes of the page: folded on a screen, left out on paper.
+
+use maud::{Markup, html};
+use rocking::block::{BlockError, Restitution};
+
+use super::Page;
+use super::chapter::{drawings, tables};
+use crate::credibility;
+use crate::evidence::{self, Proof};
+use crate::ledger;
+use crate::scored;
+use crate::verdicts;
+use rocking_common::findings::Findings;
+use rocking_common::paper::{BLOCKS, GRAVITY_M_S2};
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::{Figure, Place};
+use rocking_study::questions::Answer;
+
+/// Text, figures and tables under a heading.
+#[derive(Default)]
+pub(crate) struct Annex<'a> {
+    /// Unique name, also the anchor.
+    pub id: &'static str,
+    /// The heading.
+    pub title: &'static str,
+    /// Paragraphs.
+    text: Vec<String>,
+    /// Figures.
+    figures: Vec<&'a Figure>,
+    /// Tables.
+    pub tables: Vec<PlainTable>,
+    /// Whether the tables are written as files, because no other file has
+    /// their numbers.
+    pub is_filed: bool,
+}
+
+impl Annex<'_> {
+    /// What stands under the heading.
+    pub fn body(&self) -> Markup {
+        html! {
+            @for words in &self.text { p { (words) } }
+            (drawings(&self.figures))
+            (tables(self.title, &self.tables))
+        }
+    }
+}
+
+/// The annexes that have something to show, in order.
+///
+/// # Errors
+/// For kept files that cannot be read.
+pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
+    let Page { study, basis, proof, timings, .. } = page;
+    let (results, claims) = (&study.results, &basis.here.claims);
+    let coverage = proof.map(Proof::coverage);
+    let (compared, others): (Vec<&Answer>, Vec<&Answer>) =
+        study.answers.iter().partition(|q| q.id == "suites");
+    let on_grid = page.figures.iter();
+    let on_grid = on_grid.filter(|f| page.is_on_the_papers_grid(f));
+    let mut all = vec![
+        Annex {
+            id: "blocks",
+            title: "The blocks",
+            text: basis
+                .columns()
+                .into_iter()
+                .flat_map(verdicts::work)
+                .collect(),
+            tables: vec![table_1()?],
+            is_filed: true,
+            ..Annex::default()
+        },
+        Annex {
+            id: "checks",
+            title: "Digits, pulses, critical values, similarity",
+            tables: evidence::checks(*proof)?,
+            figures: page.placed(Place::Checks),
+            ..Annex::default()
+        },
+        Annex {
+            id: "inference",
+            title: "Coverage of the intervals",
+            tables: coverage.iter().map(|c| c.table()).collect(),
+            ..Annex::default()
+        },
+        Annex {
+            id: "paper-s-grid",
+            title: "Figures on the paper's grid (arm A)",
+            figures: on_grid.collect(),
+            ..Annex::default()
+        },
+        Annex {
+            id: "beyond",
+            title: "Questions beyond the paper",
+            tables: others
+                .into_iter()
+                .flat_map(|question| answered(question, basis.recorded()))
+                .collect(),
+            figures: page.placed(Place::Beyond),
+            ..Annex::default()
+        },
+        Annex {
+            id: "suites-by-block",
+            title: "Suites: motions, and capacities block by block",
+            tables: compared
+                .into_iter()
+                .flat_map(|q| q.tables.clone())
+                .collect(),
+            figures: page.placed(Place::SuitesByBlock),
+            ..Annex::default()
+        },
+        Annex {
+            id: "comparison",
+            title: "Comparison with printed numbers",
+            tables: vec![credibility::comparison(results, claims)?],
+            is_filed: true,
+            ..Annex::default()
+        },
+        Annex {
+            id: "speed-tried",
+            title: "Speed: other tools, and settings tried",
+            tables: timings.tables(),
+            is_filed: true,
+            ..Annex::default()
+        },
+        Annex {
+            id: "others",
+            title: "How do others do?",
+            tables: vec![scored::codes_table(&scored::SETTINGS)?],
+            figures: page.placed(Place::Others),
+            is_filed: true,
+            ..Annex::default()
+        },
+        Annex {
+            id: "requirements",
+            title: "Requirements",
+            tables: vec![ledger::table(
+                proof.map(Proof::results),
+                claims,
+                page.figures,
+            )?],
+            is_filed: true,
+            ..Annex::default()
+        },
+    ];
+    all.retain(|one| !(one.tables.is_empty() && one.figures.is_empty()));
+    Ok(all)
+}
+
+/// The tables of a question, with what the recorded suites answer.
+fn answered(
+    question: &Answer,
+    recorded: Option<&Findings>,
+) -> Vec<PlainTable> {
+    let mut tables = question.tables.clone();
+    let kept = recorded.iter().flat_map(|found| &found.questions);
+    let kept = kept.into_iter().find(|q| q.id == question.id);
+    if let (Some(kept), Some(table)) = (kept, tables.first_mut())
+        && kept.answer != question.answer
+    {
+        table.reading = format!(
+            "Embedded suites: {}\nRecorded suites: {}",
+            table.reading, kept.answer
+        );
+    }
+    tables
+}
+
+/// Table 1, with the paper's gravity.
+///
+/// # Errors
+/// None in practice: all blocks are in range.
+fn table_1() -> Result<PlainTable, BlockError> {
+    let rows = BLOCKS
+        .iter()
+        .map(|block| {
+            let size = block.dimensions(GRAVITY_M_S2)?;
+            let eta = Restitution::housner(block)?.velocity_ratio();
+            Ok(vec![
+                format!("{}", block.frequency_rad_s()),
+                format!("{:.2}", block.slenderness_rad()),
+                millimetres(size.width_m),
+                millimetres(size.height_m),
+                millimetres(size.half_diagonal_m),
+                format!("{eta:.4}"),
+            ])
+        })
+        .collect::<Result<Vec<Vec<String>>, BlockError>>()?;
+    let header =
+        ["p (rad/s)", "alpha (rad)", "2b (m)", "2h (m)", "R (m)", "eta"];
+    Ok(PlainTable::new(
+        "table-01",
+        "Table 1. The 15 blocks",
+        "Gravity 9.81 m/s2; eta is Housner's coefficient of \
+                  restitution, which the study does not use.",
+        &header,
+        rows,
+    ))
+}
+
+/// A length in m with three decimals, half a millimetre up as the paper
+/// rounds it: `{:.3}` takes 7.3575 down, whose double lies below it.
+fn millimetres(length_m: f64) -> String {
+    format!("{:.3}", (1e3 * length_m).round() / 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_1_rounds_as_the_paper_does() {
+        let rows = table_1().expect("table").rows;
+        let radii: Vec<&str> = rows.iter().map(|r| r[4].as_str()).collect();
+        assert_eq!(radii[..5], ["7.358"; 5]);
+        assert_eq!(radii[5..10], ["0.818"; 5]);
+        assert_eq!(radii[10..], ["0.460"; 5]);
+        assert_eq!(rows[0][2..4], ["0.735", "14.697"]);
+    }
+
+    #[test]
+    fn the_committed_table_1_is_of_this_program() {
+        let table = table_1().expect("table");
+        let kept = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../reports/data/table-01.csv"
+        );
+        let kept = std::fs::read_to_string(kept).expect("read");
+        let rows = table.rows.iter().map(|row| row.join(","));
+        assert!(kept.lines().skip(1).eq(rows), "{kept}");
+    }
+}

@@ -122,7 +122,7 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
         ("Refinement".into(), refinement),
         ("Arms of the grid".into(), arms.join("; ")),
     ];
-    for suite in [&results.ordinary, &results.pulse] {
+    for suite in results.suites() {
         let (records, rule) = (suite.records.len(), &suite.component_rule);
         out.push((
             format!("Suite, {}", suite.kind),

@@ -1,5 +1,6 @@
 //! Flags that say what moves the ground.
 
+use std::iter::repeat;
 use std::path::PathBuf;
 
 use rocking::accelerogram::Accelerogram;
@@ -38,7 +39,7 @@ pub struct ExcitationArgs {
     #[arg(
         long,
         value_name = "KIND",
-        value_parser = named(PulseName::ALL, PulseName::name, [""; _]),
+        value_parser = named(PulseName::ALL, PulseName::name, repeat("")),
         conflicts_with = "free"
     )]
     pulse: Option<PulseName>,

@@ -44,7 +44,6 @@ fn page_of(names: Names) -> String {
         id: "made-up",
         question: "What?",
         answer: String::new(),
-        csv: String::new(),
         tables: vec![table],
         figures: Vec::new(),
         files: Vec::new(),

@@ -175,10 +175,8 @@ pub fn unit_intensity(
     gravity_m_s2: f64,
 ) -> f64 {
     let threshold_g = uplift_threshold(block, model);
-    match intensity {
-        Intensity::Pga => threshold_g,
-        Intensity::Pgv => threshold_g * gravity_m_s2 / block.frequency_rad_s(),
-    }
+    let velocity_m_s = threshold_g * gravity_m_s2 / block.frequency_rad_s();
+    intensity.of(threshold_g, velocity_m_s)
 }
 
 /// Where a fragility comes from, if the size and the measure of its sample
@@ -187,7 +185,7 @@ pub fn unit_intensity(
 /// ```
 /// use rocking_records::intensity::IntensityMeasure;
 /// use rocking_exchange::unstated_origin;
-/// let words = unstated_origin(86, &IntensityMeasure::Pga);
+/// let words = unstated_origin(86, &IntensityMeasure::PGA);
 /// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
 /// ```
 #[must_use]

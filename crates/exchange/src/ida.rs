@@ -313,10 +313,7 @@ impl IdaTable {
         &self,
         measure: Intensity,
     ) -> Result<Curves, (String, CapacityError)> {
-        let im = |row: &Row| match measure {
-            Intensity::Pga => row.intensity_pga,
-            Intensity::Pgv => row.intensity_pgv,
-        };
+        let im = |row: &Row| measure.of(row.intensity_pga, row.intensity_pgv);
         let (mut curves, mut after_overturning) = (Vec::new(), 0);
         for rows in self.by_record() {
             let end = rows.iter().position(|row| row.edp == f64::INFINITY);
@@ -337,7 +334,7 @@ impl IdaTable {
         let onsets = curves.iter().map(|(_, curve)| curve.onset_im());
         let im_r = match measure {
             Intensity::Pga => 1.0,
-            Intensity::Pgv => onsets.fold(f64::INFINITY, f64::min),
+            _ => onsets.fold(f64::INFINITY, f64::min),
         };
         let (clusters, squared) = (self.clusters(), false);
         Ok(Curves { curves, clusters, im_r, after_overturning, squared })

@@ -17,7 +17,7 @@ mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
-pub use measure::{AtUplift, Intensity, IntensityMeasure};
+pub use measure::{AtUplift, Intensity, IntensityMeasure, ScalarMeasure};
 pub(crate) use settings::LEAST_PERIOD_S;
 pub use settings::{DEFAULT_PERIODS_S, Settings};
 

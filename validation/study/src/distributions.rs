@@ -155,11 +155,8 @@ pub fn factors(
     intensity: Intensity,
     p_rad_s: f64,
 ) -> Vec<f64> {
-    let of = |ratio_s: f64| match intensity {
-        Intensity::Pga => 1.0,
-        Intensity::Pgv => p_rad_s * ratio_s,
-    };
-    records.iter().map(|r| of(r.velocity_ratio_s)).collect()
+    let ratios_s = records.iter().map(|r| r.velocity_ratio_s);
+    ratios_s.map(|ratio_s| intensity.of(1.0, p_rad_s * ratio_s)).collect()
 }
 
 /// The least of some numbers; infinite if there is none.

@@ -13,7 +13,7 @@
 
 use maud::{Markup, PreEscaped, html};
 use rocking_procedures::fragility::points::points;
-use rocking_records::intensity::IntensityMeasure;
+use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::Lognormal;
 
 use super::{ExchangeError, ExchangeFormat, TAIL, TOLERANCE, Texts};
@@ -90,9 +90,9 @@ fn measure(
     one: &BlockFragility,
 ) -> Result<(String, Option<f64>), ExchangeError> {
     Ok(match &one.im {
-        IntensityMeasure::Pga => ("PGA".into(), None),
+        IntensityMeasure::Axis(Intensity::Pga) => ("PGA".into(), None),
         // OpenQuake's PGV is in cm/s.
-        IntensityMeasure::Pgv => ("PGV".into(), Some(100.0)),
+        IntensityMeasure::Axis(Intensity::Pgv) => ("PGV".into(), Some(100.0)),
         IntensityMeasure::Sa(period_s) => (format!("SA({period_s:?})"), None),
         IntensityMeasure::AverageSa(_) => ("AvgSA".into(), None),
         other => {

@@ -1,6 +1,6 @@
 //! A table of medians and dispersions for FEMA P-58's PACT.
 
-use rocking_records::intensity::{Intensity, IntensityMeasure};
+use rocking_records::intensity::Intensity;
 use rocking_statistics::Lognormal;
 
 use super::{ExchangeError, ExchangeFormat, Texts};
@@ -49,13 +49,9 @@ impl Pact {
     /// ```
     #[must_use]
     pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
-        let (demand, unit) = match intensity {
-            Intensity::Pga => ("PGA", IntensityMeasure::Pga.unit()),
-            Intensity::Pgv => ("PGV", IntensityMeasure::Pgv.unit()),
-        };
         (fragility.shift() == 0.0).then(|| Self {
-            demand,
-            unit,
+            demand: intensity.symbol(),
+            unit: intensity.unit(),
             median: fragility.median(),
             dispersion: fragility.dispersion(),
         })

@@ -11,7 +11,7 @@
 //!   that of the component applied.
 
 use rocking_procedures::fragility::points::points;
-use rocking_records::intensity::IntensityMeasure;
+use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::Lognormal;
 use serde_json::{Map, json};
 
@@ -72,8 +72,12 @@ fn demand(
     one: &BlockFragility,
 ) -> Result<(String, &'static str), ExchangeError> {
     Ok(match &one.im {
-        IntensityMeasure::Pga => ("Peak Ground Acceleration".into(), "g"),
-        IntensityMeasure::Pgv => ("Peak Ground Velocity".into(), "mps"),
+        IntensityMeasure::Axis(Intensity::Pga) => {
+            ("Peak Ground Acceleration".into(), "g")
+        }
+        IntensityMeasure::Axis(Intensity::Pgv) => {
+            ("Peak Ground Velocity".into(), "mps")
+        }
         IntensityMeasure::Sa(period_s) => {
             (format!("Spectral Acceleration|{period_s:?}"), "g")
         }

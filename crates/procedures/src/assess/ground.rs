@@ -130,7 +130,7 @@ impl<'a> Ground<'a> {
             return Err(AssessError::Records(records.len()));
         }
         let (im, unit) = match options.hazard {
-            None => (IntensityMeasure::Pga, 1.0),
+            None => (IntensityMeasure::PGA, 1.0),
             Some(Hazard {
                 im: HazardMeasure::Of(im),
                 units_per_im_unit,
@@ -276,7 +276,7 @@ impl<'a> Ground<'a> {
         let onset = onset.map_err(refused)?;
         let intervals = of(&made[0])?;
         let shift = match self.im {
-            IntensityMeasure::Pga if object.floor.is_none() => threshold,
+            IntensityMeasure::PGA if object.floor.is_none() => threshold,
             _ => 0.0,
         };
         let (own, keys) =
@@ -436,7 +436,7 @@ impl<'a> Ground<'a> {
     fn counts_overturning_in_pga(&self, object: &Object) -> bool {
         object.limit_ratio.is_none()
             && object.floor.is_none()
-            && self.im == IntensityMeasure::Pga
+            && self.im == IntensityMeasure::PGA
     }
 
     /// How far above the first overturning an object is looked at.
@@ -501,7 +501,7 @@ impl<'a> Ground<'a> {
             let values: Vec<(f64, f64)> =
                 (0..self.names.len()).map(of_record).collect();
             let shift = match self.im {
-                IntensityMeasure::Pga if on_ground => uplifts[at_least - 1],
+                IntensityMeasure::PGA if on_ground => uplifts[at_least - 1],
                 _ => 0.0,
             };
             let answer = self.drawn(&values, shift, self.clusters);

@@ -16,9 +16,9 @@ pub use site::{Site, SiteError};
 /// The first columns of the project's own table: name, and measure with the
 /// number of its column's units in a g or a m/s.
 const COLUMNS: [(&str, Option<(IntensityMeasure, f64)>); 4] = [
-    ("pga_g", Some((IntensityMeasure::Pga, 1.0))),
-    ("pgv_m_s", Some((IntensityMeasure::Pgv, 1.0))),
-    ("pgv_cm_s", Some((IntensityMeasure::Pgv, 100.0))),
+    ("pga_g", Some((IntensityMeasure::PGA, 1.0))),
+    ("pgv_m_s", Some((IntensityMeasure::PGV, 1.0))),
+    ("pgv_cm_s", Some((IntensityMeasure::PGV, 100.0))),
     ("intensity", None),
 ];
 
@@ -69,7 +69,7 @@ impl HazardMeasure {
     /// use rocking_records::intensity::IntensityMeasure;
     /// let mean = IntensityMeasure::AverageSa(vec![0.5, 1.0]);
     /// assert!(HazardMeasure::AverageSa.is_of(&mean));
-    /// assert!(!HazardMeasure::AverageSa.is_of(&IntensityMeasure::Pga));
+    /// assert!(!HazardMeasure::AverageSa.is_of(&IntensityMeasure::PGA));
     /// assert!(HazardMeasure::Own.is_of(&mean));
     /// ```
     #[must_use]
@@ -343,8 +343,8 @@ fn openquake<'a>(
     };
     let of = HazardMeasure::Of;
     let measure = match imt {
-        "PGA" => (of(IntensityMeasure::Pga), 1.0),
-        "PGV" => (of(IntensityMeasure::Pgv), 100.0),
+        "PGA" => (of(IntensityMeasure::PGA), 1.0),
+        "PGV" => (of(IntensityMeasure::PGV), 100.0),
         "AvgSA" => (HazardMeasure::AverageSa, 1.0),
         name => match period(name) {
             Some(period_s) => (of(IntensityMeasure::Sa(period_s)), 1.0),

@@ -12,6 +12,7 @@ use rocking::names::{UnknownName, as_text, named};
 named! {
     /// Dimensionless intensity measure: the axis of an IDA curve.
     #[derive(PartialOrd, Ord, Hash)]
+    #[non_exhaustive]
     pub enum Intensity: "intensity" {
         /// PGA/(g tan alpha).
         Pga = "pga",
@@ -20,14 +21,73 @@ named! {
     }
 }
 
+/// The row of a dimensionless measure.
+struct IntensityRow {
+    /// The measure of the motion.
+    symbol: &'static str,
+    /// Unit of the measure of the motion.
+    unit: &'static str,
+    /// The dimensionless measure in plain text.
+    words: &'static str,
+    /// The dimensionless measure in the markup of the figures.
+    label: &'static str,
+    /// The measure by PGA and PGV. It grows in proportion to both.
+    of: fn(f64, f64) -> f64,
+}
+
 impl Intensity {
-    /// The measure as the paper writes it.
+    const fn row(self) -> IntensityRow {
+        match self {
+            Self::Pga => IntensityRow {
+                symbol: "PGA",
+                unit: "g",
+                words: "PGA/(g tan alpha)",
+                label: "PGA / (*g* tan *α*)",
+                of: |pga, _| pga,
+            },
+            Self::Pgv => IntensityRow {
+                symbol: "PGV",
+                unit: "m/s",
+                words: "p PGV/(g tan alpha)",
+                label: "*p* PGV / (*g* tan *α*)",
+                of: |_, pgv| pgv,
+            },
+        }
+    }
+
+    /// The measure of the motion, as `PGA`.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        self.row().symbol
+    }
+
+    /// Unit of the measure of the motion, for PGA in g and PGV in m/s.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        self.row().unit
+    }
+
+    /// The dimensionless measure as the paper writes it.
     #[must_use]
     pub fn words(self) -> &'static str {
-        match self {
-            Self::Pga => "PGA/(g tan alpha)",
-            Self::Pgv => "p PGV/(g tan alpha)",
-        }
+        self.row().words
+    }
+
+    /// The dimensionless measure in the markup of the figures.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        self.row().label
+    }
+
+    /// The measure by PGA and PGV, with or without units.
+    ///
+    /// ```
+    /// use rocking_records::intensity::Intensity;
+    /// assert_eq!(Intensity::Pgv.of(0.4, 0.6), 0.6);
+    /// ```
+    #[must_use]
+    pub fn of(self, pga: f64, pgv: f64) -> f64 {
+        (self.row().of)(pga, pgv)
     }
 
     /// The PGA (g) of a motion at this intensity of `im`, for a block of
@@ -48,10 +108,80 @@ impl Intensity {
         p_rad_s: f64,
         velocity_ratio_s: f64,
     ) -> f64 {
+        im * threshold / self.of(1.0, p_rad_s * velocity_ratio_s)
+    }
+}
+
+named! {
+    /// An intensity measure of a record that has neither period nor parameter.
+    #[non_exhaustive]
+    pub enum ScalarMeasure: "intensity measure" {
+        /// Peak ground displacement.
+        Pgd = "pgd",
+        /// Arias intensity.
+        Arias = "arias",
+        /// Cumulative absolute velocity.
+        Cav = "cav",
+        /// PGV times the fourth root of the duration D5-75, after the measure
+        /// of Fajfar, Vidic and Fischinger (1990, Earthquake Engineering and
+        /// Structural Dynamics 19).
+        PgvDuration = "pgv-d575",
+    }
+}
+
+/// The row of a measure of a record.
+struct ScalarRow {
+    /// The measure in text.
+    symbol: &'static str,
+    /// A few letters, for the tick of a figure.
+    short: &'static str,
+    unit: &'static str,
+    /// Whether it grows with the square of the acceleration.
+    is_squared: bool,
+    value: fn(&Measures) -> f64,
+}
+
+impl ScalarMeasure {
+    const fn row(self) -> ScalarRow {
         match self {
-            Self::Pga => im * threshold,
-            Self::Pgv => im * threshold / (p_rad_s * velocity_ratio_s),
+            Self::Pgd => ScalarRow {
+                symbol: "PGD",
+                short: "PGD",
+                unit: "m",
+                is_squared: false,
+                value: |m| m.pgd_m,
+            },
+            Self::Arias => ScalarRow {
+                symbol: "Arias intensity",
+                short: "√Arias",
+                unit: "m/s",
+                is_squared: true,
+                value: |m| m.arias_intensity_m_s,
+            },
+            Self::Cav => ScalarRow {
+                symbol: "CAV",
+                short: "CAV",
+                unit: "m/s",
+                is_squared: false,
+                value: |m| m.cav_m_s,
+            },
+            Self::PgvDuration => ScalarRow {
+                symbol: "PGV D5-75^(1/4)",
+                short: "PGV D",
+                unit: "m s^(-3/4)",
+                is_squared: false,
+                value: |m| {
+                    m.pgv_m_s * m.significant_duration_5_75_s.sqrt().sqrt()
+                },
+            },
         }
+    }
+
+    /// A few letters for the tick of a figure; a measure that grows with the
+    /// square of the acceleration by its root.
+    #[must_use]
+    pub fn short(self) -> &'static str {
+        self.row().short
     }
 }
 
@@ -72,26 +202,16 @@ impl Intensity {
 /// assert!((value * value / (one * four) - 1.0).abs() < 1e-15);
 /// assert_eq!(measure.unit(), "g");
 /// assert_eq!(measure.to_string(), "avgsa:1,4");
-/// assert_eq!("PGA".parse(), Ok(IntensityMeasure::Pga));
+/// assert_eq!("PGA".parse(), Ok(IntensityMeasure::PGA));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntensityMeasure {
-    /// Peak ground acceleration.
-    Pga,
-    /// Peak ground velocity.
-    Pgv,
-    /// Peak ground displacement.
-    Pgd,
-    /// Arias intensity.
-    Arias,
-    /// Cumulative absolute velocity.
-    Cav,
-    /// PGV times the fourth root of the duration D5-75, after the measure of
-    /// Fajfar, Vidic and Fischinger (1990, Earthquake Engineering and
-    /// Structural Dynamics 19).
-    PgvDuration,
+    /// One that is also the axis of IDA curves, with its unit.
+    Axis(Intensity),
+    /// One without a parameter.
+    Scalar(ScalarMeasure),
     /// Spectral acceleration at a period in s, 5 % damping.
     Sa(f64),
     /// Geometric mean of spectral accelerations at periods in s.
@@ -99,16 +219,6 @@ pub enum IntensityMeasure {
     /// A column of a suite's index, or another attribute of its records.
     Column(String),
 }
-
-/// The measures whose name is a word.
-static WORDS: [(&str, IntensityMeasure); 6] = [
-    (Intensity::Pga.name(), IntensityMeasure::Pga),
-    (Intensity::Pgv.name(), IntensityMeasure::Pgv),
-    ("pgd", IntensityMeasure::Pgd),
-    ("arias", IntensityMeasure::Arias),
-    ("cav", IntensityMeasure::Cav),
-    ("pgv-d575", IntensityMeasure::PgvDuration),
-];
 
 impl FromStr for IntensityMeasure {
     type Err = UnknownName;
@@ -134,17 +244,17 @@ impl FromStr for IntensityMeasure {
                 Some(Self::Column(name.to_owned()))
             }
             (word, None) => {
-                let named = WORDS.iter().find(|(name, _)| *name == word);
-                named.map(|(_, measure)| measure.clone())
+                Self::words_alone().find(|measure| measure.to_string() == word)
             }
             _ => None,
         };
         found.ok_or_else(|| UnknownName {
             what: "intensity measure",
             found: text.to_owned(),
-            expected: WORDS
-                .iter()
-                .map(|(name, _)| *name)
+            expected: Intensity::ALL
+                .map(Intensity::name)
+                .into_iter()
+                .chain(ScalarMeasure::ALL.map(ScalarMeasure::name))
                 .chain(["sa:T", "avgsa:T1,T2,.. (periods in s)"])
                 .chain(["column:NAME"])
                 .collect(),
@@ -160,10 +270,8 @@ impl fmt::Display for IntensityMeasure {
                 write!(f, "avgsa:{}", listed(periods_s, ","))
             }
             Self::Column(name) => write!(f, "column:{name}"),
-            word => {
-                let own = WORDS.iter().find(|(_, measure)| measure == word);
-                f.pad(own.map_or("", |(name, _)| name))
-            }
+            Self::Axis(intensity) => f.pad(intensity.name()),
+            Self::Scalar(scalar) => f.pad(scalar.name()),
         }
     }
 }
@@ -172,10 +280,7 @@ as_text!(IntensityMeasure);
 
 impl From<Intensity> for IntensityMeasure {
     fn from(intensity: Intensity) -> Self {
-        match intensity {
-            Intensity::Pga => Self::Pga,
-            Intensity::Pgv => Self::Pgv,
-        }
+        Self::Axis(intensity)
     }
 }
 
@@ -211,7 +316,7 @@ impl AtUplift {
     /// let measures = Measures::of(&record, &Settings::default())?;
     /// let uplift =
     ///     AtUplift { pga_g: 0.2, p_rad_s: 3.0, gravity_m_s2: 9.81 };
-    /// let cav = IntensityMeasure::Cav;
+    /// let cav = "cav".parse()?;
     /// let found = uplift.value(&cav, &measures, &[], f64::NAN);
     /// assert!((found / measures.cav_m_s - 2.0).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -229,8 +334,9 @@ impl AtUplift {
         let value = || measure.value(of, periods_s).unwrap_or(f64::NAN);
         match measure {
             IntensityMeasure::Column(_) => factor * attribute,
-            IntensityMeasure::Pga => 1.0,
-            IntensityMeasure::Pgv => velocity * factor * of.pgv_m_s,
+            IntensityMeasure::Axis(intensity) => {
+                intensity.of(1.0, velocity * factor * of.pgv_m_s)
+            }
             squared if squared.is_squared() => factor * factor * value(),
             _ => factor * value(),
         }
@@ -238,11 +344,21 @@ impl AtUplift {
 }
 
 impl IntensityMeasure {
+    /// Peak ground acceleration.
+    pub const PGA: Self = Self::Axis(Intensity::Pga);
+    /// Peak ground velocity.
+    pub const PGV: Self = Self::Axis(Intensity::Pgv);
+
+    /// The measures whose name is a word.
+    fn words_alone() -> impl Iterator<Item = Self> {
+        let axes = Intensity::ALL.into_iter().map(Self::Axis);
+        axes.chain(ScalarMeasure::ALL.into_iter().map(Self::Scalar))
+    }
+
     /// The measures that a ranking compares where none are named.
     #[must_use]
     pub fn usual() -> Vec<Self> {
-        let mut all: Vec<Self> =
-            WORDS.iter().map(|(_, measure)| measure.clone()).collect();
+        let mut all: Vec<Self> = Self::words_alone().collect();
         all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(Self::Sa));
         all.push(Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
         all
@@ -252,10 +368,9 @@ impl IntensityMeasure {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Pga | Self::Sa(_) | Self::AverageSa(_) => "g",
-            Self::Pgv | Self::Arias | Self::Cav => "m/s",
-            Self::Pgd => "m",
-            Self::PgvDuration => "m s^(-3/4)",
+            Self::Axis(intensity) => intensity.unit(),
+            Self::Scalar(scalar) => scalar.row().unit,
+            Self::Sa(_) | Self::AverageSa(_) => "g",
             Self::Column(_) => "",
         }
     }
@@ -264,24 +379,19 @@ impl IntensityMeasure {
     #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
-            Self::Pga => Some(Intensity::Pga),
-            Self::Pgv => Some(Intensity::Pgv),
+            Self::Axis(intensity) => Some(*intensity),
             _ => None,
         }
     }
 
-    /// The measure in words with its unit; PGA and PGV are dimensionless, as
-    /// of an IDA curve.
+    /// The measure in words with its unit; an axis of IDA curves is
+    /// dimensionless.
     #[must_use]
     pub fn words(&self) -> String {
         let symbol = match self {
-            Self::Pga => return Intensity::Pga.words().to_owned(),
-            Self::Pgv => return Intensity::Pgv.words().to_owned(),
+            Self::Axis(intensity) => return intensity.words().to_owned(),
             Self::Column(name) => return format!("column {name}"),
-            Self::Pgd => "PGD".to_owned(),
-            Self::Arias => "Arias intensity".to_owned(),
-            Self::Cav => "CAV".to_owned(),
-            Self::PgvDuration => "PGV D5-75^(1/4)".to_owned(),
+            Self::Scalar(scalar) => scalar.row().symbol.to_owned(),
             Self::Sa(period_s) => format!("SA({period_s} s)"),
             Self::AverageSa(list) => {
                 format!("AvgSA({} s)", listed(list, ", "))
@@ -300,9 +410,9 @@ impl IntensityMeasure {
     /// ```
     #[must_use]
     pub fn of_words(words: &str) -> Option<Self> {
-        let fixed = WORDS.iter().map(|(_, measure)| measure);
-        if let Some(found) = fixed.into_iter().find(|m| m.words() == words) {
-            return Some(found.clone());
+        let mut fixed = Self::words_alone();
+        if let Some(found) = fixed.find(|m| m.words() == words) {
+            return Some(found);
         }
         let periods = words.strip_suffix(" s) (g)");
         let name = [("SA(", "sa:"), ("AvgSA(", "avgsa:")]
@@ -320,7 +430,7 @@ impl IntensityMeasure {
     /// in proportion to it.
     #[must_use]
     pub fn is_squared(&self) -> bool {
-        matches!(self, Self::Arias)
+        matches!(self, Self::Scalar(scalar) if scalar.row().is_squared)
     }
 
     /// Periods of the spectral accelerations that it is made of, in s.
@@ -343,14 +453,8 @@ impl IntensityMeasure {
             of.spectral_acceleration_g.get(place).copied()
         };
         Some(match self {
-            Self::Pga => of.pga_g,
-            Self::Pgv => of.pgv_m_s,
-            Self::Pgd => of.pgd_m,
-            Self::Arias => of.arias_intensity_m_s,
-            Self::Cav => of.cav_m_s,
-            Self::PgvDuration => {
-                of.pgv_m_s * of.significant_duration_5_75_s.sqrt().sqrt()
-            }
+            Self::Axis(intensity) => intensity.of(of.pga_g, of.pgv_m_s),
+            Self::Scalar(scalar) => (scalar.row().value)(of),
             Self::Sa(period_s) => sa_g(period_s)?,
             Self::AverageSa(all_s) => {
                 let sum = all_s.iter().try_fold(0.0, |sum, period_s| {

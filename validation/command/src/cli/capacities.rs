@@ -200,7 +200,7 @@ struct Record {
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::Pga);
+    let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::PGA);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;

@@ -314,7 +314,7 @@ fn svg(
         common::frequency(rounded(analysis.block.frequency_rad_s(), 4)),
         uplift_threshold(&analysis.block, analysis.model)
     );
-    let axis = common::intensity(Intensity::Pga);
+    let axis = Intensity::Pga.label();
     Ok(ida_svg(curves, &stripes, (axis, &block)))
 }
 

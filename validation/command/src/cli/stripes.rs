@@ -16,7 +16,6 @@ use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, columns::OUTCOMES};
-use rocking_draw::figures::common;
 use rocking_draw::figures::of_suite::stripes_svg;
 use rocking_exchange::ida::IdaTable;
 
@@ -83,7 +82,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (table, curves) = input::ida(&args.ida, args.im)?;
     let curves = curves.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
-    let axis = common::intensity(args.im);
+    let axis = args.im.label();
     let printed = plot.draw(|| Ok(stripes_svg(&curves, &stripes, axis)))?;
     if let (Some(out), Some(edp)) = (counts, args.at) {
         let is_standard = out.is_standard();

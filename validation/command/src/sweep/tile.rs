@@ -228,13 +228,9 @@ fn text(plan: &Plan, content: Content, all: &[Found<'_>]) -> String {
             Content::Fragilities => {
                 let curves = &found.curves;
                 let open: usize = curves.iter().map(|c| c.unresolved).sum();
-                for im in [Intensity::Pga, Intensity::Pgv] {
-                    let factors: Vec<f64> = match im {
-                        Intensity::Pga => vec![1.0; curves.len()],
-                        Intensity::Pgv => {
-                            curves.iter().map(|c| c.factor).collect()
-                        }
-                    };
+                for im in Intensity::ALL {
+                    let factors: Vec<f64> =
+                        curves.iter().map(|c| im.of(1.0, c.factor)).collect();
                     for (k, demand) in plan.demands.iter().enumerate() {
                         let sample: Vec<f64> = curves
                             .iter()

@@ -172,7 +172,7 @@ pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Scene {
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
     let (mut scene, grid) = common::scene(heading, grid, &legend);
-    let level = common::intensity(Intensity::Pga);
+    let level = Intensity::Pga.label();
     for (i, shown) in figure.panels.iter().enumerate() {
         let levels = shown.stripes.iter().map(|s| common::short(s.level));
         let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);

@@ -8,7 +8,7 @@ use crate::legend::Entry;
 use crate::markup;
 use crate::scene::Scene;
 use crate::text::Caption;
-use rocking_common::paper::{Arm, Intensity, SLENDERNESSES_RAD};
+use rocking_common::paper::{Arm, SLENDERNESSES_RAD};
 use rocking_common::words::letter;
 
 /// A scene with the grid's size, the legend drawn and room made for it.
@@ -54,14 +54,6 @@ pub fn slenderness(alpha_rad: f64) -> String {
 
 /// Peak rotation over slenderness, as an axis label.
 pub const DEMAND: &str = "*θ̃* = max |*θ*(*t*)| / *α*";
-
-/// An intensity measure, as an axis label.
-pub fn intensity(measure: Intensity) -> &'static str {
-    match measure {
-        Intensity::Pga => "PGA / (*g* tan *α*)",
-        Intensity::Pgv => "*p* PGV / (*g* tan *α*)",
-    }
-}
 
 /// The ink of one of the paper's slendernesses, the same in every figure.
 pub fn ink(alpha_rad: f64) -> Ink {

@@ -270,12 +270,12 @@ pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
     }
 }
 
-/// A few letters, for the tick of an axis; Arias intensity by its root.
+/// A few letters, for the tick of an axis.
 fn short(measure: &IntensityMeasure) -> String {
     use IntensityMeasure as M;
     match measure {
-        M::Arias => "√Arias".into(),
-        M::PgvDuration => "PGV D".into(),
+        M::Axis(intensity) => intensity.symbol().to_owned(),
+        M::Scalar(scalar) => scalar.short().to_owned(),
         M::Sa(period_s) => format!("SA({period_s})"),
         M::AverageSa(periods_s) => {
             let (first, last) = (periods_s.first(), periods_s.last());
@@ -283,6 +283,6 @@ fn short(measure: &IntensityMeasure) -> String {
             format!("SA({}–{})", of(first), of(last))
         }
         M::Column(name) => name.clone(),
-        word => word.to_string().to_uppercase(),
+        other => other.to_string(),
     }
 }

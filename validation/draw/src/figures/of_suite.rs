@@ -203,8 +203,8 @@ pub fn risk_svg(hazard: &Hazard, all: &[Exposed]) -> String {
 fn intensity(hazard: &Hazard) -> String {
     match &hazard.im {
         HazardMeasure::Own => "intensity, unit of the fragility".to_owned(),
-        HazardMeasure::Of(im @ (M::Pga | M::Pgv)) => {
-            format!("{} ({})", im.to_string().to_uppercase(), hazard.unit())
+        HazardMeasure::Of(M::Axis(im)) => {
+            format!("{} ({})", im.symbol(), hazard.unit())
         }
         HazardMeasure::Of(other) => markup::escape(&other.words()),
         HazardMeasure::AverageSa => format!("AvgSA ({})", hazard.unit()),

@@ -89,7 +89,7 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
                 let at = (0.0, block.shift);
                 series.push(Series::note(Mark::Across(SHIFT), "", at));
             }
-            let label = common::intensity(intensity);
+            let label = intensity.label();
             let minus = if less == 0.0 { "" } else { " − IM_{R}" };
             panels.push(ChartPanel::new(
                 format!(

@@ -15,7 +15,6 @@ use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Ink, Pen};
-use rocking_draw::figures::common;
 use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Heading, Layout, Mark, Series,
 };
@@ -42,10 +41,8 @@ pub(super) fn constants(
         f.shift() + libm::exp(spread)
     });
     let most = most_of(data).into_iter().fold(1.0, f64::max);
-    let x = || {
-        Axis::around(0.0, (1.02 * most).max(bulk), 7)
-            .label(common::intensity(at.0))
-    };
+    let x =
+        || Axis::around(0.0, (1.02 * most).max(bulk), 7).label(at.0.label());
     let grid = along(x().range(), 300);
     let mut words = Vec::new();
     let mut panels = Vec::new();

@@ -92,8 +92,7 @@ fn figure(heading: Heading, panels: &[Compared], words: String) -> Figure {
         ChartPanel::new(
             common::frequency(one.p_rad_s),
             demand(),
-            Axis::linear(low, high, 6)
-                .label(common::intensity(Intensity::Pga)),
+            Axis::linear(low, high, 6).label(Intensity::Pga.label()),
             groups.chain(edge_words(&one.groups)).collect(),
         )
     });

@@ -142,8 +142,7 @@ pub(super) fn curves(
             panels.push(ChartPanel::new(
                 format!("{p}\n{}", common::record(name, WIDTH_PX)),
                 demand(),
-                Axis::linear(bottom, top, 5)
-                    .label(common::intensity(Intensity::Pga)),
+                Axis::linear(bottom, top, 5).label(Intensity::Pga.label()),
                 curves,
             ));
         }

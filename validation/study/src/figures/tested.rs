@@ -257,7 +257,7 @@ pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
                 "{}, {}\nIM = {}",
                 common::frequency(block.1),
                 common::slenderness(block.0),
-                common::intensity(Intensity::Pga)
+                Intensity::Pga.label()
             ),
             Axis::linear(0.0, 1.0, 5).label(common::DEMAND),
             Axis::around(0.0, (1.05 * high).clamp(1.4, 12.0), 6)

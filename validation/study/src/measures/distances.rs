@@ -109,10 +109,11 @@ fn slender_share(tests: Tests) -> impl Fn(&[f64]) -> f64 {
     move |row| accepted(row, tests)[position(SLENDER.0, SLENDER.1)]
 }
 
-fn tests_of(intensity: Intensity) -> (Tests, Tests) {
+fn tests_of(intensity: Intensity) -> anyhow::Result<(Tests, Tests)> {
     match intensity {
-        Intensity::Pga => (Tests::OriginalPga, Tests::ShiftedPga),
-        Intensity::Pgv => (Tests::OriginalPgv, Tests::ShiftedPgv),
+        Intensity::Pga => Ok((Tests::OriginalPga, Tests::ShiftedPga)),
+        Intensity::Pgv => Ok((Tests::OriginalPgv, Tests::ShiftedPgv)),
+        other => anyhow::bail!("{other}: expected pga or pgv"),
     }
 }
 
@@ -139,26 +140,26 @@ fn excess(
 
 /// Distance of original samples from a lognormal.
 pub(super) fn original(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let (tests, _) = tests_of(source.intensity);
+    let (tests, _) = tests_of(source.intensity)?;
     let share = mean_share(tests);
     match source.intensity {
         Intensity::Pga => {
             let mean = |row: &[f64]| over_blocks(excesses(row, tests));
             of_blocks(source, mean, &[], Some((ORIGINAL, &share)))
         }
-        Intensity::Pgv => excess(source, tests, &[(ORIGINAL, &share)], 0.7),
+        _ => excess(source, tests, &[(ORIGINAL, &share)], 0.7),
     }
 }
 
 /// Distance of shifted samples from a lognormal.
 pub(super) fn shifted(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let (_, tests) = tests_of(source.intensity);
+    let (_, tests) = tests_of(source.intensity)?;
     excess(source, tests, &[(SHIFTED, &mean_share(tests))], 0.9)
 }
 
 /// Reduction of the distance by shifting.
 pub(super) fn gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let (original, shifted) = tests_of(source.intensity);
+    let (original, shifted) = tests_of(source.intensity)?;
     let gain =
         |row: &[f64]| apart(accepted(row, shifted), accepted(row, original));
     of_blocks(

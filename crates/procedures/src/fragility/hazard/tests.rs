@@ -20,7 +20,7 @@ fn a_curve_of_openquake_gives_the_frequencies_of_its_site() {
     let hazard = parse(OPENQUAKE, &options).unwrap();
     assert_eq!(
         (hazard.im.clone(), hazard.unit()),
-        (HazardMeasure::Of(IntensityMeasure::Pga), "g")
+        (HazardMeasure::Of(IntensityMeasure::PGA), "g")
     );
     // -log1p(-P) by Python.
     let expected = [
@@ -37,7 +37,7 @@ fn a_curve_of_openquake_gives_the_frequencies_of_its_site() {
     let fifty = parse(&fifty, &options).unwrap();
     assert_eq!(
         (fifty.im.clone(), fifty.unit()),
-        (HazardMeasure::Of(IntensityMeasure::Pgv), "cm/s")
+        (HazardMeasure::Of(IntensityMeasure::PGV), "cm/s")
     );
     let ratio = hazard.curve.points()[0].1 / fifty.curve.points()[0].1;
     assert!((ratio - 50.0).abs() < 1e-12);

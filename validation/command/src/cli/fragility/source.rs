@@ -253,7 +253,7 @@ impl SourceArgs {
 
     fn counts(&self, path: &Path) -> Result<Level, Failure> {
         let counted = counts::read(path)?;
-        let im = self.im.clone().unwrap_or(IntensityMeasure::Pga);
+        let im = self.im.clone().unwrap_or(IntensityMeasure::PGA);
         let origin = format!(
             "counts of exceedance at {} intensities",
             counted.stripes().len()
@@ -275,7 +275,7 @@ impl SourceArgs {
 pub(super) fn in_table(
     im: Option<&IntensityMeasure>,
 ) -> Result<Intensity, Failure> {
-    let im = im.unwrap_or(&IntensityMeasure::Pga);
+    let im = im.unwrap_or(&IntensityMeasure::PGA);
     im.dimensionless().ok_or_else(|| {
         Failure::input(format!(
             "--im {im}: a table of `rocking ida` holds pga and pgv: expected \
@@ -297,7 +297,7 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
     };
     Ok(Level {
         place: "--surrogate".to_owned(),
-        im: Ok(IntensityMeasure::Pga),
+        im: Ok(IntensityMeasure::PGA),
         setting,
         values: Values::Surface(model),
         origin: origin(suite),

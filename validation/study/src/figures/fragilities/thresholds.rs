@@ -15,7 +15,7 @@ use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
-use rocking_draw::figures::common::{self, span};
+use rocking_draw::figures::common::span;
 use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
@@ -273,8 +273,7 @@ fn panel(
     let name = source.intensity.name().to_uppercase();
     Ok(ChartPanel::new(
         format!("{name}, *θ̃* = {:.2}", of.edp),
-        Axis::linear(axis.0, axis.1, 5)
-            .label(common::intensity(source.intensity)),
+        Axis::linear(axis.0, axis.1, 5).label(source.intensity.label()),
         exceedance(),
         series,
     ))

@@ -66,7 +66,7 @@ pub struct Settings {
     #[serde(with = "nine")]
     pub refinement_im: f64,
     /// Whether other choices are run on all blocks.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub full: bool,
 }
 
@@ -74,7 +74,7 @@ impl Settings {
     /// Names and values.
     #[must_use]
     pub fn named(&self) -> [(&'static str, String); 5] {
-        let arms: Vec<&str> = self.arms.iter().map(|a| a.letter()).collect();
+        let arms: Vec<&str> = self.arms.iter().map(|a| a.name()).collect();
         [
             ("arms", arms.join(", ")),
             ("eta", self.eta.to_string()),
@@ -83,11 +83,6 @@ impl Settings {
             ("full", self.full.to_string()),
         ]
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// A suite, and the work on it.
@@ -339,7 +334,7 @@ impl fmt::Display for Place {
             self.alpha_rad.map(|alpha| format!("alpha = {alpha:.2}")),
             number("PGA/(g tan alpha) =", self.im_pga),
             number("demand", self.edp),
-            self.arm.map(|arm| format!("arm {}", arm.letter())),
+            self.arm.map(|arm| format!("arm {}", arm.name())),
         ];
         let parts: Vec<String> = parts.into_iter().flatten().collect();
         f.write_str(&parts.join(", "))
@@ -414,21 +409,17 @@ impl Findings {
     pub fn parse(text: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
         struct Version {
-            #[serde(default = "first")]
-            schema: u32,
-        }
-        // The first one had no number.
-        fn first() -> u32 {
-            1
+            schema: Option<u32>,
         }
         let found: Version =
             serde_json::from_str(text).map_err(|e| e.to_string())?;
-        if found.schema != SCHEMA {
+        // The first schema had no number.
+        let found = found.schema.unwrap_or(1);
+        if found != SCHEMA {
             return Err(format!(
-                "findings of schema {}, expected schema {SCHEMA}: findings \
-                 of different schemas cannot be compared; make both by one \
-                 version of the program",
-                found.schema
+                "findings of schema {found}, expected schema {SCHEMA}: \
+                 findings of different schemas cannot be compared; make both \
+                 by one version of the program"
             ));
         }
         let findings: Self =

@@ -85,40 +85,21 @@ pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
 }
 
-/// Arm of the intensity grid.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    Hash,
-    Serialize,
-    Deserialize,
-)]
-pub enum Arm {
-    /// The paper's 0.01 g steps, not refined.
-    A,
-    /// The paper's steps, first overturning bracket bisected.
-    B,
-    /// The same dimensionless steps for every slenderness, bisected.
-    C,
+named! {
+    /// Arm of the intensity grid.
+    #[derive(PartialOrd, Ord, Hash)]
+    pub enum Arm: "arm" {
+        /// The paper's 0.01 g steps, not refined.
+        A = "A",
+        /// The paper's steps, first overturning bracket bisected.
+        B = "B",
+        /// The same dimensionless steps for every slenderness, bisected.
+        C = "C",
+    }
 }
 
 impl Arm {
-    /// The letter.
-    #[must_use]
-    pub fn letter(self) -> &'static str {
-        match self {
-            Self::A => "A",
-            Self::B => "B",
-            Self::C => "C",
-        }
-    }
-
-    /// The letter and what it stands for.
+    /// The letter and its meaning.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {

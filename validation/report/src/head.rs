@@ -152,7 +152,7 @@ fn revisions() -> String {
 fn command(results: &Results, proved: bool) -> String {
     let setup = &results.plan.setup;
     let arms: Vec<&str> =
-        results.plan.arms.iter().map(|arm| arm.letter()).collect();
+        results.plan.arms.iter().map(|arm| arm.name()).collect();
     let suites = match results.embedded() {
         true => "",
         false => " --ordinary ORDINARY --pulse PULSE",

@@ -65,6 +65,7 @@ fn empty(source: &Source) -> Results {
         list: Vec::new(),
         chosen: [0; 3],
         arms: Vec::new(),
+        distributions: Vec::new(),
         single: Vec::new(),
         stripes: Vec::new(),
         adjusted: Vec::new(),
@@ -74,7 +75,6 @@ fn empty(source: &Source) -> Results {
         plan: plan(Execution::default()),
         ordinary: suite(SuiteKind::Ordinary),
         pulse: suite(SuiteKind::PulseType),
-        distributions: Vec::new(),
         varied: Vec::new(),
     }
 }

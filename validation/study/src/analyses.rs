@@ -8,8 +8,7 @@ mod suite;
 pub use plan::Plan;
 pub use single::HISTORY_INTERVAL_S;
 pub use suite::{
-    Apart, Facts, SPECTRUM_PERIODS_S, ShownHistory, SingleRecords,
-    StripeDemands, SuiteResults, facts,
+    Apart, ShownHistory, SingleRecords, StripeDemands, SuiteResults,
 };
 
 use indicatif::ProgressBar;
@@ -19,6 +18,8 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
 use crate::contents::{Item, items};
+use crate::distributions::suite_distributions;
+use crate::facts::{Facts, facts};
 use crate::runs::curves_of;
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
@@ -65,6 +66,8 @@ impl Plan {
         let (adjusted, _) = chains(&references(), &self.drawn(), adjusting)?;
         let stripes =
             stripes::stripes(&self.setup, &records, &arms, &adjusted)?;
+        let distributions =
+            suite_distributions(suite.kind, &facts, &arms, self.common())?;
         let names = suite.list().into_iter();
         Ok(SuiteResults {
             kind: suite.kind,
@@ -81,6 +84,7 @@ impl Plan {
             clusters: suite.clusters.clone(),
             chosen,
             arms,
+            distributions,
             single,
             stripes,
             adjusted,

@@ -160,9 +160,10 @@ impl Distances {
         suite: SuiteKind,
         arm: Arm,
     ) -> anyhow::Result<Self> {
-        let of = |intensity| results.distributions(suite, arm, intensity);
+        let own = results.suite(suite);
+        let of = |intensity| own.distributions(arm, intensity);
         let (pga, pgv) = (of(Intensity::Pga)?, of(Intensity::Pgv)?);
-        let records = &results.suite(suite).records;
+        let records = &own.records;
         let n = records.len();
         let means: Option<Vec<f64>> =
             records.iter().map(|r| r.mean_over_study).collect();
@@ -185,19 +186,12 @@ impl Distances {
                     }
                 };
                 whole.push(value(tests, block, factors.as_deref()));
-                all.push(factors.map(|factors| {
-                    Tested15 {
-                        levels: every(&block.samples, BAND_STRIDE)
-                            .map(|level| match tests {
-                                Tests::ShiftedGeometricMean => {
-                                    scaled(level, &factors)
-                                }
-                                _ => level.clone(),
-                            })
-                            .collect(),
-                        factors,
-                        shifted: tests.is_shifted(),
-                    }
+                let shifted = tests.is_shifted();
+                let own = every(&pga.blocks[at].samples, BAND_STRIDE);
+                all.push(factors.map(|factors| Tested15 {
+                    levels: own.map(|level| scaled(level, &factors)).collect(),
+                    factors,
+                    shifted,
                 }));
             }
         }

@@ -5,7 +5,7 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking_statistics::acceptance::NullBand;
 use rocking_statistics::lilliefors::Assessment;
 
-use crate::analyses::Facts;
+use crate::facts::Facts;
 use crate::normality::{accepted_share, along, null_band};
 use crate::runs::{ArmCurves, capacities};
 use rocking_common::paper::{
@@ -48,8 +48,6 @@ impl BlockSamples {
 /// All 15 blocks of a suite in one arm and one measure.
 #[derive(Clone, Debug)]
 pub struct Distributions {
-    /// `ordinary` or `pulse-type`.
-    pub kind: SuiteKind,
     /// Arm of the grid.
     pub arm: Arm,
     /// Intensity measure.
@@ -85,7 +83,7 @@ pub fn suite_distributions(
                 .map(|(i, s)| block(records, intensity, i, s, banded))
                 .collect::<Result<_, _>>()?;
             let arm = arm.arm;
-            out.push(Distributions { kind, arm, intensity, blocks });
+            out.push(Distributions { arm, intensity, blocks });
         }
     }
     Ok(out)

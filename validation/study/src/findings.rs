@@ -18,7 +18,9 @@ use crate::stripes::adjusted_split;
 use rocking_common::findings::{
     Aside, Claim, Findings, Measured, Place, Row, SCHEMA, Suite, Table, Topic,
 };
-use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
+use rocking_common::paper::{
+    BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,
+};
 use rocking_common::suites::earthquakes;
 use rocking_draw::figures::Stripe;
 
@@ -106,9 +108,13 @@ fn count(n: usize) -> Measured {
 }
 
 /// A block of a suite, an arm and an intensity measure.
-fn place_of(found: &Distributions, block: &BlockSamples) -> Place {
+fn place_of(
+    kind: SuiteKind,
+    found: &Distributions,
+    block: &BlockSamples,
+) -> Place {
     Place {
-        suite: Some(found.kind),
+        suite: Some(kind),
         arm: Some(found.arm),
         intensity: Some(found.intensity),
         p_rad_s: Some(block.p_rad_s),
@@ -130,12 +136,12 @@ fn uplift(results: &Results) -> Vec<Row> {
 /// Shift and accepted shares of each block, suite, arm and measure.
 fn shares(results: &Results) -> Vec<Row> {
     let mut rows = Vec::new();
-    for found in &results.distributions {
+    for (suite, found) in results.all_distributions() {
         rows.extend(found.blocks.iter().map(|block| {
             let (original, shifted) = block.shares();
             let values = [block.shift, original, shifted];
             Row {
-                at: place_of(found, block),
+                at: place_of(suite.kind, found, block),
                 values: values.map(Measured::exact).into(),
             }
         }));
@@ -259,9 +265,9 @@ fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
 /// arm that figures share, with the order-statistic interval.
 fn overturning(results: &Results) -> Vec<Row> {
     let mut rows = Vec::new();
-    for (_, found) in results.common() {
+    for (suite, found) in results.common() {
         rows.extend(found.blocks.iter().map(|block| Row {
-            at: place_of(found, block),
+            at: place_of(suite.kind, found, block),
             values: vec![estimates::median(block.overturning())],
         }));
     }

@@ -13,6 +13,14 @@ pub(crate) const CONSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// The block of Figures 15 to 18: p = 3, alpha = 0.20.
 pub(crate) const BLOCK: (usize, usize) = (1, 3);
 
+/// The untrimmed fit.
+pub(crate) const MLE: FitMethod = FitMethod::MaximumLikelihood;
+
+/// The fit of the trimmed sample.
+pub(crate) fn trimmed() -> FitMethod {
+    FitMethod::Trimmed(QuantileType::default())
+}
+
 /// The lognormals that the paper compares, of one sample and shift.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fits {
@@ -29,11 +37,10 @@ impl Fits {
         let by = |shift, method| {
             fit(sample, shift, method).ok().map(|f| f.distribution)
         };
-        let trim = FitMethod::Trimmed(QuantileType::default());
         Self {
-            usfl: by(0.0, FitMethod::MaximumLikelihood),
-            ssfl: by(shift, FitMethod::MaximumLikelihood),
-            trimmed: by(0.0, trim),
+            usfl: by(0.0, MLE),
+            ssfl: by(shift, MLE),
+            trimmed: by(0.0, trimmed()),
         }
     }
 }

@@ -8,6 +8,7 @@ pub mod contents;
 mod distances;
 pub mod distributions;
 pub mod estimates;
+pub mod facts;
 pub mod figures;
 pub mod findings;
 mod fits;

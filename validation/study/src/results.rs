@@ -1,12 +1,11 @@
 //! What the analyses gave: what claims, questions, figures and findings read.
 
 use crate::analyses::{Plan, SuiteResults};
-use crate::distributions::{BlockSamples, Distributions};
+use crate::distributions::Distributions;
 use crate::inference::Draws;
-use crate::runs::not_run;
 use crate::sensitivities::{Choice, Varied};
 use rocking::capacity::ResponseCurve;
-use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
+use rocking_common::paper::{SuiteKind, position};
 
 /// The analyses of both suites.
 #[derive(Clone, Debug)]
@@ -17,8 +16,6 @@ pub struct Results {
     pub ordinary: SuiteResults,
     /// The pulse-type suite.
     pub pulse: SuiteResults,
-    /// Capacity samples: suites, arms, measures.
-    pub distributions: Vec<Distributions>,
     /// Curves under other choices, ordinary suite.
     pub varied: Vec<Varied>,
 }
@@ -49,30 +46,21 @@ impl Results {
         if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
     }
 
-    /// The capacity samples of a suite in an arm and a measure.
-    ///
-    /// # Errors
-    /// If the arm was not run.
-    pub fn distributions(
-        &self,
-        kind: SuiteKind,
-        arm: Arm,
-        intensity: Intensity,
-    ) -> anyhow::Result<&Distributions> {
-        let is = |d: &&Distributions| {
-            d.kind == kind && d.arm == arm && d.intensity == intensity
-        };
-        self.distributions.iter().find(is).ok_or_else(|| not_run(arm))
-    }
-
     /// The capacity samples in the arm of all suites: ordinary and
     /// pulse-type records, PGA and PGV each.
     pub(crate) fn common(
         &self,
     ) -> impl Iterator<Item = (&SuiteResults, &Distributions)> {
         let arm = self.plan.common();
-        let own = self.distributions.iter().filter(move |d| d.arm == arm);
-        own.map(|d| (self.suite(d.kind), d))
+        self.all_distributions().filter(move |(_, found)| found.arm == arm)
+    }
+
+    /// The capacity samples of all suites, arms and measures.
+    pub(crate) fn all_distributions(
+        &self,
+    ) -> impl Iterator<Item = (&SuiteResults, &Distributions)> {
+        let suites = self.suites().into_iter();
+        suites.flat_map(|own| own.distributions.iter().map(move |d| (own, d)))
     }
 
     /// The ordinary curves under these choices, each with the study's own
@@ -88,21 +76,5 @@ impl Results {
         let of = |v: &Varied| position(v.frequency, v.slenderness);
         let found = self.varied.iter().filter(|v| choices.contains(&v.choice));
         Ok(found.map(|v| (v, curves[of(v)].as_slice())).collect())
-    }
-
-    /// One block of the ordinary suite.
-    ///
-    /// # Errors
-    /// If the arm was not run.
-    pub(crate) fn ordinary_block(
-        &self,
-        arm: Arm,
-        intensity: Intensity,
-        frequency: usize,
-        slenderness: usize,
-    ) -> anyhow::Result<&BlockSamples> {
-        let kind = self.ordinary.kind;
-        let found = self.distributions(kind, arm, intensity)?;
-        Ok(&found.blocks[position(frequency, slenderness)])
     }
 }

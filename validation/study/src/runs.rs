@@ -61,7 +61,7 @@ pub fn curves_of(
 
 /// The error where results of an arm are read that was not run.
 pub(crate) fn not_run(arm: Arm) -> anyhow::Error {
-    anyhow!("arm {} of the grid was not run", arm.letter())
+    anyhow!("arm {} of the grid was not run", arm.name())
 }
 
 impl Setup {

@@ -2,7 +2,8 @@
 
 use rocking_statistics::paired::Pairs;
 
-use crate::analyses::{Facts, StripeDemands, SuiteResults};
+use crate::analyses::{StripeDemands, SuiteResults};
+use crate::facts::Facts;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, STRIPES, position};
 
 impl StripeDemands {

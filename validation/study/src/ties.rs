@@ -4,11 +4,12 @@
 use libm::{exp, log, tan};
 use rayon::prelude::*;
 use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
-use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::lognormal::fit;
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
 
 use crate::distributions::BlockSamples;
+use crate::fits::MLE;
 use crate::normality::LEVEL;
 
 /// Samples drawn for the grid's own share.
@@ -27,8 +28,7 @@ pub(crate) fn grid_alone(block: &BlockSamples) -> Option<f64> {
 fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
     let sample = block.overturning();
     let extended = ExtendedSample::try_new(sample).ok()?;
-    let method = FitMethod::MaximumLikelihood;
-    let truth = fit(&extended, block.shift, method).ok()?.distribution;
+    let truth = fit(&extended, block.shift, MLE).ok()?.distribution;
     Some((truth, 0.01 / tan(block.alpha_rad), sample.len()))
 }
 

@@ -4,7 +4,6 @@ use indicatif::ProgressBar;
 
 use crate::analyses::Plan;
 use crate::claims;
-use crate::distributions::suite_distributions;
 use crate::figures;
 use crate::findings::study_findings;
 use crate::questions::{self, Answer};
@@ -39,18 +38,8 @@ impl Study {
         let [first, second] = suites;
         let ordinary = plan.run_suite(first, progress)?;
         let pulse = plan.run_suite(second, progress)?;
-        let mut distributions = Vec::new();
-        for own in [&ordinary, &pulse] {
-            let (kind, common) = (own.kind, plan.common());
-            distributions.extend(suite_distributions(
-                kind,
-                &own.records,
-                &own.arms,
-                common,
-            )?);
-        }
         let varied = plan.sensitivities(first)?;
-        let results = Results { plan, ordinary, pulse, distributions, varied };
+        let results = Results { plan, ordinary, pulse, varied };
         let draws = results.draws(1);
         let mut figures = figures::all(&results, &draws)?;
         let mut answers = questions::all(&results, &draws)?;

@@ -96,5 +96,5 @@ pub fn suite() -> impl TypedValueParser<Value = SuiteKind> {
 
 /// Arms of the study.
 pub fn arm() -> impl TypedValueParser<Value = Arm> {
-    named([Arm::A, Arm::B, Arm::C], Arm::letter, [""; 3])
+    named(Arm::ALL, Arm::name, [""; 3])
 }

@@ -80,16 +80,6 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// All of them, in order.
-    pub const ALL: [Self; 6] = [
-        Self::Choices,
-        Self::SingleRecords,
-        Self::Statistics,
-        Self::Lognormality,
-        Self::Fragilities,
-        Self::Beyond,
-    ];
-
     /// The question that the theme answers.
     #[must_use]
     pub fn question(self) -> &'static str {
@@ -326,7 +316,7 @@ impl ClaimResult {
     /// Suite and arm in words: `ordinary, arm C`.
     #[must_use]
     pub fn place(&self) -> String {
-        let arm = self.arm.map(|arm| format!(", arm {}", arm.letter()));
+        let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()
     }
 

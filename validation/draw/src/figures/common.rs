@@ -29,7 +29,7 @@ pub fn scene(
 pub fn caption(heading: &Heading) -> Caption {
     let (name, mut title) = (heading.name.clone(), heading.title.clone());
     if let Some(arm) = heading.arm {
-        title += &format!(" (arm {})", arm.letter());
+        title += &format!(" (arm {})", arm.name());
     }
     if let Some(motions) = heading.motions {
         title += &format!(" ({} motions)", motions.name());

@@ -122,7 +122,7 @@ impl Heading {
         arm: Option<Arm>,
     ) -> Self {
         let (place, by_arm) = NUMBERED[number as usize - 1];
-        let of_arm = |arm: Arm| format!("-{}", arm.letter().to_lowercase());
+        let of_arm = |arm: Arm| format!("-{}", arm.name().to_lowercase());
         let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
         let name = format!("figure-{number:02}{suffix}");
         let words = Self::new(name, title, description);
@@ -169,7 +169,7 @@ impl Heading {
         };
         let mut label = format!("Figure {number}");
         if let Some(arm) = self.own_arm() {
-            label += &format!(", arm {}", arm.letter());
+            label += &format!(", arm {}", arm.name());
         }
         if let Some(motions) = self.motions {
             label += &format!(", {} motions", motions.name());

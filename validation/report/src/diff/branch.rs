@@ -331,7 +331,7 @@ pub(super) fn part(
         && !arms.contains(&arm)
     {
         let why = "this arm was not run".to_owned();
-        return (format!("results of arm {}", arm.letter()), Some(why));
+        return (format!("results of arm {}", arm.name()), Some(why));
     }
     let ["tables", topic, "rows", _] = path else {
         return (words(path), None);

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
-use super::suite::{Apart, Facts, ShownHistory, SingleRecords};
+use super::suite::{Apart, ShownHistory, SingleRecords};
+use crate::facts::Facts;
 use crate::runs::{Setup, capacities};
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,

@@ -2,36 +2,15 @@
 
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
-use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_records::SetAside;
-use rocking_records::intensity::{Measures, Settings};
 use rocking_statistics::Clusters;
 
+use crate::distributions::{BlockSamples, Distributions};
+use crate::facts::Facts;
 use crate::runs::{ArmCurves, Work, curves_of, not_run};
 use rocking_common::findings::RecordName;
-use rocking_common::paper::{Arm, SuiteKind};
-use rocking_common::suites::{Motion, Source};
-
-/// Periods of the response spectra, in s.
-pub const SPECTRUM_PERIODS_S: [f64; 14] = [
-    0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
-];
-
-/// What a study knows of a record.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
-    /// Name.
-    pub name: String,
-    /// Peak ground acceleration, in g.
-    pub pga_g: f64,
-    /// PGV/PGA over gravity, in s.
-    pub velocity_ratio_s: f64,
-    /// PGA of the geometric mean of the pair over this component's.
-    pub mean_over_study: Option<f64>,
-    /// Intensity measures of the component applied, its spectrum at
-    /// [`SPECTRUM_PERIODS_S`].
-    pub measures: Measures,
-}
+use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
+use rocking_common::suites::Source;
 
 /// Demands on the stripes for one arm's first overturnings.
 #[derive(Clone, Debug)]
@@ -74,6 +53,8 @@ pub struct SuiteResults {
     pub chosen: [usize; 3],
     /// Curves by arm.
     pub arms: Vec<ArmCurves>,
+    /// Capacity samples by arm, PGA then PGV.
+    pub distributions: Vec<Distributions>,
     /// By frequency parameter.
     pub single: Vec<SingleRecords>,
     /// By arm.
@@ -92,6 +73,34 @@ impl SuiteResults {
     /// If the arm was not run.
     pub fn curves(&self, arm: Arm) -> anyhow::Result<&[Vec<ResponseCurve>]> {
         curves_of(&self.arms, arm)
+    }
+
+    /// Capacity samples of an arm in a measure.
+    ///
+    /// # Errors
+    /// If the arm was not run.
+    pub fn distributions(
+        &self,
+        arm: Arm,
+        intensity: Intensity,
+    ) -> anyhow::Result<&Distributions> {
+        let is = |d: &&Distributions| d.arm == arm && d.intensity == intensity;
+        self.distributions.iter().find(is).ok_or_else(|| not_run(arm))
+    }
+
+    /// Capacity samples of a block, by the positions of frequency parameter
+    /// and slenderness.
+    ///
+    /// # Errors
+    /// If the arm was not run.
+    pub fn block(
+        &self,
+        arm: Arm,
+        intensity: Intensity,
+        (frequency, slenderness): (usize, usize),
+    ) -> anyhow::Result<&BlockSamples> {
+        let found = self.distributions(arm, intensity)?;
+        Ok(&found.blocks[position(frequency, slenderness)])
     }
 
     /// Demands on the stripes of an arm.
@@ -158,26 +167,4 @@ impl SingleRecords {
             n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
         }
     }
-}
-
-/// What a study knows of a motion's component.
-///
-/// # Errors
-/// Where nothing moves.
-pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
-    let study = &motion.study;
-    let pga_g = study.pga_g();
-    let periods_s = SPECTRUM_PERIODS_S.to_vec();
-    let settings = Settings::try_new(STANDARD_GRAVITY_M_S2, 0.05, periods_s)?;
-    let measures = Measures::of(study, &settings)?;
-    Ok(Facts {
-        name: study.name().to_owned(),
-        pga_g,
-        velocity_ratio_s: study.pgv_g_s() / pga_g,
-        mean_over_study: motion
-            .other
-            .as_ref()
-            .map(|other| (other.pga_g() / pga_g).sqrt()),
-        measures,
-    })
 }

@@ -36,7 +36,7 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let mut onsets = Vec::new();
     let mut cut = 0;
     for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let block = results.ordinary_block(arm, intensity, 0, 3)?;
+        let block = results.ordinary.block(arm, intensity, (0, 3))?;
         onsets.push((three_quantiles(&block.samples[0])?, block.shift));
         let last = block.overturning();
         cut = last.iter().filter(|x| !x.is_finite()).count();
@@ -211,8 +211,7 @@ pub(super) fn shares(
         for shifted in [false, true] {
             let mut shares: Vec<Share> = Vec::new();
             for (arm, of) in drawn.iter().enumerate() {
-                let found =
-                    results.distributions(suite.kind, *of, intensity)?;
+                let found = suite.distributions(*of, intensity)?;
                 for (block, one) in found.blocks.iter().enumerate() {
                     let (original, above) = one.shares();
                     let tests =
@@ -253,7 +252,7 @@ pub(super) fn shares(
                         records.to_string(),
                         intensity.name().into(),
                         sample.into(),
-                        drawn[share.arm].letter().into(),
+                        drawn[share.arm].name().into(),
                         cell(block.frequency_rad_s()),
                         cell(block.slenderness_rad()),
                         share.levels.to_string(),
@@ -285,7 +284,7 @@ pub(super) fn shares(
         format!("expected of a lognormal: {}", percent(1.0 - LEVEL, 0)),
     ));
     if !banded.is_empty() {
-        let arms: Vec<&str> = banded.iter().map(|a| a.letter()).collect();
+        let arms: Vec<&str> = banded.iter().map(|a| a.name()).collect();
         let words = format!(
             "95 % band of lognormal suites, arm {}",
             arms.join(" and ")
@@ -340,7 +339,7 @@ pub(super) fn shares(
              ones. {rests} The bands are of arm {0} too: they hold 95 % of \
              {BAND_REPLICATES} lognormal suites with the same dependence \
              between levels.",
-            common.letter(),
+            common.name(),
             means[0],
             means[1],
             means[2],

@@ -27,7 +27,7 @@ pub(super) fn constants(
     arm: Arm,
 ) -> anyhow::Result<Figure> {
     let at = (Intensity::Pga, THRESHOLDS[0]);
-    let block = results.ordinary_block(arm, at.0, BLOCK.0, BLOCK.1)?;
+    let block = results.ordinary.block(arm, at.0, BLOCK)?;
     let data = &block.samples[demand_index(at.1)];
     let sample = ExtendedSample::try_new(data)?;
     let fits = Fits::new(&sample, block.shift);

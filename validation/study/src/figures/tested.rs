@@ -227,7 +227,7 @@ pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let mut words = Vec::new();
     for slenderness in [0, 3] {
         let block =
-            results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
+            results.ordinary.block(arm, Intensity::Pga, (1, slenderness))?;
         words.push(format!(
             "{} and {} at alpha = {:.2}",
             percent(accepted_share(&block.original), 1),

@@ -172,13 +172,12 @@ fn samples<'a>(
     slenderness: usize,
     demand: f64,
 ) -> anyhow::Result<[&'a [f64]; 2]> {
-    let (kind, arm) = (source.kind(), source.arm);
-    let found = source.results.distributions(kind, arm, Intensity::Pga)?;
-    let of = |slenderness| {
-        let block = &found.blocks[position(frequency, slenderness)];
-        block.samples[demand_index(demand)].as_slice()
+    let of = |slenderness| -> anyhow::Result<&'a [f64]> {
+        let place = (frequency, slenderness);
+        let found = source.suite().block(source.arm, Intensity::Pga, place)?;
+        Ok(&found.samples[demand_index(demand)])
     };
-    Ok([of(slenderness), of(REFERENCE)])
+    Ok([of(slenderness)?, of(REFERENCE)?])
 }
 
 /// Median paired ratios of intensities at equal demand.

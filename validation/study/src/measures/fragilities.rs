@@ -11,7 +11,7 @@ use crate::distributions::factors;
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
-use rocking_common::paper::{demand_index, position};
+use rocking_common::paper::demand_index;
 
 /// Dispersion of a lognormal sample over the dispersion without its largest
 /// twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
@@ -34,16 +34,13 @@ pub(crate) struct Thresholds {
 
 impl Thresholds {
     pub(crate) fn new(source: &Source<'_>) -> anyhow::Result<Self> {
-        let (kind, intensity) = (source.kind(), source.intensity);
-        let found =
-            source.results.distributions(kind, source.arm, intensity)?;
-        let block = &found.blocks[position(BLOCK.0, BLOCK.1)];
+        let (suite, intensity) = (source.suite(), source.intensity);
+        let block = suite.block(source.arm, intensity, BLOCK)?;
         let ranked = THRESHOLDS
             .iter()
             .map(|edp| Ranked::new(&block.samples[demand_index(*edp)]))
             .collect();
-        let records = &source.suite().records;
-        let onsets = factors(records, intensity, block.p_rad_s);
+        let onsets = factors(&suite.records, intensity, block.p_rad_s);
         Ok(Self { ranked, onsets })
     }
 

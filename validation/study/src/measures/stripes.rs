@@ -7,7 +7,8 @@ use super::source::{
     self, CellValues, Criterion, Prepared, Source, block, blocks,
     compared_blocks, weighted_count,
 };
-use crate::analyses::{Facts, StripeDemands, SuiteResults};
+use crate::analyses::{StripeDemands, SuiteResults};
+use crate::facts::Facts;
 use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
 use crate::results::Results;
 use crate::stripes::{adjusted_slenderness, is_within};

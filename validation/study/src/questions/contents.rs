@@ -38,7 +38,7 @@ impl Ours {
         for (item, curves) in items().iter().zip(&suite.contents) {
             let threshold = libm::tan(item.block()?.slenderness_rad());
             let of = |(curve, facts)| {
-                let facts: &crate::analyses::Facts = facts;
+                let facts: &crate::facts::Facts = facts;
                 let factor =
                     threshold * facts.velocity_ratio_s * STANDARD_GRAVITY_M_S2;
                 let (low, high) = overturning(curve);

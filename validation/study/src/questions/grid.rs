@@ -5,11 +5,12 @@ use rocking_statistics::ExtendedSample;
 use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 
 use super::answer::{Answer, Rows, count, number, word};
+use crate::analyses::SuiteResults;
 use crate::fits::{Fits, of_intervals};
 use crate::results::Results;
 use crate::ties::grid_alone;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{capital, percent};
 use rocking_draw::figures::{
@@ -41,7 +42,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut words = Vec::new();
     let mut by_suite = Vec::new();
     for suite in results.suites() {
-        let rows = rows(results, suite.kind)?;
+        let rows = rows(results, suite)?;
         for (i, row) in rows.iter().enumerate() {
             let share = |x: f64| number(x, 3);
             let slenderness = i % SLENDERNESSES_RAD.len();
@@ -103,8 +104,8 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     Ok(Answer { figures: vec![figure(&by_suite)], ..answer })
 }
 
-fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
-    let of = |arm| results.distributions(kind, arm, Intensity::Pga);
+fn rows(results: &Results, suite: &SuiteResults) -> anyhow::Result<Vec<Row>> {
+    let of = |arm| suite.distributions(arm, Intensity::Pga);
     let finest = of(results.plan.common())?;
     (0..finest.blocks.len())
         .map(|i| {
@@ -129,7 +130,7 @@ fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
                 row.tied[arm] =
                     block.shifted.iter().filter(|a| tied(a)).count();
             }
-            if let Ok(curves) = results.suite(kind).curves(Arm::A) {
+            if let Ok(curves) = suite.curves(Arm::A) {
                 let intervals = by_intervals(&curves[i], 1.0);
                 row.dispersions[1] = intervals.unwrap_or(f64::NAN);
             }
@@ -212,7 +213,7 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .enumerate()
         .filter(|(k, _)| rows[0].rejected[*k].is_finite())
         .map(|(k, arm)| {
-            let label = format!("arm {}", arm.letter());
+            let label = format!("arm {}", arm.name());
             line(&label, Mark::LineAndPoints, &|r| r.rejected[k])
         })
         .collect();

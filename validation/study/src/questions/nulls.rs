@@ -3,9 +3,9 @@
 use rocking_statistics::lilliefors::{ShiftedNull, Table};
 
 use super::answer::{Answer, Rows, count, number, word};
-use crate::analyses::Facts;
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
+use crate::facts::Facts;
 use crate::normality::{LEVEL, over_critical};
 use crate::results::Results;
 use rocking_common::paper::{Intensity, demand_index, demands};

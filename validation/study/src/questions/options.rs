@@ -2,9 +2,6 @@
 //! threshold.
 
 mod drawing;
-mod summary;
-
-use summary::{MLE, Summary, trimmed};
 
 use rayon::prelude::*;
 use rocking::block::Block;
@@ -18,7 +15,7 @@ use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
-use crate::fits::{BLOCK, THRESHOLDS};
+use crate::fits::{BLOCK, MLE, THRESHOLDS, trimmed};
 use crate::results::Results;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
@@ -30,21 +27,32 @@ use rocking_common::words::range;
 const REPLICATES: [usize; 2] = [100, 1000];
 
 /// One recipe for one block, measure and threshold.
-struct Entry {
+struct RecipeFit<'a> {
     recipe: Recipe,
     intensity: Intensity,
-    p_rad_s: f64,
-    alpha_rad: f64,
+    block: &'a BlockSamples,
     edp: f64,
-    shift: f64,
     /// The fragility, or why there is none.
     fragility: Result<Lognormal, String>,
-    ks: f64,
-    area: f64,
-    ks_interval: (f64, f64),
-    area_interval: (f64, f64),
+    /// Kolmogorov and area distance to the empirical fragility.
+    distances: [f64; 2],
+    /// Their intervals.
+    intervals: [(f64, f64); 2],
     /// Draws of the bootstrap in which the recipe is defined.
     used: usize,
+}
+
+/// One recipe over all blocks and thresholds.
+struct RecipeSummary {
+    recipe: Recipe,
+    intensity: Intensity,
+    /// Share of the fits that are defined.
+    defined: f64,
+    /// Median and largest Kolmogorov distance.
+    ks: f64,
+    largest: f64,
+    /// Median area distance.
+    area: f64,
 }
 
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
@@ -58,12 +66,12 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         Bootstrap::of("study/options", 0, clusters, replicates)
             .map(<[_]>::to_vec);
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
-    for (_, found) in results.common().filter(|(_, d)| d.kind == kind) {
+    for (_, found) in results.common().filter(|(s, _)| s.kind == kind) {
         for block in &found.blocks {
             cells.extend(THRESHOLDS.map(|e| (found.intensity, block, e)));
         }
     }
-    let entries: Vec<Entry> = cells
+    let entries: Vec<RecipeFit<'_>> = cells
         .par_iter()
         .map(|(intensity, block, edp)| {
             let paper = block.p_rad_s == FREQUENCIES_RAD_S[BLOCK.0]
@@ -123,13 +131,14 @@ fn shown_constant(recipe: &Recipe) -> bool {
     matches!(recipe, Recipe::Transformed { c, .. } if *c == 0.25 || *c == 1.0)
 }
 
-fn entries(
+/// The fits of every recipe to a block's capacities at a demand.
+fn entries<'a>(
     intensity: Intensity,
-    block: &BlockSamples,
+    block: &'a BlockSamples,
     edp: f64,
     (draws, clusters): (&[Vec<usize>], &Clusters),
     areas: bool,
-) -> anyhow::Result<Vec<Entry>> {
+) -> anyhow::Result<Vec<RecipeFit<'a>>> {
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
     let recipes = Recipe::all(QuantileType::default());
@@ -141,77 +150,69 @@ fn entries(
         let own: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
         let own = ExtendedSample::try_new(&own)?;
         let made = Recipe::fragilities(&recipes, &own, block.shift);
-        for (fragility, columns) in made.iter().zip(&mut drawn) {
+        for (fragility, [ks, area]) in made.iter().zip(&mut drawn) {
             if let Ok(fragility) = fragility {
-                columns[0].push(fragility.kolmogorov_distance(&sample));
+                ks.push(fragility.kolmogorov_distance(&sample));
                 if areas {
-                    columns[1].extend(fragility.area_distance(&sample));
+                    area.extend(fragility.area_distance(&sample));
                 }
             }
         }
     }
     let made = Recipe::fragilities(&recipes, &sample, block.shift);
-    Ok(recipes
-        .into_iter()
-        .zip(made)
-        .zip(drawn)
-        .map(|((recipe, fragility), columns)| {
-            let distances = fragility.as_ref().map(|f| {
-                let area = f.area_distance(&sample);
-                (f.kolmogorov_distance(&sample), area.unwrap_or(f64::NAN))
-            });
-            let (ks, area) = distances.unwrap_or((f64::NAN, f64::NAN));
-            let interval = |point, values: &[f64]| {
-                let found = clusters.estimate(point, values, 0.95);
-                found.map_or((f64::NAN, f64::NAN), |e| (e.low, e.high))
-            };
-            Entry {
-                recipe,
-                intensity,
-                p_rad_s: block.p_rad_s,
-                alpha_rad: block.alpha_rad,
-                edp,
-                shift: block.shift,
-                fragility: fragility.map_err(|e| e.to_string()),
-                ks,
-                area,
-                ks_interval: interval(ks, &columns[0]),
-                area_interval: interval(area, &columns[1]),
-                used: columns[0].len(),
-            }
-        })
-        .collect())
+    let all = recipes.into_iter().zip(made).zip(drawn);
+    let one = all.map(|((recipe, fragility), drawn)| {
+        let distances = fragility.as_ref().map_or([f64::NAN; 2], |f| {
+            let area = f.area_distance(&sample);
+            [f.kolmogorov_distance(&sample), area.unwrap_or(f64::NAN)]
+        });
+        let interval = |k: usize| {
+            let found = clusters.estimate(distances[k], &drawn[k], 0.95);
+            found.map_or((f64::NAN, f64::NAN), |e| (e.low, e.high))
+        };
+        RecipeFit {
+            recipe,
+            intensity,
+            block,
+            edp,
+            fragility: fragility.map_err(|e| e.to_string()),
+            distances,
+            intervals: [interval(0), interval(1)],
+            used: drawn[0].len(),
+        }
+    });
+    Ok(one.collect())
 }
 
-fn summaries(entries: &[Entry]) -> Vec<Summary> {
+fn summaries(entries: &[RecipeFit<'_>]) -> Vec<RecipeSummary> {
     let recipes = Recipe::all(QuantileType::default());
     let mut out = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         for recipe in &recipes {
-            let own: Vec<&Entry> = entries
+            let own: Vec<&RecipeFit<'_>> = entries
                 .iter()
                 .filter(|e| e.recipe == *recipe && e.intensity == intensity)
                 .collect();
-            let defined: Vec<&&Entry> =
+            let defined: Vec<&&RecipeFit<'_>> =
                 own.iter().filter(|e| e.fragility.is_ok()).collect();
-            let of = |f: fn(&Entry) -> f64| -> Vec<f64> {
+            let of = |f: fn(&RecipeFit<'_>) -> f64| -> Vec<f64> {
                 defined.iter().map(|e| f(e)).collect()
             };
-            let ks = of(|e| e.ks);
-            out.push(Summary {
+            let ks = of(|e| e.distances[0]);
+            out.push(RecipeSummary {
                 recipe: *recipe,
                 intensity,
                 defined: defined.len() as f64 / own.len() as f64,
                 ks: median(&ks).value,
                 largest: range(ks.into_iter()).1,
-                area: median(&of(|e| e.area)).value,
+                area: median(&of(|e| e.distances[1])).value,
             });
         }
     }
     out
 }
 
-fn words(summaries: &[Summary]) -> String {
+fn words(summaries: &[RecipeSummary]) -> String {
     let of = |recipe: Recipe, intensity| {
         let found = summaries
             .iter()
@@ -246,29 +247,29 @@ fn words(summaries: &[Summary]) -> String {
 }
 
 /// Every recipe of every block, with its parameters and distances.
-fn by_block(entries: &[Entry]) -> String {
+fn by_block(entries: &[RecipeFit<'_>]) -> String {
     let mut table = Rows::default();
     for e in entries {
         let fragility = e.fragility.as_ref();
         let of = |f: fn(&Lognormal) -> f64| six(fragility.map_or(f64::NAN, f));
         table.row(vec![
             ("im", word(e.intensity.name())),
-            ("p_rad_s", number(e.p_rad_s, 0)),
-            ("alpha_rad", number(e.alpha_rad, 0)),
+            ("p_rad_s", number(e.block.p_rad_s, 0)),
+            ("alpha_rad", number(e.block.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),
-            ("im_r", six(e.shift)),
+            ("im_r", six(e.block.shift)),
             ("option", word(e.recipe.option().to_string())),
             ("recipe", word(e.recipe.to_string())),
             ("numbers_reported", reported(&e.recipe)),
             ("ln_median", of(Lognormal::log_mean)),
             ("dispersion", of(Lognormal::dispersion)),
             ("shift", of(Lognormal::shift)),
-            ("ks_distance", six(e.ks)),
-            ("ks_low", six(e.ks_interval.0)),
-            ("ks_high", six(e.ks_interval.1)),
-            ("area_distance", six(e.area)),
-            ("area_low", six(e.area_interval.0)),
-            ("area_high", six(e.area_interval.1)),
+            ("ks_distance", six(e.distances[0])),
+            ("ks_low", six(e.intervals[0].0)),
+            ("ks_high", six(e.intervals[0].1)),
+            ("area_distance", six(e.distances[1])),
+            ("area_low", six(e.intervals[1].0)),
+            ("area_high", six(e.intervals[1].1)),
             ("draws_used", word(e.used.to_string())),
             (
                 "undefined_because",
@@ -286,7 +287,7 @@ fn six(x: f64) -> Cell {
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
 /// unshifted lognormal, dimensionless and in physical units.
-fn pact(entries: &[Entry]) -> anyhow::Result<String> {
+fn pact(entries: &[RecipeFit<'_>]) -> anyhow::Result<String> {
     let mut table = Rows::default();
     for e in entries {
         let (Recipe::Unshifted(method), Ok(fragility)) =
@@ -294,14 +295,14 @@ fn pact(entries: &[Entry]) -> anyhow::Result<String> {
         else {
             continue;
         };
-        let block = Block::try_new(e.alpha_rad, e.p_rad_s)?;
+        let block = Block::try_new(e.block.alpha_rad, e.block.p_rad_s)?;
         let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
         let unit = unit_intensity(e.intensity, &block, model, gravity);
         let own = fragility.scaled(unit)?;
         let Some(pact) = Pact::of(e.intensity, &own) else { continue };
         table.row(vec![
-            ("p_rad_s", number(e.p_rad_s, 0)),
-            ("alpha_rad", number(e.alpha_rad, 0)),
+            ("p_rad_s", number(e.block.p_rad_s, 0)),
+            ("alpha_rad", number(e.block.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),
             ("fit", word(method.to_string())),
             ("demand", word(pact.demand)),

@@ -269,7 +269,7 @@ fn accepted(rows: &[Row]) -> PlainTable {
 mod tests {
     use super::row::Side;
     use super::*;
-    use crate::analyses::facts;
+    use crate::facts::{Facts, facts};
     use rocking_common::suites::StudySuite;
     use rocking_statistics::ExtendedSample;
     use rocking_statistics::QuantileType;
@@ -358,7 +358,7 @@ mod tests {
                 .iter()
                 .map(|m| facts(m).expect("moves"))
                 .collect();
-            let of = |value: &dyn Fn(&crate::analyses::Facts) -> f64| {
+            let of = |value: &dyn Fn(&Facts) -> f64| {
                 let values: Vec<f64> = all.iter().map(value).collect();
                 let sample = ExtendedSample::try_new(&values).expect("sample");
                 QuantileType::default()

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
-use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::streams::{Streams, standard_normal};
-use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking_statistics::{ExtendedSample, Lognormal};
 
 use super::answer::{self, Answer, Cell, Rows, number, word};
 use crate::estimates::mean;
+use crate::fits::{MLE, trimmed};
 use crate::normality::every;
 use crate::results::Results;
 use rocking_common::paper::Intensity;
@@ -151,7 +151,6 @@ fn outcomes(
     shift: f64,
     truth: Option<&Lognormal>,
 ) -> [Outcome; 4] {
-    let trimmed = FitMethod::Trimmed(QuantileType::default());
     CONSTANTS.map(|c| {
         let centre = Centre::FittedMedian;
         let distance = |method| {
@@ -162,8 +161,7 @@ fn outcomes(
                 Some(truth) => made.distance(truth),
             }
         };
-        let whole = distance(FitMethod::MaximumLikelihood);
-        match (distance(trimmed), whole) {
+        match (distance(trimmed()), distance(MLE)) {
             (Some(a), Some(b)) if a < b => Outcome::Helps,
             (Some(_), Some(_)) => Outcome::Harms,
             (Some(_), None) => Outcome::OnlyTrimmed,

@@ -4,7 +4,8 @@ use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
 use rocking_statistics::QuantileType;
 use rocking_statistics::lognormal::FitMethod;
 
-use super::summary::{MLE, Summary, trimmed};
+use super::RecipeSummary;
+use crate::fits::{MLE, trimmed};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::words::range;
 use rocking_draw::figures::{
@@ -12,7 +13,7 @@ use rocking_draw::figures::{
 };
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
-pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
+pub(super) fn figure(summaries: &[RecipeSummary], arm: Arm) -> Figure {
     let quantile_type = QuantileType::default();
     let panel = |intensity: Intensity| {
         let ks = |recipe: Recipe| {

@@ -9,9 +9,10 @@ use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 
 use super::row::{Group, Interval, Row, Side};
-use crate::analyses::{Facts, SPECTRUM_PERIODS_S, facts, normalised};
+use crate::analyses::normalised;
 use crate::distributions::{BlockSamples, Distributions, suite_distributions};
 use crate::estimates::three_quantiles;
+use crate::facts::{Facts, SPECTRUM_PERIODS_S, facts};
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
 use crate::results::Results;
@@ -54,7 +55,7 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
         out.push(pair.row(Group::Source, recorded.sha256.clone()));
         out.extend(pair.motions(&facts, &recorded.records)?);
         for own in suite_distributions(kind, &facts, &curves, arm)? {
-            let other = results.distributions(kind, arm, own.intensity)?;
+            let other = recorded.distributions(arm, own.intensity)?;
             out.extend(pair.capacities(&own, other)?);
             out.extend(pair.accepted(&own, other));
         }

@@ -1,7 +1,7 @@
 //! Figures of the comparison.
 
 use super::row::{Group, Interval, MOTIONS, Row, of_group, of_motion};
-use crate::analyses::SPECTRUM_PERIODS_S;
+use crate::facts::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,

@@ -1,0 +1,48 @@
+//! Names and intensity measures of the records.
+
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_common::suites::Motion;
+use rocking_records::intensity::{Measures, Settings};
+
+/// Periods of the response spectra, in s.
+pub const SPECTRUM_PERIODS_S: [f64; 14] = [
+    0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
+];
+
+/// Name and intensity measures of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Name.
+    pub name: String,
+    /// Peak ground acceleration, in g.
+    pub pga_g: f64,
+    /// PGV/PGA over gravity, in s.
+    pub velocity_ratio_s: f64,
+    /// PGA of the geometric mean of the pair over this component's.
+    pub mean_over_study: Option<f64>,
+    /// Intensity measures of the component applied, its spectrum at
+    /// [`SPECTRUM_PERIODS_S`].
+    pub measures: Measures,
+}
+
+/// Name and intensity measures of a motion's study component.
+///
+/// # Errors
+/// Where nothing moves.
+pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
+    let study = &motion.study;
+    let pga_g = study.pga_g();
+    let periods_s = SPECTRUM_PERIODS_S.to_vec();
+    let settings = Settings::try_new(STANDARD_GRAVITY_M_S2, 0.05, periods_s)?;
+    let measures = Measures::of(study, &settings)?;
+    Ok(Facts {
+        name: study.name().to_owned(),
+        pga_g,
+        velocity_ratio_s: study.pgv_g_s() / pga_g,
+        mean_over_study: motion
+            .other
+            .as_ref()
+            .map(|other| (other.pga_g() / pga_g).sqrt()),
+        measures,
+    })
+}

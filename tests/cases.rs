@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_proof::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
-use rocking_proof::methods::{LEFT_OUT, METHODS, digits, digits_csv};
+use rocking_proof::methods::{all_methods, digits, digits_csv};
 use rocking_proof::verdict::{Outcome, run_case, snapshot};
 
 fn main() -> ExitCode {
@@ -73,7 +73,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
     };
     let methods: BTreeSet<&str> =
         cases.iter().map(|case| case.method.as_str()).collect();
-    let registered = || METHODS.iter().chain(LEFT_OUT).map(|(name, _)| name);
+    let registered = || all_methods().map(|(name, _)| name);
     add("every-method-has-a-case", {
         let unused = registered().filter(|name| !methods.contains(*name));
         unused.map(|name| format!("no case uses `{name}`")).collect()
@@ -99,16 +99,6 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
             missing.push("no case at all".to_owned());
         }
         missing
-    });
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    add("every-case-file-is-a-family", {
-        let stems = names(&root.join("validation/proof/cases"), ".toml");
-        let unknown = stems.iter().filter(|stem| {
-            FAMILIES
-                .iter()
-                .all(|(family, _)| format!("{family}.toml") != **stem)
-        });
-        unknown.map(|stem| format!("cases/{stem} is no family")).collect()
     });
     trials
 }
@@ -147,15 +137,4 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         Trial::test("snapshot/validation-json", validation),
         Trial::test("snapshot/precision-csv", precision),
     ]
-}
-
-/// Names in a folder that end so; none where the folder is missing.
-fn names(folder: &Path, ending: &str) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let mut names: Vec<String> = entries
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.ends_with(ending))
-        .collect();
-    names.sort();
-    names
 }

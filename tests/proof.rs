@@ -327,7 +327,7 @@ fn refuses_nan_and_missing_values() {
 fn what_is_counted_is_what_is_expected() {
     let mut cases = load_all().unwrap();
     cases.retain(|case| case.method == COUNTERS);
-    let run = |case: &Case| methods::run(case, None).unwrap().observed;
+    let run = |case: &Case| methods::run_method(case, None).unwrap().observed;
     let found: Vec<_> = cases.iter().map(|c| (c, run(c))).collect();
     let csv = counters_csv(&found);
     assert!(csv.lines().count() > 30);

@@ -3,7 +3,7 @@
 //!
 //! # Files of cases
 //!
-//! A file is a family. Each `[[case]]` in it states what sets it apart, and
+//! A file in `cases` is a family. Each `[[case]]` in it states what sets it apart, and
 //! inherits the rest. It has, from weak to strong:
 //!
 //! 1. `cost = "quick"` and `status = { expect = "pass" }`, as every case;
@@ -45,7 +45,6 @@ mod attainable;
 mod case;
 mod defaults;
 mod error;
-mod families;
 mod load;
 pub mod pinned;
 mod wrong;
@@ -55,6 +54,5 @@ pub use case::{
     Status, Tolerance, Values,
 };
 pub use error::{CaseError, Fault};
-pub use families::FAMILIES;
-pub use load::{load_all, load_family};
+pub use load::{FAMILIES, load_all, load_family};
 pub use wrong::WrongModel;

@@ -39,17 +39,18 @@ mod wrong;
 pub use digits::{DIGITS_HEADER, Reach, Row, digits, digits_csv};
 pub use method::{Answer, Context, Quantities};
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context as _, Result};
 
 use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
 use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
 
-type Run = fn(&Context, &mut Answer) -> Result<()>;
+/// A method under its name in the files of cases.
+pub type Method = (&'static str, fn(&Context, &mut Answer) -> Result<()>);
 
-/// Registered methods by name, those that a page runs.
-pub const METHODS: &[(&str, Run)] = &[
+/// Methods that a page runs; `statistics` has more.
+const METHODS: &[Method] = &[
     ("trajectory", response::trajectory),
     ("linear-pulse", response::linear_pulse),
     ("free-rocking", response::free_rocking),
@@ -86,29 +87,17 @@ pub const METHODS: &[(&str, Run)] = &[
     ("precise-linear-pulse", precise::linear_pulse),
     ("precise-free-rocking", precise::free_rocking),
     ("precise-rectangular-pulse", precise::rectangular_pulse),
-    ("sample-moments", statistics::moments),
-    ("lilliefors-largest", statistics::largest),
-    ("lilliefors-published", statistics::published),
-    ("normal-draws", statistics::draws),
-    ("fits", statistics::fits),
-    ("quantiles", statistics::quantiles),
-    ("tests-of-normality", statistics::tests),
-    ("two-samples", statistics::two_samples),
-    ("inversion", statistics::inversion),
-    ("equations-5-to-7", statistics::transforms),
-    ("annual-frequency", statistics::annual_frequency),
-    ("cornell", statistics::cornell),
     ("floor", floor::motion),
     ("intensity", intensity::measures),
 ];
 
-/// Registered methods that a page leaves out. Most take longer than about a
-/// second in a browser: trials of many scenes or samples, whole suites, the
-/// data set of the score. The last ones ask `statrs` for quantiles of
-/// Student's and the beta distribution: it takes the logarithm of the
-/// platform, so that their last digits differ between platforms.
+/// Methods that a page leaves out. Most take longer than about a second in a
+/// browser: trials of many scenes or samples, whole suites, the data set of
+/// the score. Others need quantiles of Student's and the beta distribution
+/// from `statrs`: it takes the logarithm of the platform, so that their last
+/// digits differ between platforms.
 #[cfg(not(target_family = "wasm"))]
-pub const LEFT_OUT: &[(&str, Run)] = &[
+const LEFT_OUT: &[Method] = &[
     ("many-half-cycles", sines::many),
     ("critical-durations", closed_forms::durations),
     ("sine-bias", invariance::sine_bias),
@@ -119,32 +108,28 @@ pub const LEFT_OUT: &[(&str, Run)] = &[
     ("ends-of-observation", ends::ends),
     ("touches-of-the-threshold", ends::touches),
     ("curves-of-first-hops", curves::first_hops),
-    ("lilliefors-null", statistics::null),
-    ("lilliefors-mean", statistics::mean),
-    ("lilliefors-table", statistics::table),
-    ("lilliefors-asymptotics", statistics::asymptotics),
-    ("interval-of-a-probability", statistics::interval),
-    ("rejected-share", statistics::rejection),
-    ("coverage", statistics::coverage),
-    ("coverage-of-inference", statistics::inference),
-    ("power-of-a-design", statistics::power),
-    ("rates-by-earthquake", statistics::rates),
-    ("bias", statistics::bias),
     ("certified-values", scored::certified),
     ("diagnosis", scored::diagnosis),
     ("velocity-pulse", velocity_pulse::pulses),
-    ("paired-procedures", statistics::paired),
-    ("proportions", statistics::proportions),
-    ("earthquakes-of-other-packages", statistics::other_packages),
 ];
 #[cfg(target_family = "wasm")]
-const LEFT_OUT: &[(&str, Run)] = &[];
+const LEFT_OUT: &[Method] = &[];
+
+/// The methods that a page runs.
+pub fn page_methods() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().chain(statistics::METHODS)
+}
+
+/// Every registered method.
+pub fn all_methods() -> impl Iterator<Item = &'static Method> {
+    page_methods().chain(LEFT_OUT).chain(statistics::LEFT_OUT)
+}
 
 /// Runs a case's method, on the core or on a wrong model.
 ///
 /// # Errors
 /// An error when no answer can be given.
-pub fn run(case: &Case, wrong: Option<WrongModel>) -> Result<Answer> {
+pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Answer> {
     let changed = wrong.map(|wrong| wrong.engine(&Core));
     run_on(case, changed.as_deref().unwrap_or(&Core), wrong)
 }
@@ -162,13 +147,10 @@ fn run_on(
     engine: &dyn Engine,
     wrong: Option<WrongModel>,
 ) -> Result<Answer> {
-    let (_, method) = METHODS
-        .iter()
-        .chain(LEFT_OUT)
-        .find(|(name, _)| *name == case.method)
-        .ok_or_else(|| {
-            anyhow!("method `{}` is not registered", case.method)
-        })?;
+    let method = all_methods().find(|(name, _)| *name == case.method);
+    let (_, method) = method.with_context(|| {
+        format!("method `{}` is not registered", case.method)
+    })?;
     let mut answer = Answer::default();
     method(&Context { case, engine, wrong }, &mut answer)?;
     Ok(answer)

@@ -261,7 +261,7 @@ pub fn run_case(case: &Case) -> Outcome {
 /// # Errors
 /// An error where no answer can be given or judged.
 pub fn checks_of(case: &Case) -> Result<Vec<Check>> {
-    checks(case, methods::run(case, None), None)
+    checks(case, methods::run_method(case, None), None)
 }
 
 /// Runs the case and its wrong models.
@@ -280,7 +280,7 @@ fn fill(outcome: &mut Outcome, case: &Case) -> Result<()> {
     for wrong in wrong.iter().copied() {
         let name = wrong.name();
         let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
-        let answer = methods::run(case, Some(wrong));
+        let answer = methods::run_method(case, Some(wrong));
         let checks = checks(case, answer, floor).context(name)?;
         let rejection = strongest(name, &checks);
         if rejection.margin <= 1.0 {

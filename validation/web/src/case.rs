@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use rocking_proof::cases::{Case, Cost, load_all};
-use rocking_proof::methods::METHODS;
+use rocking_proof::methods::page_methods;
 use rocking_proof::verdict::checks_of;
 use serde::Serialize;
 
@@ -30,7 +30,7 @@ pub struct Found {
 /// not take long.
 pub fn list() -> Result<Vec<Listed>, Box<dyn Error>> {
     let quick = |case: &Case| {
-        let of_page = METHODS.iter().any(|(name, _)| *name == case.method);
+        let of_page = page_methods().any(|(name, _)| *name == case.method);
         case.cost == Cost::Quick && of_page
     };
     let quick = load_all()?.into_iter().filter(quick);

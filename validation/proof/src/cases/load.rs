@@ -8,8 +8,11 @@ use toml::{Table, Value};
 use super::case::{Bound, Case, Family};
 use super::defaults::{Defaults, expand};
 use super::error::{CaseError, Fault, LARGEST};
-use super::families::FAMILIES;
 use super::pinned;
+
+/// Each family with the text of its file, in the order of their names.
+pub const FAMILIES: &[(&str, &str)] =
+    include!(concat!(env!("OUT_DIR"), "/families.rs"));
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

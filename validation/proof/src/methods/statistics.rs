@@ -15,17 +15,41 @@ mod risk;
 mod truths;
 mod two_samples;
 
-pub(super) use calibration::{bias, coverage, rejection};
-pub(super) use earthquakes::{other_packages, rates};
-pub(super) use equations::transforms;
-pub(super) use fits::{fits, paired, quantiles, tests};
-pub(super) use inference::coverage as inference;
-pub(super) use inversion::inversion;
-pub(super) use lilliefors::{
-    asymptotics, draws, largest, mean, null, published, table,
-};
-pub(super) use nist::moments;
-pub(super) use power::power;
-pub(super) use proportion::intervals as proportions;
-pub(super) use risk::{annual_frequency, cornell, interval};
-pub(super) use two_samples::two_samples;
+use super::Method;
+
+/// Methods that a page runs.
+pub(super) const METHODS: &[Method] = &[
+    ("sample-moments", nist::moments),
+    ("lilliefors-largest", lilliefors::largest),
+    ("lilliefors-published", lilliefors::published),
+    ("normal-draws", lilliefors::draws),
+    ("fits", fits::fits),
+    ("quantiles", fits::quantiles),
+    ("tests-of-normality", fits::tests),
+    ("two-samples", two_samples::two_samples),
+    ("inversion", inversion::inversion),
+    ("equations-5-to-7", equations::transforms),
+    ("annual-frequency", risk::annual_frequency),
+    ("cornell", risk::cornell),
+];
+
+/// Methods that a page leaves out.
+#[cfg(not(target_family = "wasm"))]
+pub(super) const LEFT_OUT: &[Method] = &[
+    ("lilliefors-null", lilliefors::null),
+    ("lilliefors-mean", lilliefors::mean),
+    ("lilliefors-table", lilliefors::table),
+    ("lilliefors-asymptotics", lilliefors::asymptotics),
+    ("interval-of-a-probability", risk::interval),
+    ("rejected-share", calibration::rejection),
+    ("coverage", calibration::coverage),
+    ("coverage-of-inference", inference::coverage),
+    ("power-of-a-design", power::power),
+    ("rates-by-earthquake", earthquakes::rates),
+    ("bias", calibration::bias),
+    ("paired-procedures", fits::paired),
+    ("proportions", proportion::intervals),
+    ("earthquakes-of-other-packages", earthquakes::other_packages),
+];
+#[cfg(target_family = "wasm")]
+pub(super) const LEFT_OUT: &[Method] = &[];

@@ -163,20 +163,20 @@ fn the_consequence_comes_first() {
     assert_eq!(error, "rocking: 6 relevant changes\n");
     let lines = [
         "Setting changed: coefficient of restitution 0.92 -> 0.919.\n",
-        "Effect: blocks overturn at median intensities 6.3 % higher \
-         (PGA/(g tan alpha), ordinary +6.3 %).\n",
+        "Effect: median overturning intensities +6.3 % (PGA/(g tan alpha), \
+         ordinary +6.3 %).\n",
         "Answers that rest on findings: 1 of 4 changed; only numbers moved in \
          none.\n",
         "Verdicts: 1 of 1 flipped, 1 from confirmed to not confirmed or back.",
         "Declared cases: 1 of 2 verdicts changed.\n",
         "Numbers: 2 of 6 moved by more than",
         "Before: Hardly: median rotations differ by 0 %",
+        "  \"the same\" (ratios-p1), ordinary, arm C: confirmed -> not \
+         confirmed\n",
         "  case free-rocking/one, peak, value 1 of 1: 0.5 -> 0.6, \
          +0.1\n",
         "  median overturning, PGA/(g tan alpha), ordinary, p = 3, alpha = \
          0.20, arm C: 2.31 -> 2.6, +13 %\n",
-        "  \"the same\" (ratios-p1), ordinary, arm C: confirmed -> not \
-         confirmed\n",
         "  case free-rocking/one: pass -> fail\n",
     ];
     let mut rest = out.as_str();
@@ -184,6 +184,16 @@ fn the_consequence_comes_first() {
         let at = rest.find(line).unwrap_or_else(|| panic!("{line}\n{out}"));
         rest = &rest[at..];
     }
+}
+
+#[test]
+fn equal_intensities_are_unchanged() {
+    let place =
+        sides("unchanged", &[("\"eta\": 0.92", "\"eta\": 0.919")], &[]);
+    let (_, out, _) = run(&place, "diff old new");
+    let words = "Effect: median overturning intensities unchanged \
+                 (PGA/(g tan alpha), ordinary unchanged).\n";
+    assert!(out.contains(words), "{out}");
 }
 
 #[test]

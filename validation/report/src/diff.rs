@@ -1,15 +1,15 @@
 //! What changed between two sets of results, in engineering terms.
 //!
-//! [`compare`] walks over both as trees of JSON. A [`Comparison`] has what
+//! [`compare`] walks over both as trees of JSON. A [`Difference`] has what
 //! changed, each number against the smallest effect of interest.
 
-mod branch;
 mod effect;
 mod input;
 mod number;
 mod print;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -17,23 +17,24 @@ use std::collections::BTreeMap;
 use anyhow::bail;
 use serde::Serialize;
 
-use effect::{Effect, Records};
+use effect::{OverturningChange, RecordSets};
 use input::NAMES;
-use number::Moved;
+use number::NumberChange;
+use walk::Walk;
 
-pub use input::Results;
+pub use input::ResultFiles;
 
 /// What two sets of results say differently.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Comparison {
+pub struct Difference {
     /// Whether nothing at all differs in what both sides have.
     pub identical: bool,
     /// How many of each kind both sides have.
-    pub compared: BTreeMap<Kind, usize>,
+    pub compared: BTreeMap<Subject, usize>,
     /// The records of each suite.
-    records: BTreeMap<String, Records>,
+    records: BTreeMap<String, RecordSets>,
     /// What became of the overturning intensities.
-    effect: Effect,
+    effect: OverturningChange,
     /// What changed; of each kind, what weighs most comes first.
     pub changes: Vec<Change>,
     /// What else is to be known of the comparison.
@@ -45,7 +46,7 @@ pub struct Comparison {
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize,
 )]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum Subject {
     /// What was set, or where a suite is from.
     Setting,
     /// The answer to a question of the first table.
@@ -69,7 +70,7 @@ pub enum Kind {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Change {
     /// What it is of.
-    pub kind: Kind,
+    pub kind: Subject,
     /// What it is about.
     pub what: String,
     /// What the old results say; nothing where they lack it.
@@ -81,7 +82,7 @@ pub struct Change {
     /// Whether a verdict went from confirmed to not confirmed or back.
     pub opposite: bool,
     /// How the number moved, or that under the verdict.
-    pub moved: Option<Moved>,
+    pub moved: Option<NumberChange>,
     /// Why one side lacks it, where that is known.
     pub why: Option<String>,
 }
@@ -93,7 +94,7 @@ impl Change {
     }
 }
 
-impl Comparison {
+impl Difference {
     /// Number of changes that are relevant: of answers, verdicts, settings
     /// and records, of numbers beyond the smallest effect of interest or
     /// their tolerance, and of what is on one side only.
@@ -107,14 +108,18 @@ impl Comparison {
 ///
 /// # Errors
 /// Where no file of one kind is on both sides.
-pub fn compare(old: &Results, new: &Results) -> anyhow::Result<Comparison> {
-    let mut out = Comparison::default();
+pub fn compare(
+    old: &ResultFiles,
+    new: &ResultFiles,
+) -> anyhow::Result<Difference> {
+    let mut out = Difference::default();
     let mut common = false;
     for (name, trees) in NAMES.iter().zip(old.trees.iter().zip(&new.trees)) {
         match trees {
             (Some(a), Some(b)) => {
                 common = true;
-                out.walk([a, b], &mut Vec::new(), [Some(a), Some(b)]);
+                let mut walk = Walk { roots: [a, b], out: &mut out };
+                walk.compare(&[], [Some(a), Some(b)]);
             }
             (None, None) => {}
             (old, _) => {
@@ -134,10 +139,10 @@ pub fn compare(old: &Results, new: &Results) -> anyhow::Result<Comparison> {
             new.path.display()
         );
     }
-    out.identical =
-        out.changes.is_empty() && out.records.values().all(Records::are_same);
+    out.identical = out.changes.is_empty()
+        && out.records.values().all(RecordSets::are_same);
     out.changes.sort_by_key(|change| {
-        let weight = change.moved.as_ref().map(Moved::weight);
+        let weight = change.moved.as_ref().map(NumberChange::weight);
         Reverse((change.relevant, change.opposite, weight))
     });
     Ok(out)

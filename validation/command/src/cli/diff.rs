@@ -8,7 +8,7 @@ use super::shared::JsonArg;
 use super::study::REPORT;
 use crate::failure::Failure;
 use crate::terminal::{print, say};
-use rocking_report::diff::{Comparison, Results, compare};
+use rocking_report::diff::{Difference, ResultFiles, compare};
 
 /// What changed between two results, and whether it matters.
 ///
@@ -47,7 +47,7 @@ pub struct Args {
 struct Shown<'a> {
     relevant: usize,
     #[serde(flatten)]
-    comparison: &'a Comparison,
+    comparison: &'a Difference,
 }
 
 /// Runs the command.
@@ -61,7 +61,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "no folder {REPORT}: expected what `rocking study` writes there"
         )));
     }
-    let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
+    let (old, new) =
+        (ResultFiles::read(&args.old)?, ResultFiles::read(&args.new)?);
     let comparison = compare(&old, &new)?;
     if args.json.json {
         args.json.show(&Shown {

@@ -14,7 +14,7 @@ use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};
 use rocking_proof::verdict::{Outcome, Verdict, run_all, snapshot};
-use rocking_report::diff::{self, Results};
+use rocking_report::diff::{self, ResultFiles};
 
 /// Runs the declared cases. With `--out` it writes the results to
 /// OUT/data/validation.json, and to OUT/data/precision.csv what single,
@@ -106,8 +106,8 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
     if found == text {
         return Ok(());
     }
-    let old = Results::from_text(path, &found)?;
-    let new = Results::from_text(path, text)?;
+    let old = ResultFiles::from_text(path, &found)?;
+    let new = ResultFiles::from_text(path, text)?;
     say(&diff::compare(&old, &new)?.text(true))?;
     Err(stale(path))
 }

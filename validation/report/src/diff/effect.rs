@@ -12,7 +12,7 @@ use rocking_study::estimates::median;
 /// Records of a suite in two runs; the same name with other samples is
 /// another record.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Records {
+pub struct RecordSets {
     /// In both runs.
     pub both: Vec<String>,
     /// Only in the old run.
@@ -21,7 +21,7 @@ pub struct Records {
     pub gained: Vec<String>,
 }
 
-impl Records {
+impl RecordSets {
     /// Adds a record of either side or of both.
     pub fn add(&mut self, sides: [Option<&Value>; 2]) {
         let ([Some(record), _] | [_, Some(record)]) = sides else { return };
@@ -56,30 +56,29 @@ impl Records {
 
 /// By how much overturning intensities moved, as parts of the old ones.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Effect {
+pub struct OverturningChange {
     /// Changes of the medians of all blocks, by suite and intensity measure.
     pub medians: BTreeMap<String, Vec<f64>>,
     /// Changes of the first overturning of the block of Figure 11, by record.
     pub records: BTreeMap<String, f64>,
 }
 
-impl Effect {
+impl OverturningChange {
     /// The effect in a sentence, where overturning intensities are known;
     /// records count where both runs have them.
     pub fn sentence(&self, both: &[String]) -> Option<String> {
         let mut parts = Vec::new();
+        let change = |own: &[f64]| percent(median(own).value);
         let all: Vec<f64> = self.medians.values().flatten().copied().collect();
-        let change = median(&all).value;
-        if !change.is_nan() {
-            let of = |(what, own): (&String, &Vec<f64>)| {
-                format!("{what} {}", percent(median(own).value))
-            };
-            let suites: Vec<String> = self.medians.iter().map(of).collect();
-            let size = plain(100.0 * change.abs(), 2);
-            let way = if change < 0.0 { "lower" } else { "higher" };
+        if all.iter().any(|change| !change.is_nan()) {
+            let groups = self.medians.iter();
+            let groups: Vec<String> = groups
+                .map(|(group, own)| format!("{group} {}", change(own)))
+                .collect();
             parts.push(format!(
-                "blocks overturn at median intensities {size} % {way} ({})",
-                suites.join("; ")
+                "median overturning intensities {} ({})",
+                change(&all),
+                groups.join("; ")
             ));
         }
         let own = both.iter().filter_map(|name| self.records.get(name));

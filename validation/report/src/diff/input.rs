@@ -25,14 +25,14 @@ const EXPECTED: &str =
 
 /// The results of one side.
 #[derive(Debug, Default)]
-pub struct Results {
+pub struct ResultFiles {
     /// Where they were read.
     pub path: PathBuf,
     /// The tree of each of the files that can be compared.
     pub(super) trees: [Option<Value>; 2],
 }
 
-impl Results {
+impl ResultFiles {
     /// Reads a file, or what lies in a folder or in its folder `data`.
     ///
     /// # Errors
@@ -207,7 +207,7 @@ fn unread(path: &Path) -> String {
 
 /// A row of the data of Figure 11.
 #[derive(Deserialize)]
-struct Capacity {
+struct CapacityRow {
     im: String,
     record: String,
     edp: f64,
@@ -220,7 +220,7 @@ fn overturnings(path: &Path) -> Map<String, Value> {
     let Ok(mut table) = csv::Reader::from_path(path) else {
         return Map::new();
     };
-    let rows = table.deserialize::<Capacity>().filter_map(Result::ok);
+    let rows = table.deserialize::<CapacityRow>().filter_map(Result::ok);
     let ends = rows.filter(|row| row.im == "pga" && row.edp == 1.0);
     ends.map(|row| (row.record, extended(row.intensity))).collect()
 }

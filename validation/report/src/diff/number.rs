@@ -10,7 +10,7 @@ use rocking_study::inference::LEAST_DECIDING;
 pub const LAST_DIGIT: f64 = 1e-8;
 
 /// A number of both results.
-pub struct Number {
+pub struct NumberPair {
     /// What it may move by before that matters; none of what a verdict or a
     /// share beside it judges.
     pub effect: Option<Effect>,
@@ -24,7 +24,7 @@ pub struct Number {
 
 /// How a number moved.
 #[derive(Clone, Debug, Serialize)]
-pub struct Moved {
+pub struct NumberChange {
     /// Old and new value, with the digits that tell them apart.
     pub values: [String; 2],
     /// The change: a part of the old value, or in the number's unit.
@@ -41,7 +41,7 @@ pub struct Moved {
     pub n: [Option<usize>; 2],
 }
 
-impl Number {
+impl NumberPair {
     /// The change; NaN where only one is a number.
     pub fn change(&self) -> f64 {
         let [a, b] = self.measured.map(|measured| measured.value);
@@ -53,7 +53,7 @@ impl Number {
     }
 
     /// How it moved; none where it did not.
-    pub fn moved(&self) -> Option<Moved> {
+    pub fn moved(&self) -> Option<NumberChange> {
         let change = self.change();
         let (factor, unit, points) = match self.unit {
             Unit::Share => (100.0, " %", " points"),
@@ -78,7 +78,7 @@ impl Number {
         let u = half(a).zip(half(b)).map(|(a, b)| (a * a + b * b).sqrt());
         let u = u.map(|u| (b.value - a.value).abs() / u);
         let is_known = change.is_finite();
-        (change != 0.0).then(|| Moved {
+        (change != 0.0).then(|| NumberChange {
             values: (3..17).map(at).find(differ).unwrap_or_else(|| at(17)),
             change,
             change_text: if is_known { change_text } else { String::new() },
@@ -93,7 +93,7 @@ impl Number {
     }
 }
 
-impl Moved {
+impl NumberChange {
     /// Whether it matters.
     pub fn is_beyond(&self) -> bool {
         self.change_over_limit > 1.0
@@ -127,9 +127,12 @@ impl Moved {
     }
 }
 
-/// A share of a number as a percentage with its sign: `+12 %`.
-pub fn percent(share: f64) -> String {
-    signed(share, 100.0, " %")
+/// A relative change as a percentage with its sign: `+12 %`.
+pub fn percent(change: f64) -> String {
+    match change == 0.0 {
+        true => "unchanged".into(),
+        false => signed(change, 100.0, " %"),
+    }
 }
 
 fn signed(change: f64, factor: f64, unit: &str) -> String {

@@ -1,8 +1,8 @@
 //! A comparison for people: the cause first.
 
-use super::effect::Records;
-use super::number::Moved;
-use super::{Change, Comparison, Kind};
+use super::effect::RecordSets;
+use super::number::NumberChange;
+use super::{Change, Difference, Subject};
 use rocking_common::paper::SuiteKind;
 
 /// Lines of a list that are shown unless all are wanted.
@@ -11,7 +11,7 @@ const MOST: usize = 12;
 /// What shows everything.
 const ALL: &str = "`rocking diff OLD NEW --all`";
 
-impl Comparison {
+impl Difference {
     /// For people; `all` lists every change.
     pub fn text(&self, all: bool) -> String {
         let mut out = self.head().join("\n") + "\n";
@@ -23,20 +23,20 @@ impl Comparison {
         out
     }
 
-    fn of(&self, kind: Kind) -> impl Iterator<Item = &Change> + Clone {
+    fn of(&self, kind: Subject) -> impl Iterator<Item = &Change> + Clone {
         self.changes.iter().filter(move |change| change.kind == kind)
     }
 
     /// Changes of a kind in what both sides have.
-    fn count(&self, kinds: &[Kind]) -> usize {
+    fn count(&self, kinds: &[Subject]) -> usize {
         kinds.iter().filter_map(|kind| self.compared.get(kind)).sum()
     }
 
     /// What changed, the cause first, in a few sentences.
     fn head(&self) -> Vec<String> {
-        let answers = self.count(&[Kind::Answer, Kind::Wording]);
+        let answers = self.count(&[Subject::Answer, Subject::Wording]);
         let [verdicts, cases, numbers] =
-            [Kind::Verdict, Kind::Case, Kind::Number]
+            [Subject::Verdict, Subject::Case, Subject::Number]
                 .map(|kind| self.count(&[kind]));
         if self.identical {
             return vec![format!(
@@ -54,10 +54,10 @@ impl Comparison {
             out.push(format!(
                 "Answers that rest on findings: {} of {answers} changed; only \
                  numbers moved in {}.",
-                some(self.of(Kind::Answer)),
-                some(self.of(Kind::Wording))
+                some(self.of(Subject::Answer)),
+                some(self.of(Subject::Wording))
             ));
-            let flips = self.of(Kind::Verdict).filter(|c| c.is_common());
+            let flips = self.of(Subject::Verdict).filter(|c| c.is_common());
             out.push(format!(
                 "Verdicts: {} of {verdicts} flipped, {} from confirmed to not \
                  confirmed or back.",
@@ -68,14 +68,14 @@ impl Comparison {
         if cases > 0 {
             out.push(format!(
                 "Declared cases: {} of {cases} verdicts changed.",
-                some(self.of(Kind::Case))
+                some(self.of(Subject::Case))
             ));
         }
         out.push(format!(
             "Numbers: {} of {numbers} moved by more than the smallest effect \
              of interest or their tolerance, {} by less.",
-            some(self.of(Kind::Number).filter(|change| change.relevant)),
-            some(self.of(Kind::Number).filter(|change| !change.relevant))
+            some(self.of(Subject::Number).filter(|change| change.relevant)),
+            some(self.of(Subject::Number).filter(|change| !change.relevant))
         ));
         out
     }
@@ -83,15 +83,16 @@ impl Comparison {
     /// What was set differently, and whether the records are the same.
     fn cause(&self) -> String {
         let records = self.records.values();
-        let same =
-            if records.len() > 0 && records.clone().all(Records::are_same) {
-                let counts = records.map(|r| r.both.len().to_string());
-                let counts = counts.collect::<Vec<_>>().join(" + ");
-                format!(" (same {counts} records)")
-            } else {
-                String::new()
-            };
-        let settings = lines(self.of(Kind::Setting));
+        let same = if records.len() > 0
+            && records.clone().all(RecordSets::are_same)
+        {
+            let counts = records.map(|r| r.both.len().to_string());
+            let counts = counts.collect::<Vec<_>>().join(" + ");
+            format!(" (same {counts} records)")
+        } else {
+            String::new()
+        };
+        let settings = lines(self.of(Subject::Setting));
         match settings.len() {
             0 => format!("No setting changed{same}."),
             1 => format!("Setting changed: {}{same}.", settings[0]),
@@ -102,27 +103,28 @@ impl Comparison {
     /// The lists that have something, in the order of consequence.
     fn lists(&self, all: bool) -> Vec<(&'static str, Vec<String>)> {
         let common = |kind| lines(self.of(kind).filter(|c| c.is_common()));
-        let moved = self.of(Kind::Number).filter(|c| all || c.relevant);
+        let moved = self.of(Subject::Number).filter(|c| all || c.relevant);
         let changes = self.changes.iter();
         let mut notes = self.notes.clone();
-        let texts = self.of(Kind::Text).count();
+        let texts = self.of(Subject::Text).count();
         if texts > 0 && !all {
             notes.push(format!("{texts} words, intervals and details differ"));
         }
-        let mut settings = common(Kind::Setting);
+        let mut settings = common(Subject::Setting);
         if settings.len() == 1 {
             settings.clear();
         }
         let mut lists = vec![
             ("Settings", settings),
-            ("Answers that changed", common(Kind::Answer)),
+            ("Answers that changed", common(Subject::Answer)),
+            ("Answers in which only numbers moved", common(Subject::Wording)),
+            ("Verdicts that flipped", common(Subject::Verdict)),
             (
                 "Largest single moves (u: change over the half-widths of both \
                  intervals; n: records or ratios behind the value)",
                 lines(moved),
             ),
-            ("Verdicts that flipped", common(Kind::Verdict)),
-            ("Declared cases", common(Kind::Case)),
+            ("Declared cases", common(Subject::Case)),
             (
                 "Only in the old results",
                 lines(changes.clone().filter(|c| c.new.is_none())),
@@ -131,11 +133,10 @@ impl Comparison {
                 "Only in the new results",
                 lines(changes.filter(|c| c.old.is_none())),
             ),
-            ("Answers in which only numbers moved", common(Kind::Wording)),
             ("Also", notes),
         ];
         if all {
-            lists.push(("Words, intervals, details", common(Kind::Text)));
+            lists.push(("Words, intervals, details", common(Subject::Text)));
         }
         for (_, lines) in &mut lists {
             let left = lines.len().saturating_sub(MOST);
@@ -169,13 +170,13 @@ fn line(change: &Change) -> String {
         let why = why.as_ref().map(|why| format!(" ({side}: {why})"));
         return what.clone() + &why.unwrap_or_default();
     };
-    let moved = moved.as_ref().map(Moved::text);
+    let moved = moved.as_ref().map(NumberChange::text);
     match (kind, moved) {
-        (Kind::Answer | Kind::Wording, _) => {
+        (Subject::Answer | Subject::Wording, _) => {
             format!("{what}\nBefore: {old}\nNow: {new}")
         }
-        (Kind::Setting, _) => format!("{what} {old} -> {new}"),
-        (Kind::Number, Some(moved)) => format!("{what}: {moved}"),
+        (Subject::Setting, _) => format!("{what} {old} -> {new}"),
+        (Subject::Number, Some(moved)) => format!("{what}: {moved}"),
         (_, None) => format!("{what}: {old} -> {new}"),
         (_, Some(moved)) => format!("{what}: {old} -> {new}; {moved}"),
     }

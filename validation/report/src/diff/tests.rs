@@ -2,20 +2,20 @@ use rocking_common::findings::{Effect, Measured, Unit};
 
 use serde_json::json;
 
-use super::branch::part;
-use super::number::{Moved, Number};
+use super::number::{NumberChange, NumberPair};
+use super::walk::part;
 
 const TENTH: Option<Effect> = Some(Effect::Relative(0.1));
 const POINTS: Option<Effect> = Some(Effect::Absolute(0.1));
 const TOLERANCE: Option<Effect> = Some(Effect::Absolute(1e-9));
 
 /// A number without an interval, on 86 records.
-fn number(effect: Option<Effect>, unit: Unit, ends: [f64; 2]) -> Number {
+fn number(effect: Option<Effect>, unit: Unit, ends: [f64; 2]) -> NumberPair {
     let measured = ends.map(Measured::exact);
-    Number { effect, unit, measured, n: [Some(86); 2] }
+    NumberPair { effect, unit, measured, n: [Some(86); 2] }
 }
 
-fn moved(number: &Number) -> Moved {
+fn moved(number: &NumberPair) -> NumberChange {
     number.moved().unwrap()
 }
 
@@ -64,7 +64,7 @@ fn what_is_least_a_matter_of_chance_weighs_most() {
         let interval = Some((value - half, value + half));
         Measured { value, interval }
     };
-    let sure = Number {
+    let sure = NumberPair {
         measured: [measured(1.0, 0.03), measured(1.2, 0.04)],
         ..number(TENTH, Unit::One, [1.0, 1.2])
     };
@@ -73,7 +73,7 @@ fn what_is_least_a_matter_of_chance_weighs_most() {
     assert!((u.change_over_uncertainty.unwrap() - 4.0).abs() < 1e-9);
     assert_eq!(open.change_over_uncertainty, None);
     assert!(u.weight() > open.weight());
-    let few = Number { n: [Some(29), Some(86)], ..sure };
+    let few = NumberPair { n: [Some(29), Some(86)], ..sure };
     assert!(moved(&few).weight() < open.weight());
 }
 

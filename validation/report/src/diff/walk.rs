@@ -6,8 +6,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::input::{bounded, text};
-use super::number::Number;
-use super::{Change, Comparison, Kind};
+use super::number::NumberPair;
+use super::{Change, Difference, Subject};
 use rocking_common::findings::{
     ClaimResult, Effect, Measured, Place, Quantifier, Quantity, Region, Row,
     Tested, Topic, Unit,
@@ -16,44 +16,45 @@ use rocking_common::json::Extended;
 use rocking_common::paper::{Arm, LEAST_USABLE, Verdict};
 use rocking_proof::verdict::snapshot::QuantityResult;
 
-/// Something of the old and of the new results.
-type Pair<T> = [T; 2];
+/// Old and new.
+type Sides<T> = [T; 2];
 
-impl Comparison {
+/// A walk over two trees.
+pub(super) struct Walk<'a> {
+    /// The trees.
+    pub roots: Sides<&'a Value>,
+    /// What was found so far.
+    pub out: &'a mut Difference,
+}
+
+impl Walk<'_> {
     /// Compares a branch, or those below it that either side has.
-    pub(super) fn walk<'a>(
-        &mut self,
-        roots: Pair<&'a Value>,
-        path: &mut Vec<&'a str>,
-        sides: Pair<Option<&'a Value>>,
-    ) {
-        let before = self.changes.len();
-        let whole = self.visit(roots, path, sides);
-        let silent = sides[0] != sides[1] && self.changes.len() == before;
+    pub fn compare(&mut self, path: &[&str], sides: Sides<Option<&Value>>) {
+        let before = self.out.changes.len();
+        let whole = self.visit(path, sides).is_some();
+        let silent = sides[0] != sides[1] && self.out.changes.len() == before;
         match sides {
             [Some(Value::Object(a)), Some(Value::Object(b))]
                 if silent || !whole =>
             {
                 let added = b.keys().filter(|key| !a.contains_key(*key));
                 for key in a.keys().chain(added) {
-                    path.push(key);
-                    self.walk(roots, path, [a.get(key), b.get(key)]);
-                    path.pop();
+                    let path = [path, &[key]].concat();
+                    self.compare(&path, [a.get(key), b.get(key)]);
                 }
             }
-            _ if silent => self.say(Kind::Text, words(path), sides),
+            _ if silent => self.say(Subject::Text, words(path), sides),
             _ => {}
         }
     }
 
-    /// Compares a branch as a whole; false where those below it say what
+    /// Compares a branch as a whole; none where those below it say what
     /// changed. They also say what a comparison as a whole is silent on.
     fn visit(
         &mut self,
-        roots: Pair<&Value>,
         path: &[&str],
-        sides: Pair<Option<&Value>>,
-    ) -> bool {
+        sides: Sides<Option<&Value>>,
+    ) -> Option<()> {
         match (path, sides) {
             (
                 ["settings", _]
@@ -62,48 +63,40 @@ impl Comparison {
                 | ["cases", _, "kind" | "method" | "oracle"]
                 | ["cases", _, "quantities", _, "kind" | "bound" | "values"],
                 _,
-            ) => self.say(Kind::Setting, words(path), sides),
+            ) => self.say(Subject::Setting, words(path), sides),
             (["cases", _, "verdict"], _) => {
-                self.say(Kind::Case, words(&path[..2]), sides);
+                self.say(Subject::Case, words(&path[..2]), sides);
             }
             (["answers", question], [Some(a), Some(b)]) => {
                 let stays = a["lead"] == b["lead"];
-                let kind = if stays { Kind::Wording } else { Kind::Answer };
+                let of =
+                    if stays { Subject::Wording } else { Subject::Answer };
                 let sentences = [a, b].map(|answer| answer.get("sentence"));
-                self.say(kind, (*question).to_owned(), sentences);
+                self.say(of, (*question).to_owned(), sentences);
             }
             (["suites", suite, "list", _], _) => {
-                let records = self.records.entry((*suite).to_owned());
+                let records = self.out.records.entry((*suite).to_owned());
                 records.or_default().add(sides);
             }
             (["overturnings", _, record], [Some(a), Some(b)]) => {
-                if let Some([a, b]) = both::<Extended>([a, b]) {
-                    let change = b.0 / a.0 - 1.0;
-                    self.effect.records.insert((*record).into(), change);
-                }
+                let [a, b] = both::<Extended>([a, b])?;
+                let records = &mut self.out.effect.records;
+                records.insert((*record).into(), b.0 / a.0 - 1.0);
             }
             (["tables", topic, "rows", _], [Some(a), Some(b)]) => {
-                let tables = roots.map(|root| &root["tables"][topic]);
-                let quantities = tables.map(|table| &table["quantities"]);
-                if let Some([old, new]) = both::<Vec<Quantity>>(quantities)
-                    && let (Some(rows), Some(topic)) =
-                        (both([a, b]), topic_of(topic))
-                    && old == new
-                {
-                    self.row(roots, topic, &new, rows);
-                }
+                self.row(topic, [a, b])?;
             }
             (["claims", id, "results", _], [Some(a), Some(b)]) => {
-                if let Some(results) = both([a, b]) {
-                    self.result(roots, id, results);
-                }
+                self.result(id, both([a, b])?);
             }
             (["cases", id, "quantities", name, "first"], _) => {
-                let quantities =
-                    roots.map(|root| &root["cases"][id]["quantities"][name]);
-                if let Some(quantities) = both(quantities) {
-                    self.values(&words(&path[..4]), &quantities);
-                }
+                let own = |root: &'_ Value| {
+                    QuantityResult::deserialize(
+                        &root["cases"][id]["quantities"][name],
+                    )
+                };
+                let [a, b] = self.roots.map(own);
+                self.values(&words(&path[..4]), &[a.ok()?, b.ok()?]);
             }
             (
                 ["suites" | "claims" | "tables" | "cases", _]
@@ -112,118 +105,121 @@ impl Comparison {
                 | ["cases", _, "quantities" | "rejected", _],
                 [Some(one), None] | [None, Some(one)],
             ) => {
-                let other = roots[usize::from(sides[0].is_some())];
+                let other = self.roots[usize::from(sides[0].is_some())];
                 let (what, why) = part(path, one, other);
                 let said = sides.map(|side| side.map(|_| String::new()));
-                let change = Change::of(Kind::Part, what, said);
-                if self.changes.iter().all(|c| c.what != change.what) {
-                    self.changes.push(Change { why, ..change });
+                if self.out.changes.iter().all(|c| c.what != what) {
+                    let change = Change::of(Subject::Part, what, said);
+                    self.out.changes.push(Change { why, ..change });
                 }
             }
-            (_, sides) => {
-                return !sides.iter().flatten().all(|side| side.is_object());
-            }
+            _ => return None,
         }
-        true
+        Some(())
     }
 
     /// Compares what is said in words.
-    fn say(&mut self, kind: Kind, what: String, sides: Pair<Option<&Value>>) {
-        self.tally(kind);
-        if sides[0] != sides[1] {
-            let said = sides.map(|side| Some(text(side)));
-            self.changes.push(Change::of(kind, what, said));
+    fn say(
+        &mut self,
+        of: Subject,
+        what: String,
+        [a, b]: Sides<Option<&Value>>,
+    ) {
+        self.tally(of);
+        if a != b {
+            let said = [a, b].map(|side| Some(text(side)));
+            self.out.changes.push(Change::of(of, what, said));
         }
     }
 
-    fn tally(&mut self, kind: Kind) {
-        *self.compared.entry(kind).or_default() += 1;
+    fn tally(&mut self, of: Subject) {
+        *self.out.compared.entry(of).or_default() += 1;
     }
 
-    fn number(&mut self, what: String, number: &Number) {
-        self.tally(Kind::Number);
+    fn number(&mut self, what: String, number: &NumberPair) {
+        self.tally(Subject::Number);
         if let Some(moved) = number.moved() {
             let said = moved.values.clone().map(Some);
-            self.changes.push(Change {
+            self.out.changes.push(Change {
                 relevant: moved.is_beyond(),
                 moved: Some(moved),
-                ..Change::of(Kind::Number, what, said)
+                ..Change::of(Subject::Number, what, said)
             });
         }
     }
 
     /// Compares the numbers of a row of a table.
-    fn row(
-        &mut self,
-        roots: Pair<&Value>,
-        topic: Topic,
-        quantities: &[Quantity],
-        [a, b]: Pair<Row>,
-    ) {
+    fn row(&mut self, topic: &str, rows: Sides<&Value>) -> Option<()> {
+        let quantities =
+            self.roots.map(|root| &root["tables"][topic]["quantities"]);
+        let [old, new] = both::<Vec<Quantity>>(quantities)?;
+        let topic = topic_of(topic).filter(|_| old == new)?;
+        let [a, b] = both::<Row>(rows)?;
         let Place { suite, intensity, .. } = b.at;
-        for (k, Quantity { name, words, unit }) in
-            quantities.iter().enumerate()
-        {
-            let n = [(&a, roots[0]), (&b, roots[1])].map(|(row, root)| {
-                let own = behind(quantities, row, name);
-                own.or_else(|| records(root, suite?.name()))
-            });
-            let number = Number {
+        for (k, Quantity { name, words, unit }) in new.iter().enumerate() {
+            let n = [(&a, self.roots[0]), (&b, self.roots[1])];
+            let number = NumberPair {
                 effect: topic.smallest_effect(*unit),
                 unit: *unit,
                 measured: [a.values[k], b.values[k]],
-                n,
+                n: n.map(|(row, root)| {
+                    let own = behind(&new, row, name);
+                    own.or_else(|| records(root, suite?.name()))
+                }),
             };
             if topic == Topic::Overturning {
                 let group = Place { suite, intensity, ..Place::default() };
-                let own = self.effect.medians.entry(placed(&group));
-                own.or_default().push(number.change());
+                let medians = &mut self.out.effect.medians;
+                let own = medians.entry(placed(&group)).or_default();
+                own.push(number.change());
             }
             self.number(format!("{words}, {}", placed(&b.at)), &number);
         }
+        Some(())
     }
 
     /// Compares the verdicts on a claim, and the value under them.
-    fn result(
-        &mut self,
-        roots: Pair<&Value>,
-        id: &str,
-        [a, b]: Pair<ClaimResult>,
-    ) {
-        let claim = &roots[1]["claims"][id];
+    fn result(&mut self, id: &str, [a, b]: Sides<ClaimResult>) {
+        let claim = &self.roots[1]["claims"][id];
         let region = Option::<Region>::deserialize(&claim["region"]);
         let all = claim["quantifier"] == serde_json::json!(Quantifier::All);
         let plain = Some(&claim["plain"]).filter(|plain| *plain != "");
         let named = text(plain.or(claim.get("measure")));
         let what = format!("\"{named}\" ({id}), {}", b.place());
-        let number = Number {
+        let number = NumberPair {
             effect: Effect::of_claim(region.unwrap_or_default(), b.unit),
             unit: b.unit,
             measured: [a.measured(), b.measured()],
-            n: roots.map(|root| records(root, b.suite.name())),
+            n: self.roots.map(|root| records(root, b.suite.name())),
         };
         // Of "every cell", the value is that of the cell that decides.
         let is_same = !all || a.at == b.at;
         let moved = number.moved().filter(|_| is_same);
-        let paper = ", by the paper's criterion";
-        for (by, old, new, moved) in [
-            ("", a.by_equivalence, b.by_equivalence, moved),
-            (paper, a.by_criterion, b.by_criterion, None),
+        let is_decided = |v: Verdict| v != Verdict::Inconclusive;
+        for (by, [old, new], moved) in [
+            ("", [a.by_equivalence, b.by_equivalence], moved),
+            (
+                ", by the paper's criterion",
+                [a.by_criterion, b.by_criterion],
+                None,
+            ),
         ] {
-            let decided = |v: Verdict| v != Verdict::Inconclusive;
             let lacks = if old.is_none() { &a } else { &b };
             let few = lacks.cells.is_some() && lacks.value.is_nan();
-            if old.is_some() && new.is_some() {
-                self.tally(Kind::Verdict);
+            if old.and(new).is_some() {
+                self.tally(Subject::Verdict);
             }
             if old != new {
                 let said = [old, new].map(|v| Some(v?.name().to_owned()));
-                self.changes.push(Change {
-                    opposite: old.is_some_and(decided)
-                        && new.is_some_and(decided),
+                let change =
+                    Change::of(Subject::Verdict, what.clone() + by, said);
+                self.out.changes.push(Change {
+                    opposite: [old, new]
+                        .iter()
+                        .all(|v| v.is_some_and(is_decided)),
                     moved,
                     why: few.then(|| "no cell with enough records".into()),
-                    ..Change::of(Kind::Verdict, what.clone() + by, said)
+                    ..change
                 });
             }
         }
@@ -234,9 +230,9 @@ impl Comparison {
     }
 
     /// Compares the values of a quantity of a case.
-    fn values(&mut self, what: &str, [a, b]: &Pair<QuantityResult>) {
+    fn values(&mut self, what: &str, [a, b]: &Sides<QuantityResult>) {
         for (k, (old, new)) in a.first.iter().zip(&b.first).enumerate() {
-            let number = Number {
+            let number = NumberPair {
                 // Every bound was checked when it was read.
                 effect: bounded(b, old.0).unwrap_or_default(),
                 unit: Unit::One,
@@ -250,14 +246,18 @@ impl Comparison {
 }
 
 impl Change {
-    fn of(kind: Kind, what: String, [old, new]: Pair<Option<String>>) -> Self {
-        let relevant = !matches!(kind, Kind::Wording | Kind::Text);
-        Self { kind, what, old, new, relevant, ..Self::default() }
+    fn of(
+        of: Subject,
+        what: String,
+        [old, new]: Sides<Option<String>>,
+    ) -> Self {
+        let relevant = !matches!(of, Subject::Wording | Subject::Text);
+        Self { kind: of, what, old, new, relevant, ..Self::default() }
     }
 }
 
 /// Two branches in their type; none where one is not of it.
-fn both<T: DeserializeOwned>(sides: Pair<&Value>) -> Option<Pair<T>> {
+fn both<T: DeserializeOwned>(sides: Sides<&Value>) -> Option<Sides<T>> {
     let [a, b] = sides.map(T::deserialize);
     Some([a.ok()?, b.ok()?])
 }

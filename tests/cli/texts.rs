@@ -31,6 +31,12 @@ fn help_of_every_command() {
     settings().bind(|| assert_snapshot!("help", top));
     let mut commands = subcommands(&top);
     assert!(commands.len() > 15, "{top}");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let examples = examples.join("../../docs/commands.md");
+    let examples = std::fs::read_to_string(examples).unwrap();
+    for name in &commands {
+        assert!(examples.contains(&format!("`rocking {name}")), "{name}");
+    }
     while let Some(command) = commands.pop() {
         let (status, text, error) = run(&place, &format!("{command} --help"));
         assert_eq!((status, error.as_str()), (0, ""), "{command}");

@@ -45,7 +45,7 @@ impl PulseParameter {
             Self::Omega => ["circular frequency", "rad/s", "omega"],
             Self::Duration => ["duration", "s", "duration"],
             Self::Period => ["period", "s", "period"],
-            Self::Cycles => ["number of periods", "", "cycles"],
+            Self::Cycles => ["cycles", "", "cycles"],
             Self::Velocity => ["velocity amplitude", "m/s", "velocity_g_s"],
             Self::Frequency => ["prevailing frequency", "Hz", "frequency_hz"],
             Self::Gamma => ["oscillatory character gamma", "", "gamma"],

@@ -1,19 +1,14 @@
-//! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
-
-pub mod assess;
-mod validate;
+//! The command line: one file a command, each of which is an [`Entry`].
 
 use std::process::ExitCode;
 
-use clap::{
-    Arg, ArgAction, CommandFactory as _, FromArgMatches as _, Parser,
-    Subcommand,
-};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command};
 
 use crate::failure::Failure;
 use crate::terminal::{SOFTWARE, note};
 use crate::threads::with_threads;
 
+pub mod assess;
 pub mod blocks;
 pub mod capacities;
 pub mod compare;
@@ -45,39 +40,68 @@ pub mod stripes;
 pub mod study;
 pub mod suite;
 pub mod sweep;
+mod validate;
 pub mod way;
 
-/// The commands by what they are for, as `rocking --help` lists them.
-const GROUPS: [(&str, &[&str]); 4] = [
-    (
-        "Analyse",
-        &["respond", "ida", "records", "suite", "capacities", "sweep"],
-    ),
-    (
-        "Decide",
-        &[
-            "assess",
-            "stripes",
-            "fragility",
-            "risk",
-            "rank",
-            "sample",
-            "compare",
-            "contrast",
-            "lilliefors",
-        ],
-    ),
-    ("Prove", &["study", "validate", "score", "diff", "speed"]),
-    ("Develop", &["completions", "man"]),
-];
+/// The work of a command with the flags that were parsed.
+type Work = dyn Fn(&ArgMatches) -> Result<(), Failure>;
 
-/// Rocking of free-standing blocks under earthquakes, and its statistics.
-#[derive(Parser)]
-#[command(name = "rocking", version = version(), max_term_width = 100)]
-#[command(disable_help_subcommand = true)]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
+/// A command: what it is for, its name, its flags, and its work.
+struct Entry {
+    group: &'static str,
+    name: &'static str,
+    with_flags: fn(Command) -> Command,
+    run: Box<Work>,
+}
+
+fn entry<C: Args + 'static>(
+    group: &'static str,
+    name: &'static str,
+    run: fn(&C) -> Result<(), Failure>,
+) -> Entry {
+    let run = move |matches: &ArgMatches| {
+        run(&C::from_arg_matches(matches).unwrap_or_else(|e| e.exit()))
+    };
+    Entry { group, name, with_flags: C::augment_args, run: Box::new(run) }
+}
+
+const ANALYSE: &str = "Analyse";
+const DECIDE: &str = "Decide";
+const PROVE: &str = "Prove";
+const DEVELOP: &str = "Develop";
+
+/// The commands, as `rocking --help` lists them.
+fn entries() -> Vec<Entry> {
+    vec![
+        entry(ANALYSE, "respond", respond::run_respond),
+        entry(ANALYSE, "ida", ida::run_ida),
+        entry(ANALYSE, "records", |args| {
+            with_threads(None, || records::run_records(args)).flatten()
+        }),
+        entry(ANALYSE, "suite", suite::run_suite),
+        entry(ANALYSE, "capacities", capacities::run_capacities),
+        entry(ANALYSE, "sweep", sweep::run_sweep),
+        entry(DECIDE, "assess", assess::run_assess),
+        entry(DECIDE, "stripes", stripes::run_stripes),
+        entry(DECIDE, "fragility", fragility::run_fragility),
+        entry(DECIDE, "risk", risk::run_risk),
+        entry(DECIDE, "rank", rank::run_rank),
+        entry(DECIDE, "sample", sample::run_sample),
+        entry(DECIDE, "compare", compare::run_compare),
+        entry(DECIDE, "contrast", contrast::run_contrast),
+        entry(DECIDE, "lilliefors", lilliefors::run_lilliefors),
+        entry(PROVE, "study", study::run_study),
+        entry(PROVE, "validate", |args| {
+            with_threads(None, || validate::run_validate(args)).flatten()
+        }),
+        entry(PROVE, "score", score::run_score),
+        entry(PROVE, "diff", diff::run_diff),
+        entry(PROVE, "speed", |args| {
+            with_threads(None, || speed::run_speed(args)).flatten()
+        }),
+        entry(DEVELOP, "completions", completions::run_completions),
+        entry(DEVELOP, "man", man::run_man),
+    ]
 }
 
 /// What `--version` prints behind the name.
@@ -85,37 +109,10 @@ fn version() -> &'static str {
     SOFTWARE.strip_prefix("rocking ").unwrap_or(SOFTWARE)
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Assess(Box<assess::Args>),
-    Respond(Box<respond::Args>),
-    Ida(Box<ida::Args>),
-    Records(records::Args),
-    Capacities(capacities::Args),
-    Compare(compare::Args),
-    Completions(completions::Args),
-    Contrast(contrast::Args),
-    Diff(diff::Args),
-    Fragility(fragility::Args),
-    Lilliefors(lilliefors::Args),
-    Man(man::Args),
-    Rank(Box<rank::Args>),
-    Risk(risk::Args),
-    Sample(sample::Args),
-    Score(score::Args),
-    Speed(speed::Args),
-    Stripes(stripes::Args),
-    Study(study::Args),
-    Suite(suite::Args),
-    Sweep(sweep::Args),
-    /// Runs the declared cases and writes or checks their results.
-    Validate(validate::Args),
-}
-
 /// The same command, which reads `-1` behind an option as its value, and the
 /// names of choices in upper or lower case.
-fn reading_values(command: clap::Command) -> clap::Command {
-    let read = |arg: clap::Arg| {
+fn reading_values(command: Command) -> Command {
+    let read = |arg: Arg| {
         let takes_values = arg.get_action().takes_values();
         let reads = takes_values && !arg.is_allow_hyphen_values_set();
         let arg = arg.ignore_case(takes_values);
@@ -126,7 +123,7 @@ fn reading_values(command: clap::Command) -> clap::Command {
 
 /// The same command, whose `--help` fits a screen: one paragraph an argument,
 /// and no blank lines between them. The manual page has all.
-fn on_a_screen(mut command: clap::Command) -> clap::Command {
+fn on_a_screen(mut command: Command) -> Command {
     const TEMPLATE: &str = "{about-with-newline}\n{before-help}\
         {usage-heading} {usage}\n\n{all-args}{after-help}";
     let long = command.get_long_about().map(ToString::to_string);
@@ -143,91 +140,62 @@ fn on_a_screen(mut command: clap::Command) -> clap::Command {
         .mut_subcommands(on_a_screen)
 }
 
-/// The same command, whose help lists the subcommands in [`GROUPS`].
-fn grouped(command: clap::Command) -> clap::Command {
-    let mut list = String::new();
-    for (group, names) in GROUPS {
-        list += &format!("{group}:\n");
-        for name in names {
-            let found = command.find_subcommand(name);
-            let about = found.and_then(clap::Command::get_about);
-            let about = about.map(ToString::to_string).unwrap_or_default();
-            // The first clause.
-            let about = about.split([':', ',', '.', '(']).next();
-            let about = about.unwrap_or_default().trim_end();
-            list += &format!("  {name:<13}{about}\n");
+/// The same command, whose help lists the subcommands by [`Entry::group`].
+fn grouped(command: Command) -> Command {
+    let (mut list, mut before) = (String::new(), "");
+    for Entry { group, name, .. } in entries() {
+        if group != before {
+            let gap = if before.is_empty() { "" } else { "\n" };
+            list += &format!("{gap}{group}:\n");
         }
-        list += "\n";
+        before = group;
+        let found = command.find_subcommand(name);
+        let about = found.and_then(Command::get_about);
+        let about = about.map(ToString::to_string).unwrap_or_default();
+        // The first clause.
+        let about = about.split([':', ',', '.', '(']).next();
+        let about = about.unwrap_or_default().trim_end();
+        list += &format!("  {name:<13}{about}\n");
     }
     command.help_template(format!(
-        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}\
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}\n\
          Options:\n{{options}}\n\n`rocking man COMMAND` prints the manual \
          page of a command.\n"
     ))
 }
 
 /// The whole command line.
-fn command() -> clap::Command {
-    reading_values(Cli::command())
+fn command() -> Command {
+    let commands = entries().into_iter();
+    let commands = commands.map(|e| (e.with_flags)(Command::new(e.name)));
+    reading_values(
+        Command::new("rocking")
+            .version(version())
+            .about(
+                "Rocking of free-standing blocks under earthquakes, and its \
+                 statistics",
+            )
+            .max_term_width(100)
+            .disable_help_subcommand(true)
+            .subcommand_required(true)
+            .arg_required_else_help(true)
+            .subcommands(commands),
+    )
 }
 
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
     let matches = grouped(on_a_screen(command())).get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
-    let outcome: Result<(), Failure> = match cli.command {
-        Command::Assess(args) => assess::run(&args),
-        Command::Respond(args) => respond::run(&args),
-        Command::Ida(args) => ida::run(&args),
-        Command::Records(args) => {
-            with_threads(None, || records::run(&args)).flatten()
-        }
-        Command::Capacities(args) => capacities::run(&args),
-        Command::Compare(args) => compare::run(&args),
-        Command::Completions(args) => completions::run(&args, command()),
-        Command::Contrast(args) => contrast::run(&args),
-        Command::Diff(args) => diff::run(&args),
-        Command::Fragility(args) => fragility::run(&args),
-        Command::Lilliefors(args) => lilliefors::run(&args),
-        Command::Man(args) => man::run(&args, command()),
-        Command::Rank(args) => rank::run(&args),
-        Command::Risk(args) => risk::run(&args),
-        Command::Sample(args) => sample::run(&args),
-        Command::Score(args) => score::run(&args),
-        Command::Speed(args) => {
-            with_threads(None, || speed::run(&args)).flatten()
-        }
-        Command::Stripes(args) => stripes::run(&args),
-        Command::Study(args) => study::run(&args),
-        Command::Suite(args) => suite::run(&args),
-        Command::Sweep(args) => sweep::run(&args),
-        Command::Validate(args) => {
-            with_threads(None, || validate::run(&args)).flatten()
-        }
-    };
-    match outcome {
+    let chosen = matches.subcommand().and_then(|(name, matches)| {
+        let entry = entries().into_iter().find(|entry| entry.name == name)?;
+        Some((entry.run)(matches))
+    });
+    match chosen.unwrap_or(Ok(())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             note(&failure.message);
             ExitCode::from(failure.status)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{GROUPS, command};
-
-    #[test]
-    fn every_command_is_in_one_group() {
-        let mut listed: Vec<&str> =
-            GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
-        listed.sort_unstable();
-        let command = command();
-        let known = command.get_subcommands().map(clap::Command::get_name);
-        let mut known: Vec<&str> = known.collect();
-        known.sort_unstable();
-        assert_eq!(listed, known);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args as ClapArgs};
+use clap::ArgGroup;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -40,13 +40,13 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
 /// ranked by the PGA that overturns them with a probability of 5 %, not by
 /// how often a year. DIR gets the page index.html, assess.json with every
 /// number of it, and CSV files of the curves.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(group = ArgGroup::new("object").required(true).multiple(true)
     .args(["objects", "width_m", "alpha"]))]
 #[command(after_help = "Examples:\n  \
     rocking assess --objects objects.csv --hazard hazard.csv\n  \
     rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
-pub struct Args {
+pub struct AssessCommand {
     /// Table of objects, CSV: width_m,height_m or alpha,p, and where wanted
     /// id, eta, friction (of the floor), limit_ratio (a rotation over alpha
     /// that must not be exceeded) and floor.
@@ -91,16 +91,16 @@ pub struct Args {
     json: bool,
 }
 
-/// Runs the command.
+/// Runs `rocking assess`.
 ///
 /// # Errors
 /// [`Failure`] for input that is refused, or a folder that is not empty.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_assess(args: &AssessCommand) -> Result<(), Failure> {
     // All of it: a signal that stops it finds the threads that heed it.
     args.threads.run(|| in_threads(args))?
 }
 
-fn in_threads(args: &Args) -> Result<(), Failure> {
+fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     let mut objects = args.objects()?;
     if args.suite.is_none() {
         rocking_assessment::set_surfaces(&mut objects)?;
@@ -135,7 +135,7 @@ fn named(path: &Path) -> Result<String, Failure> {
     Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
 }
 
-impl Args {
+impl AssessCommand {
     fn objects(&self) -> Result<Vec<Object>, Failure> {
         let gravity_m_s2 = STANDARD_GRAVITY_M_S2;
         let rows = match &self.objects {

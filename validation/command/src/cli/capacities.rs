@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::{ArgGroup, Args as ClapArgs};
+use clap::ArgGroup;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
@@ -29,14 +29,14 @@ use rocking_common::paper::Intensity;
 /// A level is crossed where the curve passes it (at least the level counts
 /// as above); overturning crosses every level, and a record that never
 /// reached one is censored (inf). The count of crossings is odd.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking capacities --ida ida.csv --levels 0.3,0.5,1\n  \
     rocking capacities --ida ida.csv --im avgsa:0.5,1,2 --suite SUITE\n  \
     rocking capacities --ida ida.csv --at 1 --out capacities.txt")]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["curve", "ida"]))]
-pub struct Args {
+pub struct CapacitiesCommand {
     /// One curve by its vertices IM:EDP, the first at EDP 0.
     #[arg(long, value_name = "IM:EDP,..", allow_hyphen_values = true)]
     curve: Option<Vertices>,
@@ -146,11 +146,11 @@ impl FromStr for Levels {
     }
 }
 
-/// Runs the command.
+/// Runs `rocking capacities`.
 ///
 /// # Errors
 /// [`Failure`] for a curve, a file or a level that is refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_capacities(args: &CapacitiesCommand) -> Result<(), Failure> {
     match (&args.curve, &args.ida) {
         (Some(vertices), _) => {
             let curve = ResponseCurve::try_new(&vertices.0, args.overturning)?;
@@ -161,7 +161,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
+fn by_hand(
+    args: &CapacitiesCommand,
+    curve: &ResponseCurve,
+) -> Result<(), Failure> {
     let levels = crossings(curve, &args.levels.0, |im| im)?;
     args.json.show(&Crossed { im_r: curve.onset_im(), levels })
 }
@@ -199,7 +202,7 @@ struct Record {
     levels: Vec<LevelCrossings>,
 }
 
-fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
+fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
     let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::PGA);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
@@ -242,7 +245,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
 
 /// The curves of a table against a measure.
 fn suite(
-    args: &Args,
+    args: &CapacitiesCommand,
     path: &Path,
     measure: &IntensityMeasure,
 ) -> Result<(IdaTable, Curves, Option<SetAside>), Failure> {

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
 use rocking_procedures::compare;
 use rocking_procedures::comparison::{Named, Side};
 
@@ -17,8 +16,8 @@ use crate::input;
 /// A ratio exists where both values are finite and positive. Pairs in which
 /// one or both are infinite (overturned, censored) or zero are counted by
 /// kind.
-#[derive(ClapArgs)]
-pub struct Args {
+#[derive(clap::Args)]
+pub struct CompareCommand {
     /// Sample file of the numerators.
     #[arg(long, value_name = "FILE")]
     a: PathBuf,
@@ -33,11 +32,11 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking compare`.
 ///
 /// # Errors
 /// [`Failure`] for files, pairs or a margin that are refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_compare(args: &CompareCommand) -> Result<(), Failure> {
     let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
     a.same_kind(&b)?;
     a.extended()?;

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
 use rocking_procedures::contrast;
 use rocking_procedures::contrast::Drawn;
 
@@ -17,8 +16,8 @@ use crate::input;
 /// The interval of the ratio a/b is of the bootstrap, which draws earthquakes
 /// where a file says them. Kolmogorov and Smirnov's p-value is exact for
 /// independent records, and left out where an earthquake has several.
-#[derive(ClapArgs)]
-pub struct Args {
+#[derive(clap::Args)]
+pub struct ContrastCommand {
     /// Sample file of the numerator.
     #[arg(long, value_name = "FILE")]
     a: PathBuf,
@@ -33,11 +32,11 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking contrast`.
 ///
 /// # Errors
 /// [`Failure`] for files or draws that are refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_contrast(args: &ContrastCommand) -> Result<(), Failure> {
     let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
     a.same_kind(&b)?;
     let (of_a, of_b) = (a.censored()?, b.censored()?);

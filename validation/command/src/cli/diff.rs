@@ -26,7 +26,7 @@ use rocking_report::diff::{Difference, ResultFiles, compare};
 /// change is relevant: an answer, a verdict, a setting, the records, such a
 /// number, or a result that one side lacks.
 #[derive(clap::Args)]
-pub struct Args {
+pub struct DiffCommand {
     /// Results before.
     #[arg(value_name = "OLD", requires = "new", default_value = "reports")]
     old: PathBuf,
@@ -50,12 +50,12 @@ struct Shown<'a> {
     comparison: &'a Difference,
 }
 
-/// Runs the command.
+/// Runs `rocking diff`.
 ///
 /// # Errors
 /// [`Failure`] for results that cannot be read or have nothing in common
 /// (status 2), and for a relevant change (status 1).
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_diff(args: &DiffCommand) -> Result<(), Failure> {
     if args.new.as_os_str() == REPORT && !args.new.exists() {
         return Err(Failure::input(format!(
             "no folder {REPORT}: expected what `rocking study` writes there"

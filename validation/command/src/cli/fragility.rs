@@ -7,14 +7,14 @@ pub mod source;
 mod surface;
 mod transform;
 
-use clap::{Args as ClapArgs, Subcommand};
+use clap::Subcommand;
 
 use crate::failure::Failure;
 
 /// Lognormal fragilities: fitted, transformed, or of a fitted surface.
 ///
 /// Medians, quantiles and shift are in the unit of the sample.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking fragility fit --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
     rocking fragility fit --sample capacities.txt --shift 1 \
@@ -24,30 +24,32 @@ use crate::failure::Failure;
     rocking fragility surface --alpha 0.15 --p 3\n  \
     rocking fragility export --sample capacities.txt --shift 1 \\\n      \
     --alpha 0.15 --p 3 --format nrml --out block.xml")]
-pub struct Args {
+pub struct FragilityCommand {
     #[command(subcommand)]
-    source: Source,
+    action: FragilityAction,
 }
 
 #[derive(Subcommand)]
-enum Source {
-    Fit(Box<fit::Args>),
-    Counts(counts::Args),
-    Transform(transform::Args),
-    Surface(surface::Args),
-    Export(Box<export::Args>),
+enum FragilityAction {
+    Fit(Box<fit::FragilityFitCommand>),
+    Counts(counts::FragilityCountsCommand),
+    Transform(transform::FragilityTransformCommand),
+    Surface(surface::FragilitySurfaceCommand),
+    Export(Box<export::FragilityExportCommand>),
 }
 
-/// Runs the command.
+/// Runs `rocking fragility`.
 ///
 /// # Errors
 /// [`Failure`] for input that is refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
-    match &args.source {
-        Source::Fit(args) => fit::run(args),
-        Source::Counts(args) => counts::run(args),
-        Source::Transform(args) => transform::run(args),
-        Source::Surface(args) => surface::run(args),
-        Source::Export(args) => export::run(args),
+pub fn run_fragility(args: &FragilityCommand) -> Result<(), Failure> {
+    match &args.action {
+        FragilityAction::Fit(args) => fit::run_fragility_fit(args),
+        FragilityAction::Counts(args) => counts::run_fragility_counts(args),
+        FragilityAction::Transform(args) => {
+            transform::run_fragility_transform(args)
+        }
+        FragilityAction::Surface(args) => surface::run_fragility_surface(args),
+        FragilityAction::Export(args) => export::run_fragility_export(args),
     }
 }

@@ -54,7 +54,7 @@ const STEPS: usize = 100;
     rocking ida --alpha 0.1 --p 3 --suite records/ --out ida.csv\n  \
     rocking ida --width-m 0.5 --height-m 1.8 --eta housner \
     --suite index.csv --out ida.csv")]
-pub struct Args {
+pub struct IdaCommand {
     #[command(flatten)]
     block: BlockArgs,
     #[command(flatten)]
@@ -137,16 +137,16 @@ enum Component {
     Both,
 }
 
-/// Runs the command.
+/// Runs `rocking ida`.
 ///
 /// # Errors
 /// [`Failure`] for bad input; no file is written then.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_ida(args: &IdaCommand) -> Result<(), Failure> {
     // All of it: a signal that stops it finds the threads that heed it.
     args.threads.run(|| in_threads(args))?
 }
 
-fn in_threads(args: &Args) -> Result<(), Failure> {
+fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
@@ -237,7 +237,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
 
 /// A suite that is worked off in blocks of records.
 struct Work<'a> {
-    args: &'a Args,
+    args: &'a IdaCommand,
     analysis: &'a Analysis,
     processing: Option<String>,
     remarks: &'a Remarks,
@@ -335,7 +335,7 @@ struct Shown<'a> {
     pivot: Option<PivotForces>,
 }
 
-impl Args {
+impl IdaCommand {
     fn analysis(&self, block: Block) -> Result<Analysis, Failure> {
         let grid = match (self.step_im, self.step_g) {
             (Some(step), _) => Grid::Im { step },

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args as ClapArgs};
+use clap::ArgGroup;
 use rocking_procedures::normality::NullSource;
 use rocking_procedures::{NormalityOptions, Shift, test_normality};
 use rocking_statistics::lilliefors::{CriticalValue, NullDistribution, Table};
@@ -29,10 +29,10 @@ const REPLICATES: u64 = 1_000_000;
 /// are simulated too, else they come from published approximations. A verdict is refused where the test does not apply: censored
 /// values, values not above the shift, values that do not vary, fewer than
 /// 4 values, fewer than 80 % distinct ones.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "critical_values", "write_table"]))]
-pub struct Args {
+pub struct LillieforsCommand {
     /// Sample file: one value a line, `#` comments.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
@@ -78,12 +78,12 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking lilliefors`.
 ///
 /// # Errors
 /// [`Failure`] for input that is refused; a test that does not apply is a
 /// result.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_lilliefors(args: &LillieforsCommand) -> Result<(), Failure> {
     args.threads.run(|| {
         if let Some(path) = &args.write_table {
             write_table(path)
@@ -105,7 +105,7 @@ struct Critical {
     critical_value: CriticalValue,
 }
 
-fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
+fn critical_value(args: &LillieforsCommand, n: usize) -> Result<(), Failure> {
     let replicates = args.replicates.unwrap_or(REPLICATES);
     let (seed, level) = (args.seed.unwrap_or(0), args.level);
     let null = NullDistribution::simulate(n, replicates, seed)?;
@@ -114,7 +114,7 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
     args.json.show(&found)
 }
 
-fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
+fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
     let options = NormalityOptions {
         log_above: args.shift.or(args.log.then_some(Shift::Given(0.0))),
         level: args.level,

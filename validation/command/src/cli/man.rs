@@ -1,29 +1,30 @@
 //! `rocking man`: manual pages.
 
-use clap::{Args as ClapArgs, Command};
 use clap_mangen::Man;
 
+use super::command;
 use crate::failure::Failure;
 use crate::terminal::print;
 
 /// The manual page of the program, or of one of its commands, on standard
 /// output.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking man > ~/.local/share/man/man1/rocking.1\n  \
     rocking man fragility | man -l -")]
-pub struct Args {
+pub struct ManCommand {
     /// A command, such as `ida`.
     #[arg(value_name = "COMMAND")]
     of: Option<String>,
 }
 
-/// Runs the command.
+/// Runs `rocking man`.
 ///
 /// # Errors
 /// [`Failure`] for a command that there is not, and when standard output
 /// cannot be written.
-pub fn run(args: &Args, mut command: Command) -> Result<(), Failure> {
+pub fn run_man(args: &ManCommand) -> Result<(), Failure> {
+    let mut command = command();
     // Names every command in full, as `rocking-ida`.
     command.build();
     let shown = match &args.of {

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
 use rocking::capacity::InversionRule;
 use rocking_procedures::capacities::intervals;
 use rocking_procedures::ranking::Covariate;
@@ -31,7 +30,7 @@ use rocking_draw::figures::of_result::ranking_svg;
 /// intercept for each): a small p-value says that the measure leaves out what
 /// magnitude or distance tells. Intervals are of the bootstrap, which draws
 /// earthquakes where they are known; one draw for all measures.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the dispersions with their intervals"
 )))]
@@ -39,7 +38,7 @@ use rocking_draw::figures::of_result::ranking_svg;
     rocking rank --ida ida.csv --suite SUITE --at 1\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1 --im pga --im sa:1 \
     --im avgsa:0.5,1,2 --magnitude mw --distance rrup_km --plot rank.svg")]
-pub struct Args {
+pub struct RankCommand {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
@@ -90,11 +89,11 @@ struct Shown {
     ranking: Ranking,
 }
 
-/// Runs the command.
+/// Runs `rocking rank`.
 ///
 /// # Errors
 /// [`Failure`] for files that are refused, or capacities that make no fit.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
     let measures = match args.im.as_slice() {
         [] => M::usual(),
         some => some.to_vec(),
@@ -122,7 +121,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     args.json.show(&Shown { edp: args.at, point, set_aside, ranking })
 }
 
-impl Args {
+impl RankCommand {
     /// The columns on which slopes are asked for.
     fn covariates(&self, ground: &Ground) -> Result<Vec<Covariate>, Failure> {
         let mut all = Vec::new();

@@ -31,7 +31,7 @@ mod measures;
 #[command(after_help = "Examples:\n  \
     rocking records records/ suite.csv peer.zip\n  \
     rocking records wave.txt --dt 0.01 --units m/s2 --plot wave.svg")]
-pub struct Args {
+pub struct RecordsCommand {
     /// Record files, folders or zips of them, or index files (CSV with a
     /// column `file`, or PEER's search results).
     #[arg(required = true)]
@@ -187,12 +187,12 @@ struct Listing {
     inputs: Vec<PathBuf>,
 }
 
-/// Runs the command.
+/// Runs `rocking records`.
 ///
 /// # Errors
 /// [`Failure`] with status 2 when any file was refused, after all are
 /// listed.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let options = args.reading.options(args.gravity);
     let mut listing = Listing::default();
     for path in &args.paths {

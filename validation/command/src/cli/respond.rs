@@ -34,7 +34,7 @@ use rocking_draw::figures::of_result::response_svg;
     --amplitude-m-s2 1.5 --omega-rad-s 12\n  \
     rocking respond --width-m 0.3 --height-m 1.5 --record FILE.AT2 \
     --im 1.5 --plot theta.svg")]
-pub struct Args {
+pub struct RespondCommand {
     #[command(flatten)]
     block: BlockArgs,
     #[command(flatten)]
@@ -101,11 +101,11 @@ struct Setting<'a> {
     intensity_pga: f64,
 }
 
-/// Runs the command.
+/// Runs `rocking respond`.
 ///
 /// # Errors
 /// [`Failure`] for bad input.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2;
     let block: Block = args.block.block(gravity_m_s2)?;
     let restitution = args.model.restitution(&block)?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args as ClapArgs};
+use clap::ArgGroup;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking_procedures::{Exposed, FitOptions, Shift, risk};
 use rocking_statistics::{Lognormal, QuantileType};
@@ -29,7 +29,7 @@ use rocking_draw::figures::of_suite::risk_svg;
 /// of the records leaves, of a fit to --sample, --ida or --counts by record
 /// above a known shift: by a bootstrap, which draws earthquakes where they
 /// are known.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
 #[command(mut_arg("plot", |arg| arg.help(
@@ -40,7 +40,7 @@ use rocking_draw::figures::of_suite::risk_svg;
     --shift 0.15\n  \
     rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
     --alpha 0.15 --p 3")]
-pub struct Args {
+pub struct RiskCommand {
     /// Hazard curve, CSV; `-` is standard input.
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: PathBuf,
@@ -76,7 +76,7 @@ pub struct Args {
 }
 
 /// Where and for how long a hazard curve holds.
-#[derive(ClapArgs, Clone, Debug)]
+#[derive(clap::Args, Clone, Debug)]
 pub struct SiteArgs {
     /// Site in OpenQuake's CSV of several: its place or its custom_site_id.
     #[arg(long, value_name = "LON,LAT|ID", allow_hyphen_values = true)]
@@ -121,11 +121,11 @@ enum Basis {
     Parameters(f64, f64),
 }
 
-/// Runs the command.
+/// Runs `rocking risk`.
 ///
 /// # Errors
 /// [`Failure`] for a curve, a fragility or a parameter that is refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     let standard = Path::new("-");
     if args.hazard == standard
         && args.source.inputs().iter().any(|path| path == standard)
@@ -195,7 +195,7 @@ fn kind(law: &Lognormal) -> &'static str {
 /// The fits of the files, with the shift where there is one and without, in
 /// the unit of the hazard curve.
 fn of_source(
-    args: &Args,
+    args: &RiskCommand,
     source: &Source,
     mut options: FitOptions,
     hazard: &Hazard,

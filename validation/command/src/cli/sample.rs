@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
 use rocking_procedures::summarise;
 use rocking_statistics::QuantileType;
 
@@ -13,8 +12,8 @@ use crate::input;
 /// Quantiles of a sample by named type (Hyndman and Fan 1996), its quartiles,
 /// whiskers, outliers and McGill's notch, and the exact order-statistic
 /// interval of its median.
-#[derive(ClapArgs)]
-pub struct Args {
+#[derive(clap::Args)]
+pub struct SampleCommand {
     /// Sample file: one value a line, `inf` for a censored one, `#` comments;
     /// `-` is standard input.
     #[arg(long, value_name = "FILE")]
@@ -34,11 +33,11 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking sample`.
 ///
 /// # Errors
 /// [`Failure`] for a sample, a type or a probability that is refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_sample(args: &SampleCommand) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
     let sample = input::sample(&args.sample)?.extended()?;
     args.json.show(&summarise(&sample, &args.at, quantile_type)?)

@@ -24,7 +24,7 @@ use crate::input;
     rocking score answers.csv\n  \
     rocking score answers.csv --out page.html\n  \
     rocking score --write-answers ours.csv")]
-pub struct Args {
+pub struct ScoreCommand {
     /// Answers of a code; `-` is standard input.
     #[arg(
         value_name = "ANSWERS.csv",
@@ -46,11 +46,11 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking score`.
 ///
 /// # Errors
 /// [`Failure`] for answers that are refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
     let mut outputs = Outputs::of(args.answers.iter().cloned().collect());
     if let Some(out) = outputs.open_some(args.write_answers.as_ref())? {
         out.write(own_answers().map_err(Failure::input)?.csv())?;

@@ -33,7 +33,7 @@ use rocking_report::speed::{export, many};
 /// It takes some minutes. Times are processor time; they differ from run to run and from machine to
 /// machine, errors and work do not.
 #[derive(clap::Args)]
-pub struct Args {
+pub struct SpeedCommand {
     /// Suite of the throughput measurement: a folder of records, an index,
     /// or a zip; may be given more than once [default: both embedded suites].
     #[arg(long, value_name = "PATH")]
@@ -62,12 +62,12 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking speed`.
 ///
 /// # Errors
 /// [`Failure`] for a suite or an answer that is refused, or a file that
 /// cannot be written.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     let cases = cases::all()?;
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
@@ -139,7 +139,9 @@ fn with_references(cases: Vec<Case>) -> Result<Vec<(Case, Answer)>, Failure> {
 }
 
 /// The records that are analysed, and what was set aside beside them.
-fn records(args: &Args) -> Result<(Vec<NormalisedRecord>, SetAside), Failure> {
+fn records(
+    args: &SpeedCommand,
+) -> Result<(Vec<NormalisedRecord>, SetAside), Failure> {
     let mut set_aside = SetAside::default();
     if args.suite.is_empty() {
         let suites = StudySuite::embedded()?;

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
 use rocking::capacity::ResponseCurve;
 use rocking_procedures::counts::Outcome;
 use rocking_procedures::{StripeResponses, stripes};
@@ -25,7 +24,7 @@ use rocking_exchange::ida::IdaTable;
 /// between analyses; it is infinite from the first overturning on. Where a
 /// record was not run so far, the stripe is open for it: such records are
 /// counted and left out.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the responses with their 16, 50 and 84 % quantiles, and the shares \
      that overturn"
@@ -34,7 +33,7 @@ use rocking_exchange::ida::IdaTable;
     rocking stripes --ida ida.csv --levels 1.5,2,3\n  \
     rocking stripes --ida ida.csv --levels 1.2:4:0.2 --at 0.5 \
     --counts counts.csv")]
-pub struct Args {
+pub struct StripesCommand {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
@@ -71,11 +70,11 @@ struct Shown {
     stripes: Vec<StripeResponses>,
 }
 
-/// Runs the command.
+/// Runs `rocking stripes`.
 ///
 /// # Errors
 /// [`Failure`] for a file or a level that is refused.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![args.ida.clone()]);
     let counts = outputs.open_some(args.counts.as_ref())?;
     let plot = args.plot.open(&mut outputs)?;

@@ -37,7 +37,7 @@ pub const REPORT: &str = "rocking-report";
 #[command(after_help = "Examples:\n  \
     rocking study\n  \
     rocking study --ordinary far.csv --pulse near.csv --out report")]
-pub struct Args {
+pub struct StudyCommand {
     /// Ordinary suite: a folder of records, or an index (CSV).
     #[arg(long, value_name = "PATH", requires = "pulse")]
     ordinary: Option<PathBuf>,
@@ -103,18 +103,18 @@ pub struct Args {
     json: bool,
 }
 
-/// Runs the command.
+/// Runs `rocking study`.
 ///
 /// # Errors
 /// [`Failure`] for a suite that is refused, an option out of range, or a
 /// folder that cannot be written.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_study(args: &StudyCommand) -> Result<(), Failure> {
     // All of it: whatever runs in parallel finds these threads.
     args.threads.run(|| in_threads(args))?
 }
 
 /// The suites that the options name.
-fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
+fn suites(args: &StudyCommand) -> Result<[StudySuite; 2], Failure> {
     let processing = args.processing.processing()?;
     let options = args.reading.options(STANDARD_GRAVITY_M_S2);
     let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
@@ -151,7 +151,7 @@ fn computed(plan: Plan, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
     Ok(study)
 }
 
-fn in_threads(args: &Args) -> Result<(), Failure> {
+fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
     let plan = plan(args)?;
     if !args.check {
         refuse_foreign(&args.out)?;
@@ -239,7 +239,7 @@ fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     }
 }
 
-fn plan(args: &Args) -> Result<Plan, Failure> {
+fn plan(args: &StudyCommand) -> Result<Plan, Failure> {
     let mut arms = args.arms.clone();
     arms.sort();
     arms.dedup();

@@ -19,20 +19,20 @@ use rocking_common::suites::remarks::Remarks;
 
 /// Suites of records as files.
 #[derive(clap::Args)]
-pub struct Args {
+pub struct SuiteCommand {
     #[command(subcommand)]
-    action: Action,
+    action: SuiteAction,
 }
 
 #[derive(clap::Subcommand)]
-enum Action {
-    Export(ExportArgs),
+enum SuiteAction {
+    Export(SuiteExportCommand),
 }
 
 /// Write suites as AT2 files with an index each: the embedded ones, or one
 /// of yours. `--suite DIR/ordinary.csv` reads them back, bit for bit.
 #[derive(clap::Args)]
-struct ExportArgs {
+struct SuiteExportCommand {
     /// A new folder, or an empty one.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -60,12 +60,12 @@ struct Written {
     index: String,
 }
 
-/// Runs the command.
+/// Runs `rocking suite`.
 ///
 /// # Errors
 /// [`Failure`] for a suite that is refused, or a folder that is not empty.
-pub fn run(args: &Args) -> Result<(), Failure> {
-    let Action::Export(args) = &args.action;
+pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
+    let SuiteAction::Export(args) = &args.action;
     let mut files = Vec::new();
     let mut shown = Shown { suites: Vec::new(), set_aside: None };
     let mut add = |name: &str, rows: Vec<export::Row<'_>>| {

@@ -29,21 +29,21 @@ use rocking_common::suites::remarks::Remarks;
     rocking sweep run sweep\n  \
     rocking sweep run sweep --task 3 --of 8\n  \
     rocking sweep merge sweep --out fragilities.csv")]
-pub struct Args {
+pub struct SweepCommand {
     #[command(subcommand)]
-    action: Action,
+    action: SweepAction,
 }
 
 #[derive(Subcommand)]
-enum Action {
-    Plan(PlanArgs),
-    Run(RunArgs),
-    Merge(MergeArgs),
+enum SweepAction {
+    Plan(SweepPlanCommand),
+    Run(SweepRunCommand),
+    Merge(SweepMergeCommand),
 }
 
 /// Writes a plan and packs the suite into its folder.
 #[derive(clap::Args)]
-struct PlanArgs {
+struct SweepPlanCommand {
     /// Table of blocks: alpha,p or width_m,height_m, and where wanted id and
     /// eta.
     #[arg(long, value_name = "FILE.csv")]
@@ -95,7 +95,7 @@ struct PlanArgs {
 
 /// Runs the tiles of one task that are not done.
 #[derive(clap::Args)]
-struct RunArgs {
+struct SweepRunCommand {
     /// Folder of the plan.
     dir: PathBuf,
     /// This task, from 0 [default: from SLURM, PMI or Open MPI, else 0].
@@ -111,7 +111,7 @@ struct RunArgs {
 /// Puts the tiles together in the plan's order; names and refuses tiles that
 /// are missing, of another plan or another build of the program, or damaged.
 #[derive(clap::Args)]
-struct MergeArgs {
+struct SweepMergeCommand {
     /// Folder of the plan.
     dir: PathBuf,
     /// What is merged.
@@ -134,15 +134,17 @@ const CONTENTS: [&str; 3] = [
      `--rows`",
 ];
 
-/// Runs the command.
+/// Runs `rocking sweep`.
 ///
 /// # Errors
 /// [`Failure`] for bad input, and for tiles that are left.
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_sweep(args: &SweepCommand) -> Result<(), Failure> {
     match &args.action {
-        Action::Plan(args) => with_threads(None, || plan(args)).flatten(),
-        Action::Run(args) => run_task(args),
-        Action::Merge(args) => with_threads(None, || merge(args)).flatten(),
+        SweepAction::Plan(args) => with_threads(None, || plan(args)).flatten(),
+        SweepAction::Run(args) => run_task(args),
+        SweepAction::Merge(args) => {
+            with_threads(None, || merge(args)).flatten()
+        }
     }
 }
 
@@ -151,7 +153,7 @@ fn share(text: &str) -> Result<f64, &'static str> {
     share.ok_or("expected a number above 0, at most 1")
 }
 
-fn plan(args: &PlanArgs) -> Result<(), Failure> {
+fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
     let rows = blocks::on_ground(&args.blocks, STANDARD_GRAVITY_M_S2)?;
     let given = |row: blocks::Row| match row.samples.as_slice() {
         [] => Ok(Given {
@@ -221,7 +223,7 @@ fn from_environment() -> Result<(usize, usize), Failure> {
     Ok((0, 1))
 }
 
-fn run_task(args: &RunArgs) -> Result<(), Failure> {
+fn run_task(args: &SweepRunCommand) -> Result<(), Failure> {
     let (task, of) = match (args.task, args.of) {
         (Some(task), Some(of)) => (task, of),
         _ => from_environment()?,
@@ -248,7 +250,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
     )))
 }
 
-fn merge(args: &MergeArgs) -> Result<(), Failure> {
+fn merge(args: &SweepMergeCommand) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
     ensure!(
         Content::kept(&planned.plan).contains(&args.what),

@@ -16,11 +16,12 @@ use rocking_proof::methods::{digits, digits_csv};
 use rocking_proof::verdict::{Outcome, Verdict, run_all, snapshot};
 use rocking_report::diff::{self, ResultFiles};
 
-/// Runs the declared cases. With `--out` it writes the results to
-/// OUT/data/validation.json, and to OUT/data/precision.csv what single,
-/// double and double-double precision reach.
+// With `--out` it writes the results to OUT/data/validation.json, and to
+// OUT/data/precision.csv what single, double and double-double precision
+// reach.
+/// Runs the declared cases and writes or checks their results.
 #[derive(clap::Args)]
-pub struct Args {
+pub struct ValidateCommand {
     /// Run this family alone.
     #[arg(long, conflicts_with = "out")]
     family: Option<String>,
@@ -38,12 +39,12 @@ pub struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking validate`.
 ///
 /// # Errors
 /// [`Failure`] for unreadable cases or an unknown family (status 2), for a
 /// case that is not accepted and for results that differ (status 1).
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
     let cases = selected(args)?;
     let outputs = match &args.out {
         Some(out) if !args.check => {
@@ -84,7 +85,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Err(stale(&digits_path))
 }
 
-fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
+fn selected(args: &ValidateCommand) -> Result<Vec<Case>, Failure> {
     let mut cases = load_all()?;
     if let Some(family) = &args.family {
         if FAMILIES.iter().all(|(name, _)| name != family) {

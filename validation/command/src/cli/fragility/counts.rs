@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use clap::Args as ClapArgs;
 use indexmap::IndexMap;
 use rocking_procedures::counts::Outcome;
 use rocking_procedures::{
@@ -32,11 +31,11 @@ use rocking_exchange::read::{Cells, no_csv, reader, rows};
 /// likelihood, which take the stripes as independent. Of the table that
 /// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
 /// which draws records, or earthquakes where the table says them.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the fit with the shares that exceeded; of outcomes with its band"
 )))]
-pub(super) struct Args {
+pub(super) struct FragilityCountsCommand {
     /// Table of counts, columns intensity,exceeded,n, or of outcomes,
     /// columns intensity,record,exceeded and event where known; `-` is
     /// standard input.
@@ -55,11 +54,13 @@ pub(super) struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking fragility counts`.
 ///
 /// # Errors
 /// [`Failure`] for a table that is refused.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run_fragility_counts(
+    args: &FragilityCountsCommand,
+) -> Result<(), Failure> {
     let path = &args.counts;
     let plot = args.plot.open(&mut Outputs::of(vec![path.clone()]))?;
     let counted = read(path)?;

@@ -16,7 +16,7 @@ use rocking_common::files::Outputs;
 
 /// Writes fragilities of blocks for another program.
 #[derive(clap::Args)]
-pub(super) struct Args {
+pub(super) struct FragilityExportCommand {
     #[command(flatten)]
     source: SourceArgs,
     #[command(flatten)]
@@ -54,12 +54,14 @@ struct ShownState<'a> {
     beta: f64,
 }
 
-/// Runs the command.
+/// Runs `rocking fragility export`.
 ///
 /// # Errors
 /// [`Failure`] for input or a place that is refused, and for fragilities that
 /// the format does not hold; nothing is written then.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run_fragility_export(
+    args: &FragilityExportCommand,
+) -> Result<(), Failure> {
     let source = args.source.open()?;
     let inputs = [args.source.inputs(), source.inputs()].concat();
     let mut outputs = Outputs::of(inputs);
@@ -90,7 +92,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.json.show(&Shown { blocks: states.collect() })
 }
 
-impl Args {
+impl FragilityExportCommand {
     /// The second file of the format, beside the first.
     fn beside(&self) -> Result<Option<PathBuf>, Failure> {
         let Some(extension) = self.format.beside else { return Ok(None) };

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args as ClapArgs};
+use clap::ArgGroup;
 use rocking_procedures::fit::Band;
 use rocking_procedures::{
     Draws, Exposed, FitOptions, FragilityFit, LevelFit, Shift, capacities,
@@ -30,13 +30,13 @@ use rocking_exchange::sample::SampleFile;
 ///
 /// With a shift IM_R the fit is to the capacities above it. Eqs. 5 to 7 stand
 /// beside the fit: what the unshifted statistics give instead.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["sample", "ida"]))]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the fits with the capacities, and with --bootstrap their bands"
 )))]
-pub(super) struct Args {
+pub(super) struct FragilityFitCommand {
     /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
     /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE`
     /// where the earthquake is known; `-` is standard input.
@@ -88,7 +88,7 @@ pub(super) struct Args {
 }
 
 /// How a fragility is fitted.
-#[derive(ClapArgs)]
+#[derive(clap::Args)]
 pub(in crate::cli) struct FitArgs {
     /// Shift IM_R: a number, `min` (smallest value; overstates the
     /// dispersion, no intervals) or `free` (maximum likelihood).
@@ -137,11 +137,13 @@ struct OfLevels {
     levels: Vec<LevelFit>,
 }
 
-/// Runs the command.
+/// Runs `rocking fragility fit`.
 ///
 /// # Errors
 /// [`Failure`] for input that is refused.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run_fragility_fit(
+    args: &FragilityFitCommand,
+) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
     let mut options = args.fit.options(quantile_type);
     options.c = args.c;
@@ -157,7 +159,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn of_sample(
-    args: &Args,
+    args: &FragilityFitCommand,
     path: &Path,
     options: &FitOptions,
 ) -> Result<(), Failure> {
@@ -190,7 +192,7 @@ fn of_sample(
 }
 
 fn of_levels(
-    args: &Args,
+    args: &FragilityFitCommand,
     path: &Path,
     options: &FitOptions,
 ) -> Result<(), Failure> {

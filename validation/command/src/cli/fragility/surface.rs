@@ -10,18 +10,20 @@ use crate::failure::Failure;
 /// Overturning fragility of a block under the embedded suites, by a fitted
 /// surface and without an analysis, with its errors.
 #[derive(clap::Args)]
-pub(super) struct Args {
+pub(super) struct FragilitySurfaceCommand {
     #[command(flatten)]
     block: BlockArgs,
     #[command(flatten)]
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking fragility surface`.
 ///
 /// # Errors
 /// [`Failure`] for a block that is none, or lies outside the surface.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run_fragility_surface(
+    args: &FragilitySurfaceCommand,
+) -> Result<(), Failure> {
     let block = args.block.block(STANDARD_GRAVITY_M_S2)?;
     args.json.show(&Surrogate::embedded()?.fragility(&block)?)
 }

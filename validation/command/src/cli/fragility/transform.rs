@@ -1,6 +1,5 @@
 //! `rocking fragility transform`: Eqs. 5 to 7 of given numbers.
 
-use clap::Args as ClapArgs;
 use rocking_procedures::fit::Transformed;
 
 use crate::cli::shared::JsonArg;
@@ -9,8 +8,8 @@ use crate::failure::Failure;
 /// Eqs. 5 to 7: a shifted fragility from unshifted numbers.
 ///
 /// Eq. 5 and Eq. 7 need --im50 and --beta, Eq. 6 needs --im16 and --im84.
-#[derive(ClapArgs)]
-pub(super) struct Args {
+#[derive(clap::Args)]
+pub(super) struct FragilityTransformCommand {
     /// Shift IM_R, not negative.
     #[arg(long, value_name = "X")]
     shift: f64,
@@ -33,11 +32,13 @@ pub(super) struct Args {
     json: JsonArg,
 }
 
-/// Runs the command.
+/// Runs `rocking fragility transform`.
 ///
 /// # Errors
 /// [`Failure`] where the result cannot be printed.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run_fragility_transform(
+    args: &FragilityTransformCommand,
+) -> Result<(), Failure> {
     let found = Transformed::of(
         (args.im50, args.beta),
         (args.im16, args.im84),

@@ -3,7 +3,7 @@
 
 use rocking::capacity::{CapacityError, InversionRule};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Overturned, REFINEMENT, curves};
+use rocking::ida::{Analysis, Batch, BracketEnd, REFINEMENT, curves};
 use rocking::{Block, Restitution};
 use rocking_records::{ReadOptions, Suite};
 use rocking_statistics::ExtendedSample;
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ida = curves(&records, &[analysis], &Batch::default())?;
     // The intensity PGA/(g tan alpha) at which each record overturns it.
     let overturning = ida[0].iter().map(|curve| {
-        let response = curve.response(Overturned::Refined)?;
+        let response = curve.response(BracketEnd::Refined)?;
         Ok(response.crossings(1.0)?.capacity(InversionRule::Median).im())
     });
     let capacities = overturning.collect::<Result<Vec<_>, CapacityError>>()?;

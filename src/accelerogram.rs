@@ -5,7 +5,7 @@ mod name;
 
 use thiserror::Error;
 
-pub use name::{EXPECTED, Escaped, are_places};
+pub use name::{EXPECTED, EscapedName, are_places};
 pub use name::{NameError, SuiteNameError, result_name, suite_names};
 
 /// Mean of samples, summed in their order.

@@ -8,7 +8,7 @@
 mod pulse;
 mod record_index;
 
-pub(crate) use pulse::Shape;
+pub(crate) use pulse::PulseShape;
 
 pub use pulse::{Pulse, PulseError, PulseKind, PulseName, PulseParameter};
 pub(crate) use record_index::{RUN, RecordIndex, Remaining, Window};

@@ -24,8 +24,8 @@ use crate::number::dispatch::Isa;
 #[cfg(feature = "lanes")]
 pub use batch::{Batch, curves, for_each_curve};
 use climb::Climb;
-pub use curve::{FirstOverturning, IdaCurve, IdaPoint, Overturned};
-use levels::Levels;
+pub use curve::{BracketEnd, FirstOverturning, IdaCurve, IdaPoint};
+use levels::ImLevels;
 pub use resolution::{Resolution, ResolutionCounts};
 
 /// Intensities at which a curve is sampled.
@@ -250,7 +250,7 @@ pub fn demand_at(
     analysis: &Analysis,
     im: f64,
 ) -> Result<IdaPoint, IdaError> {
-    let levels = Levels::new(record, analysis)?;
+    let levels = ImLevels::new(record, analysis)?;
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
@@ -289,7 +289,7 @@ pub fn forces_at(
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
-    Levels::new(record, analysis)?.at(im)?.forces()
+    ImLevels::new(record, analysis)?.at(im)?.forces()
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ mod taylor;
 pub use certificate::{
     CLEARANCE, Certificate, Clearance, Decision, LARGEST_ERROR,
 };
-pub use certify::{Arithmetic, Certified, Certify, certify};
+pub use certify::{Arithmetic, CertifiedFate, Certify, certify};
 pub use driver::Forces;
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;

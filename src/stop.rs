@@ -60,7 +60,7 @@ pub enum StopError {
 }
 
 /// What a stack is unwound with.
-struct Stopped;
+struct StopSignal;
 
 thread_local! {
     /// The stop that this thread heeds.
@@ -115,7 +115,7 @@ impl Stop {
             })?;
         // What was under way is dropped with the stack.
         let done = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
-        done.map_err(|cause| match cause.is::<Stopped>() {
+        done.map_err(|cause| match cause.is::<StopSignal>() {
             true => StopError::Stopped,
             false => resume_unwind(cause),
         })
@@ -142,5 +142,5 @@ pub fn point() {
 
 #[cold]
 fn unwind() -> ! {
-    resume_unwind(Box::new(Stopped))
+    resume_unwind(Box::new(StopSignal))
 }

@@ -99,9 +99,9 @@ pub fn are_places<S: AsRef<str>>(names: &[S]) -> bool {
 }
 
 /// A file's name in a message, each control character as `\u001b`.
-pub struct Escaped<'a>(pub &'a str);
+pub struct EscapedName<'a>(pub &'a str);
 
-impl fmt::Display for Escaped<'_> {
+impl fmt::Display for EscapedName<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for c in self.0.chars() {
             match c.is_control() {

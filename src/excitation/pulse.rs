@@ -6,7 +6,7 @@ mod kind;
 pub use kind::{PulseError, PulseKind, PulseName, PulseParameter};
 
 use crate::number::{Number, Real};
-use kind::{Form, Velocity};
+use kind::{PulseForm, Velocity};
 
 /// An analytic pulse, checked.
 ///
@@ -31,9 +31,9 @@ pub struct Pulse {
 
 /// A smooth stretch of a pulse, as the integrator expands it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Shape<N> {
+pub(crate) enum PulseShape<N> {
     /// Sum of `amplitude * sin(rate * t + phase)`, t from the pulse's start.
-    Sines([Sine<N>; 3]),
+    Sines([PulseSine<N>; 3]),
     /// `at_zero + slope * t`.
     Line { at_zero: N, slope: N },
     /// `scale * (q0 + q1 x + q2 x^2 + q3 x^3) exp(-x^2/2)`,
@@ -43,13 +43,13 @@ pub(crate) enum Shape<N> {
 
 /// One sine of a sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sine<N> {
+pub(crate) struct PulseSine<N> {
     pub amplitude: N,
     pub rate_rad_s: N,
     pub phase_rad: N,
 }
 
-impl<N: Number> Sine<N> {
+impl<N: Number> PulseSine<N> {
     fn silent() -> Self {
         let zero = N::zero();
         Self { amplitude: zero, rate_rad_s: zero, phase_rad: zero }
@@ -126,13 +126,13 @@ impl Pulse {
     }
 
     /// The pulse as the core computes it.
-    fn form<N: Real>(&self) -> Form<N> {
+    fn form<N: Real>(&self) -> PulseForm<N> {
         let gravity = N::from_f64(self.divisor);
         self.kind.form(N::from_f64(self.kind.amplitude()) / gravity)
     }
 
     /// Smooth stretches: where each ends (s) and its shape.
-    pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, Shape<N>)> {
+    pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, PulseShape<N>)> {
         self.form().stretches
     }
 
@@ -196,7 +196,7 @@ impl Pulse {
     }
 }
 
-impl Form<f64> {
+impl PulseForm<f64> {
     fn acceleration_g(&self, t_s: f64) -> f64 {
         let mut stretches = self.stretches.iter();
         let here = stretches.find(|(end_s, _)| t_s <= *end_s);
@@ -205,15 +205,17 @@ impl Form<f64> {
     }
 }
 
-impl Shape<f64> {
+impl PulseShape<f64> {
     fn at(&self, t_s: f64) -> f64 {
         match self {
-            Shape::Sines(sines) => sines.iter().fold(0.0, |sum, sine| {
+            PulseShape::Sines(sines) => sines.iter().fold(0.0, |sum, sine| {
                 let angle = sine.rate_rad_s.mul_add(t_s, sine.phase_rad);
                 sine.amplitude.mul_add(libm::sin(angle), sum)
             }),
-            Shape::Line { at_zero, slope } => slope.mul_add(t_s, *at_zero),
-            Shape::Gauss { scale, polynomial: q, rate, centre_s } => {
+            PulseShape::Line { at_zero, slope } => {
+                slope.mul_add(t_s, *at_zero)
+            }
+            PulseShape::Gauss { scale, polynomial: q, rate, centre_s } => {
                 let x = rate * (t_s - centre_s);
                 let sum = q[3].mul_add(x, q[2]).mul_add(x, q[1]);
                 scale * sum.mul_add(x, q[0]) * gauss(x)

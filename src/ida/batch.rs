@@ -20,7 +20,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
-use crate::ida::levels::Level;
+use crate::ida::levels::ImLevel;
 use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_at};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
@@ -151,7 +151,7 @@ pub fn for_each_curve(
 
 /// One curve to be made.
 #[derive(Clone, Copy)]
-struct Job<'a> {
+struct CurveJob<'a> {
     /// Place among the results.
     index: usize,
     analysis: &'a Analysis,
@@ -161,7 +161,7 @@ struct Job<'a> {
 }
 
 /// The curves of a class; without a class, each is made alone.
-struct Queue<'a> {
+struct CurveQueue<'a> {
     class: Option<Class>,
     book: Mutex<Book<'a>>,
 }
@@ -169,7 +169,7 @@ struct Queue<'a> {
 /// What is to be made, what is being made, and what was.
 struct Book<'a> {
     /// In the order of their start, the next one last.
-    jobs: Vec<Job<'a>>,
+    jobs: Vec<CurveJob<'a>>,
     climbs: BTreeMap<usize, Active<'a>>,
     /// Finished curves, until the thread that finished them hands them over.
     finished: Vec<(usize, Result<IdaCurve, IdaError>)>,
@@ -186,7 +186,7 @@ struct Task<'a> {
     /// Place of its curve.
     index: usize,
     aim: Aim,
-    level: Level<'a>,
+    level: ImLevel<'a>,
 }
 
 /// Takes finished curves: its analysis, its record, and the curve.
@@ -224,7 +224,7 @@ fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl<'a> Queue<'a> {
+impl<'a> CurveQueue<'a> {
     /// Makes curves until none is left to start.
     fn work(&self, isa: Isa, watch: &Watch<'_>) {
         if let Some(class) = self.class {
@@ -244,7 +244,7 @@ impl<'a> Queue<'a> {
 
 /// A thread at a queue.
 struct Desk<'q, 'a> {
-    queue: &'q Queue<'a>,
+    queue: &'q CurveQueue<'a>,
     /// Curve whose analysis it settled last.
     last: Option<usize>,
     watch: &'q Watch<'q>,
@@ -276,7 +276,9 @@ impl<'a> Book<'a> {
     }
 
     fn start(&mut self) -> Option<Task<'a>> {
-        while let Some(Job { index, analysis, record, .. }) = self.jobs.pop() {
+        while let Some(CurveJob { index, analysis, record, .. }) =
+            self.jobs.pop()
+        {
             let climb = match Climb::start(record, analysis) {
                 Ok(climb) => climb,
                 Err(error) => {
@@ -348,7 +350,7 @@ impl<'a> Desk<'_, 'a> {
     }
 }
 
-impl<'a> pool::Source<'a> for Desk<'_, 'a> {
+impl<'a> pool::SceneSource<'a> for Desk<'_, 'a> {
     type Task = Task<'a>;
 
     fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, WorkLimit)> {
@@ -376,8 +378,9 @@ fn queues<'a>(
     records: &'a [NormalisedRecord],
     analyses: &'a [Analysis],
     isa: Isa,
-) -> Vec<Queue<'a>> {
-    let mut classes: BTreeMap<Option<Class>, Vec<Job<'a>>> = BTreeMap::new();
+) -> Vec<CurveQueue<'a>> {
+    let mut classes: BTreeMap<Option<Class>, Vec<CurveJob<'a>>> =
+        BTreeMap::new();
     let mut index = 0;
     for analysis in analyses {
         for record in records {
@@ -386,7 +389,7 @@ fn queues<'a>(
             let class = pool::class_of(analysis.model, length, analysis.order)
                 .filter(|_| isa.is_wide());
             let work = work(record, analysis);
-            let job = Job { index, analysis, record, work };
+            let job = CurveJob { index, analysis, record, work };
             classes.entry(class).or_default().push(job);
             index += 1;
         }
@@ -397,7 +400,7 @@ fn queues<'a>(
             jobs.sort_by(|a, b| a.work.total_cmp(&b.work));
             let (climbs, finished) = (BTreeMap::new(), Vec::new());
             let book = Mutex::new(Book { jobs, climbs, finished });
-            Queue { class, book }
+            CurveQueue { class, book }
         })
         .collect()
 }

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::excitation::NormalisedRecord;
-use crate::ida::levels::{Level, Levels};
+use crate::ida::levels::{ImLevel, ImLevels};
 use crate::ida::{
     Analysis, FirstOverturning, IdaCurve, IdaError, IdaPoint,
     ResolutionCounts, Resurrections,
@@ -27,8 +27,8 @@ pub(super) enum Aim {
 
 /// A curve in the making.
 pub(super) struct Climb<'a> {
-    levels: Levels<'a>,
-    stage: Stage,
+    levels: ImLevels<'a>,
+    stage: ClimbStage,
     onset: IdaPoint,
     points: Vec<IdaPoint>,
     overturning: Option<FirstOverturning>,
@@ -36,7 +36,7 @@ pub(super) struct Climb<'a> {
     above: BTreeMap<u64, IdaPoint>,
 }
 
-enum Stage {
+enum ClimbStage {
     /// Levels below `given` are handed out, those below `due` are settled;
     /// `early` waits for the ones below it.
     Rising {
@@ -65,13 +65,13 @@ impl<'a> Climb<'a> {
         record: &'a NormalisedRecord,
         analysis: &'a Analysis,
     ) -> Result<Self, IdaError> {
-        let levels = Levels::new(record, analysis)?;
+        let levels = ImLevels::new(record, analysis)?;
         let onset = levels.onset();
         let first = levels.first();
         let early = BTreeMap::new();
         let mut climb = Self {
             levels,
-            stage: Stage::Rising { given: first, due: first, early },
+            stage: ClimbStage::Rising { given: first, due: first, early },
             onset,
             points: Vec::new(),
             overturning: None,
@@ -84,7 +84,7 @@ impl<'a> Climb<'a> {
 
     /// True when nothing is left to make.
     pub fn is_done(&self) -> bool {
-        matches!(self.stage, Stage::Done)
+        matches!(self.stage, ClimbStage::Done)
     }
 
     /// The next analysis that is surely part of the curve, if none is being
@@ -92,10 +92,10 @@ impl<'a> Climb<'a> {
     pub fn next(
         &mut self,
         ahead: bool,
-    ) -> Result<Option<(Aim, Level<'a>)>, IdaError> {
+    ) -> Result<Option<(Aim, ImLevel<'a>)>, IdaError> {
         let highest = self.levels.analysis.highest_im;
         match &mut self.stage {
-            Stage::Rising { given, due, .. } => {
+            ClimbStage::Rising { given, due, .. } => {
                 let level = *given;
                 let sure = level == *due;
                 if !(sure || ahead) || self.levels.im(level) > highest {
@@ -110,7 +110,7 @@ impl<'a> Climb<'a> {
                 *given += 1;
                 Ok(Some((Aim::Rising(level), found)))
             }
-            Stage::Bisecting { low, high, asked } => {
+            ClimbStage::Bisecting { low, high, asked } => {
                 if *asked {
                     return Ok(None);
                 }
@@ -118,7 +118,7 @@ impl<'a> Climb<'a> {
                 let middle = 0.5 * (*low + high.im);
                 Ok(Some((Aim::Middle, self.levels.at(middle)?)))
             }
-            Stage::Above { given, end, due } => {
+            ClimbStage::Above { given, end, due } => {
                 let level = *given;
                 if !(self.levels.im(level) <= *end) {
                     return Ok(None);
@@ -128,7 +128,7 @@ impl<'a> Climb<'a> {
                 let found = self.levels.level(level)?;
                 Ok(Some((Aim::Above(level), found)))
             }
-            Stage::Done => Ok(None),
+            ClimbStage::Done => Ok(None),
         }
     }
 
@@ -136,20 +136,20 @@ impl<'a> Climb<'a> {
     /// at first, for most of them may lie above the first overturning.
     pub fn reach(&self) -> u64 {
         match self.stage {
-            Stage::Rising { .. } => 2 + self.points.len() as u64 / 4,
-            Stage::Above { .. } => u64::MAX,
-            Stage::Bisecting { .. } | Stage::Done => 0,
+            ClimbStage::Rising { .. } => 2 + self.points.len() as u64 / 4,
+            ClimbStage::Above { .. } => u64::MAX,
+            ClimbStage::Bisecting { .. } | ClimbStage::Done => 0,
         }
     }
 
     /// Takes what was made.
     pub fn accept(&mut self, aim: Aim, point: IdaPoint) {
         match (&mut self.stage, aim) {
-            (Stage::Rising { early, .. }, Aim::Rising(level)) => {
+            (ClimbStage::Rising { early, .. }, Aim::Rising(level)) => {
                 early.insert(level, point);
                 self.rise();
             }
-            (Stage::Bisecting { low, high, asked }, Aim::Middle) => {
+            (ClimbStage::Bisecting { low, high, asked }, Aim::Middle) => {
                 *asked = false;
                 self.middles += 1;
                 if point.outcome.is_overturned() {
@@ -160,7 +160,7 @@ impl<'a> Climb<'a> {
                 let (low, high) = (*low, *high);
                 self.bisect(low, high);
             }
-            (Stage::Above { due, .. }, Aim::Above(level)) => {
+            (ClimbStage::Above { due, .. }, Aim::Above(level)) => {
                 *due -= 1;
                 self.above.insert(level, point);
                 self.look_above();
@@ -172,7 +172,7 @@ impl<'a> Climb<'a> {
 
     /// Takes the levels that are due, up to the first overturning.
     fn rise(&mut self) {
-        let Stage::Rising { due, early, .. } = &mut self.stage else {
+        let ClimbStage::Rising { due, early, .. } = &mut self.stage else {
             return;
         };
         while let Some(point) = early.remove(due) {
@@ -190,7 +190,7 @@ impl<'a> Climb<'a> {
             }
         }
         if self.levels.im(*due) > self.levels.analysis.highest_im {
-            self.stage = Stage::Done;
+            self.stage = ClimbStage::Done;
         }
     }
 
@@ -201,7 +201,7 @@ impl<'a> Climb<'a> {
             let middle = 0.5 * (low + high.im);
             let inside = middle > low && middle < high.im;
             if high.im - low > tolerance && inside {
-                self.stage = Stage::Bisecting { low, high, asked: false };
+                self.stage = ClimbStage::Bisecting { low, high, asked: false };
                 return;
             }
             if let Some(overturning) = &mut self.overturning {
@@ -210,7 +210,7 @@ impl<'a> Climb<'a> {
             }
         }
         self.stage = match (self.overturning, self.reach_above()) {
-            (Some(first), Some(reach)) => Stage::Above {
+            (Some(first), Some(reach)) => ClimbStage::Above {
                 given: self.levels.first() + self.points.len() as u64,
                 end: match reach {
                     Resurrections::Multiple(times) => times * first.scanned_im,
@@ -218,7 +218,7 @@ impl<'a> Climb<'a> {
                 },
                 due: 0,
             },
-            _ => Stage::Done,
+            _ => ClimbStage::Done,
         };
         self.look_above();
     }
@@ -228,10 +228,10 @@ impl<'a> Climb<'a> {
     }
 
     fn look_above(&mut self) {
-        if let Stage::Above { given, end, due: 0 } = self.stage
+        if let ClimbStage::Above { given, end, due: 0 } = self.stage
             && !(self.levels.im(given) <= end)
         {
-            self.stage = Stage::Done;
+            self.stage = ClimbStage::Done;
         }
     }
 

@@ -77,7 +77,7 @@ pub struct IdaCurve {
 
 /// Which end of its bracket counts as the first overturning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overturned {
+pub enum BracketEnd {
     /// The level of the grid that overturned first.
     Scanned,
     /// The upper end of the bisected bracket where there is one, else the
@@ -98,14 +98,14 @@ impl IdaCurve {
     /// use rocking::{Block, Restitution};
     /// use rocking::capacity::InversionRule;
     /// use rocking::excitation::NormalisedRecord;
-    /// use rocking::ida::{Analysis, Overturned, curve};
+    /// use rocking::ida::{Analysis, BracketEnd, curve};
     /// use rocking::accelerogram::Accelerogram;
     /// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
     /// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
     /// let block = Block::try_new(0.1, 3.0)?;
     /// let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
     /// let ida = curve(&NormalisedRecord::new(&record), &analysis)?;
-    /// let response = ida.response(Overturned::Scanned)?;
+    /// let response = ida.response(BracketEnd::Scanned)?;
     /// assert_eq!(response.onset_im(), 1.0);
     /// // The intensity at which |theta| reaches half of alpha.
     /// let half = response.crossings(0.5)?.capacity(InversionRule::Median);
@@ -114,14 +114,14 @@ impl IdaCurve {
     /// ```
     pub fn response(
         &self,
-        overturned: Overturned,
+        overturned: BracketEnd,
     ) -> Result<ResponseCurve, CapacityError> {
         let points = std::iter::once(&self.onset).chain(self.standing());
         let vertices: Vec<(f64, f64)> =
             points.map(|point| (point.im, point.edp())).collect();
         let overturning = self.overturning.map(|first| match overturned {
-            Overturned::Scanned => first.scanned_im,
-            Overturned::Refined => first.im(),
+            BracketEnd::Scanned => first.scanned_im,
+            BracketEnd::Refined => first.im(),
         });
         ResponseCurve::try_new(&vertices, overturning)
     }

@@ -13,7 +13,7 @@ use crate::number::dispatch::Isa;
 
 /// One record under one analysis.
 #[derive(Clone, Copy)]
-pub(super) struct Levels<'a> {
+pub(super) struct ImLevels<'a> {
     pub record: &'a NormalisedRecord,
     pub analysis: &'a Analysis,
     threshold: f64,
@@ -21,7 +21,7 @@ pub(super) struct Levels<'a> {
 
 /// An analysis about to be made.
 #[derive(Clone, Copy)]
-pub(super) struct Level<'a> {
+pub(super) struct ImLevel<'a> {
     pub im: f64,
     /// PGA applied, multiples of gravity.
     pga_g: f64,
@@ -32,7 +32,7 @@ pub(super) struct Level<'a> {
     record: &'a str,
 }
 
-impl<'a> Levels<'a> {
+impl<'a> ImLevels<'a> {
     pub fn new(
         record: &'a NormalisedRecord,
         analysis: &'a Analysis,
@@ -120,18 +120,18 @@ impl<'a> Levels<'a> {
     }
 
     /// The analysis of a level.
-    pub fn level(&self, level: u64) -> Result<Level<'a>, IdaError> {
+    pub fn level(&self, level: u64) -> Result<ImLevel<'a>, IdaError> {
         self.scaled(self.im(level), self.pga_g(level))
     }
 
     /// The analysis at an intensity.
-    pub fn at(&self, im: f64) -> Result<Level<'a>, IdaError> {
+    pub fn at(&self, im: f64) -> Result<ImLevel<'a>, IdaError> {
         self.scaled(im, im * self.threshold)
     }
 
     /// The analysis at an intensity, which is `pga_g` for the block of the
     /// grid.
-    fn scaled(&self, im: f64, pga_g: f64) -> Result<Level<'a>, IdaError> {
+    fn scaled(&self, im: f64, pga_g: f64) -> Result<ImLevel<'a>, IdaError> {
         let analysis = self.analysis;
         let (slenderness_rad, amplitude) = self.reached(im, pga_g);
         let p = analysis.block.frequency_rad_s();
@@ -149,7 +149,7 @@ impl<'a> Levels<'a> {
             initial_ratio: 0.0,
         };
         integrator::check(&scene, &Observe::default())?;
-        Ok(Level {
+        Ok(ImLevel {
             im,
             pga_g: amplitude,
             scene,
@@ -161,7 +161,7 @@ impl<'a> Levels<'a> {
     }
 }
 
-impl Level<'_> {
+impl ImLevel<'_> {
     /// The analysis, made alone.
     pub fn run(&self, isa: Isa) -> Result<IdaPoint, IdaError> {
         let Self { scene, work_limit, order, .. } = *self;

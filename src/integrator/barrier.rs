@@ -127,7 +127,7 @@ impl<N: Real> Barrier<N> {
         let least = least_potential(dynamics, to);
         self.height = least + least;
         self.speed = self.height.sqrt();
-        let hop = Hop::below(self, dynamics);
+        let hop = BarrierHop::below(self, dynamics);
         let window = remainder.window(hop.time);
         let safe = |piece| {
             let left = remainder.left(piece);
@@ -185,7 +185,7 @@ fn lean<N: Real>(dynamics: &Dynamics<N>) -> N {
 }
 
 /// Hops below a peak.
-struct Hop<N> {
+struct BarrierHop<N> {
     alpha: N,
     eta: N,
     lean: N,
@@ -197,7 +197,7 @@ struct Hop<N> {
     time: N,
 }
 
-impl<N: Real> Hop<N> {
+impl<N: Real> BarrierHop<N> {
     fn below(barrier: &Barrier<N>, dynamics: &Dynamics<N>) -> Self {
         let Barrier { peak, height, speed, .. } = *barrier;
         let Dynamics { model, alpha, eta, .. } = *dynamics;

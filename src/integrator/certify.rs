@@ -80,7 +80,7 @@ impl fmt::Debug for Certify<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
-pub struct Certified {
+pub struct CertifiedFate {
     /// What became of the block, in the arithmetic `by`.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome,
@@ -102,7 +102,7 @@ pub struct Certified {
     pub double: Outcome,
 }
 
-impl Certified {
+impl CertifiedFate {
     fn of<N: Real>(response: &Response<N>, by: Arithmetic) -> Self {
         let outcome = match response.outcome {
             Outcome::NoUplift => Outcome::NoUplift,
@@ -174,14 +174,14 @@ impl Certified {
 pub fn certify(
     scene: &Scene<'_>,
     ask: &Certify<'_>,
-) -> Result<Certified, SceneError> {
+) -> Result<CertifiedFate, SceneError> {
     let Certify { until_s, work_limit, progress } = *ask;
     let accuracy = true;
     let observe =
         Observe { accuracy, until_s, work_limit, ..Observe::default() };
     let solver = Solver { peak_only: true, ..Solver::default() };
     let quick = solver.respond_once(scene, &observe)?;
-    let quick = Certified::of(&quick, Arithmetic::Double);
+    let quick = CertifiedFate::of(&quick, Arithmetic::Double);
     if quick.resolved {
         return Ok(quick);
     }
@@ -189,15 +189,15 @@ pub fn certify(
     let by = Arithmetic::DoubleDouble;
     let report = |time_s| progress(by, time_s);
     let wide = respond_until_sure::<DoubleDouble>(scene, &observe, &report)?;
-    let wide = Certified::of(&wide, by);
+    let wide = CertifiedFate::of(&wide, by);
     if wide.resolved {
-        return Ok(Certified { double, ..wide });
+        return Ok(CertifiedFate { double, ..wide });
     }
     let by = Arithmetic::Octuple;
     let report = |time_s| progress(by, time_s);
     let widest = respond_until_sure::<Octuple>(scene, &observe, &report)?;
-    let widest = Certified::of(&widest, by);
-    Ok(Certified { double, ..widest })
+    let widest = CertifiedFate::of(&widest, by);
+    Ok(CertifiedFate { double, ..widest })
 }
 
 #[cfg(test)]
@@ -213,7 +213,7 @@ mod tests {
     };
 
     /// Fate of the reference `hs-near-ulp-above` at another amplitude.
-    fn fate(amplitude_m_s2: f64) -> super::Certified {
+    fn fate(amplitude_m_s2: f64) -> super::CertifiedFate {
         let kind = PulseKind::HalfSine {
             amplitude: amplitude_m_s2,
             omega_rad_s: 5.0,
@@ -296,7 +296,7 @@ mod tests {
             (stands, stands, false),
             (stands, Outcome::NoUplift, false),
         ] {
-            let fate = super::Certified { outcome, double, ..fate(3.0) };
+            let fate = super::CertifiedFate { outcome, double, ..fate(3.0) };
             assert_eq!(fate.wrong_in_double(), wrong);
         }
     }

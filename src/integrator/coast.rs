@@ -21,10 +21,10 @@ mod orbit;
 
 use crate::integrator::certificate::Decision;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::motion::{Motion, Tracked, tail_speed};
+use crate::integrator::motion::{BlockMotion, RunTrace, tail_speed};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
-use orbit::{Level, Place, hop, speed_at, transit, turning};
+use orbit::{OrbitLevel, OrbitPlace, hop, speed_at, transit, turning};
 
 /// Impacts logged at most where neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
@@ -50,7 +50,7 @@ pub(crate) struct Coast<'a, N> {
 }
 
 /// How it ends.
-pub(crate) struct Fate<N> {
+pub(crate) struct CoastFate<N> {
     pub overturned: Option<(N, Side)>,
     /// Smallest distance of a decision taken here from the other one, where
     /// the criterion is decided by the saddle.
@@ -62,13 +62,13 @@ pub(crate) struct Fate<N> {
 /// Decides the free motion from `motion` on, completing `record`.
 pub(crate) fn coast<N: Real>(
     ask: &Coast<'_, N>,
-    motion: Motion<N>,
-    record: &mut Tracked<N>,
-) -> Fate<N> {
+    motion: BlockMotion<N>,
+    record: &mut RunTrace<N>,
+) -> CoastFate<N> {
     let d = ask.dynamics;
-    let Motion { side, u, w } = motion;
+    let BlockMotion { side, u, w } = motion;
     let zero = N::zero();
-    let level = Level::of(d, u, w);
+    let level = OrbitLevel::of(d, u, w);
     let inward = w < zero;
     let passing = gap(d, u, w).abs().to_f64();
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
@@ -82,12 +82,12 @@ pub(crate) fn coast<N: Real>(
         return fly_out(ask, motion, level, gap, record);
     }
     // The block turns, or already moves inwards, and meets the base.
-    let here = Place { u, speed: w.abs() };
+    let here = OrbitPlace { u, speed: w.abs() };
     let time = if inward {
-        transit(d, Place { u: zero, speed: level.speed() }, here, level)
+        transit(d, OrbitPlace { u: zero, speed: level.speed() }, here, level)
     } else {
         let top = turning(d, level);
-        let rise = transit(d, here, Place { u: top, speed: zero }, level);
+        let rise = transit(d, here, OrbitPlace { u: top, speed: zero }, level);
         raise(d, record, top, ask.start_s + rise / d.p, (u, w), 0.0);
         rise + hop(d, level)
     };
@@ -110,12 +110,12 @@ pub(crate) fn coast<N: Real>(
     let errors = record.accuracy.map(|accuracy| {
         let energy = level.above_base.to_f64();
         let late = |[u, w]: [f64; 2]| {
-            let level = Level::of(d, N::from_f64(u), N::from_f64(w));
+            let level = OrbitLevel::of(d, N::from_f64(u), N::from_f64(w));
             time_to_base(d, N::from_f64(u), N::from_f64(w), level).to_f64()
         };
         let motion = [u, motion.w].map(Real::to_f64);
         let late = accuracy.bound(derivatives(late, motion));
-        Errors {
+        CoastErrors {
             late,
             energy: accuracy.bound(by_energy) / energy,
             known: accuracy.certificate().is_clear() && late.is_finite(),
@@ -123,19 +123,23 @@ pub(crate) fn coast<N: Real>(
     });
     if next.below_saddle < zero {
         log_impact(ask, record, impact_s, level.speed(), errors);
-        let motion = Motion { side: side.flipped(), u: zero, w };
+        let motion = BlockMotion { side: side.flipped(), u: zero, w };
         let later = Coast { start_s: impact_s, ..*ask };
         return fly_out(&later, motion, next, margin, record);
     }
     hops(ask, record, impact_s, level, (u, motion.w), errors);
-    Fate { overturned: None, margin: margin_of(d, margin), nearest: margin }
+    CoastFate {
+        overturned: None,
+        margin: margin_of(d, margin),
+        nearest: margin,
+    }
 }
 
 /// True where a block overturns on the branch that it is on.
 fn flies_out<N: Real>(
     d: &Dynamics<N>,
     (u, w): (N, N),
-    level: Level<N>,
+    level: OrbitLevel<N>,
 ) -> bool {
     let passes = level.below_saddle < N::zero();
     let inward = w < N::zero();
@@ -164,7 +168,7 @@ pub(crate) fn last<N: Real>(d: &Dynamics<N>, u: N, w: N) -> Last {
 }
 
 fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
-    let level = Level::of(d, u, w);
+    let level = OrbitLevel::of(d, u, w);
     if flies_out(d, (u, w), level) {
         return (time_out(d, (u, w), level), true);
     }
@@ -179,13 +183,18 @@ fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
 }
 
 /// Time (in 1/p) from a place in free motion to the base.
-fn time_to_base<N: Real>(d: &Dynamics<N>, u: N, w: N, level: Level<N>) -> N {
-    let here = Place { u, speed: w.abs() };
+fn time_to_base<N: Real>(
+    d: &Dynamics<N>,
+    u: N,
+    w: N,
+    level: OrbitLevel<N>,
+) -> N {
+    let here = OrbitPlace { u, speed: w.abs() };
     if w < N::zero() {
-        let base = Place { u: N::zero(), speed: level.speed() };
+        let base = OrbitPlace { u: N::zero(), speed: level.speed() };
         return transit(d, base, here, level);
     }
-    let top = Place { u: turning(d, level), speed: N::zero() };
+    let top = OrbitPlace { u: turning(d, level), speed: N::zero() };
     transit(d, here, top, level) + hop(d, level)
 }
 
@@ -199,7 +208,7 @@ fn derivatives(of: impl Fn([f64; 2]) -> f64, [u, w]: [f64; 2]) -> [f64; 2] {
 
 /// What free motion makes of the errors at its first impact.
 #[derive(Clone, Copy)]
-struct Errors {
+struct CoastErrors {
     /// Of the impact's time, in 1/p.
     late: f64,
     /// Of the energy before it, relative.
@@ -208,7 +217,7 @@ struct Errors {
     known: bool,
 }
 
-impl Errors {
+impl CoastErrors {
     /// Bounds for an impact at a time and a speed.
     fn of<N: Real>(
         self,
@@ -228,14 +237,14 @@ impl Errors {
     fn after_hop<N: Real>(
         self,
         d: &Dynamics<N>,
-        level: Level<N>,
+        level: OrbitLevel<N>,
         half: f64,
     ) -> Self {
         let energy = self.energy + 8.0 * N::ROUNDOFF;
         let less = N::one() - N::from_f64(DIFFERENCE);
         let above_base = level.above_base * less;
         let below_saddle = d.saddle_energy() - above_base;
-        let other = hop(d, Level { above_base, below_saddle }).to_f64();
+        let other = hop(d, OrbitLevel { above_base, below_saddle }).to_f64();
         let by_energy = (half - other).abs() / DIFFERENCE;
         let rounding = 8.0 * N::ROUNDOFF * half;
         let late = self.late + 2.0 * (by_energy * energy + rounding);
@@ -280,18 +289,18 @@ impl<N: Real> Coast<'_, N> {
 /// Overturning on the current branch.
 fn fly_out<N: Real>(
     ask: &Coast<'_, N>,
-    motion: Motion<N>,
-    level: Level<N>,
+    motion: BlockMotion<N>,
+    level: OrbitLevel<N>,
     margin: f64,
-    record: &mut Tracked<N>,
-) -> Fate<N> {
-    let Motion { side, u, w } = motion;
+    record: &mut RunTrace<N>,
+) -> CoastFate<N> {
+    let BlockMotion { side, u, w } = motion;
     let time = time_out(ask.dynamics, (u, w), level);
     let time_s = ask.start_s + time / ask.dynamics.p;
     for tracker in record.trackers() {
         tracker.overturned();
     }
-    Fate {
+    CoastFate {
         overturned: Some((time_s, side)),
         margin: Some(margin),
         nearest: margin,
@@ -299,16 +308,20 @@ fn fly_out<N: Real>(
 }
 
 /// Time (in 1/p) from a state to overturning on the branch that it is on.
-fn time_out<N: Real>(d: &Dynamics<N>, (u, w): (N, N), level: Level<N>) -> N {
-    let here = Place { u, speed: w.abs() };
-    let end = Place { u: d.limit, speed: speed_at(d, d.limit, level) };
+fn time_out<N: Real>(
+    d: &Dynamics<N>,
+    (u, w): (N, N),
+    level: OrbitLevel<N>,
+) -> N {
+    let here = OrbitPlace { u, speed: w.abs() };
+    let end = OrbitPlace { u: d.limit, speed: speed_at(d, d.limit, level) };
     if !(u < d.limit) {
         N::zero()
     } else if w < N::zero() {
         // Beyond the saddle and moving inwards, but turned back before it:
         // in to the mirror image of the turning point, and out again.
         let mirror = d.alpha + (d.alpha - turning(d, level));
-        let turn = Place { u: mirror, speed: N::zero() };
+        let turn = OrbitPlace { u: mirror, speed: N::zero() };
         transit(d, turn, here, level) + transit(d, turn, end, level)
     } else {
         transit(d, here, end, level)
@@ -320,7 +333,7 @@ fn time_out<N: Real>(d: &Dynamics<N>, (u, w): (N, N), level: Level<N>) -> N {
 /// `differed` is the energy from which the hop's was taken as a difference.
 fn raise<N: Real>(
     d: &Dynamics<N>,
-    record: &mut Tracked<N>,
+    record: &mut RunTrace<N>,
     top: N,
     time_s: N,
     (u, w): (N, N),
@@ -350,10 +363,10 @@ fn slope<N: Real>(d: &Dynamics<N>, u: N) -> N {
 
 fn log_impact<N: Real>(
     ask: &Coast<'_, N>,
-    record: &mut Tracked<N>,
+    record: &mut RunTrace<N>,
     time_s: N,
     speed: N,
-    errors: Option<Errors>,
+    errors: Option<CoastErrors>,
 ) {
     record.work.impacts += 1;
     if ask.events {
@@ -370,11 +383,11 @@ fn log_impact<N: Real>(
 /// The hops from an impact on, with the level before it, to rest.
 fn hops<N: Real>(
     ask: &Coast<'_, N>,
-    record: &mut Tracked<N>,
+    record: &mut RunTrace<N>,
     first_s: N,
-    before: Level<N>,
+    before: OrbitLevel<N>,
     state: (N, N),
-    mut errors: Option<Errors>,
+    mut errors: Option<CoastErrors>,
 ) {
     let d = ask.dynamics;
     let tail = d.alpha * N::from_f64(tail_speed::<N>());

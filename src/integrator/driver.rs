@@ -32,8 +32,8 @@ pub(crate) use step::last_term;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
-use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, Place};
-use crate::integrator::motion::{Motion, Tracked};
+use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, PiecePlace};
+use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
 use crate::integrator::{
     Observe, Response, Scene, SceneError, Side, WorkLimit,
@@ -70,7 +70,7 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     dynamics: Dynamics<N>,
     forcing: G,
     isa: Isa,
-    record: Tracked<N>,
+    record: RunTrace<N>,
     events: bool,
     interval_s: Option<f64>,
     /// A history or forces are asked for: each step is looked into.
@@ -107,14 +107,14 @@ pub(crate) enum Again {
 pub(crate) enum Flight<N> {
     /// At rest from this place on; the time (s) is when the last of the
     /// impacts has accumulated.
-    Rest(Place<N>, N),
+    Rest(PiecePlace<N>, N),
     /// Overturned.
     Overturned { time_s: N, side: Side, margin: f64 },
     /// Nothing that the excitation has left can overturn the block or raise
     /// its peak.
     Settled,
     /// The excitation ended in flight.
-    End(Motion<N>),
+    End(BlockMotion<N>),
     /// The observation ended in flight.
     Stopped,
     /// The run is doubtful, and is made again.
@@ -124,16 +124,16 @@ pub(crate) enum Flight<N> {
 /// Motion about to enter a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<N> {
-    pub place: Place<N>,
+    pub place: PiecePlace<N>,
     /// Number of the step within its piece.
     pub index: usize,
-    pub motion: Motion<N>,
+    pub motion: BlockMotion<N>,
     /// The forcing is exactly at the uplift threshold.
     pub at_threshold: bool,
 }
 
 /// Where a run stands between steps.
-pub(crate) enum Stage<N> {
+pub(crate) enum FlightStage<N> {
     /// In flight, about to enter a step.
     Flying(Step<N>),
     /// Nothing is left to step.
@@ -149,7 +149,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             dynamics,
             forcing,
             isa,
-            record: Tracked::empty(),
+            record: RunTrace::empty(),
             events: false,
             interval_s: None,
             watched: false,
@@ -220,32 +220,38 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 return Err(error);
             }
             match stage {
-                Stage::Flying(step) => {
+                FlightStage::Flying(step) => {
                     see(&self, &step);
                     stage = self.proceed::<SIZE>(step);
                 }
-                Stage::Landed(flight) => return self.within_limit(&flight),
+                FlightStage::Landed(flight) => {
+                    return self.within_limit(&flight);
+                }
             }
         }
     }
 
     /// Goes to the first step in flight.
     #[inline(always)]
-    pub fn begin(&mut self, scene: &Scene<'_>, observe: &Observe) -> Stage<N> {
+    pub fn begin(
+        &mut self,
+        scene: &Scene<'_>,
+        observe: &Observe,
+    ) -> FlightStage<N> {
         self.observe(observe);
         self.record.forces = observe.forces.then(|| Forces::at_rest(scene));
-        let start = Place { piece: 0, offset: N::zero() };
+        let start = PiecePlace { piece: 0, offset: N::zero() };
         if !(scene.initial_ratio > 0.0) {
             return self.uplift(start, N::zero());
         }
         let u = self.dynamics.alpha * N::from_f64(scene.initial_ratio);
-        let motion = Motion { side: Side::Positive, u, w: N::zero() };
+        let motion = BlockMotion { side: Side::Positive, u, w: N::zero() };
         self.record.peak = u;
         self.record.peak_time_s = Some(N::zero());
         for tracker in self.record.trackers() {
             tracker.release(u.to_f64());
         }
-        Stage::Flying(Step {
+        FlightStage::Flying(Step {
             place: start,
             index: 0,
             motion,
@@ -315,9 +321,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// From a place at rest to the next uplift, if there is one.
     #[inline(always)]
-    fn uplift(&mut self, from: Place<N>, since_s: N) -> Stage<N> {
+    fn uplift(&mut self, from: PiecePlace<N>, since_s: N) -> FlightStage<N> {
         if self.is_settled(from.piece, N::zero()) {
-            return Stage::Landed(Flight::Settled);
+            return FlightStage::Landed(Flight::Settled);
         }
         let (found, scan) =
             self.forcing.exceedance(from, self.dynamics.threshold);
@@ -331,13 +337,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             screen.doubt = N::one() / N::zero();
         }
         let Some(found) = found else {
-            return Stage::Landed(Flight::Rest(from, since_s));
+            return FlightStage::Landed(Flight::Rest(from, since_s));
         };
         self.screen = self.screen.map(Screen::start);
         let time_s = self.time_s(found.place);
         self.assess_first_uplift(&found, time_s);
         if !self.observes(time_s) {
-            return Stage::Landed(Flight::Rest(from, since_s));
+            return FlightStage::Landed(Flight::Rest(from, since_s));
         }
         self.sample_rest(time_s);
         self.record.work.uplifts += 1;
@@ -347,8 +353,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         let side =
             if found.positive { Side::Negative } else { Side::Positive };
-        let motion = Motion { side, u: N::zero(), w: N::zero() };
-        Stage::Flying(Step {
+        let motion = BlockMotion { side, u: N::zero(), w: N::zero() };
+        FlightStage::Flying(Step {
             place: found.place,
             index: self.step_index(found.place),
             motion,
@@ -362,17 +368,22 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     pub fn proceed<const SIZE: usize>(
         &mut self,
         mut step: Step<N>,
-    ) -> Stage<N> {
+    ) -> FlightStage<N> {
         match self.next::<SIZE>(&mut step) {
-            None => Stage::Flying(step),
+            None => FlightStage::Flying(step),
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
-            Some(flight) => Stage::Landed(flight),
+            Some(flight) => FlightStage::Landed(flight),
         }
     }
 
     /// From an impact elsewhere that leaves a speed, after which the block
     /// comes to rest within `after` (in 1/p), to the next uplift.
-    pub fn rest(&mut self, impact: Place<N>, w: N, after: N) -> Stage<N> {
+    pub fn rest(
+        &mut self,
+        impact: PiecePlace<N>,
+        w: N,
+        after: N,
+    ) -> FlightStage<N> {
         let (place, time_s) = self.later(impact, w, after);
         self.uplift(place, time_s)
     }
@@ -380,13 +391,18 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Where in the same piece, and when (s), a block has come to rest some
     /// time (in 1/p) after an impact that leaves a speed.
     #[inline(always)]
-    fn later(&mut self, place: Place<N>, w: N, after: N) -> (Place<N>, N) {
+    fn later(
+        &mut self,
+        place: PiecePlace<N>,
+        w: N,
+        after: N,
+    ) -> (PiecePlace<N>, N) {
         let left = self.forcing.length(place.piece) - place.offset;
         let rest = |screen: Screen<N>| screen.rest(w, after, left - after);
         self.screen = self.screen.map(rest);
         let time_s = self.time_s(place) + after / self.dynamics.p;
         let offset = place.offset + after;
-        (Place { offset, ..place }, time_s)
+        (PiecePlace { offset, ..place }, time_s)
     }
 
     /// One step, or the part of it up to an impact.
@@ -438,12 +454,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 tracker.rest_surely(false);
             }
             step.index = 0;
-            step.place = Place { piece: piece + 1, offset: N::zero() };
+            step.place = PiecePlace { piece: piece + 1, offset: N::zero() };
         }
         None
     }
 
-    pub fn time_s(&self, place: Place<N>) -> N {
+    pub fn time_s(&self, place: PiecePlace<N>) -> N {
         let pieces = self.forcing.pieces();
         if place.piece >= pieces {
             return self.end_s();
@@ -462,7 +478,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    fn step_index(&self, place: Place<N>) -> usize {
+    fn step_index(&self, place: PiecePlace<N>) -> usize {
         let steps = self.forcing.steps();
         let share = place.offset / self.forcing.length(place.piece);
         let index = share.to_f64() * steps as f64;

@@ -22,7 +22,7 @@ use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
 
-pub(crate) use ground::Ground;
+pub(crate) use ground::GroundForcing;
 pub(crate) use remainder::Remainder;
 pub(crate) use stretch::pieces_of;
 
@@ -47,7 +47,7 @@ const WALKED: u64 = 128;
 /// A place in the excitation: a piece and the time since its start, in units
 /// of 1/p.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<N> {
+pub(crate) struct PiecePlace<N> {
     pub piece: usize,
     pub offset: N,
 }
@@ -55,7 +55,7 @@ pub(crate) struct Place<N> {
 /// Where a resting block lifts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exceedance<N> {
-    pub place: Place<N>,
+    pub place: PiecePlace<N>,
     /// Sign of the ground acceleration.
     pub positive: bool,
     /// True where the acceleration crosses the threshold there, false where
@@ -65,7 +65,7 @@ pub(crate) struct Exceedance<N> {
 
 /// What a block at rest has seen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scan<N> {
+pub(crate) struct RestScan<N> {
     /// Pieces, or blocks of pieces, looked at.
     pub pieces: u64,
     /// Least relative distance of the peaks of |a/g| from the threshold, or
@@ -96,15 +96,15 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     fn steps(&self) -> usize;
 
     /// Series of a/g about a place.
-    fn series(&self, place: Place<N>) -> [N; F];
+    fn series(&self, place: PiecePlace<N>) -> [N; F];
 
     /// First place from `from` on where |a/g| exceeds `threshold`, and what
     /// was seen on the way.
     fn exceedance(
         &self,
-        from: Place<N>,
+        from: PiecePlace<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, Scan<N>);
+    ) -> (Option<Exceedance<N>>, RestScan<N>);
 
     /// Time (in 1/p) whose rounding shifts the whole excitation: none where
     /// places in it belong to their piece.
@@ -199,7 +199,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
     }
 
     #[inline(always)]
-    fn series(&self, place: Place<N>) -> [N; 2] {
+    fn series(&self, place: PiecePlace<N>) -> [N; 2] {
         let here = self.sample(place.piece);
         let next = self.sample(place.piece + 1);
         let rate = (next - here) * self.inverse;
@@ -208,14 +208,15 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 
     fn exceedance(
         &self,
-        from: Place<N>,
+        from: PiecePlace<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, Scan<N>) {
+    ) -> (Option<Exceedance<N>>, RestScan<N>) {
         let amplitude = self.record.amplitude().abs();
         let bound = threshold.to_f64() * (1.0 - 1e-14);
         let mut piece = from.piece;
         let (mut scanned, mut gap) = (0, self.gap_at_start(from, threshold));
-        let scan = |pieces, gap: N| Scan { pieces, nearest: gap / threshold };
+        let scan =
+            |pieces, gap: N| RestScan { pieces, nearest: gap / threshold };
         while piece < self.pieces() {
             if let Some(next) = self.index.skip(piece, bound / amplitude) {
                 piece = next;
@@ -225,7 +226,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
             scanned += 1;
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
-            let found = self.within(Place { piece, offset }, threshold);
+            let found = self.within(PiecePlace { piece, offset }, threshold);
             let own = self.gap(piece, threshold);
             gap = if own < gap { own } else { gap };
             if found.is_some() {
@@ -245,7 +246,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 impl<N: Real> RecordForcing<'_, N> {
     /// Distance of |a/g| from the threshold at the first sample, where a
     /// block rests from there on and |a/g| does not rise; else the threshold.
-    fn gap_at_start(&self, from: Place<N>, threshold: N) -> N {
+    fn gap_at_start(&self, from: PiecePlace<N>, threshold: N) -> N {
         let is_start = from.piece == 0 && from.offset == N::zero();
         let [first, second] = [0, 1].map(|i| self.sample(i).abs());
         if is_start && !(second > first) {
@@ -270,7 +271,11 @@ impl<N: Real> RecordForcing<'_, N> {
     }
 
     /// Exceedance within one interval, from an offset on.
-    fn within(&self, from: Place<N>, threshold: N) -> Option<Exceedance<N>> {
+    fn within(
+        &self,
+        from: PiecePlace<N>,
+        threshold: N,
+    ) -> Option<Exceedance<N>> {
         let here = self.series(from)[0];
         if here.abs() > threshold {
             let positive = here > N::zero();
@@ -290,7 +295,7 @@ impl<N: Real> RecordForcing<'_, N> {
         let share = (level - first) / (next - first);
         let offset = share * self.length;
         let offset = if offset > from.offset { offset } else { from.offset };
-        let place = Place { piece: from.piece, offset };
+        let place = PiecePlace { piece: from.piece, offset };
         Some(Exceedance { place, positive, crossing: true })
     }
 }
@@ -345,7 +350,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         end_s * self.p.to_f64()
     }
 
-    fn series(&self, place: Place<N>) -> [N; F] {
+    fn series(&self, place: PiecePlace<N>) -> [N; F] {
         let stretch = self.of(place.piece);
         let t = stretch.start_s(place.piece) + place.offset / self.p;
         shape_series(&stretch.shape, t, self.p)
@@ -353,11 +358,12 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 
     fn exceedance(
         &self,
-        from: Place<N>,
+        from: PiecePlace<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, Scan<N>) {
+    ) -> (Option<Exceedance<N>>, RestScan<N>) {
         let mut gap = threshold;
-        let scan = |pieces, gap: N| Scan { pieces, nearest: gap / threshold };
+        let scan =
+            |pieces, gap: N| RestScan { pieces, nearest: gap / threshold };
         let mut scanned = 0;
         let mut piece = from.piece;
         while piece < self.count() {
@@ -376,7 +382,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             scanned += 1;
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
-            let place = Place { piece, offset };
+            let place = PiecePlace { piece, offset };
             let series: [N; F] = self.series(place);
             let above = series[0].abs() > threshold;
             // At the very first instant, or after a jump, the block lifts
@@ -423,7 +429,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 }
             }
             if let Some((tau, positive)) = first {
-                let place = Place { piece, offset: offset + tau };
+                let place = PiecePlace { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
                 let beyond = self.beyond::<F>(place, threshold);
                 gap = if beyond < gap { beyond } else { gap };
@@ -438,7 +444,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 impl<N: Real> PulseForcing<N> {
     /// How far |a/g| rises beyond the threshold from a place on where it
     /// passes it, looked at until it is far beyond.
-    fn beyond<const F: usize>(&self, from: Place<N>, threshold: N) -> N
+    fn beyond<const F: usize>(&self, from: PiecePlace<N>, threshold: N) -> N
     where
         Self: Forcing<N, F>,
     {
@@ -457,7 +463,7 @@ impl<N: Real> PulseForcing<N> {
             if most > far || top.is_some() {
                 return most;
             }
-            place = Place { piece: place.piece + 1, offset: N::zero() };
+            place = PiecePlace { piece: place.piece + 1, offset: N::zero() };
         }
         most
     }
@@ -468,7 +474,7 @@ impl<N: Real> PulseForcing<N> {
     /// takes a share of the distance.
     fn gap_at_edges<const F: usize>(
         &self,
-        place: Place<N>,
+        place: PiecePlace<N>,
         series: &[N; F],
         threshold: N,
     ) -> N
@@ -478,7 +484,7 @@ impl<N: Real> PulseForcing<N> {
         let length = self.of(place.piece).length(self.p);
         let ends = place.piece + 1 == self.count();
         let last: Option<[N; F]> =
-            ends.then(|| self.series(Place { offset: length, ..place }));
+            ends.then(|| self.series(PiecePlace { offset: length, ..place }));
         let rises = |c: &[N; F]| {
             if c[0] < N::zero() { c[1] < N::zero() } else { c[1] > N::zero() }
         };

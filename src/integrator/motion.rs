@@ -9,14 +9,14 @@ use crate::number::double::DoubleDouble;
 
 /// State of a block in motion, in units of 1/p: u = |theta| on a side.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion<N> {
+pub(crate) struct BlockMotion<N> {
     pub side: Side,
     pub u: N,
     pub w: N,
 }
 
 /// What a run gathers.
-pub(crate) struct Tracked<N> {
+pub(crate) struct RunTrace<N> {
     pub peak: N,
     pub peak_time_s: Option<N>,
     pub uplift_time_s: Option<N>,
@@ -36,7 +36,7 @@ pub(crate) struct Tracked<N> {
     pub inputs: Option<Accuracy>,
 }
 
-impl<N: Real> Tracked<N> {
+impl<N: Real> RunTrace<N> {
     pub fn empty() -> Self {
         Self {
             peak: N::zero(),

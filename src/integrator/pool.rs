@@ -25,20 +25,20 @@ mod waiting;
 
 use crate::excitation::Excitation;
 use crate::integrator::class::{Class, LONGEST};
-use crate::integrator::driver::{Driver, Flight, Stage};
+use crate::integrator::driver::{Driver, Flight, FlightStage};
 use crate::integrator::dynamics::{Dynamics, Model};
-use crate::integrator::forcing::{Place, RecordForcing, steps_of};
+use crate::integrator::forcing::{PiecePlace, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
 use crate::number::dispatch::{Isa, WithSimd};
 use crate::number::lanes::{Simd, WIDTH};
 use crate::stop;
-use batch::{Batch, Solved};
-use group::Group;
+use batch::{BatchSolution, LaneBatch};
+use group::LaneGroup;
 use slot::Slot;
-use waiting::{Kind, Lane, Queue, Waiting};
+use waiting::{Lane, LaneQueue, WaitKind, Waiting};
 
 /// All lanes.
-type Groups<'a> = [Group<'a>; GROUPS];
+type Groups<'a> = [LaneGroup<'a>; GROUPS];
 
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
@@ -52,7 +52,7 @@ const SMALL: f64 = 0.785;
 const SAFETY: f64 = 1.001;
 
 /// Where analyses come from, and their responses go.
-pub(crate) trait Source<'a> {
+pub(crate) trait SceneSource<'a> {
     /// What identifies an analysis.
     type Task;
 
@@ -80,7 +80,7 @@ pub(crate) fn class_of(
 pub(crate) struct Tally {
     /// Steps of all groups together.
     pub sweeps: u64,
-    /// Batches solved of each [`Kind`].
+    /// Batches solved of each [`WaitKind`].
     pub batches: [u64; 3],
     /// Lanes solved in them, those passed on to longer series, and those
     /// left to the scalar driver.
@@ -94,7 +94,7 @@ pub(crate) struct Tally {
 pub(crate) fn run<'a>(
     class: Class,
     isa: Isa,
-    source: &mut impl Source<'a>,
+    source: &mut impl SceneSource<'a>,
 ) -> Tally {
     match class {
         Class::Eight => go::<_, 9, LONGEST>(class, isa, source),
@@ -110,7 +110,7 @@ pub(crate) fn run<'a>(
     }
 }
 
-fn go<'a, S: Source<'a>, const LEN: usize, const HARD: usize>(
+fn go<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>(
     class: Class,
     isa: Isa,
     source: &mut S,
@@ -120,7 +120,7 @@ fn go<'a, S: Source<'a>, const LEN: usize, const HARD: usize>(
 
 /// Runs in their slots, by series of `LEN` coefficients, and of `HARD` where
 /// those leave too much.
-struct Pool<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize> {
+struct Pool<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize> {
     class: Class,
     isa: Isa,
     source: &'s mut S,
@@ -130,7 +130,7 @@ struct Pool<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize> {
     tally: Tally,
 }
 
-impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
+impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
     Pool<'s, 'a, S, LEN, HARD>
 {
     fn new(class: Class, isa: Isa, source: &'s mut S) -> Self {
@@ -141,10 +141,10 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
-        let mut groups = std::array::from_fn(|_| Group::idle());
-        let mut waiting = Waiting { queues: [Queue::EMPTY; 3] };
-        let mut batch = Batch::empty();
-        let mut solved = Solved::nothing();
+        let mut groups = std::array::from_fn(|_| LaneGroup::idle());
+        let mut waiting = Waiting { queues: [LaneQueue::EMPTY; 3] };
+        let mut batch = LaneBatch::empty();
+        let mut solved = BatchSolution::nothing();
         // A response may give the source something to do.
         let mut fresh = true;
         loop {
@@ -164,9 +164,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             self.tally.sweeps += 1;
             // Few runs do not wait for many of a kind.
             let most = if moved { (self.busy / 4).max(1) } else { 1 };
-            for kind in
-                [Kind::LongSeries, Kind::Roots, Kind::LongSeriesAndRoots]
-            {
+            for kind in [
+                WaitKind::LongSeries,
+                WaitKind::Roots,
+                WaitKind::LongSeriesAndRoots,
+            ] {
                 let enough = kind.worth().min(most);
                 while waiting.queue(kind).count >= enough {
                     let line = waiting.queue(kind);
@@ -234,11 +236,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         while let Some(slot) = &mut self.slots[k] {
             let refused = slot.driver.refusal(&slot.stage).is_some();
             match slot.stage {
-                Stage::Flying(_) if refused => {
+                FlightStage::Flying(_) if refused => {
                     settled = true;
                     self.settle(k, None);
                 }
-                Stage::Flying(step)
+                FlightStage::Flying(step)
                     if !step.at_threshold
                         && step.place.offset
                             < slot.driver.forcing().step() =>
@@ -246,8 +248,10 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     groups[lane.group()].load(lane.lane(), slot);
                     break;
                 }
-                Stage::Flying(step) => slot.advance::<LEN>(step, self.isa),
-                Stage::Landed(ref flight) => {
+                FlightStage::Flying(step) => {
+                    slot.advance::<LEN>(step, self.isa)
+                }
+                FlightStage::Landed(ref flight) => {
                     let response = slot.driver.within_limit(flight).ok();
                     settled = true;
                     self.settle(k, response.as_ref());
@@ -274,7 +278,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         &mut self,
         groups: &mut Groups<'a>,
         waiting: &mut Waiting,
-        solved: &Solved,
+        solved: &BatchSolution,
     ) -> bool {
         let mut settled = false;
         for i in 0..solved.count {
@@ -284,7 +288,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 self.tally.left += 1;
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 group.release(lane, slot);
-                if let Stage::Flying(step) = slot.stage {
+                if let FlightStage::Flying(step) = slot.stage {
                     slot.advance::<LEN>(step, self.isa);
                 }
                 settled |= self.proceed(id, groups);
@@ -292,13 +296,13 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             }
             if solved.hard & bit != 0 {
                 self.tally.passed += 1;
-                waiting.queue(Kind::LongSeriesAndRoots).push(id);
+                waiting.queue(WaitKind::LongSeriesAndRoots).push(id);
                 continue;
             }
             self.tally.solved += 1;
             if solved.turned & bit != 0 {
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
-                let place = Place {
+                let place = PiecePlace {
                     piece: group.next[lane] as usize - 1,
                     offset: group.offset[lane],
                 };
@@ -328,7 +332,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     };
                     group.release(lane, slot);
                     if solved.settled & bit != 0 {
-                        slot.stage = Stage::Landed(Flight::Settled);
+                        slot.stage = FlightStage::Landed(Flight::Settled);
                     } else if solved.rested & bit != 0 {
                         slot.rest(solved.rest[i]);
                     }
@@ -348,7 +352,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 /// One step of the groups in which something flies; true if any does.
 struct Sweep<'g, 'a, const LEN: usize, const HARD: usize> {
     model: Model,
-    groups: &'g mut [Group<'a>],
+    groups: &'g mut [LaneGroup<'a>],
     waiting: &'g mut Waiting,
 }
 
@@ -390,8 +394,8 @@ impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
 /// The rough certificates of a batch.
 struct Land<'b> {
     model: Model,
-    batch: &'b Batch,
-    solved: &'b mut Solved,
+    batch: &'b LaneBatch,
+    solved: &'b mut BatchSolution,
 }
 
 impl WithSimd for Land<'_> {
@@ -406,10 +410,10 @@ impl WithSimd for Land<'_> {
 /// The steps of a batch.
 struct Solve<'b, const LEN: usize, const HARD: usize> {
     model: Model,
-    kind: Kind,
+    kind: WaitKind,
     tolerance: f64,
-    batch: &'b Batch,
-    solved: &'b mut Solved,
+    batch: &'b LaneBatch,
+    solved: &'b mut BatchSolution,
 }
 
 impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
@@ -421,18 +425,18 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
         // Shorter series are for Eq. 1 alone.
         let model = if LEN == LONGEST { self.model } else { Model::Nonlinear };
         match kind {
-            Kind::LongSeries => {
+            WaitKind::LongSeries => {
                 batch.solve::<V, LEN, HARD, HARD, true>(
                     model, tolerance, solved,
                 );
             }
-            Kind::LongSeriesAndRoots if HARD > LEN => {
+            WaitKind::LongSeriesAndRoots if HARD > LEN => {
                 batch.solve::<V, LEN, HARD, HARD, false>(
                     model, tolerance, solved,
                 );
             }
             // No lane waits for both where there is no longer series.
-            Kind::Roots | Kind::LongSeriesAndRoots => {
+            WaitKind::Roots | WaitKind::LongSeriesAndRoots => {
                 batch.solve::<V, LEN, HARD, LEN, false>(
                     model, tolerance, solved,
                 );

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use crate::integrator::driver::{Driver, Step};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::Ground;
+use crate::integrator::forcing::GroundForcing;
 use crate::integrator::roots::MOST;
 use crate::integrator::run::{index_of, own_index};
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
@@ -85,11 +85,17 @@ fn respond_as_asked<N: Real>(
 ) -> Result<Response<N>, SceneError> {
     check(scene, observe)?;
     let number = PhantomData::<N>;
-    N::with_lengths(Run { scene, observe, peak_only, progress, number })
+    N::with_lengths(PreciseRunKernel {
+        scene,
+        observe,
+        peak_only,
+        progress,
+        number,
+    })
 }
 
 /// A run of a scene.
-struct Run<'a, N> {
+struct PreciseRunKernel<'a, N> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     peak_only: bool,
@@ -97,9 +103,9 @@ struct Run<'a, N> {
     number: PhantomData<N>,
 }
 
-impl<N: Real> crate::number::sealed::Sealed for Run<'_, N> {}
+impl<N: Real> crate::number::sealed::Sealed for PreciseRunKernel<'_, N> {}
 
-impl<N: Real> SeriesWork for Run<'_, N> {
+impl<N: Real> SeriesWork for PreciseRunKernel<'_, N> {
     type Output = Result<Response<N>, SceneError>;
 
     fn run<const SHORT: usize, const LONG: usize>(self) -> Self::Output {
@@ -109,10 +115,13 @@ impl<N: Real> SeriesWork for Run<'_, N> {
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let own = own_index(scene);
         let isa = Isa::best();
-        let ground = Ground::of(scene, index_of(scene, own.as_ref()), isa);
+        let ground =
+            GroundForcing::of(scene, index_of(scene, own.as_ref()), isa);
         let short = match &ground {
-            Ground::Record(record) => is_short::<N>(record.step(), SHORT),
-            Ground::Pulse(_) | Ground::Silence(_) => false,
+            GroundForcing::Record(record) => {
+                is_short::<N>(record.step(), SHORT)
+            }
+            GroundForcing::Pulse(_) | GroundForcing::Silence(_) => false,
         };
         let driver = Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa)
             .for_peak_if(peak_only);

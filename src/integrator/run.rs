@@ -4,7 +4,7 @@ use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::{Again, Driver};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::{Ground, RecordForcing};
+use crate::integrator::forcing::{GroundForcing, RecordForcing};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
 use crate::number::dispatch::Kernel;
 
@@ -16,7 +16,7 @@ pub(super) fn run(
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    solver.isa.run(Run { scene, observe, index, solver, again })
+    solver.isa.run(RunKernel { scene, observe, index, solver, again })
 }
 
 /// Index of a record that brings none.
@@ -43,7 +43,7 @@ pub(super) fn index_of<'a>(
 }
 
 /// One run, compiled for each instruction-set level.
-struct Run<'a> {
+struct RunKernel<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     index: Option<&'a RecordIndex>,
@@ -51,7 +51,7 @@ struct Run<'a> {
     again: Again,
 }
 
-impl Kernel for Run<'_> {
+impl Kernel for RunKernel<'_> {
     type Output = Result<Response, SceneError>;
 
     #[inline(always)]
@@ -77,7 +77,8 @@ impl Kernel for Run<'_> {
                 }
             }
             (_, index) => {
-                let ground = Ground::of(self.scene, index, self.solver.isa);
+                let ground =
+                    GroundForcing::of(self.scene, index, self.solver.isa);
                 Driver::<_, _, LONGEST, LONGEST>::new(
                     dynamics,
                     ground,
@@ -91,7 +92,7 @@ impl Kernel for Run<'_> {
     }
 }
 
-impl Run<'_> {
+impl RunKernel<'_> {
     /// By series of `LEN` coefficients, longer where they leave too much.
     #[inline(always)]
     fn at<const LEN: usize>(

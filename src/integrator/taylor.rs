@@ -27,7 +27,7 @@ macro_rules! written_out {
 /// In these units a polynomial's value at the step's end is the sum of its
 /// coefficients, and the last of them is the size of the last term.
 #[derive(Clone, Copy)]
-pub(crate) struct Series<N, const LEN: usize> {
+pub(crate) struct TaylorSeries<N, const LEN: usize> {
     /// Rotation.
     pub c: [N; LEN],
     /// Velocity.
@@ -50,7 +50,7 @@ pub(crate) fn expand<N: Number, const LEN: usize, const F: usize>(
     h: N,
     drive: &Drive<N, F>,
     sine_cosine: (N, N),
-) -> Series<N, LEN> {
+) -> TaylorSeries<N, LEN> {
     match model {
         Model::Nonlinear => nonlinear((u, w), h, drive, sine_cosine),
         Model::Linearized => linearized((u, w), h, drive),
@@ -63,7 +63,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     h: N,
     drive: &Drive<N, F>,
     (sine, cosine): (N, N),
-) -> Series<N, LEN> {
+) -> TaylorSeries<N, LEN> {
     let (a, b) = (drive.a, drive.b);
     let (across, along) = (drive.sine, drive.cosine);
     let sine_0 = (-cosine).mul_add(across, sine * along);
@@ -78,7 +78,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
         force.odd[j] = f * sine_0;
         power = power * h;
     }
-    let mut series = Series::begin(motion, force.even[0], h);
+    let mut series = TaylorSeries::begin(motion, force.even[0], h);
     let mut turn = Turn { sine: [N::zero(); LEN], fall: [N::zero(); LEN] };
     turn.sine[1] = series.c[1];
     written_out!(1..LEN - 1, |k| {
@@ -93,14 +93,14 @@ fn linearized<N: Number, const LEN: usize, const F: usize>(
     motion: (N, N),
     h: N,
     drive: &Drive<N, F>,
-) -> Series<N, LEN> {
+) -> TaylorSeries<N, LEN> {
     let mut f = drive.f;
     let mut power = h;
     for x in &mut f[1..] {
         *x = *x * power;
         power = power * h;
     }
-    let mut series = Series::begin(motion, motion.0 - drive.b, h);
+    let mut series = TaylorSeries::begin(motion, motion.0 - drive.b, h);
     written_out!(1..LEN - 1, |k| {
         let u = series.c[k];
         series.extend(k, if k < F { u - f[k] } else { u }, h);
@@ -151,7 +151,7 @@ struct Turn<N, const LEN: usize> {
 impl<N: Number, const LEN: usize> Turn<N, LEN> {
     /// Coefficient `n`, at least 2, from a motion known to it.
     #[inline(always)]
-    fn extend(&mut self, n: usize, series: &Series<N, LEN>, h: N) {
+    fn extend(&mut self, n: usize, series: &TaylorSeries<N, LEN>, h: N) {
         let Self { sine, fall } = self;
         let v = &series.v;
         let step = h * N::ratio(1, n as i32);
@@ -171,7 +171,7 @@ impl<N: Number, const LEN: usize> Turn<N, LEN> {
     }
 }
 
-impl<N: Number, const LEN: usize> Series<N, LEN> {
+impl<N: Number, const LEN: usize> TaylorSeries<N, LEN> {
     /// Motion to first order, from its acceleration.
     #[inline(always)]
     fn begin((u, w): (N, N), force: N, h: N) -> Self {
@@ -192,9 +192,9 @@ impl<N: Number, const LEN: usize> Series<N, LEN> {
 
     /// The series of the first coefficients, to a shorter length.
     #[inline(always)]
-    pub fn beginning<const SHORT: usize>(&self) -> Series<N, SHORT> {
+    pub fn beginning<const SHORT: usize>(&self) -> TaylorSeries<N, SHORT> {
         let of = |all: &[N; LEN]| std::array::from_fn(|k| all[k]);
-        Series { c: of(&self.c), v: of(&self.v) }
+        TaylorSeries { c: of(&self.c), v: of(&self.v) }
     }
 
     /// Motion at the end of the step.

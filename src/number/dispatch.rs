@@ -26,10 +26,10 @@ use crate::number::lanes::Simd;
 
 /// An instruction-set level that this machine was found to have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Isa(Level);
+pub struct Isa(IsaLevel);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
+enum IsaLevel {
     Baseline,
     #[cfg(target_arch = "x86_64")]
     Avx2,
@@ -64,20 +64,20 @@ impl Isa {
     #[must_use]
     pub fn available() -> Vec<Isa> {
         #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
-        let mut levels = vec![Isa(Level::Baseline)];
+        let mut levels = vec![Isa(IsaLevel::Baseline)];
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = std::arch::is_x86_feature_detected!("avx2")
                 && std::arch::is_x86_feature_detected!("fma");
             if avx2 {
-                levels.push(Isa(Level::Avx2));
+                levels.push(Isa(IsaLevel::Avx2));
             }
             if avx2
                 && std::arch::is_x86_feature_detected!("avx512f")
                 && std::arch::is_x86_feature_detected!("avx512vl")
                 && std::arch::is_x86_feature_detected!("avx512dq")
             {
-                levels.push(Isa(Level::Avx512));
+                levels.push(Isa(IsaLevel::Avx512));
             }
         }
         levels
@@ -89,7 +89,7 @@ impl Isa {
         use std::sync::OnceLock;
         static BEST: OnceLock<Isa> = OnceLock::new();
         *BEST.get_or_init(|| {
-            Self::available().pop().unwrap_or(Isa(Level::Baseline))
+            Self::available().pop().unwrap_or(Isa(IsaLevel::Baseline))
         })
     }
 
@@ -97,11 +97,11 @@ impl Isa {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
-            Level::Baseline => "baseline",
+            IsaLevel::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => "avx2",
+            IsaLevel::Avx2 => "avx2",
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => "avx512",
+            IsaLevel::Avx512 => "avx512",
         }
     }
 
@@ -110,18 +110,18 @@ impl Isa {
     pub fn is_wide(self) -> bool {
         // Without fused operations nothing is gained by lanes.
         cfg!(not(any(target_arch = "x86_64", target_family = "wasm")))
-            || self.0 != Level::Baseline
+            || self.0 != IsaLevel::Baseline
     }
 
     /// Runs `work` on one number at a time with this level's instructions.
     #[inline]
     pub fn run<W: Kernel>(self, work: W) -> W::Output {
         match self.0 {
-            Level::Baseline => work.run(),
+            IsaLevel::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of either level exists only where detection
             // found the features. The wider one gains nothing here.
-            Level::Avx2 | Level::Avx512 => unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
         }
     }
 
@@ -131,16 +131,16 @@ impl Isa {
     pub fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
             #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
-            Level::Baseline => Some(work.run::<Lanes>()),
+            IsaLevel::Baseline => Some(work.run::<Lanes>()),
             #[cfg(any(target_arch = "x86_64", target_family = "wasm"))]
-            Level::Baseline => None,
+            IsaLevel::Baseline => None,
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of this level exists only where detection
             // found the features.
-            Level::Avx2 => Some(unsafe { avx2_wide(work) }),
+            IsaLevel::Avx2 => Some(unsafe { avx2_wide(work) }),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.
-            Level::Avx512 => Some(unsafe { avx512(work) }),
+            IsaLevel::Avx512 => Some(unsafe { avx512(work) }),
         }
     }
 }
@@ -154,7 +154,7 @@ fn avx2<W: Kernel>(work: W) -> W::Output {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn avx2_wide<W: WithSimd>(work: W) -> W::Output {
-    work.run::<avx2::Pair>()
+    work.run::<avx2::RegisterPair>()
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::codes::coded;
 use super::sampling::Uneven;
 use rocking::accelerogram::AccelerogramError;
-use rocking::accelerogram::{Escaped, NameError};
+use rocking::accelerogram::{EscapedName, NameError};
 use rocking::units::AccelerationUnit;
 
 /// A record that was refused.
@@ -27,7 +27,7 @@ use rocking::units::AccelerationUnit;
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{file}{place}: {fault}", file = Escaped(file), place = Place(*line, *column))]
+#[error("{file}{place}: {fault}", file = EscapedName(file), place = Place(*line, *column))]
 pub struct RecordError {
     pub(super) file: String,
     pub(super) line: Option<usize>,

@@ -10,7 +10,7 @@
 use serde::Serialize;
 
 use crate::answers::Answers;
-use crate::reference::{Excitation, INPUTS, Item, Value, reference};
+use crate::reference::{INPUTS, Item, SceneExcitation, Value, reference};
 
 /// Fewest answers of which anything is said.
 const FEWEST: usize = 12;
@@ -42,7 +42,7 @@ const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
 #[derive(Clone, Debug, Serialize)]
 pub struct Diagnosis {
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: CodeVerdict,
     /// What explains the answers; several where the answers given cannot
     /// tell them apart.
     pub explanations: Vec<Explanation>,
@@ -54,7 +54,7 @@ pub struct Diagnosis {
 /// The verdict on a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum CodeVerdict {
     /// The answers are right within their scatter.
     None,
     /// One of the known mistakes explains the answers.
@@ -98,7 +98,7 @@ fn mistake(name: &str) -> Mistake {
 
 /// An answer, and how far it may scatter.
 #[derive(Clone)]
-struct Given {
+struct AnswerError {
     item: &'static Item,
     value: Value,
     condition: f64,
@@ -137,13 +137,13 @@ struct Hypothesis {
 struct Scatter(f64, f64);
 
 impl Hypothesis {
-    fn new(given: &[Given], left: Vec<f64>, moved: Vec<f64>) -> Self {
+    fn new(given: &[AnswerError], left: Vec<f64>, moved: Vec<f64>) -> Self {
         let numbers = given.iter().filter(|g| g.value.number().is_some());
         let ln_conditions = numbers.clone().map(|g| libm::log(g.condition));
         let (count, sum) =
             (numbers.count() as f64, ln_conditions.sum::<f64>());
         let fits = POWERS.into_iter().flat_map(|power| {
-            let own = |(g, left): (&Given, &f64)| {
+            let own = |(g, left): (&AnswerError, &f64)| {
                 left / g.allowed(Scatter(1.0, power))
             };
             let own: Vec<f64> = given.iter().zip(&left).map(own).collect();
@@ -165,7 +165,7 @@ impl Hypothesis {
     }
 
     /// Answers that deviate or should, and those that it explains.
-    fn account(&self, given: &[Given]) -> (usize, usize) {
+    fn account(&self, given: &[AnswerError]) -> (usize, usize) {
         let sizes = given.iter().zip(&self.left).zip(&self.moved);
         let deviating = sizes.filter_map(|((given, left), moved)| {
             let size = given.error.max(*moved);
@@ -176,19 +176,19 @@ impl Hypothesis {
         (all.len(), all.iter().filter(|good| **good).count())
     }
 
-    fn explains(&self, given: &[Given]) -> bool {
+    fn explains(&self, given: &[AnswerError]) -> bool {
         let (all, good) = self.account(given);
         let enough = good as f64 >= SHARE * all as f64;
         good >= 3 && enough && self.scatter.0 <= COARSEST
     }
 }
 
-impl Given {
+impl AnswerError {
     /// How the value moves with an input; a release is no ground motion, of
     /// whose size one may be wrong.
     fn rate(&self, input: usize) -> f64 {
         let scene = reference().scene(self.item);
-        let still = matches!(scene.excitation, Excitation::Free);
+        let still = matches!(scene.excitation, SceneExcitation::Free);
         let size = INPUTS[input] == "size";
         if size && still { 0.0 } else { self.item.rates[input] }
     }
@@ -200,7 +200,7 @@ impl Given {
 
 /// The answers given, with their conditions; that of a fate or a count is the
 /// largest of its scene.
-fn given(answers: &Answers) -> Vec<Given> {
+fn given(answers: &Answers) -> Vec<AnswerError> {
     let set = reference();
     let mut worst = vec![1.0_f64; set.scenes.len()];
     for item in &set.items {
@@ -213,7 +213,7 @@ fn given(answers: &Answers) -> Vec<Given> {
         let whole = value.number().is_none();
         let condition = if whole { worst[item.scene] } else { own };
         let error = apart(item, &value, Some(&item.value));
-        Some(Given { item, value, condition, error })
+        Some(AnswerError { item, value, condition, error })
     });
     found.collect()
 }
@@ -225,7 +225,7 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());
     if numbers.count() < FEWEST {
-        let (verdict, explanations) = (Verdict::TooFew, Vec::new());
+        let (verdict, explanations) = (CodeVerdict::TooFew, Vec::new());
         return Diagnosis { verdict, explanations, scatter: None };
     }
     let still = vec![0.0; given.len()];
@@ -236,7 +236,7 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
         if known.is_empty() { inputs(&given) } else { known }
             .into_parts(&given);
     if !explanations.is_empty() {
-        let verdict = Verdict::Known;
+        let verdict = CodeVerdict::Known;
         return Diagnosis { verdict, explanations, scatter };
     }
     let right = given
@@ -244,19 +244,23 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
         .filter(|g| g.error <= g.allowed(Scatter(RIGHT, 0.5)))
         .count();
     let agrees = right as f64 >= AGREE * given.len() as f64;
-    let verdict = if agrees { Verdict::None } else { Verdict::Unknown };
+    let verdict =
+        if agrees { CodeVerdict::None } else { CodeVerdict::Unknown };
     Diagnosis { verdict, explanations, scatter: Some(none.scatter.0) }
 }
 
 /// Hypotheses that explain the answers, each with its names and its factor.
-struct Found(Vec<(Vec<String>, Option<f64>, Hypothesis)>);
+struct Hypotheses(Vec<(Vec<String>, Option<f64>, Hypothesis)>);
 
-impl Found {
+impl Hypotheses {
     fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    fn into_parts(self, given: &[Given]) -> (Vec<Explanation>, Option<f64>) {
+    fn into_parts(
+        self,
+        given: &[AnswerError],
+    ) -> (Vec<Explanation>, Option<f64>) {
         let scatter = self.0.first().map(|(_, _, first)| first.scatter.0);
         let explanations = self.0.into_iter().map(|(names, factor, one)| {
             let (deviating, explained) = one.account(given);
@@ -269,7 +273,7 @@ impl Found {
     /// The best ones: those that explain, and as few mistakes as explain.
     fn of(
         mut all: Vec<(Vec<String>, Option<f64>, Hypothesis)>,
-        given: &[Given],
+        given: &[AnswerError],
         least: f64,
     ) -> Self {
         let best = all.iter().map(|(_, _, h)| h.likelihood);
@@ -285,13 +289,13 @@ impl Found {
 }
 
 /// The wrong models that explain the answers.
-fn models(given: &[Given], withheld: &[&str], least: f64) -> Found {
+fn models(given: &[AnswerError], withheld: &[&str], least: f64) -> Hypotheses {
     let names = reference().models.iter().enumerate();
     let names = names.filter(|(_, name)| {
         !name.split('+').any(|name| withheld.contains(&name))
     });
     let all = names.map(|(model, name)| {
-        let of = |g: &Given| g.item.wrong[model].clone();
+        let of = |g: &AnswerError| g.item.wrong[model].clone();
         let left = given.iter().map(|g| {
             let predicted = of(g);
             apart(g.item, &g.value, predicted.as_ref())
@@ -301,31 +305,32 @@ fn models(given: &[Given], withheld: &[&str], least: f64) -> Found {
         let one = Hypothesis::new(given, left.collect(), moved.collect());
         (name.split('+').map(str::to_owned).collect(), None, one)
     });
-    Found::of(all.collect(), given, least)
+    Hypotheses::of(all.collect(), given, least)
 }
 
 /// The inputs of which one factor explains the answers.
-fn inputs(all: &[Given]) -> Found {
+fn inputs(all: &[AnswerError]) -> Hypotheses {
     let found = (0..INPUTS.len()).flat_map(|input| {
         let Some(by) = factor_less_one(all, input) else {
-            return Found(Vec::new()).0;
+            return Hypotheses(Vec::new()).0;
         };
         // Where a straight line holds, which must be most of the answers.
-        let holds = |g: &&Given| by.abs() * g.condition < STRAIGHT;
-        let given: Vec<Given> = all.iter().filter(holds).cloned().collect();
+        let holds = |g: &&AnswerError| by.abs() * g.condition < STRAIGHT;
+        let given: Vec<AnswerError> =
+            all.iter().filter(holds).cloned().collect();
         if 2 * given.len() < all.len() {
-            return Found(Vec::new()).0;
+            return Hypotheses(Vec::new()).0;
         }
         input_off(&given, input, by).0
     });
     let mut found: Vec<_> = found.collect();
     found.sort_by(|a, b| b.2.likelihood.total_cmp(&a.2.likelihood));
     found.truncate(1);
-    Found(found)
+    Hypotheses(found)
 }
 
 /// The factor on an input that the answers say, less one: the weighted median.
-fn factor_less_one(given: &[Given], input: usize) -> Option<f64> {
+fn factor_less_one(given: &[AnswerError], input: usize) -> Option<f64> {
     let says = given.iter().filter_map(|g| {
         let (x, c) = g.value.number().zip(g.item.value.number())?;
         let rate = g.rate(input);
@@ -344,7 +349,7 @@ fn factor_less_one(given: &[Given], input: usize) -> Option<f64> {
 }
 
 /// The answers explained by a factor on one input, if they are.
-fn input_off(given: &[Given], input: usize, by: f64) -> Found {
+fn input_off(given: &[AnswerError], input: usize, by: f64) -> Hypotheses {
     let moved: Vec<f64> = given
         .iter()
         .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by))
@@ -365,5 +370,5 @@ fn input_off(given: &[Given], input: usize, by: f64) -> Found {
     let errors = given.iter().map(|g| g.error).collect();
     let none = Hypothesis::new(given, errors, vec![0.0; given.len()]);
     let least = none.likelihood + GAIN;
-    Found::of(vec![(names, Some(1.0 + by), one)], given, least)
+    Hypotheses::of(vec![(names, Some(1.0 + by), one)], given, least)
 }

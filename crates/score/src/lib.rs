@@ -24,9 +24,10 @@ mod reference;
 mod score;
 
 pub use answers::Answers;
-pub use diagnosis::{Diagnosis, Explanation, Mistake, Verdict, diagnose};
-pub use own::{Engine, answers_of, own_answers};
+pub use diagnosis::{CodeVerdict, Diagnosis, Explanation, Mistake, diagnose};
+pub use own::{OwnResponse, answers_of, own_answers};
 pub use reference::{
-    Excitation, INPUTS, Item, Reference, SCENES, Scene, Value, reference,
+    INPUTS, Item, Reference, ReferenceScene, SCENES, SceneExcitation, Value,
+    reference,
 };
 pub use score::{Code, LevelScore, QuantityScore, Score, codes, score};

@@ -1,47 +1,47 @@
 //! The answers of this project's own integrator.
 
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Excitation as Ground, Pulse, ScaledRecord};
+use rocking::excitation::{Excitation, Pulse, ScaledRecord};
 use rocking::integrator::{
     Observe, Outcome, Response, SceneError, respond, respond_precise,
 };
 use rocking::number::Real;
 
 use crate::answers::Answers;
-use crate::reference::{Excitation, Scene, Value, reference};
+use crate::reference::{ReferenceScene, SceneExcitation, Value, reference};
 
 /// Rotations are asked at multiples of this, s.
 const GRID_S: f64 = 1.0 / 64.0;
 
 /// What a run of the core says of the quantities of a scene, in its numbers.
 #[derive(Clone, Debug)]
-pub struct Engine<N> {
+pub struct OwnResponse<N> {
     response: Response<N>,
     /// +1, or -1 where the scene was run with the other side up.
     sign: f64,
 }
 
-impl Engine<f64> {
+impl OwnResponse<f64> {
     /// Runs a scene in double precision.
     ///
     /// # Errors
     /// Why the core refused the scene.
-    pub fn double(scene: &Scene) -> Result<Self, String> {
+    pub fn double(scene: &ReferenceScene) -> Result<Self, String> {
         Self::run(scene, respond)
     }
 }
 
-impl<N: Real> Engine<N> {
+impl<N: Real> OwnResponse<N> {
     /// Runs a scene in the arithmetic of `N`.
     ///
     /// # Errors
     /// Why the core refused the scene.
-    pub fn precise(scene: &Scene) -> Result<Self, String> {
+    pub fn precise(scene: &ReferenceScene) -> Result<Self, String> {
         Self::run(scene, respond_precise::<N>)
     }
 
     fn run(
-        scene: &Scene,
+        scene: &ReferenceScene,
         by: impl FnOnce(
             &rocking::Scene<'_>,
             &Observe,
@@ -54,15 +54,17 @@ impl<N: Real> Engine<N> {
         let eta = Restitution::constant(scene.eta).map_err(|e| refused(&e))?;
         let (g, pulse) = (scene.g_m_s2, &mut None);
         let excitation = match &scene.excitation {
-            Excitation::Free => Ground::Free,
-            Excitation::Pulse(kind) => {
+            SceneExcitation::Free => Excitation::Free,
+            SceneExcitation::Pulse(kind) => {
                 let made = Pulse::try_new_si(*kind, g);
-                Ground::Pulse(pulse.insert(made.map_err(|e| refused(&e))?))
+                Excitation::Pulse(pulse.insert(made.map_err(|e| refused(&e))?))
             }
-            Excitation::Samples { dt_s, samples_m_s2 } => Ground::Record(
-                ScaledRecord::try_new_si(samples_m_s2, *dt_s, g)
-                    .map_err(|e| refused(&e))?,
-            ),
+            SceneExcitation::Samples { dt_s, samples_m_s2 } => {
+                Excitation::Record(
+                    ScaledRecord::try_new_si(samples_m_s2, *dt_s, g)
+                        .map_err(|e| refused(&e))?,
+                )
+            }
         };
         let theta = scene.initial_theta_rad;
         let core = rocking::Scene {
@@ -95,7 +97,7 @@ impl<N: Real> Engine<N> {
 
     /// A quantity that is a number; none where the run has none.
     #[must_use]
-    pub fn number(&self, scene: &Scene, quantity: &str) -> Option<N> {
+    pub fn number(&self, scene: &ReferenceScene, quantity: &str) -> Option<N> {
         let found = &self.response;
         let falls = found.outcome.is_overturned();
         let numbered = |before: &str, after: &str| {
@@ -126,7 +128,7 @@ impl<N: Real> Engine<N> {
         }
     }
 
-    fn value(&self, scene: &Scene, quantity: &str) -> Option<Value> {
+    fn value(&self, scene: &ReferenceScene, quantity: &str) -> Option<Value> {
         match quantity {
             "fate" => Some(Value::Fate(self.fate().into())),
             "impacts" => {
@@ -144,7 +146,7 @@ impl<N: Real> Engine<N> {
 /// # Errors
 /// Why the core refused a scene.
 pub fn own_answers() -> Result<Answers, String> {
-    answers_of(Engine::double)
+    answers_of(OwnResponse::double)
 }
 
 /// The answers of a run of each scene.
@@ -152,10 +154,10 @@ pub fn own_answers() -> Result<Answers, String> {
 /// # Errors
 /// Those of the runs.
 pub fn answers_of<N: Real>(
-    run: impl Fn(&Scene) -> Result<Engine<N>, String>,
+    run: impl Fn(&ReferenceScene) -> Result<OwnResponse<N>, String>,
 ) -> Result<Answers, String> {
     let set = reference();
-    let runs: Vec<Engine<N>> =
+    let runs: Vec<OwnResponse<N>> =
         set.scenes.iter().map(run).collect::<Result<_, _>>()?;
     let mut answers = Answers::none();
     for (place, item) in set.items.iter().enumerate() {

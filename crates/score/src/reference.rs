@@ -21,7 +21,7 @@ pub const INPUTS: [&str; 5] = ["alpha", "p", "eta", "size", "clock"];
 
 /// A block, what moves it, and what is asked; inputs in SI units.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Scene {
+pub struct ReferenceScene {
     /// Its name, unique in the set.
     pub name: String,
     /// Level of difficulty, 1 to 5.
@@ -45,7 +45,7 @@ pub struct Scene {
     /// Rotation from which the block is released, rad.
     pub initial_theta_rad: f64,
     /// What moves the ground.
-    pub excitation: Excitation,
+    pub excitation: SceneExcitation,
     /// When the rotation is asked, s.
     pub theta_times_s: Vec<f64>,
     /// Until when impacts are counted, s.
@@ -57,7 +57,7 @@ pub struct Scene {
 /// Ground motion of a scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "Fields")]
-pub enum Excitation {
+pub enum SceneExcitation {
     /// None.
     Free,
     /// A pulse, its amplitude in m/s2.
@@ -80,7 +80,7 @@ struct Fields {
     numbers: BTreeMap<String, serde_json::Value>,
 }
 
-impl TryFrom<Fields> for Excitation {
+impl TryFrom<Fields> for SceneExcitation {
     type Error = String;
 
     fn try_from(fields: Fields) -> Result<Self, String> {
@@ -196,7 +196,7 @@ pub struct Item {
 #[derive(Debug)]
 pub struct Reference {
     /// Scenes by level.
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<ReferenceScene>,
     /// Quantities, scene after scene.
     pub items: Vec<Item>,
     /// Names of the wrong models; `+` joins two mistakes.
@@ -207,8 +207,8 @@ pub struct Reference {
 }
 
 #[derive(Deserialize)]
-struct File {
-    scenes: Vec<Scene>,
+struct SceneFile {
+    scenes: Vec<ReferenceScene>,
 }
 
 /// The data set, read once.
@@ -229,7 +229,7 @@ fn lines(csv: &str) -> csv::Reader<&[u8]> {
 
 impl Reference {
     fn read() -> Result<Self, String> {
-        let File { scenes } = text(serde_json::from_str(SCENES))?;
+        let SceneFile { scenes } = text(serde_json::from_str(SCENES))?;
         let mut wrong = lines(WRONG);
         let models = text(wrong.headers())?.iter().skip(2);
         let models = models.map(str::to_owned).collect();
@@ -266,7 +266,7 @@ impl Reference {
 
     /// The scene of an item.
     #[must_use]
-    pub fn scene(&self, item: &Item) -> &Scene {
+    pub fn scene(&self, item: &Item) -> &ReferenceScene {
         &self.scenes[item.scene]
     }
 }

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use rocking_score::{Answers, Verdict, codes, own_answers, reference, score};
+use rocking_score::{
+    Answers, CodeVerdict, codes, own_answers, reference, score,
+};
 
 #[test]
 fn answers_that_are_refused() {
@@ -61,7 +63,7 @@ fn few_answers_and_missing_ones() {
         }
         score(&few)
     };
-    assert_eq!(of(1, 11).diagnosis.verdict, Verdict::TooFew);
+    assert_eq!(of(1, 11).diagnosis.verdict, CodeVerdict::TooFew);
     let found = of(1, 30);
     assert_eq!(found.levels[1].median_digits, None);
     let names = found.diagnosis.explanations.iter().map(|one| {
@@ -88,7 +90,7 @@ fn our_own_answers_have_every_digit_that_double_precision_can_get() {
         .collect();
     assert_eq!(found.answered, reference().items.len());
     assert!(lacking.is_empty(), "{}: {lacking:#?}", lacking.len());
-    assert_eq!(found.diagnosis.verdict, Verdict::None);
+    assert_eq!(found.diagnosis.verdict, CodeVerdict::None);
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn legendre(n: usize, x: f64) -> f64 {
 
 /// Surfaces of mu and ln beta for one suite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Model {
+pub struct SurfaceModel {
     /// The suite.
     pub suite: SuiteKind,
     /// Degrees of the terms.
@@ -74,7 +74,7 @@ pub struct Model {
     pub coefficients: [Vec<f64>; 2],
 }
 
-impl Model {
+impl SurfaceModel {
     /// The fragility of a block within the range.
     ///
     /// # Errors
@@ -109,8 +109,11 @@ impl Model {
     ///
     /// # Errors
     /// [`SurrogateError`] for a block outside the range or no fragility.
-    pub fn errors(&self, blocks: &[Fitted]) -> Result<Errors, SurrogateError> {
-        let mut errors = Errors::default();
+    pub fn errors(
+        &self,
+        blocks: &[Fitted],
+    ) -> Result<SurfaceErrors, SurrogateError> {
+        let mut errors = SurfaceErrors::default();
         let mut inside = 0.0;
         for block in blocks.iter().filter(|b| b.suite == self.suite) {
             let found = self.at(block.alpha_rad, block.p_rad_s)?;
@@ -163,7 +166,7 @@ impl Size {
 
 /// How far a surface is from analyses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Errors {
+pub struct SurfaceErrors {
     /// Blocks with analyses.
     pub blocks: usize,
     /// Of the median, relative.
@@ -195,7 +198,7 @@ struct Coefficient {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surrogate {
     /// Each suite's, with its error.
-    pub models: Vec<(Model, Errors)>,
+    pub models: Vec<(SurfaceModel, SurfaceErrors)>,
     /// The blocks of the errors.
     pub unseen: Vec<Fitted>,
 }
@@ -218,8 +221,8 @@ impl Surrogate {
         unseen: &str,
     ) -> Result<Self, SurrogateError> {
         let unseen = read_table("unseen.csv", unseen)?;
-        let mut models: Vec<Model> = SuiteKind::ALL
-            .map(|suite| Model {
+        let mut models: Vec<SurfaceModel> = SuiteKind::ALL
+            .map(|suite| SurfaceModel {
                 suite,
                 terms: Vec::new(),
                 coefficients: [Vec::new(), Vec::new()],
@@ -235,7 +238,7 @@ impl Surrogate {
                 model.coefficients[1].push(row.ln_dispersion);
             }
         }
-        let with = |model: Model| {
+        let with = |model: SurfaceModel| {
             let errors = model.errors(&unseen)?;
             Ok((model, errors))
         };
@@ -248,7 +251,7 @@ impl Surrogate {
 
     /// The coefficients as CSV.
     #[must_use]
-    pub fn coefficients(models: &[Model]) -> String {
+    pub fn coefficients(models: &[SurfaceModel]) -> String {
         let mut table =
             Table::headed("suite,degree_p,degree_alpha,mu,ln_dispersion");
         for model in models {

@@ -25,7 +25,7 @@ const GRAVITY_M_S2: f64 = 9.80665;
 
 /// What the table needs of one motion; accelerations, PGV and D5-75 as
 /// natural logarithms.
-struct Motion {
+struct MotionMoments {
     pga: f64,
     pgv: f64,
     pgd: f64,
@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
+fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
     let settings = Settings::try_new(GRAVITY_M_S2, 0.05, PERIODS_S.to_vec())?;
     let m = Measures::of(motion, &settings)?;
     let (a, dt_s) = (motion.samples_g(), motion.dt_s());
@@ -94,7 +94,7 @@ fn measured(motion: &Accelerogram) -> Result<Motion, Box<dyn Error>> {
         found.map_or(0.0, |(i, _)| i as f64 * dt_s)
     };
     let rms_m_s = GRAVITY_M_S2 * f64::sqrt(squares / count);
-    Ok(Motion {
+    Ok(MotionMoments {
         pga: libm::log(m.pga_g),
         pgv: libm::log(m.pgv_m_s),
         pgd: libm::log(m.pgd_m),
@@ -114,9 +114,9 @@ fn print<'a>(
     name: &str,
     motions: impl Iterator<Item = &'a Accelerogram>,
 ) -> Result<(), Box<dyn Error>> {
-    let motions: Vec<Motion> =
+    let motions: Vec<MotionMoments> =
         motions.map(measured).collect::<Result<_, _>>()?;
-    let all = |of: &dyn Fn(&Motion) -> f64| -> Vec<f64> {
+    let all = |of: &dyn Fn(&MotionMoments) -> f64| -> Vec<f64> {
         motions.iter().map(of).collect()
     };
     println!("{name}: {} motions", motions.len());
@@ -133,7 +133,7 @@ fn print<'a>(
         "rho PGV",
         "skew/PGV"
     );
-    let row = |label: &str, of: &dyn Fn(&Motion) -> f64| {
+    let row = |label: &str, of: &dyn Fn(&MotionMoments) -> f64| {
         let own = all(of);
         let ratio = all(&|m| of(m) - m.pgv);
         let ([mean, sd], [_, ratio_sd]) = (moments(&own), moments(&ratio));

@@ -13,11 +13,11 @@ const DAMPING: f64 = 0.05;
 pub(super) enum Peak {
     Acceleration,
     Velocity,
-    Oscillator(Oscillator),
+    RecursiveOscillator(RecursiveOscillator),
 }
 
 /// The largest value of an answer.
-pub(super) struct Found {
+pub(super) struct SamplePeak {
     pub(super) size: f64,
     /// 1 or -1.
     pub(super) sign: f64,
@@ -31,7 +31,9 @@ impl Peak {
         match k {
             0 => Self::Acceleration,
             PGV => Self::Velocity,
-            _ => Self::Oscillator(Oscillator::new(PERIODS_S[k])),
+            _ => Self::RecursiveOscillator(RecursiveOscillator::new(
+                PERIODS_S[k],
+            )),
         }
     }
 
@@ -39,11 +41,11 @@ impl Peak {
     pub(super) fn highest_hz(&self) -> f64 {
         match self {
             Self::Acceleration | Self::Velocity => f64::INFINITY,
-            Self::Oscillator(oscillator) => 8.0 / oscillator.period_s,
+            Self::RecursiveOscillator(oscillator) => 8.0 / oscillator.period_s,
         }
     }
 
-    pub(super) fn found(&self, samples: &[f64]) -> Found {
+    pub(super) fn found(&self, samples: &[f64]) -> SamplePeak {
         match self {
             Self::Acceleration => largest(samples.iter().copied()),
             Self::Velocity => {
@@ -55,7 +57,7 @@ impl Peak {
                     velocity
                 }))
             }
-            Self::Oscillator(oscillator) => {
+            Self::RecursiveOscillator(oscillator) => {
                 let mut state = [0.0; 4];
                 let step = |x: &f64| oscillator.step(&mut state, *x);
                 largest(samples.iter().map(step))
@@ -65,7 +67,7 @@ impl Peak {
 
     /// What the samples up to the instant found are multiplied with for the
     /// value there; those that are missing at the front count nothing.
-    pub(super) fn weights(&self, found: &Found) -> Vec<f64> {
+    pub(super) fn weights(&self, found: &SamplePeak) -> Vec<f64> {
         match self {
             Self::Acceleration => vec![found.sign],
             Self::Velocity => {
@@ -74,7 +76,7 @@ impl Peak {
                 weights[found.at] *= 0.5;
                 weights
             }
-            Self::Oscillator(oscillator) => {
+            Self::RecursiveOscillator(oscillator) => {
                 let mut state = [0.0; 4];
                 let last = oscillator.memory.min(found.at);
                 let mut weights: Vec<f64> = (0..=last)
@@ -94,11 +96,11 @@ impl Peak {
 const HALF_STEP: f64 = 0.5 * DT_S * GRAVITY_M_S2;
 
 #[inline(always)]
-fn largest(values: impl Iterator<Item = f64>) -> Found {
-    let mut found = Found { size: 0.0, sign: 1.0, at: 0 };
+fn largest(values: impl Iterator<Item = f64>) -> SamplePeak {
+    let mut found = SamplePeak { size: 0.0, sign: 1.0, at: 0 };
     for (at, value) in values.enumerate() {
         if value.abs() > found.size {
-            found = Found { size: value.abs(), sign: value.signum(), at };
+            found = SamplePeak { size: value.abs(), sign: value.signum(), at };
         }
     }
     found
@@ -108,7 +110,7 @@ fn largest(values: impl Iterator<Item = f64>) -> Found {
 /// samples (Nigam and Jennings 1969). The largest value at a sample is below
 /// the true peak by 5 % at most at 0.1 s and less at longer periods: enough
 /// for corrections, which is why the core's slower measures are not asked.
-pub(super) struct Oscillator {
+pub(super) struct RecursiveOscillator {
     period_s: f64,
     back: [f64; 2],
     push: [f64; 3],
@@ -116,7 +118,7 @@ pub(super) struct Oscillator {
     memory: usize,
 }
 
-impl Oscillator {
+impl RecursiveOscillator {
     fn new(period_s: f64) -> Self {
         let w = 2.0 * PI / period_s;
         let ratio = (1.0 - DAMPING * DAMPING).sqrt();

@@ -6,7 +6,7 @@
 //! uplift threshold. The bounds are those of these shapes; `GAUSS_SLOPE`
 //! belongs to two polynomials.
 
-use super::{Shape, gauss};
+use super::{PulseShape, gauss};
 use crate::number::Real;
 
 /// Largest |d/dx| of (1 - x^2) exp(-x^2/2) and of (x^2 - 3) x exp(-x^2/2).
@@ -15,7 +15,7 @@ const GAUSS_SLOPE: f64 = 3.0;
 /// x^k exp(-x^2/2) falls from here on for k up to 3.
 const TAIL: f64 = 1.8;
 
-impl<N: Real> Shape<N> {
+impl<N: Real> PulseShape<N> {
     /// Largest |a/g| at any time, where rounding cannot pass it: of one sine,
     /// or of a constant.
     pub(crate) fn summit(&self) -> Option<N> {
@@ -32,7 +32,7 @@ impl<N: Real> Shape<N> {
     }
 }
 
-impl Shape<f64> {
+impl PulseShape<f64> {
     /// Bound on |a/g| at all times within `half_s` of `middle_s`, but for
     /// rounding.
     pub(crate) fn bound(&self, middle_s: f64, half_s: f64) -> f64 {

@@ -8,7 +8,7 @@
 
 use thiserror::Error;
 
-use super::{Shape, Sine, gauss};
+use super::{PulseShape, PulseSine, gauss};
 use crate::names::named;
 use crate::number::Real;
 
@@ -299,9 +299,9 @@ pub enum PulseError {
 }
 
 /// A pulse as the core computes it; accelerations are multiples of gravity.
-pub(super) struct Form<N> {
+pub(super) struct PulseForm<N> {
     /// Where each smooth stretch ends (s), and its shape.
-    pub stretches: Vec<(N, Shape<N>)>,
+    pub stretches: Vec<(N, PulseShape<N>)>,
     /// True if the amplitude is the peak ground acceleration.
     pub is_peak: bool,
     /// The velocity over gravity, s.
@@ -345,7 +345,7 @@ impl PulseKind {
     }
 
     /// What the core computes of the pulse with this amplitude over g.
-    pub(super) fn form<N: Real>(&self, amplitude: N) -> Form<N> {
+    pub(super) fn form<N: Real>(&self, amplitude: N) -> PulseForm<N> {
         let size = amplitude.to_f64();
         let half = N::ratio(1, 2);
         let half_turn = N::from_f64(2.0) * N::right_angle();
@@ -353,10 +353,10 @@ impl PulseKind {
         // `share` is the peak velocity times omega over the amplitude.
         let sine = |turn: N, omega_rad_s: f64, phase_rad, share: f64| {
             let rate_rad_s = N::from_f64(omega_rad_s);
-            let sine = Sine { amplitude, rate_rad_s, phase_rad };
-            let only = [sine, Sine::silent(), Sine::silent()];
-            Form {
-                stretches: vec![(turn / rate_rad_s, Shape::Sines(only))],
+            let sine = PulseSine { amplitude, rate_rad_s, phase_rad };
+            let only = [sine, PulseSine::silent(), PulseSine::silent()];
+            PulseForm {
+                stretches: vec![(turn / rate_rad_s, PulseShape::Sines(only))],
                 is_peak: true,
                 velocity: Velocity::Peak(share * size.abs() / omega_rad_s),
             }
@@ -372,8 +372,9 @@ impl PulseKind {
             let velocity = move |t_s: f64| {
                 speed * (integral(fast * (t_s - centre)) - first)
             };
-            let shape = Shape::Gauss { scale, polynomial, rate, centre_s };
-            Form {
+            let shape =
+                PulseShape::Gauss { scale, polynomial, rate, centre_s };
+            PulseForm {
                 stretches: vec![(end, shape)],
                 is_peak: false,
                 velocity: Velocity::At(Box::new(velocity)),
@@ -391,8 +392,8 @@ impl PulseKind {
             }
             Self::Rectangle { duration_s, .. } => {
                 let (at_zero, slope) = (amplitude, N::zero());
-                let level = Shape::Line { at_zero, slope };
-                Form {
+                let level = PulseShape::Line { at_zero, slope };
+                PulseForm {
                     stretches: vec![(N::from_f64(duration_s), level)],
                     is_peak: true,
                     velocity: Velocity::Peak(size.abs() * duration_s),
@@ -402,9 +403,9 @@ impl PulseKind {
                 let end = N::from_f64(duration_s);
                 let twice = N::from_f64(2.0) * amplitude;
                 let slope = twice / end;
-                let up = Shape::Line { at_zero: N::zero(), slope };
-                let down = Shape::Line { at_zero: twice, slope: -slope };
-                Form {
+                let up = PulseShape::Line { at_zero: N::zero(), slope };
+                let down = PulseShape::Line { at_zero: twice, slope: -slope };
+                PulseForm {
                     stretches: vec![(half * end, up), (end, down)],
                     is_peak: true,
                     velocity: Velocity::Peak(0.5 * size.abs() * duration_s),
@@ -417,7 +418,7 @@ impl PulseKind {
                 // (1 - x^2) G = (x G)'.
                 let form =
                     bell(shape, [1.0, 0.0, -1.0, 0.0], |x| x * gauss(x));
-                Form { is_peak: true, ..form }
+                PulseForm { is_peak: true, ..form }
             }
             Self::RickerAntisymmetric { period_s, cycles, .. } => {
                 let [period, cycles] = [period_s, cycles].map(N::from_f64);
@@ -445,7 +446,7 @@ impl PulseKind {
                     let rate_rad_s = rate * ratio;
                     let amplitude = -amplitude * rate * weight;
                     let phase_rad = (-rate_rad_s).mul_add(middle, phase);
-                    Sine { amplitude, rate_rad_s, phase_rad }
+                    PulseSine { amplitude, rate_rad_s, phase_rad }
                 };
                 let quarter = N::ratio(1, 4);
                 let up = N::one() + N::one() / gamma;
@@ -462,8 +463,11 @@ impl PulseKind {
                     let envelope = 1.0 + libm::cos(w * u / g);
                     0.5 * size * envelope * libm::cos(w * u + nu)
                 };
-                Form {
-                    stretches: vec![(gamma / frequency, Shape::Sines(terms))],
+                PulseForm {
+                    stretches: vec![(
+                        gamma / frequency,
+                        PulseShape::Sines(terms),
+                    )],
                     is_peak: false,
                     velocity: Velocity::At(Box::new(velocity)),
                 }

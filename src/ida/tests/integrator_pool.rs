@@ -7,7 +7,7 @@ use crate::accelerogram::Accelerogram;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
-use crate::integrator::pool::{Source, class_of, run};
+use crate::integrator::pool::{SceneSource, class_of, run};
 use crate::integrator::{
     Model, Observe, Overturning, Response, Scene, Solver, WorkLimit, respond,
 };
@@ -19,7 +19,7 @@ struct Bench<'a> {
     done: Vec<(Scene<'a>, Response)>,
 }
 
-impl<'a> Source<'a> for Bench<'a> {
+impl<'a> SceneSource<'a> for Bench<'a> {
     type Task = Scene<'a>;
 
     fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>, WorkLimit)> {

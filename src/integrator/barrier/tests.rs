@@ -1,4 +1,4 @@
-use super::{Barrier, Hop, least_potential};
+use super::{Barrier, BarrierHop, least_potential};
 use crate::block::{Block, Restitution};
 use crate::excitation::RecordIndex;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
@@ -10,11 +10,11 @@ fn dynamics(model: Model, alpha: f64) -> Dynamics<f64> {
     Dynamics::new(&block, restitution, model, Overturning::Alpha)
 }
 
-fn hop(dynamics: &Dynamics<f64>, peak: f64) -> Hop<f64> {
+fn hop(dynamics: &Dynamics<f64>, peak: f64) -> BarrierHop<f64> {
     let height = 2.0 * least_potential(dynamics, peak);
     let speed = height.sqrt();
     let barrier = Barrier { peak, height, speed, ..Barrier::none() };
-    Hop::below(&barrier, dynamics)
+    BarrierHop::below(&barrier, dynamics)
 }
 
 /// Without ground motion a hop of Eq. 2 to u_p lasts for
@@ -122,8 +122,8 @@ fn no_hop_gains_more_than_its_bound() {
 }
 
 /// The gain that is allowed for where all of it may be.
-fn bound(hop: &Hop<f64>, v: f64, sway: f64) -> Option<f64> {
-    let free = Hop { eta: 0.0, ..*hop };
+fn bound(hop: &BarrierHop<f64>, v: f64, sway: f64) -> Option<f64> {
+    let free = BarrierHop { eta: 0.0, ..*hop };
     Some(0.5 * (hop.height - free.safe(v, sway)?))
 }
 

@@ -2,7 +2,7 @@ use super::orbit::carlson_rf;
 use super::{Coast, coast};
 use crate::block::{Block, Restitution};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::motion::{Motion, Tracked};
+use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::{Side, WorkLimit};
 use crate::number::double::DoubleDouble;
 use crate::number::{Number, Real};
@@ -22,8 +22,8 @@ fn overturns(model: Model, eta: f64, u: f64, w: f64) -> Option<(f64, Side)> {
         until_s: None,
         limit: WorkLimit::default(),
     };
-    let motion = Motion { side: Side::Positive, u, w };
-    coast(&ask, motion, &mut Tracked::empty()).overturned
+    let motion = BlockMotion { side: Side::Positive, u, w };
+    coast(&ask, motion, &mut RunTrace::empty()).overturned
 }
 
 /// On the saddle's own stable line the block neither passes nor comes back:

@@ -1,17 +1,17 @@
 //! What a run decides, held against the error of its state.
 
 use crate::integrator::ImpactError;
-use crate::integrator::accuracy::{Accuracy, Flown};
+use crate::integrator::accuracy::{Accuracy, FlightErrors};
 use crate::integrator::certificate::{CLEARANCE, Decision, LARGEST_ERROR};
 use crate::integrator::coast::{gap, gap_gradient};
 use crate::integrator::driver::Driver;
 use crate::integrator::driver::events::next_turning;
 use crate::integrator::driver::impact::Chatter;
 use crate::integrator::dynamics::{Drive, Model};
-use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
-use crate::integrator::motion::{Motion, Tracked};
+use crate::integrator::forcing::{Forcing, LONGEST_STEP, PiecePlace};
+use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::PROPAGATION;
-use crate::integrator::taylor::{Series, value};
+use crate::integrator::taylor::{TaylorSeries, value};
 use crate::number::Real;
 
 /// Ratio of a rotation beyond overturning to its error at which nothing more
@@ -22,7 +22,7 @@ const FAR_BEYOND: f64 = 1e4;
 const SLACK: f64 = 1e-14;
 
 /// A step as the tracked errors see it.
-pub(super) struct Stepped<N> {
+pub(super) struct StepErrors<N> {
     /// Motion before and after, (u, w).
     pub ends: [(N, N); 2],
     /// Its length, in units of 1/p.
@@ -31,7 +31,7 @@ pub(super) struct Stepped<N> {
     pub left: N,
 }
 
-impl<N: Real> Tracked<N> {
+impl<N: Real> RunTrace<N> {
     /// What tracks errors.
     pub fn trackers(&mut self) -> impl Iterator<Item = &mut Accuracy> {
         self.accuracy.iter_mut().chain(&mut self.inputs)
@@ -47,14 +47,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn assess<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: N,
-        step: &Stepped<N>,
+        step: &StepErrors<N>,
         drive: &Drive<N, F>,
-        place: Place<N>,
+        place: PiecePlace<N>,
     ) {
         let flown = self.flown(step, drive);
-        let end = Place { offset: place.offset + step.tau, ..place };
+        let end = PiecePlace { offset: place.offset + step.tau, ..place };
         let time_s = self.time_s(end).to_f64();
         let mut worst = 0.0_f64;
         for tracker in self.record.trackers() {
@@ -70,11 +70,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// base, of overturning, or of the peak.
     fn may_turn_near<const LEN: usize>(
         &self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: f64,
         error: f64,
     ) -> bool {
-        let Series { c, v } = series;
+        let TaylorSeries { c, v } = series;
         let (mut rest, mut variation) = (0.0, 0.0);
         for k in (1..LEN).rev() {
             if k > 1 {
@@ -98,7 +98,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     fn assess_turnings<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: N,
         time_s: f64,
     ) {
@@ -129,9 +129,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn may_miss<const LEN: usize>(
         &self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
     ) -> bool {
-        let Series { c, v } = series;
+        let TaylorSeries { c, v } = series;
         if !(v[0] < N::zero()) {
             return false;
         }
@@ -154,7 +154,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn screen_turning<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
     ) {
         let mut v = series.v;
         let next = next_turning(&mut v, N::one(), self.isa);
@@ -203,8 +203,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// A step as the errors see it.
-    fn flown(&self, step: &Stepped<N>, drive: &Drive<N, F>) -> Flown {
-        let Stepped { ends: [from, to], tau, left } = step;
+    fn flown(
+        &self,
+        step: &StepErrors<N>,
+        drive: &Drive<N, F>,
+    ) -> FlightErrors {
+        let StepErrors { ends: [from, to], tau, left } = step;
         let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
         let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
         let (u, w) = (to.0.to_f64(), to.1.to_f64());
@@ -222,7 +226,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let shift = rate * self.forcing.span();
         // The forcing itself carries a roundoff: the threshold's size.
         let size = size + threshold + shift.abs();
-        Flown {
+        FlightErrors {
             tau,
             curvature,
             sizes: [u.abs().max(u0.abs()), w.abs().max(w0.abs()) + size * tau],
@@ -241,7 +245,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn assess_impact(
         &mut self,
-        place: Place<N>,
+        place: PiecePlace<N>,
         speed: N,
         before: N,
         f: &[N; F],
@@ -275,7 +279,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// the piece, the errors of its time and speed being what they are.
     fn surely_rests(
         &self,
-        place: Place<N>,
+        place: PiecePlace<N>,
         speed: f64,
         errors: [f64; 2],
         f: &[N; F],
@@ -333,7 +337,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Notes an overturning: how far beyond its limit the rotation gets, over
     /// its error there.
     #[inline(never)]
-    pub(super) fn assess_beyond(&mut self, from: Place<N>, motion: Motion<N>) {
+    pub(super) fn assess_beyond(
+        &mut self,
+        from: PiecePlace<N>,
+        motion: BlockMotion<N>,
+    ) {
         let time_s = self.time_s(from).to_f64();
         let p = self.dynamics.p.to_f64();
         let mut own = self.record.accuracy;
@@ -355,27 +363,28 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// error is no longer small.
     fn clearance_beyond(
         &self,
-        from: Place<N>,
-        motion: Motion<N>,
+        from: PiecePlace<N>,
+        motion: BlockMotion<N>,
         mut tracker: Accuracy,
     ) -> f64 {
         let limit = self.dynamics.limit;
         let small = LARGEST_ERROR * self.dynamics.alpha.to_f64();
         let below = N::right_angle() + N::right_angle();
-        let Motion { side, mut u, mut w } = motion;
-        let Place { mut piece, mut offset } = from;
+        let BlockMotion { side, mut u, mut w } = motion;
+        let PiecePlace { mut piece, mut offset } = from;
         let mut best = 0.0;
         while piece < self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
             let part = N::from_f64(LONGEST_STEP);
             let (tau, whole) =
                 if part < left { (part, false) } else { (left, true) };
-            let f = self.oriented(Place { piece, offset }, side, false);
+            let f = self.oriented(PiecePlace { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
-            let series: Series<N, HARD> = self.expand((u, w), tau, &drive);
+            let series: TaylorSeries<N, HARD> =
+                self.expand((u, w), tau, &drive);
             let end = series.end();
             let left = N::zero();
-            let step = Stepped { ends: [(u, w), end], tau, left };
+            let step = StepErrors { ends: [(u, w), end], tau, left };
             tracker.step(&self.flown(&step, &drive));
             (u, w) = end;
             let mut v = series.v;

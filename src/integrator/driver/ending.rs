@@ -3,8 +3,8 @@
 use crate::integrator::coast::{Coast, coast};
 use crate::integrator::driver::{Driver, Flight};
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, Place};
-use crate::integrator::taylor::{Series, value};
+use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::taylor::{TaylorSeries, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
 
@@ -32,9 +32,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn sample_step<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         (tau, length): (N, N),
-        place: Place<N>,
+        place: PiecePlace<N>,
         side: Side,
     ) {
         let Some(interval) = self.interval_s else { return };

@@ -3,10 +3,10 @@
 
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, Place};
-use crate::integrator::motion::Motion;
+use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::motion::BlockMotion;
 use crate::integrator::roots::first_descent;
-use crate::integrator::taylor::{Series, value};
+use crate::integrator::taylor::{TaylorSeries, value};
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
 
@@ -67,11 +67,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn turning_points<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: N,
-        step: (Place<N>, N),
+        step: (PiecePlace<N>, N),
     ) {
-        let Series { c, v } = series;
+        let TaylorSeries { c, v } = series;
         let mut rest = N::zero();
         for k in (2..LEN).rev() {
             rest = rest.mul_add(x, c[k].abs());
@@ -93,20 +93,20 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn raise_by_turning<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: N,
-        step: (Place<N>, N),
+        step: (PiecePlace<N>, N),
     ) {
         let isa = self.isa;
-        isa.run(Turning { driver: self, series, x, step });
+        isa.run(TurningKernel { driver: self, series, x, step });
     }
 
     #[inline(always)]
     pub(super) fn locate_turning_points<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         x: N,
-        (place, length): (Place<N>, N),
+        (place, length): (PiecePlace<N>, N),
     ) {
         let isa = self.isa;
         let mut v = series.v;
@@ -127,13 +127,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// Counts a turning point at `u`, `tau` after a place, if it is the
     /// highest.
-    pub fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
+    pub fn raise_peak(&mut self, u: N, place: PiecePlace<N>, tau: N) {
         if u > self.record.peak {
             self.record.work.turning_points += 1;
             self.record.peak = u;
             self.exit_from = place.piece.saturating_add(PATIENCE);
             let offset = place.offset + tau;
-            let time_s = self.time_s(Place { offset, ..place });
+            let time_s = self.time_s(PiecePlace { offset, ..place });
             self.record.peak_time_s = Some(time_s);
             self.screen = self.screen.map(|screen| screen.top(tau));
             for tracker in self.record.trackers() {
@@ -148,8 +148,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn margin_beyond<const SIZE: usize>(
         &self,
-        from: Place<N>,
-        motion: Motion<N>,
+        from: PiecePlace<N>,
+        motion: BlockMotion<N>,
     ) -> f64 {
         self.isa.run(Beyond::<_, _, SIZE, _, _> { driver: self, from, motion })
     }
@@ -157,10 +157,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn turning_beyond<const SIZE: usize>(
         &self,
-        from: Place<N>,
-        motion: Motion<N>,
+        from: PiecePlace<N>,
+        motion: BlockMotion<N>,
     ) -> f64 {
-        let Motion { side, mut u, mut w } = motion;
+        let BlockMotion { side, mut u, mut w } = motion;
         let never = (w / self.dynamics.alpha).to_f64();
         if self.dynamics.overturning == Overturning::HalfPi {
             return never;
@@ -168,9 +168,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let mut offset = from.offset;
         for piece in from.piece..self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
-            let f = self.oriented(Place { piece, offset }, side, false);
+            let f = self.oriented(PiecePlace { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
-            let series: Series<N, SIZE> = self.expand((u, w), left, &drive);
+            let series: TaylorSeries<N, SIZE> =
+                self.expand((u, w), left, &drive);
             if let Some(x) = first_descent(&series.v, N::one(), self.isa) {
                 return self.beyond(value(&series.c, x));
             }
@@ -204,8 +205,8 @@ fn is_clear_of_base<N: Real>(
 /// The margin of an overturning, compiled for each instruction-set level.
 struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
     driver: &'d Driver<N, G, F, HARD>,
-    from: Place<N>,
-    motion: Motion<N>,
+    from: PiecePlace<N>,
+    motion: BlockMotion<N>,
 }
 
 impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Kernel
@@ -223,15 +224,22 @@ where
 }
 
 /// Turning points of a step, compiled for each instruction-set level.
-struct Turning<'d, N, G, const LEN: usize, const F: usize, const HARD: usize> {
+struct TurningKernel<
+    'd,
+    N,
+    G,
+    const LEN: usize,
+    const F: usize,
+    const HARD: usize,
+> {
     driver: &'d mut Driver<N, G, F, HARD>,
-    series: &'d Series<N, LEN>,
+    series: &'d TaylorSeries<N, LEN>,
     x: N,
-    step: (Place<N>, N),
+    step: (PiecePlace<N>, N),
 }
 
 impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
-    for Turning<'_, N, G, LEN, F, HARD>
+    for TurningKernel<'_, N, G, LEN, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

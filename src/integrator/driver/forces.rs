@@ -18,8 +18,8 @@ use crate::excitation::Excitation;
 use crate::integrator::Scene;
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::{Dynamics, Model, uplift_threshold};
-use crate::integrator::forcing::{Forcing, Place};
-use crate::integrator::taylor::{Series, value};
+use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::taylor::{TaylorSeries, value};
 use crate::number::Real;
 use crate::number::dispatch::Kernel;
 
@@ -118,23 +118,24 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn see_forces<const LEN: usize>(
         &mut self,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         f: &[N; F],
         (x, length): (N, N),
-        place: Place<N>,
+        place: PiecePlace<N>,
     ) {
         let Some(seen) = self.record.forces else { return };
         let start_s = self.time_s(place).to_f64();
         let (isa, dynamics) = (self.isa, &self.dynamics);
-        let step = Watched { dynamics, series, f, x, length, start_s, seen };
+        let step =
+            ForceKernel { dynamics, series, f, x, length, start_s, seen };
         self.record.forces = Some(isa.run(step));
     }
 }
 
 /// Forces of a step, compiled for each instruction-set level.
-struct Watched<'d, N, const LEN: usize, const F: usize> {
+struct ForceKernel<'d, N, const LEN: usize, const F: usize> {
     dynamics: &'d Dynamics<N>,
-    series: &'d Series<N, LEN>,
+    series: &'d TaylorSeries<N, LEN>,
     f: &'d [N; F],
     x: N,
     length: N,
@@ -142,11 +143,11 @@ struct Watched<'d, N, const LEN: usize, const F: usize> {
     seen: Forces,
 }
 
-impl<N: Real, const LEN: usize, const F: usize> Watched<'_, N, LEN, F> {
+impl<N: Real, const LEN: usize, const F: usize> ForceKernel<'_, N, LEN, F> {
     #[inline(always)]
     fn at(&self, part: f64) -> (f64, f64) {
         let x = N::from_f64(part) * self.x;
-        let Series { c, v } = self.series;
+        let TaylorSeries { c, v } = self.series;
         let (u, w) = (value(c, x), value(v, x));
         let f = value(self.f, x * self.length).to_f64();
         at_pivot(self.dynamics, (u.to_f64(), w.to_f64()), f)
@@ -154,7 +155,7 @@ impl<N: Real, const LEN: usize, const F: usize> Watched<'_, N, LEN, F> {
 }
 
 impl<N: Real, const LEN: usize, const F: usize> Kernel
-    for Watched<'_, N, LEN, F>
+    for ForceKernel<'_, N, LEN, F>
 {
     type Output = Forces;
 

@@ -10,7 +10,7 @@ use crate::integrator::Impact;
 use crate::integrator::driver::{Again, Driver, Flight, Step};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
-use crate::integrator::motion::{Motion, tail_speed};
+use crate::integrator::motion::{BlockMotion, tail_speed};
 use crate::integrator::screen::Landing;
 use crate::number::Real;
 
@@ -79,7 +79,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 return Some(Flight::Doubtful);
             }
         }
-        step.motion = Motion { side, u: N::zero(), w };
+        step.motion = BlockMotion { side, u: N::zero(), w };
         if self.is_settled(step.place.piece, w) {
             return Some(Flight::Settled);
         }

@@ -1,13 +1,13 @@
 //! The work of a run is bounded, and may be stopped.
 
-use crate::integrator::driver::{Driver, Flight, Stage};
+use crate::integrator::driver::{Driver, Flight, FlightStage};
 use crate::integrator::forcing::Forcing;
-use crate::integrator::motion::Tracked;
+use crate::integrator::motion::RunTrace;
 use crate::integrator::{Response, SceneError, Work, WorkLimit};
 use crate::number::Real;
 use crate::stop;
 
-impl<N: Real> Tracked<N> {
+impl<N: Real> RunTrace<N> {
     /// True once the work passes the limit, which is seen first at a time.
     #[inline(always)]
     pub fn exceeds(&mut self, limit: WorkLimit, time_s: N) -> bool {
@@ -40,9 +40,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// Why a run that stands here is refused, if it is.
     #[inline(always)]
-    pub fn refusal(&mut self, stage: &Stage<N>) -> Option<SceneError> {
+    pub fn refusal(&mut self, stage: &FlightStage<N>) -> Option<SceneError> {
         stop::point();
-        if let Stage::Flying(step) = stage {
+        if let FlightStage::Flying(step) = stage {
             let Work { impacts, steps, .. } = self.record.work;
             if impacts > self.limit.impacts || steps > self.limit.steps {
                 let time_s = self.time_s(step.place);

@@ -1,13 +1,13 @@
 //! One step of the driver: its series, and how much that leaves.
 
-use crate::integrator::driver::decisions::Stepped;
+use crate::integrator::driver::decisions::StepErrors;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Advance, Driver, Flight, Step};
 use crate::integrator::dynamics::{Drive, Model, curvature};
-use crate::integrator::forcing::{Forcing, Place};
-use crate::integrator::motion::Motion;
-use crate::integrator::screen::Flown;
-use crate::integrator::taylor::{Series, expand, slope, value};
+use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::motion::BlockMotion;
+use crate::integrator::screen::ScreenFlight;
+use crate::integrator::taylor::{TaylorSeries, expand, slope, value};
 use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
 use crate::number::{Number, Real};
@@ -82,12 +82,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if self.record.accuracy.is_some() {
             return self.attempt_assessed::<LEN>(step, length);
         }
-        let Motion { side, u, w } = step.motion;
+        let BlockMotion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let drive = self.dynamics.drive(oriented);
         let small = self.sine_cosine(u);
         let model = self.dynamics.model;
-        let series: Series<N, LEN> =
+        let series: TaylorSeries<N, LEN> =
             expand(model, (u, w), length, &drive, small);
         self.take(step, length, &series, (&drive, small), None)
     }
@@ -100,7 +100,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         length: N,
     ) -> Option<Advance<N>> {
         let isa = self.isa;
-        isa.run(Assessed::<_, _, LEN, _, _> { driver: self, step, length })
+        isa.run(AssessedStepKernel::<_, _, LEN, _, _> {
+            driver: self,
+            step,
+            length,
+        })
     }
 
     /// A step by its series, unless that leaves too much; with the forcing
@@ -111,12 +115,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         step: &mut Step<N>,
         length: N,
-        series: &Series<N, LEN>,
+        series: &TaylorSeries<N, LEN>,
         (drive, small): (&Drive<N, F>, (N, N)),
         left: Option<N>,
     ) -> Option<Advance<N>> {
-        let Motion { side, u, w } = step.motion;
-        let Series { c, v } = series;
+        let BlockMotion { side, u, w } = step.motion;
+        let TaylorSeries { c, v } = series;
         self.record.work.steps += 1;
         if !(left_by(v, length) <= self.allowed(w, length)) {
             return None;
@@ -134,7 +138,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 _ => left * power(x, LEN - 1),
             };
             let ends = [(u, w), (end_u, end_w)];
-            let stepped = Stepped { ends, tau, left };
+            let stepped = StepErrors { ends, tau, left };
             self.assess(series, x, &stepped, drive, step.place);
         }
         self.turning_points(series, x, (step.place, length));
@@ -143,7 +147,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let size = self.dynamics.alpha + drive.f[0].abs();
             let (u, w) = (end_u, end_w);
             let last = self.fixed.then_some(v[LEN - 1]);
-            let flown = Flown { tau, curvature, u, w, size, last };
+            let flown = ScreenFlight { tau, curvature, u, w, size, last };
             *screen = screen.fly(&flown);
         }
         if self.watched {
@@ -158,11 +162,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 if self.screen.is_some() && self.may_miss(series) {
                     self.screen_turning(series);
                 }
-                step.motion = Motion { side, u: end_u, w: end_w };
+                step.motion = BlockMotion { side, u: end_u, w: end_w };
                 Some(Advance::Reached)
             }
             Event::Overturning(_) => {
-                step.motion = Motion { side, u: end_u, w: end_w };
+                step.motion = BlockMotion { side, u: end_u, w: end_w };
                 Some(Advance::Overturned)
             }
             Event::Impact(_) => {
@@ -198,7 +202,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         (u, w): (N, N),
         length: N,
         drive: &Drive<N, F>,
-    ) -> Series<N, LEN> {
+    ) -> TaylorSeries<N, LEN> {
         let model = self.dynamics.model;
         expand(model, (u, w), length, drive, self.sine_cosine(u))
     }
@@ -218,7 +222,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn oriented(
         &self,
-        place: Place<N>,
+        place: PiecePlace<N>,
         side: Side,
         exact: bool,
     ) -> [N; F] {
@@ -270,15 +274,21 @@ where
 
 /// An assessed step, compiled for each instruction-set level. It expands the
 /// longest series, of which its own is the beginning.
-struct Assessed<'d, N, G, const LEN: usize, const F: usize, const HARD: usize>
-{
+struct AssessedStepKernel<
+    'd,
+    N,
+    G,
+    const LEN: usize,
+    const F: usize,
+    const HARD: usize,
+> {
     driver: &'d mut Driver<N, G, F, HARD>,
     step: &'d mut Step<N>,
     length: N,
 }
 
 impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
-    for Assessed<'_, N, G, LEN, F, HARD>
+    for AssessedStepKernel<'_, N, G, LEN, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -288,14 +298,14 @@ where
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Self { driver, step, length } = self;
-        let Motion { side, u, w } = step.motion;
+        let BlockMotion { side, u, w } = step.motion;
         let oriented = driver.oriented(step.place, side, step.at_threshold);
         let drive = driver.dynamics.drive(oriented);
         let small = driver.sine_cosine(u);
         let model = driver.dynamics.model;
-        let long: Series<N, HARD> =
+        let long: TaylorSeries<N, HARD> =
             expand(model, (u, w), length, &drive, small);
-        let series: Series<N, LEN> = long.beginning();
+        let series: TaylorSeries<N, LEN> = long.beginning();
         let mut left = surely_left_by(&long.v, length);
         if LEN < HARD {
             let (end, longer) = (series.end(), long.end());

@@ -11,11 +11,11 @@ use crate::integrator::HistoryPoint;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::certificate::CLEARANCE;
 use crate::integrator::coast::last;
-use crate::integrator::driver::{Driver, Flight, Stage, Step};
+use crate::integrator::driver::{Driver, Flight, FlightStage, Step};
 use crate::integrator::forcing::{
-    Exceedance, Forcing, Ground, NEAR_THRESHOLD, Place,
+    Exceedance, Forcing, GroundForcing, NEAR_THRESHOLD, PiecePlace,
 };
-use crate::integrator::motion::{Motion, Tracked};
+use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
 use crate::number::Real;
 
@@ -41,7 +41,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn stop(&mut self, step: &Step<N>) {
         let Some(until_s) = self.until_s else { return };
-        let Motion { side, u, w } = step.motion;
+        let BlockMotion { side, u, w } = step.motion;
         self.sample_end(until_s, [u, w].map(|x| N::from_f64(side.sign()) * x));
         let is_peak = u > self.record.peak;
         if is_peak {
@@ -134,9 +134,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// surely resolved outcome and peak. Notes the end against an overturning
     /// that it has resolved.
     #[inline(never)]
-    pub(super) fn cuts(&mut self, motion: Motion<N>) -> bool {
+    pub(super) fn cuts(&mut self, motion: BlockMotion<N>) -> bool {
         let Some(until_s) = self.until_s else { return false };
-        let Motion { u, w, .. } = motion;
+        let BlockMotion { u, w, .. } = motion;
         let last = last(&self.dynamics, u, w);
         let left = (until_s - self.end_s()) * self.dynamics.p;
         let between = left.to_f64() - last.time;
@@ -159,11 +159,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Steps through the free motion from `motion` on to its rest, to
     /// overturning or to the end of observation.
     #[inline(never)]
-    pub(super) fn follow(&mut self, motion: Motion<N>) -> Flight<N> {
+    pub(super) fn follow(&mut self, motion: BlockMotion<N>) -> Flight<N> {
         let mut free = self.free();
         free.events = self.events;
         free.until_s = self.until_s;
-        free.record = mem::replace(&mut self.record, Tracked::empty());
+        free.record = mem::replace(&mut self.record, RunTrace::empty());
         free.screen = self.screen;
         let flight = free.fly_free(motion);
         self.record = free.record;
@@ -174,7 +174,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Adds the free motion from `motion` on, which the closed form has
     /// decided, to history and forces.
     #[inline(never)]
-    pub(super) fn trace(&mut self, motion: Motion<N>) {
+    pub(super) fn trace(&mut self, motion: BlockMotion<N>) {
         let end_s = self.end_s();
         let mut free = self.free();
         free.events = self.interval_s.is_some();
@@ -195,8 +195,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// What steps through the free motion after the excitation.
-    fn free(&self) -> Driver<N, Ground<'static, N>, HARD, HARD> {
-        let silence = Ground::endless(self.end_s(), self.dynamics.p);
+    fn free(&self) -> Driver<N, GroundForcing<'static, N>, HARD, HARD> {
+        let silence = GroundForcing::endless(self.end_s(), self.dynamics.p);
         let mut free = Driver::new(self.dynamics, silence, self.isa);
         free.interval_s = self.interval_s;
         free.watched = self.watched;
@@ -205,23 +205,23 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 }
 
-impl<N: Real, const LEN: usize> Driver<N, Ground<'_, N>, LEN, LEN> {
+impl<N: Real, const LEN: usize> Driver<N, GroundForcing<'_, N>, LEN, LEN> {
     /// Flies from the start on to the end of the flight, or to the limit of
     /// work.
-    fn fly_free(&mut self, motion: Motion<N>) -> Flight<N> {
-        let mut stage = Stage::Flying(Step {
-            place: Place { piece: 0, offset: N::zero() },
+    fn fly_free(&mut self, motion: BlockMotion<N>) -> Flight<N> {
+        let mut stage = FlightStage::Flying(Step {
+            place: PiecePlace { piece: 0, offset: N::zero() },
             index: 0,
             motion,
             at_threshold: false,
         });
         loop {
             stage = match stage {
-                Stage::Landed(flight) => return flight,
-                Stage::Flying(_) if self.refusal(&stage).is_some() => {
+                FlightStage::Landed(flight) => return flight,
+                FlightStage::Flying(_) if self.refusal(&stage).is_some() => {
                     return Flight::Stopped;
                 }
-                Stage::Flying(step) => self.proceed::<LEN>(step),
+                FlightStage::Flying(step) => self.proceed::<LEN>(step),
             };
         }
     }

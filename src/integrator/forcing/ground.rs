@@ -4,15 +4,15 @@
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::Scene;
 use crate::integrator::forcing::{
-    Exceedance, Forcing, LONGEST_STEP, Place, PulseForcing, RecordForcing,
-    Remainder, Scan,
+    Exceedance, Forcing, LONGEST_STEP, PiecePlace, PulseForcing,
+    RecordForcing, Remainder, RestScan,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 
 /// A ground motion of any kind. Its series has as many coefficients as a
 /// pulse needs; those that a record lacks are zero.
-pub(crate) enum Ground<'a, N> {
+pub(crate) enum GroundForcing<'a, N> {
     /// A record.
     Record(RecordForcing<'a, N>),
     /// A pulse.
@@ -21,7 +21,7 @@ pub(crate) enum Ground<'a, N> {
     Silence(Silence<N>),
 }
 
-impl<'a, N: Real> Ground<'a, N> {
+impl<'a, N: Real> GroundForcing<'a, N> {
     /// What moves the ground of a scene; a record comes with its index.
     pub fn of(
         scene: &Scene<'a>,
@@ -69,7 +69,7 @@ impl<N: Real> Silence<N> {
     }
 }
 
-impl<N: Real, const F: usize> Forcing<N, F> for Ground<'_, N> {
+impl<N: Real, const F: usize> Forcing<N, F> for GroundForcing<'_, N> {
     fn pieces(&self) -> usize {
         match self {
             Self::Record(record) => record.pieces(),
@@ -109,7 +109,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for Ground<'_, N> {
         }
     }
 
-    fn series(&self, place: Place<N>) -> [N; F] {
+    fn series(&self, place: PiecePlace<N>) -> [N; F] {
         let mut series = [N::zero(); F];
         match self {
             Self::Record(record) => {
@@ -125,15 +125,17 @@ impl<N: Real, const F: usize> Forcing<N, F> for Ground<'_, N> {
 
     fn exceedance(
         &self,
-        from: Place<N>,
+        from: PiecePlace<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, Scan<N>) {
+    ) -> (Option<Exceedance<N>>, RestScan<N>) {
         match self {
             Self::Record(record) => record.exceedance(from, threshold),
             Self::Pulse(pulse) => {
                 Forcing::<N, F>::exceedance(pulse, from, threshold)
             }
-            Self::Silence(_) => (None, Scan { pieces: 0, nearest: N::one() }),
+            Self::Silence(_) => {
+                (None, RestScan { pieces: 0, nearest: N::one() })
+            }
         }
     }
 

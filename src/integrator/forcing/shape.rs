@@ -1,17 +1,17 @@
 //! Series of the shapes that make up pulses.
 
-use crate::excitation::Shape;
+use crate::excitation::PulseShape;
 use crate::number::Real;
 
 /// Series of a shape about time `t` (s) in units of 1/p.
 pub(super) fn shape_series<N: Real, const F: usize>(
-    shape: &Shape<N>,
+    shape: &PulseShape<N>,
     t: N,
     p: N,
 ) -> [N; F] {
     let mut out = [N::zero(); F];
     match shape {
-        Shape::Sines(sines) => {
+        PulseShape::Sines(sines) => {
             for sine in sines.iter().filter(|s| s.amplitude != N::zero()) {
                 let rate = sine.rate_rad_s;
                 let angle = rate * t + sine.phase_rad;
@@ -30,13 +30,13 @@ pub(super) fn shape_series<N: Real, const F: usize>(
                 }
             }
         }
-        Shape::Line { at_zero, slope } => {
+        PulseShape::Line { at_zero, slope } => {
             out[0] = *slope * t + *at_zero;
             if let Some(second) = out.get_mut(1) {
                 *second = *slope / p;
             }
         }
-        Shape::Gauss { scale, polynomial, rate, centre_s } => {
+        PulseShape::Gauss { scale, polynomial, rate, centre_s } => {
             let rate = *rate;
             let x = rate * (t - *centre_s);
             let half = N::ratio(-1, 2);

@@ -1,6 +1,6 @@
 //! A smooth stretch of a pulse, cut into equal pieces that are not stored.
 
-use crate::excitation::{Pulse, Shape};
+use crate::excitation::{Pulse, PulseShape};
 use crate::integrator::forcing::{LONGEST_PHASE, LONGEST_STEP};
 use crate::number::Real;
 
@@ -19,24 +19,24 @@ pub(super) struct Stretch<N> {
     end_s: f64,
     /// Length of a piece in s.
     share: N,
-    pub shape: Shape<N>,
+    pub shape: PulseShape<N>,
     /// The same in double precision, for bounds.
-    rough: Shape<f64>,
+    rough: PulseShape<f64>,
 }
 
 /// Pieces into which a stretch of some seconds is cut, as a number.
 fn count<N: Real>(
-    shape: &Shape<N>,
+    shape: &PulseShape<N>,
     seconds: f64,
     frequency_rad_s: f64,
 ) -> f64 {
     let rate = match shape {
-        Shape::Sines(sines) => sines
+        PulseShape::Sines(sines) => sines
             .iter()
             .fold(0.0_f64, |most, s| most.max(s.rate_rad_s.to_f64().abs())),
-        Shape::Line { .. } => 0.0,
+        PulseShape::Line { .. } => 0.0,
         // The Gaussian's series converges more slowly.
-        Shape::Gauss { rate, .. } => 2.0 * rate.to_f64(),
+        PulseShape::Gauss { rate, .. } => 2.0 * rate.to_f64(),
     };
     let by_block = seconds * frequency_rad_s / LONGEST_STEP;
     let by_phase = seconds * rate / LONGEST_PHASE;

@@ -63,7 +63,7 @@ impl WithSimd for Bare<'_> {
     #[inline(always)]
     fn run<V: Simd>(self) -> [f64; 2] {
         let alpha = self.of.block.slenderness_rad();
-        let released = Group {
+        let released = BareGroup {
             u: Lanes::splat(self.of.ratio * alpha),
             w: Lanes::splat(0.0),
             here: Lanes::splat(self.of.samples[0]),
@@ -88,7 +88,7 @@ impl WithSimd for Bare<'_> {
 
 /// Motion and constants of eight blocks.
 #[derive(Clone, Copy)]
-struct Group {
+struct BareGroup {
     u: Lanes,
     w: Lanes,
     here: Lanes,
@@ -108,7 +108,7 @@ macro_rules! orders {
     })*};
 }
 
-impl Group {
+impl BareGroup {
     /// One step. With d = u - u_0, u'' = G cos d + H sin d; `s` and `q` are
     /// the series of sin d and 1 - cos d.
     #[inline(always)]

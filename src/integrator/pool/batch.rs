@@ -7,21 +7,21 @@
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Drive, Model, curvature};
-use crate::integrator::pool::chatter::{Impacted, restoring};
-use crate::integrator::pool::group::Group;
+use crate::integrator::pool::chatter::{ChatterLanes, restoring};
+use crate::integrator::pool::group::LaneGroup;
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
-use crate::integrator::pool::waiting::{Lane, Queue};
+use crate::integrator::pool::waiting::{Lane, LaneQueue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
-use crate::integrator::screen::{Flown, Landing, PROPAGATION, Screen};
-use crate::integrator::taylor::{Series, expand, total, value};
+use crate::integrator::screen::{Landing, PROPAGATION, Screen, ScreenFlight};
+use crate::integrator::taylor::{TaylorSeries, expand, total, value};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// A bit for each lane of a batch.
 type Bits = u8;
 
 /// Lanes gathered from the groups.
-pub(super) struct Batch {
+pub(super) struct LaneBatch {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
     u: Lanes,
@@ -49,7 +49,7 @@ pub(super) struct Batch {
 }
 
 /// What became of the lanes of a batch.
-pub(super) struct Solved {
+pub(super) struct BatchSolution {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
     /// Not solved: left to the scalar driver.
@@ -84,7 +84,7 @@ pub(super) struct Solved {
     pub doubt: Lanes,
 }
 
-impl Solved {
+impl BatchSolution {
     pub fn nothing() -> Self {
         let (zero, none) = (Lanes::splat(0.0), 0);
         Self {
@@ -116,7 +116,7 @@ impl Solved {
 }
 
 /// A turning point of a step, after the part `x`.
-struct Turning<V: Simd> {
+struct TurningLanes<V: Simd> {
     /// There surely is a highest rotation, or a lowest.
     top: V::Mask,
     low: V::Mask,
@@ -136,7 +136,7 @@ struct FirstImpact<V: Simd> {
     lowest: V,
 }
 
-impl Batch {
+impl LaneBatch {
     pub fn empty() -> Self {
         let zero = Lanes::splat(0.0);
         Self {
@@ -168,8 +168,8 @@ impl Batch {
     /// Takes up to eight lanes out of a queue; those beyond have no meaning.
     pub fn gather<'a, T>(
         &mut self,
-        queue: &mut Queue,
-        groups: &mut [Group<'a>; GROUPS],
+        queue: &mut LaneQueue,
+        groups: &mut [LaneGroup<'a>; GROUPS],
         slots: &mut [Option<Slot<'a, T>>],
     ) {
         (self.lanes, self.count) = queue.take();
@@ -217,7 +217,7 @@ impl Batch {
         &self,
         model: Model,
         tolerance: f64,
-        out: &mut Solved,
+        out: &mut BatchSolution,
     ) {
         let zero = V::zero();
         let (all, none) = (V::Mask::splat(true), V::Mask::splat(false));
@@ -236,7 +236,7 @@ impl Batch {
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, V::one()),
         };
-        let Series { mut c, mut v }: Series<V, SIZE> =
+        let TaylorSeries { mut c, mut v }: TaylorSeries<V, SIZE> =
             expand(model, (u, w), h, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
@@ -280,8 +280,8 @@ impl Batch {
         let curvature = curvature(model, &drive, small);
         let size = alpha + forcing[0].abs();
         let last = is_fixed(LEN, HARD).then_some(v[LEN - 1]);
-        let fly = |tau, (u, w), out: &mut Solved| {
-            let flown = Flown { tau, curvature, u, w, size, last };
+        let fly = |tau, (u, w), out: &mut BatchSolution| {
+            let flown = ScreenFlight { tau, curvature, u, w, size, last };
             let there = screen.fly(&flown);
             there.uu.store(&mut out.uu);
             there.uw.store(&mut out.uw);
@@ -334,7 +334,7 @@ impl Batch {
         let f = rate.mul_add(there, here);
         fall.select(-end_w, zero).store(&mut out.speed);
         f.store(&mut out.f);
-        let impacted = Impacted {
+        let impacted = ChatterLanes {
             model,
             threshold,
             cosine,
@@ -363,7 +363,7 @@ impl Batch {
 
     /// The rough certificates after the impacts of what was solved.
     #[inline(always)]
-    pub fn land<V: Simd>(&self, model: Model, out: &mut Solved) {
+    pub fn land<V: Simd>(&self, model: Model, out: &mut BatchSolution) {
         let (threshold, cosine) =
             (V::load(&self.threshold), V::load(&self.cosine));
         let f = V::load(&out.f);
@@ -436,7 +436,7 @@ impl Batch {
         v: &[V; SIZE],
         x: V,
         near: V::Mask,
-    ) -> Turning<V> {
+    ) -> TurningLanes<V> {
         let zero = V::zero();
         let (mut rest, mut variation) = (zero, zero);
         for k in (1..SIZE).rev() {
@@ -453,7 +453,7 @@ impl Batch {
         let dips = near.and(sinking).but_not(goes_on);
         let asked = may.or(dips);
         if !asked.any() {
-            return Turning { top: may, low: may, x: zero, unsure: may };
+            return TurningLanes { top: may, low: may, x: zero, unsure: may };
         }
         // Only a velocity that falls all the way, or rises, turns just once.
         let mut q = *v;
@@ -469,6 +469,6 @@ impl Batch {
         let none = descent.none.or(top).or(sinking.and(descent.falls));
         let unsure = may.but_not(none);
         let unsure = unsure.or(dips.but_not(descent.none.or(low)));
-        Turning { top, low, x: turn, unsure }
+        TurningLanes { top, low, x: turn, unsure }
     }
 }

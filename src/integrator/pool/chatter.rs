@@ -5,7 +5,7 @@ use crate::integrator::dynamics::Model;
 use crate::number::lanes::{Mask, Simd};
 
 /// Blocks just after an impact.
-pub(super) struct Impacted<V> {
+pub(super) struct ChatterLanes<V> {
     pub model: Model,
     pub threshold: V,
     pub cosine: V,
@@ -21,7 +21,7 @@ pub(super) struct Impacted<V> {
     pub peak: V,
 }
 
-impl<V: Simd> Impacted<V> {
+impl<V: Simd> ChatterLanes<V> {
     /// The blocks of `which` whose impacts provably accumulate within the
     /// sample, and the time in which they do.
     #[inline(always)]

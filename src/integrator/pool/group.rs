@@ -7,13 +7,13 @@
 
 use crate::integrator::Side;
 use crate::integrator::class::is_fixed;
-use crate::integrator::driver::Stage;
+use crate::integrator::driver::FlightStage;
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
-use crate::integrator::screen::{Flown, PROPAGATION, Screen};
-use crate::integrator::taylor::{Series, expand};
+use crate::integrator::screen::{PROPAGATION, Screen, ScreenFlight};
+use crate::integrator::taylor::{TaylorSeries, expand};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// Share of its start above which a rotation that sinks surely ends above the
@@ -21,7 +21,7 @@ use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 const STAYS: f64 = 1e-9;
 
 /// Motion and constants of the runs in the lanes of a group.
-pub(super) struct Group<'a> {
+pub(super) struct LaneGroup<'a> {
     pub u: Lanes,
     pub w: Lanes,
     /// Forcing at the start of the sample, on the side of the rotation.
@@ -75,13 +75,13 @@ pub(super) struct Group<'a> {
 }
 
 /// Lanes that did not take a step, a bit each.
-pub(super) struct Parked {
+pub(super) struct WaitingLanes {
     pub lanes: u8,
     /// Those in which the series leaves too much and nothing happens.
     pub hard: u8,
 }
 
-impl<'a> Group<'a> {
+impl<'a> LaneGroup<'a> {
     pub fn idle() -> Self {
         let zero = Lanes::splat(0.0);
         Self {
@@ -181,7 +181,7 @@ impl<'a> Group<'a> {
         self.hand_screen(lane, slot);
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
-        let Stage::Flying(step) = &mut slot.stage else { return };
+        let FlightStage::Flying(step) = &mut slot.stage else { return };
         step.place.piece = self.piece(lane);
         step.place.offset = self.offset[lane];
         step.motion.u = self.u[lane];
@@ -193,7 +193,8 @@ impl<'a> Group<'a> {
     #[inline(always)]
     pub fn load<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let screen = *slot.driver.screen();
-        let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
+        let (driver, FlightStage::Flying(step)) = (&slot.driver, &slot.stage)
+        else {
             return;
         };
         let dynamics = driver.dynamics();
@@ -238,7 +239,7 @@ impl<'a> Group<'a> {
     pub fn step<V: Simd, const LEN: usize, const HARD: usize>(
         &mut self,
         model: Model,
-    ) -> Parked {
+    ) -> WaitingLanes {
         let ahead = V::gather(std::array::from_fn(|lane| {
             let sample = self.samples[lane].get(self.next[lane] as usize);
             sample.unwrap_or(&f64::NAN)
@@ -257,7 +258,8 @@ impl<'a> Group<'a> {
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, V::one()),
         };
-        let series: Series<V, LEN> = expand(model, (u, w), h, &drive, small);
+        let series: TaylorSeries<V, LEN> =
+            expand(model, (u, w), h, &drive, small);
         let end = series.end();
         let free = self.free_of_events(forcing, ahead, h, end);
         let size = w.abs() + V::load(&self.least);
@@ -272,7 +274,7 @@ impl<'a> Group<'a> {
             ww: V::load(&self.ww),
             ..Screen::at_rest()
         };
-        let flown = Flown {
+        let flown = ScreenFlight {
             tau: h,
             curvature: curvature(model, &drive, small),
             u: end.0,
@@ -289,7 +291,7 @@ impl<'a> Group<'a> {
         clear.count(&mut self.next);
         let lanes = self.active & !clear.bits();
         self.active = clear.bits();
-        Parked { lanes, hard: lanes & free.bits() }
+        WaitingLanes { lanes, hard: lanes & free.bits() }
     }
 
     /// Lanes in which a step under forcing `f`, which ends at `ahead`, to

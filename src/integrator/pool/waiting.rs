@@ -5,7 +5,7 @@ use crate::number::lanes::WIDTH;
 
 /// What lanes wait for.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum WaitKind {
     /// The longest series, clear of events.
     LongSeries,
     /// The roots of the class' own series.
@@ -14,7 +14,7 @@ pub(super) enum Kind {
     LongSeriesAndRoots,
 }
 
-impl Kind {
+impl WaitKind {
     /// How many waiting lanes start a batch. For rare kinds a part-filled
     /// batch is cheaper than waiting.
     pub fn worth(self) -> usize {
@@ -26,9 +26,9 @@ impl Kind {
     }
 }
 
-/// Lanes that wait for others of their [`Kind`], in the order of kinds.
+/// Lanes that wait for others of their [`WaitKind`], in the order of kinds.
 pub(super) struct Waiting {
-    pub queues: [Queue; 3],
+    pub queues: [LaneQueue; 3],
 }
 
 impl Waiting {
@@ -48,19 +48,19 @@ impl Waiting {
         }
     }
 
-    pub fn queue(&mut self, kind: Kind) -> &mut Queue {
+    pub fn queue(&mut self, kind: WaitKind) -> &mut LaneQueue {
         &mut self.queues[kind as usize]
     }
 }
 
 /// A queue of lanes: a ring with room for all of them.
-pub(super) struct Queue {
+pub(super) struct LaneQueue {
     lanes: [Lane; GROUPS * WIDTH],
     first: usize,
     pub count: usize,
 }
 
-impl Queue {
+impl LaneQueue {
     pub const EMPTY: Self =
         Self { lanes: [Lane(0); GROUPS * WIDTH], first: 0, count: 0 };
 

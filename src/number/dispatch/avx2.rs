@@ -12,7 +12,7 @@ use crate::number::{Number, sin_cos_polynomials};
 /// Made only in work that runs at the level [`avx2`](super::avx2_wide):
 /// nothing outside `super` can name it. The lower four lanes come first.
 #[derive(Clone, Copy)]
-pub(super) struct Pair(__m256d, __m256d);
+pub(super) struct RegisterPair(__m256d, __m256d);
 
 /// All bits of a lane are set where it is true, none where it is false.
 #[derive(Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct PairMask(__m256d, __m256d);
 /// Instructions of the level.
 macro_rules! level {
     ($call:expr) => {
-        // SAFETY: `Pair` exists only where the level was found.
+        // SAFETY: `RegisterPair` exists only where the level was found.
         unsafe { $call }
     };
 }
@@ -44,12 +44,12 @@ macro_rules! both {
 
 macro_rules! operators {
     ($($operation:ident $method:ident $instruction:ident;)*) => {$(
-        impl $operation for Pair {
+        impl $operation for RegisterPair {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                both!(Pair, |x, y| $instruction(x, y), self, other)
+                both!(RegisterPair, |x, y| $instruction(x, y), self, other)
             }
         }
     )*};
@@ -62,18 +62,18 @@ operators! {
     Div div _mm256_div_pd;
 }
 
-impl Neg for Pair {
+impl Neg for RegisterPair {
     type Output = Self;
 
     #[inline(always)]
     fn neg(self) -> Self {
-        both!(Pair, |x| _mm256_xor_pd(x, _mm256_set1_pd(-0.0)), self)
+        both!(RegisterPair, |x| _mm256_xor_pd(x, _mm256_set1_pd(-0.0)), self)
     }
 }
 
-impl crate::number::sealed::Sealed for Pair {}
+impl crate::number::sealed::Sealed for RegisterPair {}
 
-impl Number for Pair {
+impl Number for RegisterPair {
     const WRITTEN_OUT: bool = true;
 
     #[inline(always)]
@@ -101,7 +101,7 @@ impl Number for Pair {
     }
 }
 
-impl Simd for Pair {
+impl Simd for RegisterPair {
     type Mask = PairMask;
 
     #[inline(always)]
@@ -150,22 +150,26 @@ impl Simd for Pair {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        both!(Pair, |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x), self)
+        both!(
+            RegisterPair,
+            |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x),
+            self
+        )
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_max_pd(x, y), self, other)
+        both!(RegisterPair, |x, y| _mm256_max_pd(x, y), self, other)
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_min_pd(x, y), self, other)
+        both!(RegisterPair, |x, y| _mm256_min_pd(x, y), self, other)
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        both!(Pair, |x| _mm256_sqrt_pd(x), self)
+        both!(RegisterPair, |x| _mm256_sqrt_pd(x), self)
     }
 
     #[inline(always)]
@@ -175,8 +179,10 @@ impl Simd for Pair {
 
     #[inline(always)]
     fn unlike(self, other: Self, third: Self) -> PairMask {
-        let pair = both!(Pair, |x, y| _mm256_xor_pd(x, y), self, other);
-        let signs = both!(Pair, |x, y| _mm256_or_pd(x, y), pair, third);
+        let pair =
+            both!(RegisterPair, |x, y| _mm256_xor_pd(x, y), self, other);
+        let signs =
+            both!(RegisterPair, |x, y| _mm256_or_pd(x, y), pair, third);
         both!(
             PairMask,
             |x| {
@@ -199,7 +205,7 @@ impl Simd for Pair {
     }
 }
 
-impl Mask<Pair> for PairMask {
+impl Mask<RegisterPair> for PairMask {
     #[inline(always)]
     fn of(bits: u8) -> Self {
         level!({
@@ -243,8 +249,8 @@ impl Mask<Pair> for PairMask {
     }
 
     #[inline(always)]
-    fn select(self, yes: Pair, no: Pair) -> Pair {
-        level!(Pair(
+    fn select(self, yes: RegisterPair, no: RegisterPair) -> RegisterPair {
+        level!(RegisterPair(
             _mm256_blendv_pd(no.0, yes.0, self.0),
             _mm256_blendv_pd(no.1, yes.1, self.1),
         ))

@@ -1,4 +1,4 @@
-//! The command line: one file a command, each of which is an [`Entry`].
+//! The command line: one file a command, each of which is an [`CommandEntry`].
 
 use std::process::ExitCode;
 
@@ -44,25 +44,30 @@ mod validate;
 pub mod way;
 
 /// The work of a command with the flags that were parsed.
-type Work = dyn Fn(&ArgMatches) -> Result<(), Failure>;
+type CommandWork = dyn Fn(&ArgMatches) -> Result<(), Failure>;
 
 /// A command: what it is for, its name, its flags, and its work.
-struct Entry {
+struct CommandEntry {
     group: &'static str,
     name: &'static str,
     with_flags: fn(Command) -> Command,
-    run: Box<Work>,
+    run: Box<CommandWork>,
 }
 
 fn entry<C: Args + 'static>(
     group: &'static str,
     name: &'static str,
     run: fn(&C) -> Result<(), Failure>,
-) -> Entry {
+) -> CommandEntry {
     let run = move |matches: &ArgMatches| {
         run(&C::from_arg_matches(matches).unwrap_or_else(|e| e.exit()))
     };
-    Entry { group, name, with_flags: C::augment_args, run: Box::new(run) }
+    CommandEntry {
+        group,
+        name,
+        with_flags: C::augment_args,
+        run: Box::new(run),
+    }
 }
 
 const ANALYSE: &str = "Analyse";
@@ -71,7 +76,7 @@ const PROVE: &str = "Prove";
 const DEVELOP: &str = "Develop";
 
 /// The commands, as `rocking --help` lists them.
-fn entries() -> Vec<Entry> {
+fn entries() -> Vec<CommandEntry> {
     vec![
         entry(ANALYSE, "respond", respond::run_respond),
         entry(ANALYSE, "ida", ida::run_ida),
@@ -140,10 +145,10 @@ fn on_a_screen(mut command: Command) -> Command {
         .mut_subcommands(on_a_screen)
 }
 
-/// The same command, whose help lists the subcommands by [`Entry::group`].
+/// The same command, whose help lists the subcommands by [`CommandEntry::group`].
 fn grouped(command: Command) -> Command {
     let (mut list, mut before) = (String::new(), "");
-    for Entry { group, name, .. } in entries() {
+    for CommandEntry { group, name, .. } in entries() {
         if group != before {
             let gap = if before.is_empty() { "" } else { "\n" };
             list += &format!("{gap}{group}:\n");

@@ -57,7 +57,7 @@ macro_rules! ensure {
 pub(crate) use {bail, ensure};
 
 /// Names the file or the flag of a refusal.
-pub trait At<T> {
+pub trait AtPlace<T> {
     /// Puts the file or the flag before the message.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ pub trait At<T> {
     fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
 }
 
-impl<T, E: Into<Failure>> At<T> for Result<T, E> {
+impl<T, E: Into<Failure>> AtPlace<T> for Result<T, E> {
     fn at(self, place: impl std::fmt::Display) -> Result<T, Failure> {
         self.map_err(|error| {
             let Failure { message, status } = error.into();

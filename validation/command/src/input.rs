@@ -8,7 +8,7 @@ use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
 use rocking_records::intensity::Intensity;
 
-use crate::failure::{At as _, Failure};
+use crate::failure::{AtPlace as _, Failure};
 use crate::terminal::note;
 
 fn opened(path: &Path) -> io::Result<Box<dyn Read>> {

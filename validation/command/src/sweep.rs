@@ -14,7 +14,7 @@ mod tile;
 
 pub use content::Content;
 pub use merge::merge;
-pub use plan::{Given, Levels, Plan, Planned, Wanted};
+pub use plan::{LevelSteps, SweepBlock, SweepFolder, SweepPlan, SweepRequest};
 pub use tile::{left, run};
 
 #[cfg(test)]

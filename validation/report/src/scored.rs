@@ -7,8 +7,8 @@ use rocking_draw::figures::of_result::{codes_chart, score_svg};
 use rocking_draw::figures::{Chart, Figure, Heading, Place};
 use rocking_draw::page::head;
 use rocking_score::{
-    Code, Explanation, Score, Value, Verdict, codes, own_answers, reference,
-    score,
+    Code, CodeVerdict, Explanation, Score, Value, codes, own_answers,
+    reference, score,
 };
 
 /// The page of a score: one file, without scripts and network.
@@ -189,18 +189,18 @@ fn diagnosis(score: &Score) -> Markup {
     let scatter = found.scatter.map_or(String::new(), |s| format!("{s:.0e}"));
     html! {
         @match found.verdict {
-            Verdict::None => p {
+            CodeVerdict::None => p {
                 "None of the known mistakes: the answers agree with the \
                  certified values within a relative scatter of " (scatter)
                 " at a condition of 1."
             }
-            Verdict::Unknown => p {
+            CodeVerdict::Unknown => p {
                 "Something that is not among the known mistakes: no one of \
                  them, and no two that were tried together, explain the \
                  answers."
             }
-            Verdict::TooFew => p { "Too few answers for a verdict." }
-            Verdict::Known => {
+            CodeVerdict::TooFew => p { "Too few answers for a verdict." }
+            CodeVerdict::Known => {
                 @if found.explanations.len() > 1 {
                     p {
                         "The answers given cannot tell these explanations \

@@ -5,7 +5,9 @@
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
-use rocking::integrator::{Arithmetic, Certified, Certify, Scene, certify};
+use rocking::integrator::{
+    Arithmetic, CertifiedFate, Certify, Scene, certify,
+};
 use rocking_common::findings::Reevaluated;
 
 /// What is known of outcomes and peaks.
@@ -22,7 +24,7 @@ pub struct Certainty {
     pub largest_shift: f64,
 }
 
-fn count(out: &mut Reevaluated, fate: &Certified) {
+fn count(out: &mut Reevaluated, fate: &CertifiedFate) {
     out.all += 1;
     out.wrong_in_double += usize::from(fate.wrong_in_double());
     let by = match fate.by {
@@ -55,7 +57,7 @@ pub fn certainty(
             .flat_map(|(r, curve)| ends(curve).map(move |p| (r, p)))
             .filter(|(_, point)| is_open(point))
             .collect();
-        let fates: Vec<Certified> = open
+        let fates: Vec<CertifiedFate> = open
             .par_iter()
             .map(|(r, point)| again(analysis, &records[*r], point))
             .collect::<anyhow::Result<_>>()?;
@@ -95,7 +97,7 @@ fn again(
     analysis: &Analysis,
     record: &NormalisedRecord,
     point: &IdaPoint,
-) -> anyhow::Result<Certified> {
+) -> anyhow::Result<CertifiedFate> {
     let block = rocking::block::Block::try_new(
         point.slenderness_rad,
         analysis.block.frequency_rad_s(),

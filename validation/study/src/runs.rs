@@ -6,7 +6,7 @@ use indicatif::ProgressBar;
 use rocking::block::{Block, Restitution};
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
+use rocking::ida::{self, Adjust, Analysis, BracketEnd, Grid};
 use rocking::integrator::{
     Model, Observe, Overturning, Scene, respond, uplift_threshold,
 };

@@ -8,9 +8,9 @@ use rocking::accelerogram::Accelerogram;
 use rocking::excitation::{
     NormalisedRecord, Pulse, PulseName, PulseParameter, ScaledRecord,
 };
-use rocking::ida::{self, Analysis, Grid, Overturned};
+use rocking::ida::{self, Analysis, BracketEnd, Grid};
 use rocking::integrator::{
-    Certified, Certify, Model, Response, Solver, certify, uplift_threshold,
+    CertifiedFate, Certify, Model, Response, Solver, certify, uplift_threshold,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking::{Block, Excitation, Observe, Restitution, respond};
@@ -20,18 +20,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::bits::Bits;
 
-type Answer<T> = Result<T, Box<dyn Error>>;
+type LabAnswer<T> = Result<T, Box<dyn Error>>;
 
 /// A block by its two parameters, or by its lengths.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(untagged, deny_unknown_fields)]
-pub enum Shape {
+pub enum LabBlock {
     Parameters { alpha_rad: f64, p_rad_s: f64 },
     Lengths { width_m: f64, height_m: f64 },
 }
 
-impl Shape {
-    fn block(&self) -> Answer<Block> {
+impl LabBlock {
+    fn block(&self) -> LabAnswer<Block> {
         Ok(match *self {
             Self::Parameters { alpha_rad, p_rad_s } => {
                 Block::try_new(alpha_rad, p_rad_s)?
@@ -48,7 +48,7 @@ impl Shape {
 /// What moves the ground, before it is scaled.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
-pub enum Ground {
+pub enum LabGround {
     Record {
         dt_s: f64,
         samples_g: Vec<f64>,
@@ -63,7 +63,7 @@ pub enum Ground {
 /// A record file as a page reads it, and what the caller knows of it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct File {
+pub struct LabFile {
     name: String,
     text: String,
     dt_s: Option<f64>,
@@ -72,14 +72,14 @@ pub struct File {
 
 /// A component of a record.
 #[derive(Serialize)]
-pub struct Component {
+pub struct LabComponent {
     name: String,
     dt_s: f64,
     pga_g: f64,
     samples_g: Vec<f64>,
 }
 
-impl Component {
+impl LabComponent {
     fn of(motion: &Accelerogram) -> Self {
         Self {
             name: motion.name().to_owned(),
@@ -91,7 +91,7 @@ impl Component {
 }
 
 /// The components of a file, by the readers of the core.
-pub fn read(file: &File) -> Answer<Vec<Component>> {
+pub fn read(file: &LabFile) -> LabAnswer<Vec<LabComponent>> {
     let unit = file.unit.as_deref().map(|unit| {
         AccelerationUnit::parse(unit).ok_or_else(|| format!("unit {unit}"))
     });
@@ -99,27 +99,27 @@ pub fn read(file: &File) -> Answer<Vec<Component>> {
     let options =
         ReadOptions { dt_s: file.dt_s, unit, ..ReadOptions::default() };
     let records = read_all(&file.name, file.text.as_bytes(), &options)?;
-    Ok(records.iter().map(|r| Component::of(&r.accelerogram)).collect())
+    Ok(records.iter().map(|r| LabComponent::of(&r.accelerogram)).collect())
 }
 
 /// A block, its ground, and how strongly it moves.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Scene {
-    block: Shape,
+pub struct LabScene {
+    block: LabBlock,
     eta: f64,
-    ground: Ground,
+    ground: LabGround,
     /// PGA/(g tan alpha); none leaves a record as it is.
     intensity: Option<f64>,
 }
 
-enum Motion {
+enum LabMotion {
     Pulse(Pulse),
     Record(NormalisedRecord),
 }
 
-impl Motion {
-    fn record(&self) -> Answer<&NormalisedRecord> {
+impl LabMotion {
+    fn record(&self) -> LabAnswer<&NormalisedRecord> {
         match self {
             Self::Record(record) => Ok(record),
             Self::Pulse(_) => Err("an IDA needs a record".into()),
@@ -128,18 +128,21 @@ impl Motion {
 }
 
 /// The embedded pulse-type motions, first components: those of the study.
-pub fn motions() -> Answer<Vec<Component>> {
+pub fn motions() -> LabAnswer<Vec<LabComponent>> {
     let pairs = rocking_synthesis::pulse()?;
-    Ok(pairs.iter().map(|pair| Component::of(&pair.components[0])).collect())
+    Ok(pairs
+        .iter()
+        .map(|pair| LabComponent::of(&pair.components[0]))
+        .collect())
 }
 
-impl Ground {
-    fn motion(&self) -> Answer<Motion> {
+impl LabGround {
+    fn motion(&self) -> LabAnswer<LabMotion> {
         let (kind, numbers) = match self {
             Self::Record { dt_s, samples_g } => {
                 let samples_g = samples_g.clone();
                 let own = Accelerogram::try_new("ground", *dt_s, samples_g)?;
-                return Ok(Motion::Record(NormalisedRecord::new(&own)));
+                return Ok(LabMotion::Record(NormalisedRecord::new(&own)));
             }
             Self::Pulse { kind, numbers } => (kind, numbers),
         };
@@ -156,13 +159,13 @@ impl Ground {
                 value.ok_or_else(|| format!("{name} needs {key}"))
             }
         })?;
-        Ok(Motion::Pulse(Pulse::try_new(pulse)?))
+        Ok(LabMotion::Pulse(Pulse::try_new(pulse)?))
     }
 }
 
 /// A response and how sure it is.
 #[derive(Serialize)]
-pub struct Responded {
+pub struct LabResponse {
     alpha_rad: f64,
     p_rad_s: f64,
     width_m: f64,
@@ -170,7 +173,7 @@ pub struct Responded {
     pga_g: f64,
     bits: String,
     response: Response,
-    certified: Certified,
+    certified: CertifiedFate,
     interval_s: f64,
     /// Rotation over alpha, and acceleration of the ground over g, at each
     /// interval.
@@ -180,7 +183,7 @@ pub struct Responded {
 
 /// An IDA curve.
 #[derive(Serialize)]
-pub struct Curve {
+pub struct LabCurve {
     /// Intensity and demand (peak |theta|/alpha) of each standing analysis.
     points: Vec<[f64; 2]>,
     /// Intensity of the first overturning, bisected.
@@ -191,32 +194,32 @@ pub struct Curve {
 
 /// Fates: a row of outcomes for each frequency parameter.
 #[derive(Serialize)]
-pub struct Fates {
+pub struct FateGrid {
     rows: Vec<Vec<&'static str>>,
     peaks: Vec<Vec<f64>>,
     bits: String,
 }
 
-impl Scene {
+impl LabScene {
     /// Runs `work` on the scene of a block at an intensity.
     fn at<T>(
         &self,
         block: Block,
-        motion: &Motion,
+        motion: &LabMotion,
         intensity: Option<f64>,
-        work: impl FnOnce(&rocking::Scene<'_>, f64) -> Answer<T>,
-    ) -> Answer<T> {
+        work: impl FnOnce(&rocking::Scene<'_>, f64) -> LabAnswer<T>,
+    ) -> LabAnswer<T> {
         let restitution = Restitution::constant(self.eta)?;
         let onset_g = uplift_threshold(&block, Model::Nonlinear);
         let pga_g = intensity.map(|intensity| intensity * onset_g);
         let pulse;
         let (excitation, pga_g) = match motion {
-            Motion::Pulse(unit) => {
+            LabMotion::Pulse(unit) => {
                 let pga_g = pga_g.ok_or("a pulse needs an intensity")?;
                 pulse = unit.with_pga(pga_g)?;
                 (Excitation::Pulse(&pulse), pga_g)
             }
-            Motion::Record(record) => {
+            LabMotion::Record(record) => {
                 let pga_g = pga_g.unwrap_or(record.pga_g());
                 let scaled = ScaledRecord::to_pga(record, pga_g);
                 (Excitation::Record(scaled), pga_g)
@@ -227,14 +230,14 @@ impl Scene {
     }
 
     /// The response of the block, its fate in the precision that it needs.
-    pub fn response(&self) -> Answer<Responded> {
+    pub fn response(&self) -> LabAnswer<LabResponse> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
         let lengths = block.dimensions(STANDARD_GRAVITY_M_S2)?;
         self.at(block, &motion, self.intensity, |scene, pga_g| {
             let interval_s = match &motion {
-                Motion::Record(record) => record.dt_s(),
-                Motion::Pulse(_) => 0.01,
+                LabMotion::Record(record) => record.dt_s(),
+                LabMotion::Pulse(_) => 0.01,
             };
             let observe = Observe {
                 events: true,
@@ -255,14 +258,14 @@ impl Scene {
                 .hex();
             let ground_g = history.iter().enumerate();
             let ground_g = ground_g.map(|(k, point)| match &motion {
-                Motion::Record(record) => {
+                LabMotion::Record(record) => {
                     record.samples().get(k).map_or(0.0, |a| a * pga_g)
                 }
-                Motion::Pulse(pulse) => {
+                LabMotion::Pulse(pulse) => {
                     pulse.acceleration_g(point.time_s) * pga_g
                 }
             });
-            Ok(Responded {
+            Ok(LabResponse {
                 alpha_rad: block.slenderness_rad(),
                 p_rad_s: block.frequency_rad_s(),
                 width_m: lengths.width_m,
@@ -280,7 +283,7 @@ impl Scene {
 
     /// The IDA of the record: levels of a tenth of the uplift threshold, the
     /// first overturning bisected.
-    pub fn ida(&self) -> Answer<Curve> {
+    pub fn ida(&self) -> LabAnswer<LabCurve> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
         let restitution = Restitution::constant(self.eta)?;
@@ -290,7 +293,7 @@ impl Scene {
             ..Analysis::paper(block, restitution)
         };
         let curve = ida::curve(motion.record()?, &analysis)?;
-        let standing = curve.response(Overturned::Refined)?;
+        let standing = curve.response(BracketEnd::Refined)?;
         let points: Vec<[f64; 2]> =
             standing.vertices().map(|(im, edp)| [im, edp]).collect();
         let overturning = standing.overturning_im();
@@ -298,7 +301,7 @@ impl Scene {
             .add("points", points.as_flattened())
             .add("overturning", &[overturning.unwrap_or(f64::INFINITY)])
             .hex();
-        Ok(Curve { points, overturning, analyses: curve.analyses, bits })
+        Ok(LabCurve { points, overturning, analyses: curve.analyses, bits })
     }
 
     /// What becomes of blocks of the same slenderness and other sizes, at
@@ -307,7 +310,7 @@ impl Scene {
         &self,
         intensities: &[f64],
         p_rad_s: &[f64],
-    ) -> Answer<Fates> {
+    ) -> LabAnswer<FateGrid> {
         let alpha_rad = self.block.block()?.slenderness_rad();
         let motion = self.ground.motion()?;
         let solver = Solver { peak_only: true, ..Solver::default() };
@@ -329,22 +332,22 @@ impl Scene {
             rows.push(fates);
             peaks.push(row);
         }
-        Ok(Fates { rows, peaks, bits: bits.hex() })
+        Ok(FateGrid { rows, peaks, bits: bits.hex() })
     }
 }
 
 /// The surrogate's answer, and the probability at the intensity.
 #[derive(Serialize)]
-pub struct Overturning {
+pub struct LabFragility {
     /// Suite and probability.
     probability: Vec<(&'static str, f64)>,
     fragility: SurfaceFragility,
 }
 
 /// Overturning fragilities of the block by the surrogate.
-pub fn fragility(shape: &Shape, intensity: f64) -> Answer<Overturning> {
+pub fn fragility(shape: &LabBlock, intensity: f64) -> LabAnswer<LabFragility> {
     let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
     let own = fragility.suites.iter();
     let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));
-    Ok(Overturning { probability: own.collect(), fragility })
+    Ok(LabFragility { probability: own.collect(), fragility })
 }

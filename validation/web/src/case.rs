@@ -11,14 +11,14 @@ use crate::bits::Bits;
 
 /// A declared case, before it is run.
 #[derive(Serialize)]
-pub struct Listed {
+pub struct CaseSummary {
     id: String,
     claim: String,
 }
 
 /// A case that was run.
 #[derive(Serialize)]
-pub struct Found {
+pub struct CaseRun {
     holds: bool,
     bits: String,
     /// Name and first value of the first quantity.
@@ -28,18 +28,18 @@ pub struct Found {
 
 /// The cases that a page runs: those of every `cargo test` whose method does
 /// not take long.
-pub fn list() -> Result<Vec<Listed>, Box<dyn Error>> {
+pub fn list() -> Result<Vec<CaseSummary>, Box<dyn Error>> {
     let quick = |case: &Case| {
         let of_page = page_methods().any(|(name, _)| *name == case.method);
         case.cost == Cost::Quick && of_page
     };
     let quick = load_all()?.into_iter().filter(quick);
-    let listed = |case: Case| Listed { id: case.id, claim: case.claim };
+    let listed = |case: Case| CaseSummary { id: case.id, claim: case.claim };
     Ok(quick.map(listed).collect())
 }
 
 /// Runs one case, without its wrong models.
-pub fn run(id: &str) -> Result<Found, Box<dyn Error>> {
+pub fn run(id: &str) -> Result<CaseRun, Box<dyn Error>> {
     let cases = load_all()?;
     let case = cases.iter().find(|case| case.id == id);
     let case = case.ok_or_else(|| format!("no case {id}"))?;
@@ -50,7 +50,7 @@ pub fn run(id: &str) -> Result<Found, Box<dyn Error>> {
     let holds = checks.iter().all(|check| check.holds());
     let first = checks.into_iter().next();
     let first = first.ok_or_else(|| format!("{id} gives nothing"))?;
-    Ok(Found {
+    Ok(CaseRun {
         holds,
         bits: bits.hex(),
         first: first

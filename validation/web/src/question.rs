@@ -9,7 +9,7 @@ use crate::case;
 /// What a page can ask.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
-enum Question {
+enum LabQuestion {
     /// Which declared cases there are.
     Cases,
     /// Run one declared case.
@@ -20,15 +20,15 @@ enum Question {
     /// The embedded motions.
     Motions,
     /// Read a record file.
-    Read(block::File),
+    Read(block::LabFile),
     /// What a block does under a ground motion.
-    Response(block::Scene),
+    Response(block::LabScene),
     /// The IDA of the block under that motion.
-    Ida(block::Scene),
+    Ida(block::LabScene),
     /// Fates around the chosen point.
     Fates {
         /// The point in the middle.
-        scene: block::Scene,
+        scene: block::LabScene,
         /// Intensities, PGA/(g tan alpha).
         intensities: Vec<f64>,
         /// Frequency parameters, rad/s.
@@ -37,7 +37,7 @@ enum Question {
     /// Probability of overturning by the surrogate.
     Fragility {
         /// The block.
-        block: block::Shape,
+        block: block::LabBlock,
         /// PGA/(g tan alpha).
         intensity: f64,
     },
@@ -59,18 +59,18 @@ pub fn answered(question: &[u8]) -> Vec<u8> {
     answer(&String::from_utf8_lossy(question)).into_bytes()
 }
 
-fn found(question: Question) -> Result<Value, String> {
+fn found(question: LabQuestion) -> Result<Value, String> {
     match question {
-        Question::Cases => value(case::list()),
-        Question::Case { id } => value(case::run(&id)),
-        Question::Motions => value(block::motions()),
-        Question::Read(file) => value(block::read(&file)),
-        Question::Response(scene) => value(scene.response()),
-        Question::Ida(scene) => value(scene.ida()),
-        Question::Fates { scene, intensities, p_rad_s } => {
+        LabQuestion::Cases => value(case::list()),
+        LabQuestion::Case { id } => value(case::run(&id)),
+        LabQuestion::Motions => value(block::motions()),
+        LabQuestion::Read(file) => value(block::read(&file)),
+        LabQuestion::Response(scene) => value(scene.response()),
+        LabQuestion::Ida(scene) => value(scene.ida()),
+        LabQuestion::Fates { scene, intensities, p_rad_s } => {
             value(scene.fates(&intensities, &p_rad_s))
         }
-        Question::Fragility { block, intensity } => {
+        LabQuestion::Fragility { block, intensity } => {
             value(block::fragility(&block, intensity))
         }
     }

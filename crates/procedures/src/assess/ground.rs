@@ -17,7 +17,7 @@ use rocking::block::Restitution;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Analysis, Batch, IdaCurve, IdaError, Overturned, REFINEMENT,
+    Analysis, Batch, BracketEnd, IdaCurve, IdaError, REFINEMENT,
     ResolutionCounts, Resurrections, curves,
 };
 use rocking::integrator::uplift_threshold;
@@ -516,7 +516,7 @@ impl<'a> Ground<'a> {
 }
 
 fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {
-    curves.iter().map(|curve| curve.response(Overturned::Refined)).collect()
+    curves.iter().map(|curve| curve.response(BracketEnd::Refined)).collect()
 }
 
 /// How many of the records overturn the object at each level of the grid up

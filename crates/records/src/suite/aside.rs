@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::codes::coded;
 use crate::error::{Fault, RecordError};
-use rocking::accelerogram::Escaped;
+use rocking::accelerogram::EscapedName;
 
 coded! {
     /// Why something in a folder or an archive is no record of the suite, and no
@@ -215,7 +215,7 @@ impl fmt::Display for SetAside {
         for (i, count) in self.counts().into_iter().enumerate() {
             let AsideCount { reason, files, first } = count;
             let comma = if i == 0 { "" } else { ", " };
-            let (words, first) = (reason.words(files), Escaped(first));
+            let (words, first) = (reason.words(files), EscapedName(first));
             write!(f, "{comma}{files} {words} (first: {first})")?;
         }
         Ok(())

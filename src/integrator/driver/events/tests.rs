@@ -2,12 +2,12 @@ use super::{Event, is_clear_of_base};
 use crate::block::{Block, Restitution};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::forcing::{Ground, Place};
-use crate::integrator::taylor::Series;
+use crate::integrator::forcing::{GroundForcing, PiecePlace};
+use crate::integrator::taylor::TaylorSeries;
 use crate::number::dispatch::Isa;
 
 /// A block that overturns at 0.5.
-fn driver() -> Driver<f64, Ground<'static, f64>, 1, 4> {
+fn driver() -> Driver<f64, GroundForcing<'static, f64>, 1, 4> {
     let block = Block::try_new(0.5, 1.0).unwrap();
     let restitution = Restitution::constant(0.9).unwrap();
     let dynamics = Dynamics::new(
@@ -16,7 +16,7 @@ fn driver() -> Driver<f64, Ground<'static, f64>, 1, 4> {
         Model::Linearized,
         Overturning::Alpha,
     );
-    Driver::new(dynamics, Ground::nothing(), Isa::best())
+    Driver::new(dynamics, GroundForcing::nothing(), Isa::best())
 }
 
 /// First event in a step, and after which part of it.
@@ -70,8 +70,8 @@ fn turning_points_count_where_they_raise_the_peak() {
     let counted = |v: [f64; 4], peak: f64| {
         let mut driver = driver();
         driver.record.peak = peak;
-        let place = Place { piece: 0, offset: 0.0 };
-        driver.turning_points(&Series { c, v }, 1.0, (place, 1.0));
+        let place = PiecePlace { piece: 0, offset: 0.0 };
+        driver.turning_points(&TaylorSeries { c, v }, 1.0, (place, 1.0));
         (driver.record.work.turning_points, driver.record.peak)
     };
     assert_eq!(counted(v, 0.5), (0, 0.5));

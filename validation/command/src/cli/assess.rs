@@ -12,7 +12,7 @@ use rocking_procedures::fragility::hazard::Hazard;
 use rocking_procedures::{AssessOptions, Assessment, Object, assess};
 use rocking_records::floor::Floor;
 
-use super::blocks::{self, Row};
+use super::blocks::{self, BlockRow};
 use super::floors;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
@@ -143,11 +143,11 @@ impl AssessCommand {
             None => {
                 let block = self.block.block(gravity_m_s2)?;
                 let id: Id = "object".parse().map_err(Failure::input)?;
-                vec![Row::of(id, block)]
+                vec![BlockRow::of(id, block)]
             }
         };
         let floors = floors::of_rows(self.floors.as_deref(), &rows)?;
-        let object = |(row, floor): (Row, Option<Floor>)| {
+        let object = |(row, floor): (BlockRow, Option<Floor>)| {
             ensure!(
                 row.samples.is_empty(),
                 "{}: a column sample: expected none, capacities are \

@@ -9,7 +9,7 @@ use rocking_exchange::Id;
 use rocking_exchange::read::{no_csv, reader};
 use serde::Deserialize;
 
-use crate::failure::{At as _, Failure, bail, ensure};
+use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
 
 /// The columns that a table of blocks has.
@@ -20,7 +20,7 @@ const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
 /// The cells of a row; an empty one is none.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Cells {
+struct BlockCells {
     id: Option<Id>,
     alpha: Option<f64>,
     p: Option<f64>,
@@ -35,7 +35,7 @@ struct Cells {
 
 /// A row of the table.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct BlockRow {
     /// File and line.
     pub place: String,
     /// The name, made of alpha and p where none is given.
@@ -54,7 +54,7 @@ pub struct Row {
     pub floor: Option<Id>,
 }
 
-impl Row {
+impl BlockRow {
     /// A block that no table holds.
     #[must_use]
     pub fn of(id: Id, block: Block) -> Self {
@@ -72,7 +72,7 @@ impl Row {
 /// # Errors
 /// [`Failure`] with the line for another column, a cell of another form, a
 /// block out of range, a name that comes again, and no row at all.
-pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
+pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<BlockRow>, Failure> {
     parse(input::open(path)?, path, gravity_m_s2)
 }
 
@@ -84,19 +84,19 @@ pub fn parse(
     from: impl Read,
     path: &Path,
     gravity_m_s2: f64,
-) -> Result<Vec<Row>, Failure> {
+) -> Result<Vec<BlockRow>, Failure> {
     let place = path.display();
     let mut reader = reader(from, csv::Trim::All, None);
     let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<BlockRow> = Vec::new();
     let mut ids = BTreeMap::new();
     for record in reader.records() {
         let record = record.map_err(|e| no_csv(path, e))?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let cells: Cells = record
+        let cells: BlockCells = record
             .deserialize(Some(&header))
             .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
         let block = match (cells.alpha, cells.p, cells.width_m, cells.height_m)
@@ -120,14 +120,14 @@ pub fn parse(
         let samples = cells.sample.map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
         });
-        let Cells { eta, friction, limit_ratio, floor, .. } = cells;
+        let BlockCells { eta, friction, limit_ratio, floor, .. } = cells;
         let mu = friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
         if let Some(mu) = mu {
             return Err(at(format!(
                 "friction {mu}: expected a positive number"
             )));
         }
-        rows.push(Row {
+        rows.push(BlockRow {
             place,
             id,
             block,
@@ -146,7 +146,10 @@ pub fn parse(
 ///
 /// # Errors
 /// [`Failure`] for a table that [`read`] refuses, and a row with a floor.
-pub fn on_ground(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
+pub fn on_ground(
+    path: &Path,
+    gravity_m_s2: f64,
+) -> Result<Vec<BlockRow>, Failure> {
     let rows = read(path, gravity_m_s2)?;
     if let Some(row) = rows.iter().find(|row| row.floor.is_some()) {
         bail!(

@@ -62,7 +62,7 @@ pub struct CapacitiesCommand {
         default_value = "0.005:1:0.005",
         allow_hyphen_values = true
     )]
-    levels: Levels,
+    levels: EdpLevels,
     /// Which single capacity is made of several crossings, for the quantiles
     /// over the records of --ida [default: median].
     #[arg(long, value_parser = names::crossing(), conflicts_with = "curve")]
@@ -107,9 +107,9 @@ impl FromStr for Vertices {
 
 /// EDP levels.
 #[derive(Clone, Debug)]
-pub(super) struct Levels(pub(super) Vec<f64>);
+pub(super) struct EdpLevels(pub(super) Vec<f64>);
 
-impl FromStr for Levels {
+impl FromStr for EdpLevels {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -166,19 +166,19 @@ fn by_hand(
     curve: &ResponseCurve,
 ) -> Result<(), Failure> {
     let levels = crossings(curve, &args.levels.0, |im| im)?;
-    args.json.show(&Crossed { im_r: curve.onset_im(), levels })
+    args.json.show(&CurveCrossings { im_r: curve.onset_im(), levels })
 }
 
 /// Crossings of one curve.
 #[derive(Serialize)]
-struct Crossed {
+struct CurveCrossings {
     im_r: f64,
     levels: Vec<LevelCrossings>,
 }
 
 /// Capacities of a suite.
 #[derive(Serialize)]
-struct Shown {
+struct CapacitiesSummary {
     im: String,
     im_r: f64,
     n: usize,
@@ -190,12 +190,12 @@ struct Shown {
     levels: Vec<LevelCapacities>,
     /// Each record alone: in JSON, since its crossings are many.
     #[serde(skip_serializing_if = "Option::is_none")]
-    records: Option<Vec<Record>>,
+    records: Option<Vec<RecordCrossings>>,
 }
 
 /// Crossings of one record.
 #[derive(Serialize)]
-struct Record {
+struct RecordCrossings {
     record: String,
     onset_im: f64,
     overturning_im: Option<f64>,
@@ -217,7 +217,7 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
     }
     let measured = |im: f64| suite.measured(im);
     let record = |(record, curve): &(String, ResponseCurve)| {
-        Ok::<_, Failure>(Record {
+        Ok::<_, Failure>(RecordCrossings {
             record: record.clone(),
             onset_im: measured(curve.onset_im()),
             overturning_im: curve.overturning_im().map(measured),
@@ -229,7 +229,7 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
     let records = records.transpose()?;
     let curves = suite.clone().into_curves();
     let levels = levels(&curves, &args.levels.0, rule, measured)?;
-    let found = Shown {
+    let found = CapacitiesSummary {
         im: measure.words(),
         im_r: measured(suite.im_r),
         n: curves.len(),

@@ -44,7 +44,7 @@ pub struct DiffCommand {
 }
 
 #[derive(Serialize)]
-struct Shown<'a> {
+struct DiffSummary<'a> {
     relevant: usize,
     #[serde(flatten)]
     comparison: &'a Difference,
@@ -65,7 +65,7 @@ pub fn run_diff(args: &DiffCommand) -> Result<(), Failure> {
         (ResultFiles::read(&args.old)?, ResultFiles::read(&args.new)?);
     let comparison = compare(&old, &new)?;
     if args.json.json {
-        args.json.show(&Shown {
+        args.json.show(&DiffSummary {
             relevant: comparison.relevant(),
             comparison: &comparison,
         })?;

@@ -78,7 +78,7 @@ pub struct ExcitationArgs {
 
 /// The excitation, owned.
 #[derive(Clone, Debug)]
-enum Motion {
+enum MotionSource {
     /// A record as given, and a factor on it.
     Factor(Accelerogram, f64),
     /// A record scaled to a peak (g).
@@ -91,8 +91,8 @@ enum Motion {
 
 /// The excitation, and what is said of it.
 #[derive(Clone, Debug)]
-pub struct Ground {
-    motion: Motion,
+pub struct GroundMotion {
+    motion: MotionSource,
     /// Peak ground acceleration, g.
     pub pga_g: f64,
     /// Sampling interval of a record, s.
@@ -115,7 +115,7 @@ impl ExcitationArgs {
         gravity_m_s2: f64,
         threshold: f64,
         p: f64,
-    ) -> Result<Ground, Failure> {
+    ) -> Result<GroundMotion, Failure> {
         self.refuse_unused()?;
         if let Some(scale) = self.scale
             && !scale.is_finite()
@@ -128,8 +128,8 @@ impl ExcitationArgs {
                 ratio > 0.0 && ratio < 1.0,
                 "--initial-ratio {ratio}: expected a number in (0, 1)"
             );
-            let ground = Ground::of(Motion::Free, 0.0);
-            return Ok(Ground { initial_ratio: ratio, ..ground });
+            let ground = GroundMotion::of(MotionSource::Free, 0.0);
+            return Ok(GroundMotion { initial_ratio: ratio, ..ground });
         }
         if let Some(path) = &self.record {
             let options = self.reading.of_one(gravity_m_s2)?;
@@ -147,7 +147,10 @@ impl ExcitationArgs {
                 None => {
                     let factor = self.scale.unwrap_or(1.0);
                     let pga_g = record.pga_g() * factor.abs();
-                    Ground::of(Motion::Factor(record, factor), pga_g)
+                    GroundMotion::of(
+                        MotionSource::Factor(record, factor),
+                        pga_g,
+                    )
                 }
                 Some(_) if !(unit.pga_g() > 0.0) => {
                     bail!(
@@ -155,9 +158,15 @@ impl ExcitationArgs {
                         path.display()
                     );
                 }
-                Some(pga_g) => Ground::of(Motion::Peak(unit, pga_g), pga_g),
+                Some(pga_g) => {
+                    GroundMotion::of(MotionSource::Peak(unit, pga_g), pga_g)
+                }
             };
-            return Ok(Ground { dt_s, remarks: Some(remarks), ..ground });
+            return Ok(GroundMotion {
+                dt_s,
+                remarks: Some(remarks),
+                ..ground
+            });
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
@@ -168,7 +177,7 @@ impl ExcitationArgs {
             (None, None) => pulse,
         };
         let pga_g = pulse.pga_g();
-        Ok(Ground::of(Motion::Pulse(pulse), pga_g))
+        Ok(GroundMotion::of(MotionSource::Pulse(pulse), pga_g))
     }
 
     /// Peak ground acceleration asked for, g.
@@ -288,8 +297,8 @@ impl clap::FromArgMatches for PulseParameters {
     }
 }
 
-impl Ground {
-    fn of(motion: Motion, pga_g: f64) -> Self {
+impl GroundMotion {
+    fn of(motion: MotionSource, pga_g: f64) -> Self {
         let (dt_s, initial_ratio, remarks) = (None, 0.0, None);
         Self { motion, pga_g, dt_s, initial_ratio, remarks }
     }
@@ -298,14 +307,14 @@ impl Ground {
     #[must_use]
     pub fn excitation(&self) -> Excitation<'_> {
         match &self.motion {
-            Motion::Factor(record, factor) => {
+            MotionSource::Factor(record, factor) => {
                 Excitation::Record(ScaledRecord::by_factor(record, *factor))
             }
-            Motion::Peak(unit, pga_g) => {
+            MotionSource::Peak(unit, pga_g) => {
                 Excitation::Record(ScaledRecord::to_pga(unit, *pga_g))
             }
-            Motion::Pulse(pulse) => Excitation::Pulse(pulse),
-            Motion::Free => Excitation::Free,
+            MotionSource::Pulse(pulse) => Excitation::Pulse(pulse),
+            MotionSource::Free => Excitation::Free,
         }
     }
 }

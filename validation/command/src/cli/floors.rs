@@ -9,8 +9,8 @@ use rocking_exchange::read::{no_csv, reader};
 use rocking_records::floor::Floor;
 use serde::Deserialize;
 
-use super::blocks::Row;
-use crate::failure::{At as _, Failure, bail, ensure};
+use super::blocks::BlockRow;
+use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
 
 /// The columns that a table of floors has.
@@ -19,7 +19,7 @@ const EXPECTED: &str = "name, and numbers in the columns period_s, damping \
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Cells {
+struct FloorCells {
     name: Id,
     period_s: f64,
     damping: f64,
@@ -53,10 +53,10 @@ pub fn parse(
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let cells: Cells = record
+        let cells: FloorCells = record
             .deserialize(Some(&header))
             .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
-        let Cells { name, period_s, damping, height_ratio } = cells;
+        let FloorCells { name, period_s, damping, height_ratio } = cells;
         let floor = Floor::try_new(period_s, damping, height_ratio);
         if floors.insert(name.clone(), floor.at(&place)?).is_some() {
             return Err(at(format!(
@@ -76,7 +76,7 @@ pub fn parse(
 /// line for a floor that is in no table.
 pub fn of_rows(
     path: Option<&Path>,
-    rows: &[Row],
+    rows: &[BlockRow],
 ) -> Result<Vec<Option<Floor>>, Failure> {
     let floors = path.map(read).transpose()?.unwrap_or_default();
     if let Some(path) = path
@@ -88,7 +88,7 @@ pub fn of_rows(
             path.display()
         );
     }
-    let floor = |row: &Row| {
+    let floor = |row: &BlockRow| {
         let Some(name) = &row.floor else { return Ok(None) };
         let found = floors.get(name).copied();
         found.map(Some).ok_or_else(|| {

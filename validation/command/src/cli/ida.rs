@@ -10,7 +10,7 @@ use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, Overturned, REFINEMENT,
+    Adjust, Analysis, BracketEnd, Grid, HIGHEST_IM, IdaCurve, REFINEMENT,
     Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit, uplift_threshold};
@@ -89,8 +89,8 @@ pub struct IdaCommand {
     #[arg(long, value_name = "IM", num_args = 0..=1)]
     resurrections_to: Option<Option<f64>>,
     /// Which components of the pairs.
-    #[arg(long, value_enum, default_value_t = Component::Study)]
-    component: Component,
+    #[arg(long, value_enum, default_value_t = ComponentChoice::Study)]
+    component: ComponentChoice,
     /// Tell outcome and peak of each analysis in the precision that they
     /// need: double-double where double precision cannot, octuple precision
     /// beyond; without it such analyses are flagged `unresolved`.
@@ -126,7 +126,7 @@ pub struct IdaCommand {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Component {
+enum ComponentChoice {
     /// The component that the suite marks for the study.
     Study,
     /// The component of each pair whose file name sorts first.
@@ -169,7 +169,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         .iter()
         .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")));
     let is_standard = out.is_standard();
-    let mut work = Work {
+    let mut work = IdaRun {
         args,
         analysis: &analysis,
         processing: words(&processing),
@@ -194,7 +194,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         work.run(&std::mem::take(&mut block))
     })?;
     work.run(&block)?;
-    let Work {
+    let IdaRun {
         out,
         forces_out,
         curves,
@@ -215,7 +215,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     if !as_json {
         summary.curves.clear();
     }
-    let found = Shown {
+    let found = IdaReport {
         suite: suite.name(),
         earthquakes: earthquakes(&clusters(&chosen)),
         study_components: suite.study_rule().to_string(),
@@ -236,7 +236,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
 }
 
 /// A suite that is worked off in blocks of records.
-struct Work<'a> {
+struct IdaRun<'a> {
     args: &'a IdaCommand,
     analysis: &'a Analysis,
     processing: Option<String>,
@@ -252,7 +252,7 @@ struct Work<'a> {
     pivot: Option<PivotForces>,
 }
 
-impl Work<'_> {
+impl IdaRun<'_> {
     /// Runs the next records and writes their rows.
     fn run(&mut self, records: &[NormalisedRecord]) -> Result<(), Failure> {
         let Self { args, analysis, bar, .. } = self;
@@ -294,7 +294,7 @@ impl Work<'_> {
         }
         if let Some(drawn) = &mut self.curves {
             for curve in &table {
-                drawn.push(curve.response(Overturned::Refined)?);
+                drawn.push(curve.response(BracketEnd::Refined)?);
             }
         }
         self.summary.add(&table);
@@ -320,7 +320,7 @@ fn svg(
 
 /// What is shown of a table.
 #[derive(Serialize)]
-struct Shown<'a> {
+struct IdaReport<'a> {
     suite: &'a str,
     /// Of the records; none where the index names none.
     earthquakes: Option<usize>,
@@ -372,14 +372,14 @@ impl IdaCommand {
         suite: &'s Suite<Profile>,
     ) -> Result<Vec<&'s SuiteMember<Profile>>, Failure> {
         let mut chosen: Vec<_> = match self.component {
-            Component::Study => suite.study_components().collect(),
-            Component::Both => suite.members().iter().collect(),
-            Component::First | Component::Second => suite
+            ComponentChoice::Study => suite.study_components().collect(),
+            ComponentChoice::Both => suite.members().iter().collect(),
+            ComponentChoice::First | ComponentChoice::Second => suite
                 .both()
                 .into_iter()
                 .map(|(a, b)| {
                     let in_order = a.file <= b.file;
-                    let first = self.component == Component::First;
+                    let first = self.component == ComponentChoice::First;
                     if in_order == first { a } else { b }
                 })
                 .collect(),

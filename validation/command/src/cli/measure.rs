@@ -39,16 +39,16 @@ pub struct GroundArgs {
 }
 
 /// The unscaled records of a table, in its order.
-pub struct Ground {
+pub struct SuiteMeasures {
     /// Where the attributes come from.
     place: PathBuf,
     periods_s: Vec<f64>,
     uplift: AtUplift,
-    records: Vec<Unscaled>,
+    records: Vec<MeasuredRecord>,
     set_aside: SetAside,
 }
 
-struct Unscaled {
+struct MeasuredRecord {
     name: String,
     measures: Measures,
     attributes: BTreeMap<String, String>,
@@ -76,7 +76,7 @@ impl GroundArgs {
         &self,
         table: &IdaTable,
         measures: &[IntensityMeasure],
-    ) -> Result<Ground, Failure> {
+    ) -> Result<SuiteMeasures, Failure> {
         let Some(path) = &self.suite else {
             let measure =
                 measures.iter().find(|m| m.dimensionless().is_none());
@@ -132,7 +132,7 @@ impl GroundArgs {
             let measures = Measures::of(&member.accelerogram, &settings)?;
             let mut attributes = member.attributes_by_name();
             attributes.extend(own.of(name));
-            Ok(Unscaled { name: name.to_owned(), measures, attributes })
+            Ok(MeasuredRecord { name: name.to_owned(), measures, attributes })
         });
         let records = measured.collect::<Result<Vec<_>, Failure>>()?;
         let place = self.attributes.as_ref().unwrap_or(path).clone();
@@ -142,7 +142,7 @@ impl GroundArgs {
             p_rad_s: setting.p_rad_s,
             gravity_m_s2: gravity,
         };
-        Ok(Ground { place, periods_s, uplift, records, set_aside })
+        Ok(SuiteMeasures { place, periods_s, uplift, records, set_aside })
     }
 }
 
@@ -158,7 +158,7 @@ fn uplift(table: &IdaTable) -> Result<f64, Failure> {
     Ok(uplift_threshold(&block, table.setting.model))
 }
 
-impl Ground {
+impl SuiteMeasures {
     /// What was set aside of the suite.
     #[must_use]
     pub fn into_set_aside(self) -> SetAside {
@@ -168,7 +168,7 @@ impl Ground {
     /// The measures as candidates of a ranking.
     ///
     /// # Errors
-    /// As [`Ground::at_uplift`].
+    /// As [`SuiteMeasures::at_uplift`].
     pub fn candidates(
         &self,
         measures: &[IntensityMeasure],
@@ -192,7 +192,7 @@ impl Ground {
         &self,
         measure: &IntensityMeasure,
     ) -> Result<Vec<f64>, Failure> {
-        let of = |record: &Unscaled| {
+        let of = |record: &MeasuredRecord| {
             let (measures, periods_s) = (&record.measures, &self.periods_s);
             let cell = match measure {
                 IntensityMeasure::Column(name) => self.cell(record, name)?,
@@ -206,12 +206,16 @@ impl Ground {
     /// The positive numbers of a column.
     ///
     /// # Errors
-    /// As [`Ground::at_uplift`].
+    /// As [`SuiteMeasures::at_uplift`].
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Failure> {
         self.records.iter().map(|record| self.cell(record, name)).collect()
     }
 
-    fn cell(&self, record: &Unscaled, column: &str) -> Result<f64, Failure> {
+    fn cell(
+        &self,
+        record: &MeasuredRecord,
+        column: &str,
+    ) -> Result<f64, Failure> {
         let cell = record.attributes.get(column);
         let value = cell.and_then(|cell| cell.trim().parse::<f64>().ok());
         let value = value.filter(|x| *x > 0.0 && x.is_finite());

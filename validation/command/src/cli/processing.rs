@@ -2,7 +2,7 @@
 
 use rocking_records::Processing;
 
-use crate::failure::{At as _, Failure};
+use crate::failure::{AtPlace as _, Failure};
 
 /// What is done to records; nothing unless asked for.
 #[derive(clap::Args, Clone, Copy, Debug)]

@@ -10,7 +10,7 @@ use rocking_records::SetAside;
 use rocking_records::intensity::{Intensity, IntensityMeasure as M};
 use serde::Serialize;
 
-use super::measure::{Ground, GroundArgs};
+use super::measure::{GroundArgs, SuiteMeasures};
 use super::names;
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::Failure;
@@ -80,7 +80,7 @@ pub struct RankCommand {
 }
 
 #[derive(Serialize)]
-struct Shown {
+struct RankSummary {
     edp: f64,
     point: String,
     /// What was set aside of the suite.
@@ -118,12 +118,15 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
         return Ok(());
     }
     let point = args.point.to_string();
-    args.json.show(&Shown { edp: args.at, point, set_aside, ranking })
+    args.json.show(&RankSummary { edp: args.at, point, set_aside, ranking })
 }
 
 impl RankCommand {
     /// The columns on which slopes are asked for.
-    fn covariates(&self, ground: &Ground) -> Result<Vec<Covariate>, Failure> {
+    fn covariates(
+        &self,
+        ground: &SuiteMeasures,
+    ) -> Result<Vec<Covariate>, Failure> {
         let mut all = Vec::new();
         if let Some(column) = &self.magnitude {
             let values = ground.column(column)?;

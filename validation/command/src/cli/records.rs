@@ -14,7 +14,7 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
-use measures::{MeasureArgs, Measured};
+use measures::{MeasureArgs, RecordMeasures};
 use rocking_common::files::Outputs;
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::suites::{clusters, earthquakes, inputs};
@@ -52,7 +52,7 @@ pub struct RecordsCommand {
 }
 
 /// One record in the list.
-struct Listed {
+struct RecordListing {
     file: String,
     format: &'static Format,
     unit: AccelerationUnit,
@@ -65,7 +65,7 @@ struct Listed {
     given: Given,
 }
 
-impl Listed {
+impl RecordListing {
     fn remarked(&self) -> Remarked<'_> {
         let given = self.given;
         let pair = self.pair.as_deref();
@@ -85,8 +85,8 @@ impl Listed {
         }
     }
 
-    fn row(&self, gravity_m_s2: f64) -> Row<'_> {
-        Row {
+    fn row(&self, gravity_m_s2: f64) -> RecordRow<'_> {
+        RecordRow {
             file: &self.file,
             format: self.format.name,
             units: self.unit.to_string(),
@@ -102,7 +102,7 @@ impl Listed {
 }
 
 #[derive(Serialize)]
-struct Row<'a> {
+struct RecordRow<'a> {
     file: &'a str,
     format: &'static str,
     units: String,
@@ -128,7 +128,7 @@ struct SuiteRow {
 
 /// What is said of a file: why it was refused or set aside, or a remark.
 #[derive(Serialize)]
-struct Finding {
+struct RecordFinding {
     file: String,
     code: &'static str,
     line: Option<usize>,
@@ -136,25 +136,25 @@ struct Finding {
 }
 
 #[derive(Serialize)]
-struct Shown<'a> {
+struct RecordsSummary<'a> {
     gravity_m_s2: f64,
     processing: Option<&'a str>,
     suites: &'a [SuiteRow],
-    records: Vec<Row<'a>>,
+    records: Vec<RecordRow<'a>>,
     #[serde(flatten)]
-    measured: Option<Measured>,
-    remarks: Vec<Finding>,
-    set_aside: Vec<Finding>,
-    refused: &'a [Finding],
+    measured: Option<RecordMeasures>,
+    remarks: Vec<RecordFinding>,
+    set_aside: Vec<RecordFinding>,
+    refused: &'a [RecordFinding],
 }
 
 /// Why files were refused: one line a cause, with the number of its files.
-fn causes(refused: &[Finding]) -> String {
-    let cause = |r: &Finding| {
+fn causes(refused: &[RecordFinding]) -> String {
+    let cause = |r: &RecordFinding| {
         let place = format!("{}: ", r.file);
         r.message.strip_prefix(&place).map(str::to_owned)
     };
-    let mut causes: Vec<(Option<String>, &Finding, usize)> = Vec::new();
+    let mut causes: Vec<(Option<String>, &RecordFinding, usize)> = Vec::new();
     for refused in refused {
         let cause = cause(refused);
         let known =
@@ -164,21 +164,22 @@ fn causes(refused: &[Finding]) -> String {
             None => causes.push((cause, refused, 1)),
         }
     }
-    let line = |(_, refused, count): (Option<String>, &Finding, usize)| {
-        let others = match count {
-            1 => String::new(),
-            2 => " (and 1 more file)".to_owned(),
-            n => format!(" (and {} more files)", n - 1),
+    let line =
+        |(_, refused, count): (Option<String>, &RecordFinding, usize)| {
+            let others = match count {
+                1 => String::new(),
+                2 => " (and 1 more file)".to_owned(),
+                n => format!(" (and {} more files)", n - 1),
+            };
+            format!("{}{others}", refused.message)
         };
-        format!("{}{others}", refused.message)
-    };
     causes.into_iter().map(line).collect::<Vec<_>>().join("\nrocking: ")
 }
 
 #[derive(Default)]
-struct Listing {
-    records: Vec<Listed>,
-    refused: Vec<Finding>,
+struct RecordsListing {
+    records: Vec<RecordListing>,
+    refused: Vec<RecordFinding>,
     /// Files that state another interval or unit than was given.
     contradicted: Vec<RecordError>,
     set_aside: SetAside,
@@ -194,7 +195,7 @@ struct Listing {
 /// listed.
 pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let options = args.reading.options(args.gravity);
-    let mut listing = Listing::default();
+    let mut listing = RecordsListing::default();
     for path in &args.paths {
         listing.add(path, options);
     }
@@ -214,8 +215,8 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
         return Ok(());
     }
     let measured = args.measures.run(records, args.gravity)?;
-    let mut remarks: Vec<Finding> =
-        records.iter().flat_map(Finding::remarks).collect();
+    let mut remarks: Vec<RecordFinding> =
+        records.iter().flat_map(RecordFinding::remarks).collect();
     if let Some(measured) = &measured
         && !args.processing.passes_high()
     {
@@ -226,7 +227,7 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     {
         let rows = records.iter().map(|listed| listed.row(args.gravity));
         let set_aside = listing.set_aside.all().iter();
-        args.json.show(&Shown {
+        args.json.show(&RecordsSummary {
             gravity_m_s2: args.gravity,
             processing: done,
             suites: &listing.suites,
@@ -234,9 +235,9 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
             measured,
             remarks,
             set_aside: set_aside
-                .map(|aside| Finding {
+                .map(|aside| RecordFinding {
                     code: aside.reason.code(),
-                    ..Finding::from(&aside.error)
+                    ..RecordFinding::from(&aside.error)
                 })
                 .collect(),
             refused: &listing.refused,
@@ -245,12 +246,12 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     if !listing.refused.is_empty() {
         return Err(Failure::input(causes(&listing.refused)));
     }
-    let all = records.iter().map(Listed::remarked);
+    let all = records.iter().map(RecordListing::remarked);
     let remarks = Remarks::of(&all.collect::<Vec<_>>());
     args.reading.judge(&listing.set_aside, &remarks)
 }
 
-impl From<&RecordError> for Finding {
+impl From<&RecordError> for RecordFinding {
     fn from(error: &RecordError) -> Self {
         Self {
             file: error.file().to_owned(),
@@ -261,8 +262,8 @@ impl From<&RecordError> for Finding {
     }
 }
 
-impl Finding {
-    fn remarks(listed: &Listed) -> impl Iterator<Item = Self> {
+impl RecordFinding {
+    fn remarks(listed: &RecordListing) -> impl Iterator<Item = Self> {
         listed.remarks.iter().map(|remark| Self {
             file: listed.file.clone(),
             code: remark.code(),
@@ -272,7 +273,7 @@ impl Finding {
     }
 }
 
-impl Listing {
+impl RecordsListing {
     fn add(&mut self, path: &Path, options: ReadOptions) {
         self.inputs.push(path.to_owned());
         if path.is_dir() || inputs::is_zip(path) {
@@ -281,27 +282,31 @@ impl Listing {
         let file = path.display().to_string();
         let bytes = match rocking_records::file_bytes(path) {
             Ok(bytes) => bytes,
-            Err(error) => return self.refused.push(Finding::from(&error)),
+            Err(error) => {
+                return self.refused.push(RecordFinding::from(&error));
+            }
         };
         if rocking_records::is_index(&bytes) {
             return self.add_survey(path, options);
         }
         match self.read(&file, &bytes, options) {
-            Err(error) => self.refused.push(Finding::from(&error)),
+            Err(error) => self.refused.push(RecordFinding::from(&error)),
             Ok(records) => {
                 let several = records.len() > 1;
-                self.records.extend(records.into_iter().map(|record| Listed {
-                    file: match record.channel.filter(|_| several) {
-                        Some(channel) => format!("{file}:{channel}"),
-                        None => file.clone(),
-                    },
-                    format: record.format,
-                    unit: record.unit,
-                    motion: record.accelerogram,
-                    pair: None,
-                    study_component: None,
-                    remarks: record.remarks,
-                    given: record.given,
+                self.records.extend(records.into_iter().map(|record| {
+                    RecordListing {
+                        file: match record.channel.filter(|_| several) {
+                            Some(channel) => format!("{file}:{channel}"),
+                            None => file.clone(),
+                        },
+                        format: record.format,
+                        unit: record.unit,
+                        motion: record.accelerogram,
+                        pair: None,
+                        study_component: None,
+                        remarks: record.remarks,
+                        given: record.given,
+                    }
                 }))
             }
         }
@@ -351,11 +356,11 @@ impl Listing {
             let mut ends = ends.chain([file.len()]);
             !ends.any(|end| files.contains(&file[..end]))
         });
-        self.refused.extend(unused.into_iter().map(Finding::from));
+        self.refused.extend(unused.into_iter().map(RecordFinding::from));
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
-        let refused = |error: &rocking_records::SuiteError| Finding {
+        let refused = |error: &rocking_records::SuiteError| RecordFinding {
             file: error.file().to_owned(),
             code: error.code(),
             line: error.line(),
@@ -376,7 +381,7 @@ impl Listing {
         for member in survey.members() {
             match member {
                 Ok(member) => {
-                    self.records.push(Listed::member(member, false));
+                    self.records.push(RecordListing::member(member, false));
                 }
                 Err(error) => self.refused.push(refused(error)),
             }
@@ -395,12 +400,12 @@ impl Listing {
             study_rule: suite.study_rule().to_string(),
         });
         let members = suite.members().iter();
-        self.records.extend(members.map(|m| Listed::member(m, true)));
+        self.records.extend(members.map(|m| RecordListing::member(m, true)));
     }
 
     fn remark(&mut self) {
         let records: Vec<_> =
-            self.records.iter().map(Listed::remarked).collect();
+            self.records.iter().map(RecordListing::remarked).collect();
         let found = rocking_records::remarks_together(&records);
         for (listed, remarks) in self.records.iter_mut().zip(found) {
             listed.remarks = remarks;

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use rocking::block::Block;
 use rocking::excitation::Excitation;
 use rocking::integrator::{
-    Arithmetic, Certified, Certify, Model, Observe, Overturning, Response,
+    Arithmetic, CertifiedFate, Certify, Model, Observe, Overturning, Response,
     Scene, WorkLimit, certify, respond, uplift_threshold,
 };
 use serde::Serialize;
@@ -71,23 +71,23 @@ const HISTORY_INTERVAL_S: f64 = 0.005;
 /// A result by the name of its outcome, `unresolved` where an error may have
 /// turned a decision.
 #[derive(Serialize)]
-struct Named<T> {
+struct NamedOutcome<T> {
     outcome: &'static str,
     #[serde(flatten)]
     found: T,
 }
 
 #[derive(Serialize)]
-struct Shown<'a> {
+struct RespondSummary<'a> {
     #[serde(flatten)]
-    response: Named<Response>,
-    certified: Option<Named<Certified>>,
-    scene: Setting<'a>,
+    response: NamedOutcome<Response>,
+    certified: Option<NamedOutcome<CertifiedFate>>,
+    scene: SceneSummary<'a>,
 }
 
 /// What was integrated.
 #[derive(Serialize)]
-struct Setting<'a> {
+struct SceneSummary<'a> {
     alpha_rad: f64,
     p_rad_s: f64,
     eta: f64,
@@ -156,13 +156,13 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
             true => found.outcome.name(),
             false => "unresolved",
         };
-        Named { outcome, found }
+        NamedOutcome { outcome, found }
     });
     let outcome = response.outcome_name();
-    let result = Shown {
-        response: Named { outcome, found: response },
+    let result = RespondSummary {
+        response: NamedOutcome { outcome, found: response },
         certified,
-        scene: Setting {
+        scene: SceneSummary {
             alpha_rad: block.slenderness_rad(),
             p_rad_s,
             eta: restitution.velocity_ratio(),
@@ -189,7 +189,7 @@ fn certified(
     scene: &Scene<'_>,
     until_s: Option<f64>,
     work_limit: WorkLimit,
-) -> Result<Certified, Failure> {
+) -> Result<CertifiedFate, Failure> {
     let place = Mutex::new((Arithmetic::Double, 0.0));
     let end_s = match scene.excitation {
         Excitation::Record(record) => {

@@ -8,7 +8,7 @@ use rocking_procedures::{Exposed, FitOptions, Shift, risk};
 use rocking_statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
-use super::fragility::source::{Source, SourceArgs};
+use super::fragility::source::{FragilitySource, SourceArgs};
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
@@ -115,8 +115,8 @@ impl SiteArgs {
 }
 
 /// What the fragilities come from.
-enum Basis {
-    Files(Source),
+enum RiskBasis {
+    Files(FragilitySource),
     /// Median and dispersion.
     Parameters(f64, f64),
 }
@@ -133,23 +133,23 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
         bail!("--hazard - and another file -: expected one of them as a file");
     }
     let basis = match args.median.zip(args.dispersion) {
-        None => Basis::Files(args.source.open()?),
-        Some((median, beta)) => Basis::Parameters(median, beta),
+        None => RiskBasis::Files(args.source.open()?),
+        Some((median, beta)) => RiskBasis::Parameters(median, beta),
     };
     let inputs = args.source.inputs().into_iter();
     let named = match &basis {
-        Basis::Files(source) => source.inputs(),
-        Basis::Parameters(..) => Vec::new(),
+        RiskBasis::Files(source) => source.inputs(),
+        RiskBasis::Parameters(..) => Vec::new(),
     };
     let inputs = inputs.chain(named).chain([args.hazard.clone()]).collect();
     let plot = args.plot.open(&mut Outputs::of(inputs))?;
     let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match &basis {
-        Basis::Files(source) => args
+        RiskBasis::Files(source) => args
             .threads
             .run(|| of_source(args, source, options, &hazard))??,
-        Basis::Parameters(median, beta) => {
+        RiskBasis::Parameters(median, beta) => {
             given(options.shift, *median, *beta)?
         }
     };
@@ -196,7 +196,7 @@ fn kind(law: &Lognormal) -> &'static str {
 /// the unit of the hazard curve.
 fn of_source(
     args: &RiskCommand,
-    source: &Source,
+    source: &FragilitySource,
     mut options: FitOptions,
     hazard: &Hazard,
 ) -> Result<Vec<Exposed>, Failure> {

@@ -11,7 +11,7 @@ use rocking_common::words::columns;
 
 /// What every JSON of a command carries.
 #[derive(Serialize)]
-struct Envelope<'a, T> {
+struct JsonEnvelope<'a, T> {
     schema: u32,
     version: &'static str,
     commit: &'static str,
@@ -36,7 +36,7 @@ pub fn shown<T: Serialize>(json: bool, result: &T) -> Result<String, Failure> {
         return text(result);
     }
     let version = env!("CARGO_PKG_VERSION");
-    let all = Envelope { schema: SCHEMA, version, commit: COMMIT, result };
+    let all = JsonEnvelope { schema: SCHEMA, version, commit: COMMIT, result };
     Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 

@@ -117,7 +117,7 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     if let Some(out) = table {
         out.write(throughput::text(&many)?)?;
     }
-    args.json.show(&Shown {
+    args.json.show(&SpeedSummary {
         isa: Isa::best().name(),
         ratios_to: BASE.join(", "),
         set_aside,
@@ -162,7 +162,7 @@ fn records(
 
 /// What was measured.
 #[derive(Serialize)]
-struct Shown<'a> {
+struct SpeedSummary<'a> {
     isa: &'static str,
     ratios_to: String,
     set_aside: SetAside,

@@ -7,7 +7,7 @@ use rocking_procedures::counts::Outcome;
 use rocking_procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
-use super::capacities::Levels;
+use super::capacities::EdpLevels;
 use super::names;
 use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
@@ -46,7 +46,7 @@ pub struct StripesCommand {
     im: Intensity,
     /// Intensities, FIRST:LAST:STEP or separated by commas.
     #[arg(long, value_name = "LEVELS", allow_hyphen_values = true)]
-    levels: Levels,
+    levels: EdpLevels,
     /// EDP level whose exceedances --counts counts; `inf` is overturning.
     #[arg(long, value_name = "E", requires = "counts")]
     at: Option<f64>,
@@ -62,7 +62,7 @@ pub struct StripesCommand {
 }
 
 #[derive(Serialize)]
-struct Shown {
+struct StripesSummary {
     /// Number of records.
     n: usize,
     /// The EDP level whose exceedances are counted.
@@ -93,7 +93,7 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     if printed {
         return Ok(());
     }
-    args.json.show(&Shown { n: curves.len(), edp: args.at, stripes })
+    args.json.show(&StripesSummary { n: curves.len(), edp: args.at, stripes })
 }
 
 /// The table of what became of each record that was run so far.

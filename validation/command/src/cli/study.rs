@@ -12,7 +12,7 @@ use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
-use crate::failure::{At as _, Failure, bail, ensure};
+use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::terminal::{COMMIT, logged, note, print, say};
 use rocking_common::files::{Folder, Mixed, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};

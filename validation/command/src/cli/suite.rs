@@ -47,14 +47,14 @@ struct SuiteExportCommand {
 
 /// What was written.
 #[derive(Serialize)]
-struct Shown {
-    suites: Vec<Written>,
+struct SuiteSummary {
+    suites: Vec<SuiteFiles>,
     /// What was set aside of a suite of the user's.
     set_aside: Option<SetAside>,
 }
 
 #[derive(Serialize)]
-struct Written {
+struct SuiteFiles {
     suite: String,
     records: usize,
     index: String,
@@ -67,9 +67,9 @@ struct Written {
 pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let SuiteAction::Export(args) = &args.action;
     let mut files = Vec::new();
-    let mut shown = Shown { suites: Vec::new(), set_aside: None };
+    let mut shown = SuiteSummary { suites: Vec::new(), set_aside: None };
     let mut add = |name: &str, rows: Vec<export::Row<'_>>| {
-        shown.suites.push(Written {
+        shown.suites.push(SuiteFiles {
             suite: name.to_owned(),
             records: rows.len(),
             index: args.out.join(format!("{name}.csv")).display().to_string(),

@@ -11,7 +11,9 @@ use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
 use super::{blocks, names};
 use crate::failure::{Failure, bail, ensure};
-use crate::sweep::{self, Content, Given, Levels, Planned, Wanted};
+use crate::sweep::{
+    self, Content, LevelSteps, SweepBlock, SweepFolder, SweepRequest,
+};
 use crate::terminal::{SOFTWARE, note, say};
 use crate::threads::{until, with_threads};
 use rocking_common::suites::inputs::profiles;
@@ -155,8 +157,8 @@ fn share(text: &str) -> Result<f64, &'static str> {
 
 fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
     let rows = blocks::on_ground(&args.blocks, STANDARD_GRAVITY_M_S2)?;
-    let given = |row: blocks::Row| match row.samples.as_slice() {
-        [] => Ok(Given {
+    let given = |row: blocks::BlockRow| match row.samples.as_slice() {
+        [] => Ok(SweepBlock {
             id: row.id,
             alpha_rad: row.block.slenderness_rad(),
             p_rad_s: row.block.frequency_rad_s(),
@@ -167,13 +169,13 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
             row.place
         ),
     };
-    let blocks: Vec<Given> =
+    let blocks: Vec<SweepBlock> =
         rows.into_iter().map(given).collect::<Result<_, _>>()?;
     let read = args.reading.options(STANDARD_GRAVITY_M_S2);
     let suite: Suite<Profile> =
         profiles::<Failure>(&args.suite, read, &Processing::default())?;
     args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
-    let wanted = Wanted {
+    let wanted = SweepRequest {
         blocks: &blocks,
         suite: &suite,
         place: &args.suite,
@@ -181,11 +183,11 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
         demands: args.demands.clone(),
         levels: args
             .step_pga_g
-            .map_or(Levels::StepIm(args.step_im), Levels::StepPgaG),
+            .map_or(LevelSteps::StepIm(args.step_im), LevelSteps::StepPgaG),
         rows: args.rows,
         tile_blocks: args.tile_blocks,
     };
-    let planned = sweep::Plan::write(&wanted, &args.out, SOFTWARE)?;
+    let planned = sweep::SweepPlan::write(&wanted, &args.out, SOFTWARE)?;
     let plan = &planned.plan;
     let set_aside = match suite.set_aside() {
         none if none.is_empty() => String::new(),
@@ -232,7 +234,7 @@ fn run_task(args: &SweepRunCommand) -> Result<(), Failure> {
         task < of,
         "task {task} of {of}: expected a task below the number of tasks"
     );
-    let planned = Planned::read(&args.dir)?;
+    let planned = SweepFolder::read(&args.dir)?;
     let total = planned.plan.tiles();
     let done = |tile: usize| {
         note(&format!("tile {tile} of {total} done"));
@@ -251,7 +253,7 @@ fn run_task(args: &SweepRunCommand) -> Result<(), Failure> {
 }
 
 fn merge(args: &SweepMergeCommand) -> Result<(), Failure> {
-    let planned = Planned::read(&args.dir)?;
+    let planned = SweepFolder::read(&args.dir)?;
     ensure!(
         Content::kept(&planned.plan).contains(&args.what),
         "this plan keeps no rows; expected a plan of `--rows`"

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use crate::failure::{At as _, Failure, bail};
+use crate::failure::{AtPlace as _, Failure, bail};
 use crate::input;
 use crate::terminal::say;
 use rocking_common::files::Outputs;
@@ -60,7 +60,7 @@ pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
         _ => None,
     };
     let outcomes = run_all(&cases);
-    say(&shown(args.json.json, &Shown::of(&outcomes))?)?;
+    say(&shown(args.json.json, &ValidateSummary::of(&outcomes))?)?;
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
@@ -122,18 +122,18 @@ fn stale(path: &Path) -> Failure {
 
 /// What the cases came to.
 #[derive(Serialize)]
-struct Shown<'a> {
-    cases: Vec<Judged<'a>>,
-    messages: Vec<Said<'a>>,
+struct ValidateSummary<'a> {
+    cases: Vec<CaseVerdict<'a>>,
+    messages: Vec<CaseMessage<'a>>,
     /// Checks whose margin is below 1e-3 or above 0.9.
-    bounds_to_look_at: Vec<Bound<'a>>,
-    kinds: Vec<Count<'a>>,
+    bounds_to_look_at: Vec<CloseBound<'a>>,
+    kinds: Vec<VerdictCount<'a>>,
     passed: usize,
     of: usize,
 }
 
 #[derive(Serialize)]
-struct Judged<'a> {
+struct CaseVerdict<'a> {
     case: &'a str,
     verdict: &'static str,
     margin: f64,
@@ -141,28 +141,28 @@ struct Judged<'a> {
 }
 
 #[derive(Serialize)]
-struct Said<'a> {
+struct CaseMessage<'a> {
     case: &'a str,
     message: &'a str,
 }
 
 #[derive(Serialize)]
-struct Bound<'a> {
+struct CloseBound<'a> {
     case: &'a str,
     quantity: &'a str,
     margin: f64,
 }
 
 #[derive(Serialize)]
-struct Count<'a> {
+struct VerdictCount<'a> {
     kind: &'a str,
     verdict: &'a str,
     cases: usize,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> ValidateSummary<'a> {
     fn of(outcomes: &'a [Outcome]) -> Self {
-        let judged = |outcome: &'a Outcome| Judged {
+        let judged = |outcome: &'a Outcome| CaseVerdict {
             case: &outcome.id,
             verdict: outcome.verdict.name(),
             margin: outcome.worst_margin(),
@@ -174,11 +174,11 @@ impl<'a> Shown<'a> {
         };
         let said = |outcome: &'a Outcome| {
             let all = outcome.messages.iter().flat_map(|all| all.lines());
-            all.map(|message| Said { case: &outcome.id, message })
+            all.map(|message| CaseMessage { case: &outcome.id, message })
         };
         let bounds = |outcome: &'a Outcome| {
             let all = outcome.bounds_to_look_at().into_iter();
-            all.map(|check| Bound {
+            all.map(|check| CloseBound {
                 case: &outcome.id,
                 quantity: &check.quantity,
                 margin: check.margin,
@@ -196,7 +196,11 @@ impl<'a> Shown<'a> {
             messages: outcomes.iter().flat_map(said).collect(),
             bounds_to_look_at: outcomes.iter().flat_map(bounds).collect(),
             kinds: kinds
-                .map(|((kind, verdict), cases)| Count { kind, verdict, cases })
+                .map(|((kind, verdict), cases)| VerdictCount {
+                    kind,
+                    verdict,
+                    cases,
+                })
                 .collect(),
             passed: outcomes.iter().filter(passed).count(),
             of: outcomes.len(),

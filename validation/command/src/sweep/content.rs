@@ -1,6 +1,6 @@
 //! What the tables of a sweep hold.
 
-use super::plan::Plan;
+use super::plan::SweepPlan;
 use rocking::names::named;
 use rocking_common::table::columns::{
     SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
@@ -21,7 +21,7 @@ named! {
 impl Content {
     /// What a sweep keeps.
     #[must_use]
-    pub fn kept(plan: &Plan) -> Vec<Self> {
+    pub fn kept(plan: &SweepPlan) -> Vec<Self> {
         let mut out = vec![Self::Fragilities, Self::Capacities];
         if plan.rows {
             out.push(Self::Rows);
@@ -31,7 +31,7 @@ impl Content {
 
     /// Names of the columns.
     #[must_use]
-    pub fn columns(self, plan: &Plan) -> Vec<String> {
+    pub fn columns(self, plan: &SweepPlan) -> Vec<String> {
         let layout = match self {
             Self::Fragilities => &SWEEP_FRAGILITIES,
             Self::Capacities => &SWEEP_CAPACITIES,

@@ -5,7 +5,7 @@ use std::path::Path;
 use rocking::stop;
 
 use super::content::Content;
-use super::plan::Planned;
+use super::plan::SweepFolder;
 use super::tile;
 use crate::failure::{Failure, bail};
 use rocking_common::files::Outputs;
@@ -21,7 +21,7 @@ const NAMED: usize = 10;
 /// [`Failure`] that names the tiles that are missing, of another plan or
 /// another build, or damaged. `out` is then as it was.
 pub fn merge(
-    planned: &Planned,
+    planned: &SweepFolder,
     content: Content,
     out: &Path,
 ) -> Result<(), Failure> {

@@ -11,7 +11,7 @@ use rocking_records::{Processing, Profile, ReadOptions, Suite, read};
 use rocking_statistics::Clusters;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{At as _, Failure, ensure};
+use crate::failure::{AtPlace as _, Failure, ensure};
 use crate::input;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
@@ -34,18 +34,18 @@ const SUITE: &str = "suite";
 /// Everything that a task must know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Plan {
+pub struct SweepPlan {
     schema: u32,
     /// Program that made the plan, with its commit; it makes the tiles, too.
     pub software: String,
     /// Levels of a curve.
-    pub levels: Levels,
+    pub levels: LevelSteps,
     /// Demands at which capacities are reported.
     pub demands: Vec<f64>,
     /// Whether every level is kept.
     pub rows: bool,
     /// The blocks.
-    pub blocks: Vec<Given>,
+    pub blocks: Vec<SweepBlock>,
     /// Study components: name and SHA-256 of the packed file.
     pub records: Vec<(String, String)>,
     /// Their earthquakes; empty where the suite does not say them.
@@ -58,7 +58,7 @@ pub struct Plan {
 /// A block of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Given {
+pub struct SweepBlock {
     /// Its name.
     pub id: Id,
     /// Slenderness angle.
@@ -69,7 +69,7 @@ pub struct Given {
     pub eta: f64,
 }
 
-impl Given {
+impl SweepBlock {
     /// The parameters as the tables have them.
     #[must_use]
     pub fn cells(&self) -> [String; 3] {
@@ -80,14 +80,14 @@ impl Given {
 /// Steps in which the levels of a curve rise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Levels {
+pub enum LevelSteps {
     /// In PGA/(g tan alpha), from 1.
     StepIm(f64),
     /// In PGA, multiples of gravity, from 0.
     StepPgaG(f64),
 }
 
-impl Levels {
+impl LevelSteps {
     fn grid(self) -> Grid {
         match self {
             Self::StepIm(step) => Grid::Im { step },
@@ -98,9 +98,9 @@ impl Levels {
 
 /// A plan with its folder and its hash.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct SweepFolder {
     /// The plan.
-    pub plan: Plan,
+    pub plan: SweepPlan,
     /// Its folder.
     pub folder: PathBuf,
     /// SHA-256 of the plan's file.
@@ -110,9 +110,9 @@ pub struct Planned {
 }
 
 /// What a plan is made of.
-pub struct Wanted<'a> {
+pub struct SweepRequest<'a> {
     /// The blocks.
-    pub blocks: &'a [Given],
+    pub blocks: &'a [SweepBlock],
     /// The suite.
     pub suite: &'a Suite<Profile>,
     /// Its folder, index or zip.
@@ -122,14 +122,14 @@ pub struct Wanted<'a> {
     /// Demands.
     pub demands: Vec<f64>,
     /// Levels of a curve.
-    pub levels: Levels,
+    pub levels: LevelSteps,
     /// Whether every level is kept.
     pub rows: bool,
     /// Blocks of a tile.
     pub tile_blocks: Option<usize>,
 }
 
-impl Plan {
+impl SweepPlan {
     /// Writes a plan and packs the suite into its folder.
     ///
     /// # Errors
@@ -137,10 +137,10 @@ impl Plan {
     /// has another plan already, and where a record cannot be packed or a file
     /// cannot be written.
     pub fn write(
-        wanted: &Wanted<'_>,
+        wanted: &SweepRequest<'_>,
         folder: &Path,
         software: &str,
-    ) -> Result<Planned, Failure> {
+    ) -> Result<SweepFolder, Failure> {
         let members: Vec<_> = wanted.suite.study_components().collect();
         let by_default = TILE_CURVES.div_ceil(members.len().max(1));
         let events: Option<Vec<String>> =
@@ -193,7 +193,7 @@ impl Plan {
             folder.display()
         );
         write_atomically(&path, &text)?;
-        Planned::read(folder)
+        SweepFolder::read(folder)
     }
 
     /// The plan of a text, if its parts fit each other and a task can work on
@@ -229,7 +229,7 @@ impl Plan {
 
     /// The blocks of a tile.
     #[must_use]
-    pub fn blocks_of(&self, tile: usize) -> &[Given] {
+    pub fn blocks_of(&self, tile: usize) -> &[SweepBlock] {
         let mut tiles = self.blocks.chunks(self.tile_blocks);
         tiles.nth(tile).unwrap_or_default()
     }
@@ -238,7 +238,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`Failure`] for a block out of range.
-    pub fn analysis(&self, given: &Given) -> Result<Analysis, Failure> {
+    pub fn analysis(&self, given: &SweepBlock) -> Result<Analysis, Failure> {
         let block = Block::try_new(given.alpha_rad, given.p_rad_s)?;
         let restitution = Restitution::constant(given.eta)?;
         Ok(Analysis {
@@ -249,7 +249,7 @@ impl Plan {
     }
 }
 
-impl Planned {
+impl SweepFolder {
     /// The files of the folder: plan, suite, and tiles.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
@@ -275,7 +275,7 @@ impl Planned {
                 path.display()
             ))
         };
-        let plan = Plan::parse(&text).map_err(refused)?;
+        let plan = SweepPlan::parse(&text).map_err(refused)?;
         Ok(Self {
             hash: sha256_hex(text.as_bytes()),
             folder: folder.into(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use rocking::stop::{Stop, StopError};
 use rocking_records::{Processing, Profile, ReadOptions, Suite};
 
-use super::tile::{State, read};
+use super::tile::{TileState, read};
 use super::*;
 use crate::failure::Failure;
 use rocking_common::suites::inputs::{profiles, sha256_hex};
@@ -30,11 +30,11 @@ fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
     (suite.unwrap(), place, read)
 }
 
-fn plan(folder: &Path, tile_blocks: usize) -> Planned {
-    let blocks: Vec<Given> = [0.08, 0.1, 0.12, 0.15, 0.2, 0.22, 0.25]
+fn plan(folder: &Path, tile_blocks: usize) -> SweepFolder {
+    let blocks: Vec<SweepBlock> = [0.08, 0.1, 0.12, 0.15, 0.2, 0.22, 0.25]
         .into_iter()
         .enumerate()
-        .map(|(k, alpha_rad)| Given {
+        .map(|(k, alpha_rad)| SweepBlock {
             id: format!("block_{k}").parse().unwrap(),
             alpha_rad,
             p_rad_s: 3.0,
@@ -42,23 +42,23 @@ fn plan(folder: &Path, tile_blocks: usize) -> Planned {
         })
         .collect();
     let (suite, place, read) = suite(folder);
-    let wanted = Wanted {
+    let wanted = SweepRequest {
         blocks: &blocks,
         suite: &suite,
         place: &place,
         read,
         demands: vec![0.35, 1.0],
-        levels: Levels::StepIm(0.05),
+        levels: LevelSteps::StepIm(0.05),
         rows: true,
         tile_blocks: Some(tile_blocks),
     };
-    Plan::write(&wanted, &folder.join("plan"), BUILD).unwrap()
+    SweepPlan::write(&wanted, &folder.join("plan"), BUILD).unwrap()
 }
 
 /// The program of all plans and tiles here.
 const BUILD: &str = "rocking 0.1.0 (commit 0123456789ab)";
 
-fn run_all(planned: &Planned, of: usize) {
+fn run_all(planned: &SweepFolder, of: usize) {
     // The last task first: the order does not matter.
     for task in (0..of).rev() {
         run(planned, BUILD, (task, of), &|_| ()).unwrap();
@@ -66,7 +66,7 @@ fn run_all(planned: &Planned, of: usize) {
     }
 }
 
-fn merged(planned: &Planned, content: Content) -> String {
+fn merged(planned: &SweepFolder, content: Content) -> String {
     let out = planned.folder.join("merged.csv");
     merge(planned, content, &out).unwrap();
     let text = fs::read(&out).unwrap();
@@ -87,7 +87,7 @@ fn any_tiles_and_any_tasks_give_the_same_bytes() {
     ] {
         let place = tempfile::tempdir().unwrap();
         let planned = plan(place.path(), tile_blocks);
-        let planned = Planned { block_samples, ..planned };
+        let planned = SweepFolder { block_samples, ..planned };
         let first = planned.records(0).unwrap().len();
         assert_eq!(
             first,
@@ -147,7 +147,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     flipped[40] ^= 1;
     fs::write(&path, &flipped).unwrap();
     let state = || read(&planned, Content::Fragilities, 3).unwrap_err();
-    assert_eq!(state(), State::Damaged);
+    assert_eq!(state(), TileState::Damaged);
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
     let words = error.message;
@@ -159,7 +159,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     let text = String::from_utf8(right).unwrap();
     let foreign = text.replace(&planned.hash, &"0".repeat(64));
     fs::write(&path, foreign).unwrap();
-    assert_eq!(state(), State::Foreign);
+    assert_eq!(state(), TileState::Foreign);
     let record = planned.folder.join("suite/b.at2");
     let mut bytes = fs::read(&record).unwrap();
     let last = bytes.len() - 3;
@@ -201,7 +201,7 @@ fn a_plan_is_checked_when_it_is_read() {
     let planned = plan(place.path(), 1);
     let path = planned.folder.join("plan.json");
     let whole = fs::read_to_string(&path).unwrap();
-    assert_eq!(whole, Planned::read(&planned.folder).unwrap().plan.text());
+    assert_eq!(whole, SweepFolder::read(&planned.folder).unwrap().plan.text());
     let value: serde_json::Value = serde_json::from_str(&whole).unwrap();
     let refused = |pointer: &str, to: serde_json::Value, words: &str| {
         let mut changed = value.clone();
@@ -210,7 +210,7 @@ fn a_plan_is_checked_when_it_is_read() {
         });
         *at = to;
         fs::write(&path, changed.to_string()).unwrap();
-        let error = Planned::read(&planned.folder).unwrap_err().message;
+        let error = SweepFolder::read(&planned.folder).unwrap_err().message;
         assert!(error.contains("plan.json"), "{error}");
         assert!(error.contains(words), "{pointer}: {error}");
     };
@@ -239,6 +239,6 @@ fn a_plan_is_checked_when_it_is_read() {
     let mut short = value.clone();
     short["events"] = json!(["one"]);
     fs::write(&path, short.to_string()).unwrap();
-    let error = Planned::read(&planned.folder).unwrap_err().message;
+    let error = SweepFolder::read(&planned.folder).unwrap_err().message;
     assert!(error.contains("3 records of 1 earthquakes"), "{error}");
 }

@@ -3,15 +3,15 @@
 use std::fs;
 
 use rocking::capacity::InversionRule;
-use rocking::ida::{Batch, IdaCurve, Overturned, curves};
+use rocking::ida::{Batch, BracketEnd, IdaCurve, curves};
 use rocking_records::intensity::Intensity;
 use rocking_statistics::ExtendedSample;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
-use super::plan::{Given, Plan, Planned, REPLICATES};
-use crate::failure::{At as _, Failure, ensure};
+use super::plan::{REPLICATES, SweepBlock, SweepFolder, SweepPlan};
+use crate::failure::{AtPlace as _, Failure, ensure};
 use rocking::names::named;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
@@ -19,7 +19,7 @@ use rocking_common::table::Table;
 
 named! {
     /// Why a tile is not done.
-    pub enum State: "state of a tile" {
+    pub enum TileState: "state of a tile" {
         /// Not there.
         Missing = "missing",
         /// Of another plan, or by another build of the program.
@@ -30,30 +30,34 @@ named! {
 }
 
 /// The last line of a tile's file.
-fn footer(planned: &Planned, tile: usize, body: &str) -> String {
+fn footer(planned: &SweepFolder, tile: usize, body: &str) -> String {
     let (of, sum) = (source(planned), sha256_hex(body.as_bytes()));
     format!("{of} tile {tile} sha256 {sum}\n")
 }
 
 /// How it begins: the plan, and the program that made plan and tile.
-fn source(planned: &Planned) -> String {
+fn source(planned: &SweepFolder) -> String {
     format!("# plan {} by {}", planned.hash, planned.plan.software)
 }
 
 /// The text of a tile's file without the last line, or why it is not done.
 pub(super) fn read(
-    planned: &Planned,
+    planned: &SweepFolder,
     content: Content,
     tile: usize,
-) -> Result<String, State> {
+) -> Result<String, TileState> {
     let path = planned.tile_path(content, tile);
     let Ok(text) = fs::read_to_string(path) else {
         // A file that is there and is no text was written by nobody here.
         let there = planned.tile_path(content, tile).exists();
-        return Err(if there { State::Damaged } else { State::Missing });
+        return Err(if there {
+            TileState::Damaged
+        } else {
+            TileState::Missing
+        });
     };
     let Some(at) = text.trim_end().rfind('\n').map(|at| at + 1) else {
-        return Err(State::Damaged);
+        return Err(TileState::Damaged);
     };
     let (body, last) = text.split_at(at);
     if last == footer(planned, tile, body) {
@@ -61,12 +65,16 @@ pub(super) fn read(
     }
     let of_plan = last.starts_with(&format!("{} ", source(planned)));
     let has_plan = last.starts_with("# plan ");
-    Err(if has_plan && !of_plan { State::Foreign } else { State::Damaged })
+    Err(if has_plan && !of_plan {
+        TileState::Foreign
+    } else {
+        TileState::Damaged
+    })
 }
 
 /// The tiles of task `task` of `of` that are not done.
 #[must_use]
-pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
+pub fn left(planned: &SweepFolder, (task, of): (usize, usize)) -> Vec<usize> {
     let kept = Content::kept(&planned.plan);
     let is_done =
         |tile| kept.iter().all(|what| read(planned, *what, tile).is_ok());
@@ -83,7 +91,7 @@ pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
 /// another than planned, an analysis that cannot be done, and a tile that
 /// cannot be written.
 pub fn run(
-    planned: &Planned,
+    planned: &SweepFolder,
     software: &str,
     task_of: (usize, usize),
     done: &(dyn Fn(usize) + Sync),
@@ -108,7 +116,8 @@ pub fn run(
             .iter()
             .map(|block| plan.analysis(block))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut all: Vec<Found<'_>> = blocks.iter().map(Found::new).collect();
+        let mut all: Vec<TileBlock<'_>> =
+            blocks.iter().map(TileBlock::new).collect();
         let mut from = 0;
         while from < plan.records.len() {
             let next = match from {
@@ -135,15 +144,15 @@ pub fn run(
 }
 
 /// What is kept of the curves of a block.
-struct Found<'a> {
-    block: &'a Given,
-    curves: Vec<Curve>,
+struct TileBlock<'a> {
+    block: &'a SweepBlock,
+    curves: Vec<TileCurve>,
     /// Cells of the levels, where the plan keeps them.
     levels: Vec<[String; 6]>,
 }
 
 /// What is kept of a curve.
-struct Curve {
+struct TileCurve {
     record: String,
     /// From PGA/(g tan alpha) to p PGV/(g tan alpha).
     factor: f64,
@@ -154,13 +163,17 @@ struct Curve {
     capacities: Vec<f64>,
 }
 
-impl<'a> Found<'a> {
-    fn new(block: &'a Given) -> Self {
+impl<'a> TileBlock<'a> {
+    fn new(block: &'a SweepBlock) -> Self {
         Self { block, curves: Vec::new(), levels: Vec::new() }
     }
 
-    fn add(&mut self, plan: &Plan, curve: &IdaCurve) -> Result<(), Failure> {
-        let response = curve.response(Overturned::Refined).at(&curve.record)?;
+    fn add(
+        &mut self,
+        plan: &SweepPlan,
+        curve: &IdaCurve,
+    ) -> Result<(), Failure> {
+        let response = curve.response(BracketEnd::Refined).at(&curve.record)?;
         let at = |demand: &f64| {
             let found = response.capacity(*demand, InversionRule::Median);
             Ok(found.at(&curve.record)?.im())
@@ -169,7 +182,7 @@ impl<'a> Found<'a> {
             plan.demands.iter().map(at).collect();
         let points = curve.points.iter();
         let overturning_im = curve.overturning.map(|o| o.im());
-        self.curves.push(Curve {
+        self.curves.push(TileCurve {
             record: curve.record.clone(),
             factor: curve.velocity_factor(self.block.p_rad_s),
             overturning_im: overturning_im.unwrap_or(f64::INFINITY),
@@ -198,7 +211,7 @@ impl<'a> Found<'a> {
 }
 
 /// The text of a tile's file without its last line.
-fn text(plan: &Plan, content: Content, all: &[Found<'_>]) -> String {
+fn text(plan: &SweepPlan, content: Content, all: &[TileBlock<'_>]) -> String {
     let header = content.columns(plan);
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = Table::with_schema(&header);
@@ -260,7 +273,7 @@ fn text(plan: &Plan, content: Content, all: &[Found<'_>]) -> String {
 /// of earthquakes drawn where the plan has them;
 /// empty where some record never reaches the demand.
 fn fragility(
-    plan: &Plan,
+    plan: &SweepPlan,
     name: &[String; 3],
     sample: &[f64],
     onsets: &[f64],

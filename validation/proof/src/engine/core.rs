@@ -3,8 +3,8 @@
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, ScaledRecord};
 use rocking::integrator::{
-    self, Certified, Certify, Observe, Order, Outcome, Response, SceneError,
-    Solver,
+    self, CertifiedFate, Certify, Observe, Order, Outcome, Response,
+    SceneError, Solver,
 };
 use rocking::number::Real;
 
@@ -109,7 +109,7 @@ pub fn respond_in<N: Real>(
 /// # Errors
 /// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
 /// words.
-pub fn certify(scene: &Scene) -> Result<Certified, EngineError> {
+pub fn certify(scene: &Scene) -> Result<CertifiedFate, EngineError> {
     let ask = Certify { until_s: scene.until_s, ..Certify::default() };
     with_core_scene(scene, Quotient::Kept, |scene| {
         integrator::certify(scene, &ask)

@@ -2,7 +2,9 @@
 //! rise to the uplift threshold, against times and fates of 40 digits.
 
 use anyhow::{Result, bail};
-use rocking::integrator::{Assessment, Certified, Observe, Outcome, Response};
+use rocking::integrator::{
+    Assessment, CertifiedFate, Observe, Outcome, Response,
+};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
@@ -106,7 +108,7 @@ impl Counts {
         self.unresolved += usize::from(!clear);
         self.wrong_and_clear += usize::from(clear && !right);
         self.wrong_and_unresolved += usize::from(!clear && !right);
-        let fate: Certified = certify(scene)?;
+        let fate: CertifiedFate = certify(scene)?;
         let error = fate.error.unwrap_or(f64::INFINITY);
         self.certified_open += usize::from(!fate.resolved);
         self.certified_wrong +=

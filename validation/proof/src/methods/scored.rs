@@ -6,8 +6,8 @@ use anyhow::{Result, anyhow};
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking_score::{
-    Answers, Diagnosis, Engine as Run, Excitation, Item, Scene as Asked,
-    Value, Verdict, answers_of, diagnose, reference,
+    Answers, CodeVerdict, Diagnosis, Item, OwnResponse, ReferenceScene,
+    SceneExcitation, Value, answers_of, diagnose, reference,
 };
 use rocking_statistics::streams::{Streams, standard_normal};
 
@@ -17,7 +17,7 @@ use crate::engine::Core;
 use crate::scene::{Forcing, Scene, Trace};
 
 /// The scene as a wrong model of the input has it.
-fn mistaken(context: &Context, scene: &Asked) -> Asked {
+fn mistaken(context: &Context, scene: &ReferenceScene) -> ReferenceScene {
     let mut scene = scene.clone();
     if context.is(WrongModel::EtaSquared) {
         scene.eta *= scene.eta;
@@ -44,8 +44,11 @@ pub fn certified(context: &Context, answer: &mut Answer) -> Result<()> {
     Ok(())
 }
 
-fn errors<N: Wide>(index: usize, scene: &Asked) -> Result<(f64, f64)> {
-    let run = Run::<N>::precise(scene).map_err(|e| anyhow!(e))?;
+fn errors<N: Wide>(
+    index: usize,
+    scene: &ReferenceScene,
+) -> Result<(f64, f64)> {
+    let run = OwnResponse::<N>::precise(scene).map_err(|e| anyhow!(e))?;
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
     let items = reference().items.iter();
     for item in items.filter(|item| item.scene == index) {
@@ -79,8 +82,9 @@ pub fn diagnosis(context: &Context, answer: &mut Answer) -> Result<()> {
         altered: Vec<WrongModel>,
     }
     let set = reference();
-    let right = answers_of(|scene| Run::double(&mistaken(context, scene)))
-        .map_err(|e| anyhow!(e))?;
+    let right =
+        answers_of(|scene| OwnResponse::double(&mistaken(context, scene)))
+            .map_err(|e| anyhow!(e))?;
     for scatter in noise {
         let noisy =
             |name: &str, right: &dyn Fn(usize, &Item) -> Option<Value>| {
@@ -99,7 +103,7 @@ pub fn diagnosis(context: &Context, answer: &mut Answer) -> Result<()> {
                 answers
             };
         let own = noisy("right", &|place, _| right.get(place).cloned());
-        let none = diagnose(&own, &[]).verdict == Verdict::None;
+        let none = diagnose(&own, &[]).verdict == CodeVerdict::None;
         answer.see("right-code-told-none", [f64::from(u8::from(none))]);
         let (mut named, mut guessed, mut singles) = (0.0, 0.0, 0.0);
         for (model, name) in set.models.iter().enumerate() {
@@ -147,13 +151,13 @@ fn names(found: &Diagnosis) -> Vec<String> {
 }
 
 /// A scene of the data set as the harness has it.
-fn scene_of(asked: &Asked) -> Scene {
+fn scene_of(asked: &ReferenceScene) -> Scene {
     let forcing = match &asked.excitation {
-        Excitation::Free => {
+        SceneExcitation::Free => {
             Forcing::Free { rotation_rad: asked.initial_theta_rad }
         }
-        Excitation::Pulse(kind) => Forcing::Pulse(*kind),
-        Excitation::Samples { dt_s, samples_m_s2 } => {
+        SceneExcitation::Pulse(kind) => Forcing::Pulse(*kind),
+        SceneExcitation::Samples { dt_s, samples_m_s2 } => {
             Forcing::samples(*dt_s, samples_m_s2.clone())
         }
     };
@@ -164,7 +168,7 @@ fn scene_of(asked: &Asked) -> Scene {
 }
 
 /// What a trace of the harness says of a quantity; nothing of rotations.
-fn seen(asked: &Asked, trace: &Trace, item: &Item) -> Option<Value> {
+fn seen(asked: &ReferenceScene, trace: &Trace, item: &Item) -> Option<Value> {
     let falls = trace.overturned_s.is_some();
     let quantity = item.quantity.as_str();
     let number = match quantity {

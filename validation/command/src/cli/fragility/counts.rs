@@ -15,7 +15,7 @@ use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::Stripe;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
-use crate::failure::{At as _, Failure};
+use crate::failure::{AtPlace as _, Failure};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_draw::figures::of_suite::fragilities_svg;
@@ -75,14 +75,14 @@ pub(super) fn run_fragility_counts(
 
 /// What a table says of stripes.
 #[derive(Debug)]
-pub enum Counted {
+pub enum CountTable {
     /// Counts alone.
     Stripes(Vec<Stripe>),
     /// What became of each record.
     Records(Vec<Outcome>, Clusters),
 }
 
-impl Counted {
+impl CountTable {
     /// The fit; draws are for outcomes of records.
     pub(super) fn fit(
         &self,
@@ -138,7 +138,7 @@ impl Counted {
 ///
 /// # Errors
 /// [`Failure`] for a file that cannot be read, and as [`parse`].
-pub(super) fn read(path: &Path) -> Result<Counted, Failure> {
+pub(super) fn read(path: &Path) -> Result<CountTable, Failure> {
     Ok(parse(input::open(path)?, path)?)
 }
 
@@ -147,7 +147,7 @@ pub(super) fn read(path: &Path) -> Result<Counted, Failure> {
 ///
 /// # Errors
 /// [`FileError`] with the line for another column and a cell of another form.
-pub fn parse(from: impl Read, path: &Path) -> Result<Counted, FileError> {
+pub fn parse(from: impl Read, path: &Path) -> Result<CountTable, FileError> {
     let mut reader = reader(from, csv::Trim::All, Some(b'#'));
     let head = reader.headers().map_err(|e| no_csv(path, e))?;
     if head.iter().any(|column| column == "record") {
@@ -165,14 +165,14 @@ pub fn parse(from: impl Read, path: &Path) -> Result<Counted, FileError> {
         })
     };
     let stripes = rows(&COUNTS, &mut reader, path)?.map(stripe);
-    Ok(Counted::Stripes(stripes.collect::<Result<_, FileError>>()?))
+    Ok(CountTable::Stripes(stripes.collect::<Result<_, FileError>>()?))
 }
 
 /// Reads a table of outcomes.
 fn outcomes<R: Read>(
     path: &Path,
     reader: &mut csv::Reader<R>,
-) -> Result<Counted, FileError> {
+) -> Result<CountTable, FileError> {
     let mut events: IndexMap<String, String> = IndexMap::new();
     let mut all = Vec::new();
     for cells in rows(&OUTCOMES, reader, path)? {
@@ -203,7 +203,7 @@ fn outcomes<R: Read>(
         true => Clusters::from_labels(events.values()),
         false => Clusters::singletons(events.len()),
     };
-    Ok(Counted::Records(all, clusters))
+    Ok(CountTable::Records(all, clusters))
 }
 
 /// Records of a stripe, at most.

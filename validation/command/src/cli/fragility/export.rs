@@ -38,13 +38,13 @@ fn formats() -> impl TypedValueParser<Value = &'static ExchangeFormat> {
 }
 
 #[derive(Serialize)]
-struct Shown<'a> {
-    blocks: Vec<ShownState<'a>>,
+struct ExportSummary<'a> {
+    blocks: Vec<LimitStateRow<'a>>,
 }
 
 /// A limit state of a block.
 #[derive(Serialize)]
-struct ShownState<'a> {
+struct LimitStateRow<'a> {
     id: &'a Id,
     limit_state: &'a Id,
     im: String,
@@ -79,7 +79,7 @@ pub(super) fn run_fragility_export(
         return Ok(());
     }
     let states = fragilities.iter().flat_map(|one| {
-        one.limit_states.iter().map(|state| ShownState {
+        one.limit_states.iter().map(|state| LimitStateRow {
             id: &one.id,
             limit_state: &state.name,
             im: one.im.to_string(),
@@ -89,7 +89,7 @@ pub(super) fn run_fragility_export(
             beta: state.fragility.dispersion(),
         })
     });
-    args.json.show(&Shown { blocks: states.collect() })
+    args.json.show(&ExportSummary { blocks: states.collect() })
 }
 
 impl FragilityExportCommand {

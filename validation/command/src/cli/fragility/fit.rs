@@ -14,10 +14,10 @@ use rocking_statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
 use super::source::{self, IdaArgs};
-use crate::cli::capacities::Levels;
+use crate::cli::capacities::EdpLevels;
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
-use crate::failure::{At as _, Failure, bail};
+use crate::failure::{AtPlace as _, Failure, bail};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
@@ -75,7 +75,7 @@ pub(super) struct FragilityFitCommand {
         requires = "bootstrap",
         allow_hyphen_values = true
     )]
-    band: Option<Levels>,
+    band: Option<EdpLevels>,
     /// The band as a table.
     #[arg(long, value_name = "FILE.csv", requires_all = ["band", "sample"])]
     band_csv: Option<PathBuf>,

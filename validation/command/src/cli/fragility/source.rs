@@ -20,13 +20,13 @@ use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::{CensoredSample, Clusters, Lognormal};
 use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
-use super::counts::{self, Counted};
-use crate::cli::blocks::{self, Row};
-use crate::cli::capacities::Levels;
+use super::counts::{self, CountTable};
+use crate::cli::blocks::{self, BlockRow};
+use crate::cli::capacities::EdpLevels;
 use crate::cli::names;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::positive;
-use crate::failure::{At as _, Failure, bail, ensure};
+use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
 use rocking_common::paper::SuiteKind;
 use rocking_exchange::sample::SampleSetting;
@@ -102,7 +102,7 @@ pub struct IdaArgs {
         requires = "ida",
         allow_hyphen_values = true
     )]
-    at: Option<Levels>,
+    at: Option<EdpLevels>,
     /// Which capacity is made of several crossings [default: median].
     #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
@@ -117,36 +117,36 @@ impl IdaArgs {
 }
 
 /// What is fitted, or the surface that was.
-enum Values {
+enum LevelValues {
     Sample(CensoredSample, Clusters),
-    Counts(Counted),
-    Surface(rocking_surrogate::Model),
+    Counts(CountTable),
+    Surface(rocking_surrogate::SurfaceModel),
 }
 
 /// A fragility, and what the draws of its sample make of it.
-pub type Law = (Lognormal, Option<Sampled>);
+pub type SampledFragility = (Lognormal, Option<Sampled>);
 
 /// The fragilities of a block, and what draws make of each limit state.
-type Drawn = (BlockFragility, Vec<Option<Sampled>>);
+type BlockDraws = (BlockFragility, Vec<Option<Sampled>>);
 
 /// Where one limit state comes from.
-struct Level {
+struct FragilityLevel {
     /// The file, or what stands for it.
     place: String,
     /// The measure, or why there is none.
     im: Result<IntensityMeasure, String>,
     setting: SampleSetting,
-    values: Values,
+    values: LevelValues,
     origin: String,
 }
 
 /// The files of [`SourceArgs`], read.
-pub struct Source {
+pub struct FragilitySource {
     /// Of the flags.
-    levels: Vec<Level>,
+    levels: Vec<FragilityLevel>,
     /// Of the table of blocks.
-    samples: BTreeMap<PathBuf, Level>,
-    rows: Vec<Row>,
+    samples: BTreeMap<PathBuf, FragilityLevel>,
+    rows: Vec<BlockRow>,
     names: Vec<Id>,
     gravity_m_s2: f64,
 }
@@ -163,7 +163,7 @@ impl SourceArgs {
     ///
     /// # Errors
     /// [`Failure`] for a file or a block that is refused.
-    pub fn open(&self) -> Result<Source, Failure> {
+    pub fn open(&self) -> Result<FragilitySource, Failure> {
         let gravity_m_s2 = self.gravity;
         let rows = match (&self.blocks, self.block.given(), &self.id) {
             (Some(path), ..) => blocks::on_ground(path, gravity_m_s2)?,
@@ -172,7 +172,7 @@ impl SourceArgs {
                 let block = self.block.block(gravity_m_s2)?;
                 let id = self.id.clone().map_or_else(|| Id::of(&block), Ok);
                 let id = id.map_err(Failure::input)?;
-                vec![Row::of(id, block)]
+                vec![BlockRow::of(id, block)]
             }
         };
         let mut samples = BTreeMap::new();
@@ -182,10 +182,10 @@ impl SourceArgs {
             }
         }
         let (levels, names) = (self.levels()?, self.limit_state.clone());
-        Ok(Source { levels, samples, rows, names, gravity_m_s2 })
+        Ok(FragilitySource { levels, samples, rows, names, gravity_m_s2 })
     }
 
-    fn levels(&self) -> Result<Vec<Level>, Failure> {
+    fn levels(&self) -> Result<Vec<FragilityLevel>, Failure> {
         if let Some(path) = &self.ida.ida {
             return self.ida(path);
         }
@@ -195,7 +195,7 @@ impl SourceArgs {
         samples.chain(counts).chain(surface).collect()
     }
 
-    fn sample(&self, path: &Path) -> Result<Level, Failure> {
+    fn sample(&self, path: &Path) -> Result<FragilityLevel, Failure> {
         let file = input::sample(path)?;
         let place = path.display().to_string();
         let setting = file.setting();
@@ -212,11 +212,11 @@ impl SourceArgs {
             (None, Ok(im)) => unstated_origin(n, im),
             (of, _) => format!("{n} capacities, {}", of.unwrap_or_default()),
         } + &setting.to_string();
-        let values = Values::Sample(file.censored()?, file.clusters());
-        Ok(Level { place, im, setting, values, origin })
+        let values = LevelValues::Sample(file.censored()?, file.clusters());
+        Ok(FragilityLevel { place, im, setting, values, origin })
     }
 
-    fn ida(&self, path: &Path) -> Result<Vec<Level>, Failure> {
+    fn ida(&self, path: &Path) -> Result<Vec<FragilityLevel>, Failure> {
         let place = path.display().to_string();
         let intensity = in_table(self.im.as_ref())?;
         let im = IntensityMeasure::from(intensity);
@@ -240,8 +240,11 @@ impl SourceArgs {
         );
         let level = |&edp: &f64| {
             let values = capacities::sample(&curves, edp, rule);
-            Ok(Level {
-                values: Values::Sample(values.at(&place)?, clusters.clone()),
+            Ok(FragilityLevel {
+                values: LevelValues::Sample(
+                    values.at(&place)?,
+                    clusters.clone(),
+                ),
                 place: place.clone(),
                 im: Ok(im.clone()),
                 setting,
@@ -251,18 +254,18 @@ impl SourceArgs {
         at.iter().map(level).collect()
     }
 
-    fn counts(&self, path: &Path) -> Result<Level, Failure> {
+    fn counts(&self, path: &Path) -> Result<FragilityLevel, Failure> {
         let counted = counts::read(path)?;
         let im = self.im.clone().unwrap_or(IntensityMeasure::PGA);
         let origin = format!(
             "counts of exceedance at {} intensities",
             counted.stripes().len()
         );
-        Ok(Level {
+        Ok(FragilityLevel {
             place: path.display().to_string(),
             im: Ok(im),
             setting: SampleSetting::default(),
-            values: Values::Counts(counted),
+            values: LevelValues::Counts(counted),
             origin,
         })
     }
@@ -286,7 +289,7 @@ pub(super) fn in_table(
 }
 
 /// The surface of a suite.
-fn surface(suite: SuiteKind) -> Result<Level, Failure> {
+fn surface(suite: SuiteKind) -> Result<FragilityLevel, Failure> {
     let models = Surrogate::embedded()?.models.into_iter();
     let mut own = models.filter(|(model, _)| model.suite == suite);
     let (model, _) = own.next().ok_or_else(|| Failure::input(suite))?;
@@ -295,16 +298,16 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
         model: Some(Model::Nonlinear),
         ..SampleSetting::default()
     };
-    Ok(Level {
+    Ok(FragilityLevel {
         place: "--surrogate".to_owned(),
         im: Ok(IntensityMeasure::PGA),
         setting,
-        values: Values::Surface(model),
+        values: LevelValues::Surface(model),
         origin: origin(suite),
     })
 }
 
-impl Level {
+impl FragilityLevel {
     fn im(&self) -> Result<&IntensityMeasure, Failure> {
         self.im.as_ref().map_err(Failure::input)
     }
@@ -314,18 +317,18 @@ impl Level {
         &self,
         options: &FitOptions,
         block: Option<&Block>,
-    ) -> Result<Law, Failure> {
+    ) -> Result<SampledFragility, Failure> {
         let place = &self.place;
         let refused = |expected: &str| bail!("{place}: {expected}");
         let once = FitOptions { draws: None, ..options.clone() };
         match (&self.values, options.shift, block) {
-            (Values::Sample(sample, clusters), ..) => {
+            (LevelValues::Sample(sample, clusters), ..) => {
                 let fitted = fit_sample(sample, &once).at(place)?.fitted;
                 let clusters = Some(clusters.clone());
                 let own = FitOptions { clusters, ..options.clone() };
                 Ok((fitted, own.sampled(sample).at(place)?))
             }
-            (Values::Counts(counted), Shift::Given(shift), _)
+            (LevelValues::Counts(counted), Shift::Given(shift), _)
                 if options.method == FitMethod::MaximumLikelihood =>
             {
                 let found = fit_stripes(&counted.stripes(), shift);
@@ -335,17 +338,17 @@ impl Level {
                 let drawn = drawn.transpose().at(place)?;
                 Ok((found.at(place)?.fitted, drawn))
             }
-            (Values::Counts(_), ..) => refused(
+            (LevelValues::Counts(_), ..) => refused(
                 "counts: expected --shift with a number and --method mle",
             ),
-            (Values::Surface(model), _, Some(block))
+            (LevelValues::Surface(model), _, Some(block))
                 if once == FitOptions::default() =>
             {
                 let alpha_rad = block.slenderness_rad();
                 let p_rad_s = block.frequency_rad_s();
                 Ok((model.at(alpha_rad, p_rad_s).at(place)?, None))
             }
-            (Values::Surface(_), ..) => {
+            (LevelValues::Surface(_), ..) => {
                 refused("expected a block and no flag of a fit")
             }
         }
@@ -353,7 +356,7 @@ impl Level {
 
     /// The number of units of the block's own intensity measure in one of
     /// the values'.
-    fn unit(&self, row: &Row, gravity_m_s2: f64) -> Result<f64, Failure> {
+    fn unit(&self, row: &BlockRow, gravity_m_s2: f64) -> Result<f64, Failure> {
         let at = |what: String| {
             Failure::input(format!("{}: {}: {what}", row.place, self.place))
         };
@@ -375,7 +378,7 @@ impl Level {
     }
 }
 
-impl Source {
+impl FragilitySource {
     /// The files that the table of blocks names.
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
@@ -393,7 +396,7 @@ impl Source {
         &self,
         im: &HazardMeasure,
         options: &FitOptions,
-    ) -> Result<Vec<(Option<String>, Law)>, Failure> {
+    ) -> Result<Vec<(Option<String>, SampledFragility)>, Failure> {
         if *im == HazardMeasure::Own
             && let Some(row) = self.rows.first()
         {
@@ -422,7 +425,7 @@ impl Source {
         let blocks: Vec<(Option<Id>, States)> = if is_own {
             let laws = self.levels.iter();
             let laws = laws.map(|level| level.fit(options, None));
-            let laws = laws.collect::<Result<Vec<Law>, _>>()?;
+            let laws = laws.collect::<Result<Vec<SampledFragility>, _>>()?;
             let (laws, sampled) = laws.into_iter().unzip();
             vec![(None, (self.named(laws)?, sampled))]
         } else {
@@ -457,7 +460,7 @@ impl Source {
         Ok(all.map(|(fragility, _)| fragility).collect())
     }
 
-    fn all(&self, options: &FitOptions) -> Result<Vec<Drawn>, Failure> {
+    fn all(&self, options: &FitOptions) -> Result<Vec<BlockDraws>, Failure> {
         ensure!(
             !self.rows.is_empty(),
             "expected --blocks, or --alpha and --p, or --width-m and \
@@ -468,11 +471,11 @@ impl Source {
 
     fn of_row(
         &self,
-        row: &Row,
+        row: &BlockRow,
         options: &FitOptions,
-    ) -> Result<Drawn, Failure> {
+    ) -> Result<BlockDraws, Failure> {
         let own = row.samples.iter().filter_map(|path| self.samples.get(path));
-        let own: Vec<&Level> = match row.samples.is_empty() {
+        let own: Vec<&FragilityLevel> = match row.samples.is_empty() {
             true => self.levels.iter().collect(),
             false => own.collect(),
         };

@@ -9,7 +9,7 @@ use rocking_records::intensity::{
 };
 use serde::Serialize;
 
-use super::{Finding, Listed};
+use super::{RecordFinding, RecordListing};
 use crate::failure::{Failure, bail, ensure};
 use rocking_draw::figures::of_result::record_svg;
 
@@ -40,12 +40,12 @@ const OWN: &str = "own";
 
 /// What was measured: a row a record, and two a pair.
 #[derive(Serialize)]
-pub(super) struct Measured {
+pub(super) struct RecordMeasures {
     damping_ratio: f64,
     periods_s: Vec<f64>,
     intensity: Vec<MeasuresOf>,
     velocity_pulses: Vec<PulseOf>,
-    not_measured: Vec<NotMeasured>,
+    not_measured: Vec<MeasureRefusal>,
 }
 
 #[derive(Serialize)]
@@ -67,7 +67,7 @@ struct PulseOf {
 }
 
 #[derive(Serialize)]
-struct NotMeasured {
+struct MeasureRefusal {
     of: String,
     reason: String,
 }
@@ -79,9 +79,9 @@ impl MeasureArgs {
     /// [`Failure`] for a period that is none, or pulses without a pair.
     pub(super) fn run(
         &self,
-        records: &[Listed],
+        records: &[RecordListing],
         gravity_m_s2: f64,
-    ) -> Result<Option<Measured>, Failure> {
+    ) -> Result<Option<RecordMeasures>, Failure> {
         let usual = Settings::default();
         let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
         // Without a record nothing is measured, and what is wrong was said of
@@ -103,7 +103,7 @@ impl MeasureArgs {
             "--pulses: no two components of one motion among the \
              records; expected a suite with pairs, or two files alone"
         );
-        let mut found = Measured {
+        let mut found = RecordMeasures {
             damping_ratio,
             periods_s: settings.periods_s().to_vec(),
             intensity: Vec::new(),
@@ -111,7 +111,8 @@ impl MeasureArgs {
             not_measured: Vec::new(),
         };
         if self.intensity {
-            let single = |l: &Listed| Measures::of(&l.motion, &settings);
+            let single =
+                |l: &RecordListing| Measures::of(&l.motion, &settings);
             let singles: Vec<_> = records.par_iter().map(single).collect();
             for (listed, single) in records.iter().zip(singles) {
                 let single = found.take(&listed.file, single);
@@ -147,7 +148,7 @@ impl MeasureArgs {
     }
 }
 
-impl Measured {
+impl RecordMeasures {
     /// What was found; why there is nothing goes into the list.
     fn take<T>(
         &mut self,
@@ -156,7 +157,7 @@ impl Measured {
     ) -> Option<T> {
         let refuse = |error: IntensityError| {
             let (of, reason) = (of.to_owned(), error.to_string());
-            self.not_measured.push(NotMeasured { of, reason });
+            self.not_measured.push(MeasureRefusal { of, reason });
         };
         found.map_err(refuse).ok()
     }
@@ -178,9 +179,9 @@ impl Measured {
     pub(super) fn drifts(
         &self,
         baseline: &str,
-    ) -> impl Iterator<Item = Finding> {
+    ) -> impl Iterator<Item = RecordFinding> {
         let own = self.intensity.iter().filter(|row| row.component == OWN);
-        own.filter(|row| row.measures.drifts()).map(move |row| Finding {
+        own.filter(|row| row.measures.drifts()).map(move |row| RecordFinding {
             file: row.of.clone(),
             code: "drift",
             line: None,
@@ -193,7 +194,7 @@ impl Measured {
 }
 
 /// Pairs by name, the study's component first; two records alone are one.
-fn pairs(records: &[Listed]) -> Vec<(String, [usize; 2])> {
+fn pairs(records: &[RecordListing]) -> Vec<(String, [usize; 2])> {
     let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     let mut names = Vec::new();
     for (i, listed) in records.iter().enumerate() {
@@ -233,11 +234,11 @@ const DRAWN_PERIODS: i32 = 92;
 /// # Errors
 /// [`Failure`] for any other number of records.
 pub(super) fn svg(
-    records: &[Listed],
+    records: &[RecordListing],
     done: Option<&str>,
     gravity_m_s2: f64,
 ) -> Result<String, Failure> {
-    let [Listed { motion, .. }] = records else {
+    let [RecordListing { motion, .. }] = records else {
         bail!("--plot: {} records: expected one", records.len());
     };
     let periods_s: Vec<f64> = (0..=DRAWN_PERIODS)

@@ -5,16 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rocking_common::suites::export;
 
-use super::{Levels, Plan, SCHEMA};
+use super::{LevelSteps, SCHEMA, SweepPlan};
 
-impl Plan {
+impl SweepPlan {
     /// Refuses another form, and settings out of range.
     pub(super) fn check_settings(&self) -> Result<(), String> {
         if self.schema != SCHEMA {
             return Err(format!("schema {}: expected {SCHEMA}", self.schema));
         }
         let step = match self.levels {
-            Levels::StepIm(step) | Levels::StepPgaG(step) => step,
+            LevelSteps::StepIm(step) | LevelSteps::StepPgaG(step) => step,
         };
         if !(step > 0.0 && step.is_finite()) {
             return Err(format!("step {step}: expected a positive number"));

@@ -5,9 +5,9 @@
 //! class after class. `climb` says which analyses a curve still needs;
 //! `levels` makes the scene of a level and the point of its response. The pool
 //! has 128 slots in 16 groups of eight lanes. A sweep steps all groups
-//! (`Group::step`). Lanes that surely meet no event (`free_of_events`) move on
+//! (`LaneGroup::step`). Lanes that surely meet no event (`free_of_events`) move on
 //! to the next sample of their record; `Waiting::park` queues the others. When
-//! enough lanes wait (`Kind::worth`), `Batch::gather` takes up to eight,
+//! enough lanes wait (`WaitKind::worth`), `LaneBatch::gather` takes up to eight,
 //! `solve` makes their steps, `land` carries the rough estimate over their
 //! impacts, and `Pool::scatter` puts them back. The driver makes the steps
 //! that a batch cannot (`Slot::advance`). `Desk::settle` hands the response to

@@ -56,7 +56,7 @@
 //!
 //! A run for the peak alone ends early, and a certificate is closed
 //! (`assess_settled`), where the bounds above exclude a higher peak. They rest
-//! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `Hop`), on an
+//! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `BarrierHop`), on an
 //! impact that leaves -eta y - (1 - eta) v c of y with a constant eta of at
 //! most 1, and on a peak below the saddle. Under another impact law,
 //! `Driver::for_peak` and `Driver::observe` take no barrier until P1 is proved

@@ -104,8 +104,8 @@ impl Setup {
             let own = |scan: &Arm| (*scan == Arm::C) == (*arm == Arm::C);
             let scan = scans.iter().position(own).unwrap_or(0);
             let overturned = match arm {
-                Arm::A => Overturned::Scanned,
-                Arm::B | Arm::C => Overturned::Refined,
+                Arm::A => BracketEnd::Scanned,
+                Arm::B | Arm::C => BracketEnd::Refined,
             };
             let curves = runs[scan * blocks.len()..][..blocks.len()]
                 .iter()

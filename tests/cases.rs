@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_proof::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
 use rocking_proof::methods::{all_methods, digits, digits_csv};
-use rocking_proof::verdict::{Outcome, run_case, snapshot};
+use rocking_proof::verdict::{CaseOutcome, run_case, snapshot};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -33,11 +33,11 @@ fn main() -> ExitCode {
 /// A case that is run once, whoever asks for its outcome.
 struct Judged {
     case: Case,
-    outcome: OnceLock<Outcome>,
+    outcome: OnceLock<CaseOutcome>,
 }
 
 impl Judged {
-    fn outcome(&self) -> &Outcome {
+    fn outcome(&self) -> &CaseOutcome {
         self.outcome.get_or_init(|| run_case(&self.case))
     }
 }
@@ -112,7 +112,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
     let validation = move || {
         let cases: Vec<Case> = quick.iter().map(|j| j.case.clone()).collect();
         let outcomes = quick.iter().map(|j| j.outcome().clone());
-        let outcomes: Vec<Outcome> = outcomes.collect();
+        let outcomes: Vec<CaseOutcome> = outcomes.collect();
         let own = snapshot::text(&cases, &outcomes);
         if committed("validation.json") == own {
             return Ok(());

@@ -7,11 +7,12 @@ use std::collections::BTreeMap;
 use rocking::excitation::{Pulse, PulseName};
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
 use rocking_proof::cases::{
-    Basis, Bound, Case, CaseError, Cost, Fault, Status, load_all, load_family,
+    Bound, Case, CaseError, CaseFault, Cost, Status, ToleranceBasis, load_all,
+    load_family,
 };
 use rocking_proof::methods::{self, Quantities};
 use rocking_proof::oracles::linear;
-use rocking_proof::scene::Forcing;
+use rocking_proof::scene::CaseForcing;
 use rocking_proof::verdict::judge;
 
 use super::compare::{committed, near};
@@ -39,7 +40,7 @@ fn validates_a_good_file_and_refuses_each_flaw() {
     assert_eq!((case.cost, &case.status), (Cost::Quick, &Status::Pass));
     let twice = format!("{GOOD}{}", &GOOD[GOOD.find("[[case]]").unwrap()..]);
     let duplicate = load_family("f", &twice).unwrap_err();
-    assert!(matches!(duplicate.fault, Fault::Duplicate(_)));
+    assert!(matches!(duplicate.fault, CaseFault::Duplicate(_)));
     let flaws = [
         ("claim = \"c\"", "claim = \"c\"\ncost = \"slow\""),
         ("claim = \"c\"", "claim = \" \""),
@@ -62,7 +63,7 @@ fn validates_a_good_file_and_refuses_each_flaw() {
         assert!(load_family("f", &text).is_err(), "{to}");
     }
     let none = GOOD.split("[[case]]").next().unwrap();
-    assert_eq!(load_family("f", none).unwrap_err().fault, Fault::Empty);
+    assert_eq!(load_family("f", none).unwrap_err().fault, CaseFault::Empty);
 }
 
 /// A family with defaults of its own and of a method.
@@ -135,7 +136,10 @@ fn another_document_or_basis_inherits_no_words() {
     let error = with(own).unwrap_err().to_string();
     assert!(error.contains("case `a`: missing field `because`"), "{error}");
     let own = format!("{own}\ntolerance.because = \"b\"");
-    assert_eq!(with(&own).unwrap()[0].tolerance.basis, Basis::Sampling);
+    assert_eq!(
+        with(&own).unwrap()[0].tolerance.basis,
+        ToleranceBasis::Sampling
+    );
 }
 
 #[test]
@@ -152,26 +156,30 @@ fn refuses_what_is_said_twice() {
     ];
     for (lines, due) in flaws {
         let fault = with(lines).unwrap_err().fault;
-        let Fault::Repeated { place, key } = fault else { panic!("{lines}") };
+        let CaseFault::Repeated { place, key } = fault else {
+            panic!("{lines}")
+        };
         assert_eq!((&*place, &*key), ("case `a`", due));
     }
     let text = DEFAULTS.replace("elsewhere", "w");
     let lines = "[[case]]\nname = \"z\"\nclaim = \"c\"\nmethod = \"other\"";
     let error = load_family("f", &format!("{text}{lines}")).unwrap_err();
-    let Fault::Repeated { place, .. } = error.fault else { panic!("{error}") };
+    let CaseFault::Repeated { place, .. } = error.fault else {
+        panic!("{error}")
+    };
     assert_eq!(place, "[family.method.other]");
 }
 
 #[test]
 fn refuses_a_default_that_no_case_inherits() {
     let error = load_family("f", DEFAULTS).unwrap_err();
-    let Fault::Idle { place, key } = error.fault else { panic!("idle") };
+    let CaseFault::Idle { place, key } = error.fault else { panic!("idle") };
     assert_eq!((&*place, &*key), ("[family.method.other]", "source.where"));
 
     let text =
         GOOD.replace("[[case]]", "[family.default]\nmethod = \"k\"\n[[case]]");
     let fault = load_family("f", &text).unwrap_err().fault;
-    let Fault::Idle { place, key } = fault else { panic!("overridden") };
+    let CaseFault::Idle { place, key } = fault else { panic!("overridden") };
     assert_eq!((&*place, &*key), ("[family.default]", "method"));
 }
 
@@ -267,7 +275,7 @@ fn a_bound_typed_like_the_computed_one_is_refused() {
         text.replace("name = \"a\"", "name = \"a\"\ninput.entry = \"hs-01\"");
     let same = text.replace("\"exact\"", "{ absolute = 2.4e-13 }");
     let error = load_family("f", &same).unwrap_err();
-    assert!(matches!(error.fault, Fault::Repeated { .. }), "{error}");
+    assert!(matches!(error.fault, CaseFault::Repeated { .. }), "{error}");
 }
 
 #[test]
@@ -349,8 +357,8 @@ fn what_is_counted_is_what_is_expected() {
 #[test]
 fn every_pulse_has_its_oracle() {
     for name in PulseName::ALL {
-        let forcing = Forcing::pulse(name, 2.0, 1.3);
-        let Forcing::Pulse(kind) = forcing else { unreachable!() };
+        let forcing = CaseForcing::pulse(name, 2.0, 1.3);
+        let CaseForcing::Pulse(kind) = forcing else { unreachable!() };
         let core = Pulse::try_new(kind).unwrap();
         let end_s = core.duration_s();
         near(name.name(), forcing.end_s(), end_s, 1e-14 * end_s);

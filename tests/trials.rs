@@ -14,7 +14,9 @@ use rocking_common::paper::BLOCKS;
 use rocking_common::paper::SuiteKind;
 use rocking_common::suites::StudySuite;
 use rocking_proof::cases::WrongModel;
-use rocking_proof::trials::{Judgement, Reading, Stratum, findings, trial};
+use rocking_proof::trials::{
+    CertificateReading, Judgement, Stratum, findings, trial,
+};
 use rocking_records::{Processing, ReadOptions};
 
 #[path = "trials/orders.rs"]
@@ -62,7 +64,7 @@ fn no_clear_run_is_wrong() {
     let found = findings(stratum, &indices.collect::<Vec<_>>()).unwrap();
     let mut bad = 0;
     for finding in &found {
-        let judgement = Judgement::of(finding, Reading::WHOLE);
+        let judgement = Judgement::of(finding, CertificateReading::WHOLE);
         let near = matches!(judgement, Judgement::Within(r) if r >= NEAR);
         if judgement.is_bad() || near || found.len() <= FEW {
             println!("{judgement:?}: {}", words::finding(finding));
@@ -85,10 +87,12 @@ fn no_clear_run_is_wrong() {
 #[test]
 fn what_was_wrong_and_clear_once_is_not_again() {
     let found = findings(Stratum::Grazing, &[1241]).unwrap();
-    let wrong =
-        Judgement::of(&found[0], Reading(Some(WrongModel::MarginInfinity)));
+    let wrong = Judgement::of(
+        &found[0],
+        CertificateReading(Some(WrongModel::MarginInfinity)),
+    );
     assert_eq!(wrong, Judgement::WrongAndClear);
-    let judgement = Judgement::of(&found[0], Reading::WHOLE);
+    let judgement = Judgement::of(&found[0], CertificateReading::WHOLE);
     assert_eq!(judgement, Judgement::Unresolved(true));
 }
 
@@ -99,7 +103,7 @@ fn what_was_wrong_and_clear_once_is_not_again() {
 fn a_second_top_near_the_saddle_has_its_error() {
     let found = findings(Stratum::Extreme, &[11_776, 13_679, 15_535]).unwrap();
     for finding in &found {
-        let judgement = Judgement::of(finding, Reading::WHOLE);
+        let judgement = Judgement::of(finding, CertificateReading::WHOLE);
         let words = words::finding(finding);
         assert!(!judgement.is_bad(), "{judgement:?}: {words}");
     }

@@ -4,7 +4,7 @@ use std::fs;
 
 use rocking_common::findings::Findings;
 use rocking_report::evidence::Proof;
-use rocking_report::marked::{PAGES, Results};
+use rocking_report::marked::{PAGES, PageResults};
 
 use super::super::compare::{accepting, committed};
 use super::{read, root};
@@ -19,7 +19,7 @@ fn pages_show_the_committed_results() {
     let mut other = findings.clone();
     other.claims.retain(|claim| claim.results.is_empty());
     let renewed = |findings, page, text: &str| {
-        Results { findings, proof: &proof }.renewed(page, text)
+        PageResults { findings, proof: &proof }.renewed(page, text)
     };
     for page in PAGES {
         let text = read(page);

@@ -188,15 +188,15 @@ impl Survey {
         let solver = Solver { peak_only: true, ..Solver::default() };
         let quick = solver.respond(scene, &Observe::default())?;
         let truth =
-            Truth::of(&respond_precise::<DoubleDouble>(scene, &observe)?);
+            WideTruth::of(&respond_precise::<DoubleDouble>(scene, &observe)?);
         let (truth, octuple) = match truth {
             None => (
-                Truth::of(&respond_precise::<Octuple>(scene, &observe)?),
+                WideTruth::of(&respond_precise::<Octuple>(scene, &observe)?),
                 true,
             ),
             truth => (truth, false),
         };
-        let own = Truth {
+        let own = WideTruth {
             overturned: quick.outcome.is_overturned(),
             peak_ratio: quick.peak_ratio,
         };
@@ -221,12 +221,12 @@ impl Survey {
 
 /// Fate and peak in wider arithmetic.
 #[derive(Clone, Copy)]
-struct Truth {
+struct WideTruth {
     overturned: bool,
     peak_ratio: f64,
 }
 
-impl Truth {
+impl WideTruth {
     /// None where it is not resolved.
     fn of<N: Real>(response: &Response<N>) -> Option<Self> {
         let clear = response.assessment() == Assessment::Clear;

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use rocking::number::Real as _;
-use rocking_proof::trials::{Finding, Reading, SHARES, Summary, Truth};
+use rocking_proof::trials::{
+    CertificateReading, Finding, SHARES, TrialSummary, WideTruth,
+};
 
 /// Findings counted, in words.
 pub fn summary(findings: &[Finding]) -> String {
-    let all = Summary::of(findings, Reading::WHOLE);
+    let all = TrialSummary::of(findings, CertificateReading::WHOLE);
     let mut text = format!(
         "{} runs: {} clear, {} unresolved; wrong and clear {}, \
          estimates exceeded {}, wrong and unresolved {}, clear and \
@@ -24,7 +26,7 @@ pub fn summary(findings: &[Finding]) -> String {
     for (name, share) in SHARES {
         let _ = write!(text, "{name} {:.2e}  ", all.ratio(share));
     }
-    let unclear = |f: &&Finding| !Reading::WHOLE.is_clear(&f.seen);
+    let unclear = |f: &&Finding| !CertificateReading::WHOLE.is_clear(&f.seen);
     let mut least: BTreeMap<&str, usize> = BTreeMap::new();
     for finding in findings.iter().filter(unclear) {
         let decision = finding.seen.certificate.least().decision;
@@ -41,11 +43,11 @@ pub fn finding(of: &Finding) -> String {
     let fate = |overturned| if overturned { "over" } else { "stands" };
     let (name, seen) = (&of.name, &of.seen);
     let truth = match of.truth {
-        Truth::Stands { peak_ratio, error } => {
+        WideTruth::Stands { peak_ratio, error } => {
             format!("stands {:e} +- {error:.1e}", peak_ratio.to_f64())
         }
-        Truth::Overturned => "over".to_owned(),
-        Truth::Undecided => "undecided".to_owned(),
+        WideTruth::Overturned => "over".to_owned(),
+        WideTruth::Undecided => "undecided".to_owned(),
     };
     let error = of.error();
     let error = error.map_or(String::new(), |e| format!(", error {e:.2e}"));

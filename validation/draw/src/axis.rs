@@ -18,7 +18,7 @@ pub struct Tick {
 
 /// How values go to places.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-enum Scale {
+enum AxisScale {
     Linear,
     Logarithmic,
     /// Inverse hyperbolic sine of the logarithm over this width: linear
@@ -37,7 +37,7 @@ const RATIOS: [f64; 19] = [
 pub struct Axis {
     low: f64,
     high: f64,
-    scale: Scale,
+    scale: AxisScale,
     /// The labelled ticks.
     pub ticks: Vec<Tick>,
     /// The unlabelled ticks.
@@ -61,10 +61,10 @@ impl Axis {
         let digits = decimals(round[1] - round[0]);
         let tick = |at| Tick { at, label: fixed(at, digits) };
         let ticks = round.into_iter().map(tick).collect();
-        Self::new(low, high, Scale::Linear, ticks)
+        Self::new(low, high, AxisScale::Linear, ticks)
     }
 
-    fn new(low: f64, high: f64, scale: Scale, ticks: Vec<Tick>) -> Self {
+    fn new(low: f64, high: f64, scale: AxisScale, ticks: Vec<Tick>) -> Self {
         let (minor, title) = (Vec::new(), String::new());
         Self { low, high, scale, ticks, minor, title, grid: true }
     }
@@ -91,7 +91,8 @@ impl Axis {
             (0.1, 10.0)
         };
         let decades = libm::log10(high / low);
-        let mut axis = Self::new(low, high, Scale::Logarithmic, Vec::new());
+        let mut axis =
+            Self::new(low, high, AxisScale::Logarithmic, Vec::new());
         if decades < 0.6 {
             axis.ticks = Self::linear(low, high, 5).ticks;
             return axis;
@@ -137,7 +138,7 @@ impl Axis {
         let low = if low > 0.0 && low < 1.0 { low } else { 0.5 };
         let high = if high > 1.0 && high.is_finite() { high } else { 2.0 };
         let mut axis =
-            Self::new(low, high, Scale::AboutOne(width), Vec::new());
+            Self::new(low, high, AxisScale::AboutOne(width), Vec::new());
         let mut taken: Vec<f64> = Vec::new();
         for ratio in RATIOS {
             let place = axis.place(ratio);
@@ -160,7 +161,7 @@ impl Axis {
             .map(|(i, name)| Tick { at: (i + 1) as f64, label: name.clone() })
             .collect();
         let high = names.len().max(1) as f64 + 0.6;
-        Self { grid: false, ..Self::new(0.4, high, Scale::Linear, ticks) }
+        Self { grid: false, ..Self::new(0.4, high, AxisScale::Linear, ticks) }
     }
 
     /// The same with a label, in [`super::markup`].
@@ -188,9 +189,9 @@ impl Axis {
             (f(x) - f(self.low)) / (f(self.high) - f(self.low))
         };
         match self.scale {
-            Scale::Linear => (x - self.low) / (self.high - self.low),
-            Scale::Logarithmic => positive(&libm::log),
-            Scale::AboutOne(width) => {
+            AxisScale::Linear => (x - self.low) / (self.high - self.low),
+            AxisScale::Logarithmic => positive(&libm::log),
+            AxisScale::AboutOne(width) => {
                 positive(&|x| libm::asinh(libm::log(x) / width))
             }
         }

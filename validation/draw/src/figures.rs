@@ -23,9 +23,9 @@ mod sketch;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
 pub use chart::{
-    Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of, Scale,
+    Chart, ChartAxis, ChartPanel, ChartScale, Column, DIGITS, Layout, Of,
 };
-pub use fates::{Fate, FateMap};
+pub use fates::{FateMap, MapFate};
 pub use figure::Figure;
 pub use heading::{Heading, Motions, Place};
 pub use histories::{History, HistoryPanel, histories};

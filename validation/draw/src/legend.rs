@@ -3,7 +3,7 @@
 use crate::colour::{Fill, Ink, Pen};
 use crate::markup;
 use crate::panel::Marker;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use crate::text::TEXT_PX;
 use crate::text::{Horizontal, TextLine};
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ pub fn height(entries: &[Entry], width_px: f64) -> f64 {
 }
 
 /// Draws the legend centred at the head of the scene.
-pub fn draw(scene: &mut Scene, entries: &[Entry]) {
+pub fn draw(scene: &mut Drawing, entries: &[Entry]) {
     let width = scene.extent().right;
     for (i, row) in rows(entries, width - 2.0 * BETWEEN_PX).iter().enumerate()
     {
@@ -97,7 +97,7 @@ pub fn draw(scene: &mut Scene, entries: &[Entry]) {
     }
 }
 
-fn draw_sample(scene: &mut Scene, sample: Sample, x: f64, y: f64) {
+fn draw_sample(scene: &mut Drawing, sample: Sample, x: f64, y: f64) {
     let ends = [(x, y), (x + SAMPLE_PX, y)];
     let middle = (x + SAMPLE_PX / 2.0, y);
     let corners = [

@@ -1,8 +1,8 @@
 //! Drawing in the house style: hairlines, sub-pixel coordinates, marked-up
 //! text, one palette for light, dark, print and grey.
 //!
-//! A `Scene` is a list of shapes in pixels, built without failing;
-//! `Scene::svg` writes them.
+//! A `Drawing` is a list of shapes in pixels, built without failing;
+//! `Drawing::svg` writes them.
 //! Layout uses a table of text widths, never the machine's fonts, so the same
 //! scene gives the same bytes everywhere.
 

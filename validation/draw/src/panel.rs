@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::{Point, Rect, clip};
 use crate::markup;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use crate::text::TEXT_PX;
 use crate::text::{Horizontal, TextLine};
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ impl Marker {
     }
 
     /// Draws the mark; `r` is its half width in px.
-    pub fn draw(self, scene: &mut Scene, at: Point, r: f64, ink: Ink) {
+    pub fn draw(self, scene: &mut Drawing, at: Point, r: f64, ink: Ink) {
         let (x, y) = at;
         let pen = Pen::new(ink, 0.9);
         let fill = Fill::solid(ink);
@@ -101,7 +101,7 @@ impl Marker {
 /// axes over the data.
 #[derive(Debug)]
 pub struct Panel<'s> {
-    scene: &'s mut Scene,
+    scene: &'s mut Drawing,
     frame: Rect,
     x: Axis,
     y: Axis,
@@ -112,7 +112,7 @@ pub struct Panel<'s> {
 
 impl<'s> Panel<'s> {
     /// Starts a panel with its grid lines.
-    pub fn new(scene: &'s mut Scene, frame: Rect, x: Axis, y: Axis) -> Self {
+    pub fn new(scene: &'s mut Drawing, frame: Rect, x: Axis, y: Axis) -> Self {
         let (second, empty) = (None, true);
         let reason = "no data in this range";
         let panel = Self { scene, frame, x, y, second, empty, reason };
@@ -149,7 +149,7 @@ impl<'s> Panel<'s> {
     }
 
     /// The scene, for shapes placed in px.
-    pub fn scene(&mut self) -> &mut Scene {
+    pub fn scene(&mut self) -> &mut Drawing {
         self.scene
     }
 

@@ -14,7 +14,7 @@ pub const WANTED_BYTES: usize = 150_000;
 pub const TOLERANCES_PX: [f64; 6] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0];
 
 #[derive(Debug, Clone)]
-enum Shape {
+enum VectorShape {
     Line(Vec<Point>, Pen),
     Area(Vec<Point>, Fill),
     Dot(Point, f64, Ink),
@@ -23,13 +23,13 @@ enum Shape {
 
 /// A drawing under way.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct Drawing {
     caption: Caption,
     size_px: (u32, u32),
-    shapes: Vec<Shape>,
+    shapes: Vec<VectorShape>,
 }
 
-impl Scene {
+impl Drawing {
     /// An empty drawing.
     pub fn new(caption: Caption, width_px: f64, height_px: f64) -> Self {
         let whole = |x: f64| x.ceil().max(1.0) as u32;
@@ -51,7 +51,7 @@ impl Scene {
     /// A polyline; nothing if a point is not finite.
     pub fn line(&mut self, points: &[Point], pen: Pen) {
         if points.len() > 1 && finite(points) {
-            self.shapes.push(Shape::Line(points.to_vec(), pen));
+            self.shapes.push(VectorShape::Line(points.to_vec(), pen));
         }
     }
 
@@ -62,35 +62,35 @@ impl Scene {
         {
             let mut points = corners.to_vec();
             points.push(*first);
-            self.shapes.push(Shape::Line(points, pen));
+            self.shapes.push(VectorShape::Line(points, pen));
         }
     }
 
     /// A filled polygon.
     pub fn area(&mut self, corners: &[Point], fill: Fill) {
         if corners.len() > 2 && finite(corners) {
-            self.shapes.push(Shape::Area(corners.to_vec(), fill));
+            self.shapes.push(VectorShape::Area(corners.to_vec(), fill));
         }
     }
 
     /// A filled circle.
     pub fn dot(&mut self, at: Point, radius_px: f64, ink: Ink) {
         if finite(&[at]) {
-            self.shapes.push(Shape::Dot(at, radius_px, ink));
+            self.shapes.push(VectorShape::Dot(at, radius_px, ink));
         }
     }
 
     /// A line of text.
     pub fn text(&mut self, text: TextLine) {
         if finite(&[text.at]) && !text.markup.is_empty() {
-            self.shapes.push(Shape::Text(text));
+            self.shapes.push(VectorShape::Text(text));
         }
     }
 
     /// All lines of text, for tests of the layout.
     pub fn texts(&self) -> impl Iterator<Item = &TextLine> {
         self.shapes.iter().filter_map(|s| match s {
-            Shape::Text(text) => Some(text),
+            VectorShape::Text(text) => Some(text),
             _ => None,
         })
     }
@@ -111,13 +111,13 @@ impl Scene {
         let mut svg = Svg::new(self.size_px, &self.caption);
         for shape in &self.shapes {
             match shape {
-                Shape::Line(points, pen) => {
+                VectorShape::Line(points, pen) => {
                     let points = simplify(points, tolerance_px);
                     svg.line(&snap(points, tolerance_px), *pen);
                 }
-                Shape::Area(corners, fill) => svg.area(corners, *fill),
-                Shape::Dot(at, px, ink) => svg.dot(*at, *px, *ink),
-                Shape::Text(text) => svg.text(text),
+                VectorShape::Area(corners, fill) => svg.area(corners, *fill),
+                VectorShape::Dot(at, px, ink) => svg.dot(*at, *px, *ink),
+                VectorShape::Text(text) => svg.text(text),
             }
         }
         svg.finish()

@@ -6,7 +6,7 @@ use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::Rect;
 use crate::geometry::{clip, simplify};
 use crate::markup::{escape, fit, runs, width};
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use crate::text::{Caption, Horizontal, TextLine};
 
 fn labels(axis: &Axis) -> Vec<&str> {
@@ -93,13 +93,13 @@ fn markup_widths_and_escapes() {
     assert!(cut.ends_with('…') && width(&cut, 10.0) <= 100.0);
 }
 
-fn scene() -> Scene {
+fn scene() -> Drawing {
     let caption = Caption {
         name: "small".into(),
         title: "A < B".into(),
         description: "\"quoted\" & more".into(),
     };
-    Scene::new(caption, 100.0, 50.0)
+    Drawing::new(caption, 100.0, 50.0)
 }
 
 #[test]

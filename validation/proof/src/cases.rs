@@ -50,9 +50,9 @@ pub mod pinned;
 mod wrong;
 
 pub use case::{
-    Basis, Bound, Case, Cost, Expect, Family, Kind, OracleKind, Source,
-    Status, Tolerance, Values,
+    Bound, Case, CaseSource, Cost, EvidenceKind, Expect, Family, OracleKind,
+    Status, Tolerance, ToleranceBasis, Values,
 };
-pub use error::{CaseError, Fault};
+pub use error::{CaseError, CaseFault};
 pub use load::{FAMILIES, load_all, load_family};
 pub use wrong::WrongModel;

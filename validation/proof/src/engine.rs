@@ -6,4 +6,4 @@ mod wide;
 pub use self::core::{
     Core, Quotient, certify, respond, respond_at_order, respond_in,
 };
-pub use wide::{Arithmetic, WideTrace};
+pub use wide::{Precision, WideTrace};

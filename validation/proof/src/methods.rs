@@ -36,8 +36,8 @@ mod velocity_pulse;
 mod wrong;
 
 #[cfg(not(target_family = "wasm"))]
-pub use digits::{DIGITS_HEADER, Reach, Row, digits, digits_csv};
-pub use method::{Answer, Context, Quantities};
+pub use digits::{DIGITS_HEADER, DigitsRow, Reach, digits, digits_csv};
+pub use method::{Context, Quantities, Reply};
 
 use anyhow::{Context as _, Result};
 
@@ -47,7 +47,7 @@ use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
 
 /// A method under its name in the files of cases.
-pub type Method = (&'static str, fn(&Context, &mut Answer) -> Result<()>);
+pub type Method = (&'static str, fn(&Context, &mut Reply) -> Result<()>);
 
 /// Methods that a page runs; `statistics` has more.
 const METHODS: &[Method] = &[
@@ -129,7 +129,7 @@ pub fn all_methods() -> impl Iterator<Item = &'static Method> {
 ///
 /// # Errors
 /// An error when no answer can be given.
-pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Answer> {
+pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Reply> {
     let changed = wrong.map(|wrong| wrong.engine(&Core));
     run_on(case, changed.as_deref().unwrap_or(&Core), wrong)
 }
@@ -138,7 +138,7 @@ pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Answer> {
 ///
 /// # Errors
 /// An error when no answer can be given.
-pub fn run_naive(case: &Case) -> Result<Answer> {
+pub fn run_naive(case: &Case) -> Result<Reply> {
     run_on(case, &Naive(Rules::default()), None)
 }
 
@@ -146,12 +146,12 @@ fn run_on(
     case: &Case,
     engine: &dyn Engine,
     wrong: Option<WrongModel>,
-) -> Result<Answer> {
+) -> Result<Reply> {
     let method = all_methods().find(|(name, _)| *name == case.method);
     let (_, method) = method.with_context(|| {
         format!("method `{}` is not registered", case.method)
     })?;
-    let mut answer = Answer::default();
+    let mut answer = Reply::default();
     method(&Context { case, engine, wrong }, &mut answer)?;
     Ok(answer)
 }

@@ -8,7 +8,7 @@
 use crate::cases::WrongModel;
 
 use crate::scene::{
-    self, Engine, EngineError, Forcing, Impact, Model, Scene, Trace,
+    self, CaseForcing, CaseScene, Engine, EngineError, Impact, Model, Trace,
 };
 
 /// Largest step in units of 1/p of the right rules.
@@ -61,15 +61,15 @@ const MOST_STEPS: usize = 1_000_000;
 
 /// Rocking on one side: rotation and velocity away from the base.
 #[derive(Clone, Copy)]
-struct Hop {
+struct NaiveHop {
     side: f64,
     z: f64,
     w: f64,
 }
 
-struct Run<'a> {
+struct NaiveRun<'a> {
     rules: Rules,
-    scene: &'a Scene,
+    scene: &'a CaseScene,
     pieces_s: Vec<f64>,
     piece: usize,
     t: f64,
@@ -78,8 +78,8 @@ struct Run<'a> {
 }
 
 impl Engine for Naive {
-    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError> {
-        let mut run = Run {
+    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
+        let mut run = NaiveRun {
             rules: self.0,
             scene,
             pieces_s: scene.forcing.pieces_s(),
@@ -93,7 +93,7 @@ impl Engine for Naive {
     }
 }
 
-impl Run<'_> {
+impl NaiveRun<'_> {
     /// Whether this is the mistake that is made.
     fn makes(&self, wrong: WrongModel) -> bool {
         self.rules.wrong == Some(wrong)
@@ -138,9 +138,9 @@ impl Run<'_> {
     fn go(&mut self) -> Result<(), EngineError> {
         let threshold = self.threshold();
         let mut hop = None;
-        if let Forcing::Free { rotation_rad } = self.scene.forcing {
+        if let CaseForcing::Free { rotation_rad } = self.scene.forcing {
             let z = rotation_rad.abs();
-            hop = Some(Hop { side: rotation_rad.signum(), z, w: 0.0 });
+            hop = Some(NaiveHop { side: rotation_rad.signum(), z, w: 0.0 });
             self.record_peak(z);
             self.trace.first_side = rotation_rad.signum();
         }
@@ -166,7 +166,7 @@ impl Run<'_> {
     }
 
     /// From rest at `t` to uplift or to the piece's end.
-    fn wait(&mut self, threshold: f64) -> Option<Hop> {
+    fn wait(&mut self, threshold: f64) -> Option<NaiveHop> {
         let end = self.piece_end();
         let over = |run: &Self, t: f64| run.ground(t).abs() > threshold;
         let mut at = self.t;
@@ -190,7 +190,7 @@ impl Run<'_> {
         }
         self.trace.uplifts += 1;
         self.trace.rest_s = None;
-        Some(Hop { side, z: 0.0, w: 0.0 })
+        Some(NaiveHop { side, z: 0.0, w: 0.0 })
     }
 
     fn acceleration(&self, side: f64, z: f64, t: f64) -> f64 {
@@ -207,7 +207,7 @@ impl Run<'_> {
     }
 
     /// One Runge-Kutta step of length `h`.
-    fn step(&self, hop: Hop, h: f64) -> Hop {
+    fn step(&self, hop: NaiveHop, h: f64) -> NaiveHop {
         let f = |z: f64, t: f64| self.acceleration(hop.side, z, t);
         let (z, w, t) = (hop.z, hop.w, self.t);
         let half = 0.5 * h;
@@ -218,7 +218,7 @@ impl Run<'_> {
         let a3 = f(z + half * w2, t + half);
         let w4 = w + h * a3;
         let a4 = f(z + h * w3, t + h);
-        Hop {
+        NaiveHop {
             side: hop.side,
             z: z + h / 6.0 * (w + 2.0 * w2 + 2.0 * w3 + w4),
             w: w + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
@@ -228,7 +228,12 @@ impl Run<'_> {
     /// Step at which `level`, of one sign at 0+ and of the other at `high`,
     /// crosses zero: false position with halving, to rounding; on the far
     /// side of the crossing.
-    fn root(&self, hop: Hop, high: f64, level: impl Fn(Hop) -> f64) -> f64 {
+    fn root(
+        &self,
+        hop: NaiveHop,
+        high: f64,
+        level: impl Fn(NaiveHop) -> f64,
+    ) -> f64 {
         let (mut low, mut high) = (0.0, high);
         let mut at_high = level(self.step(hop, high));
         let mut at_low = -at_high;
@@ -269,7 +274,7 @@ impl Run<'_> {
         if self.rules.events == Events::Located {
             (self.rules.step_p / self.scene.frequency_rad_s).min(
                 match self.scene.forcing {
-                    Forcing::Samples { .. } => length,
+                    CaseForcing::Samples { .. } => length,
                     _ => length / 100.0,
                 },
             )
@@ -281,9 +286,9 @@ impl Run<'_> {
     /// Rocks to the end of the piece, to rest or to overturning.
     fn flight(
         &mut self,
-        mut hop: Hop,
+        mut hop: NaiveHop,
         threshold: f64,
-    ) -> Result<Option<Hop>, EngineError> {
+    ) -> Result<Option<NaiveHop>, EngineError> {
         let end = self.piece_end();
         let longest = self.longest_step();
         let limit = self.scene.limit_rad();
@@ -356,7 +361,7 @@ impl Run<'_> {
     }
 
     /// A step well inside the shortest hop that can follow.
-    fn first_step(&self, hop: Hop, longest: f64) -> f64 {
+    fn first_step(&self, hop: NaiveHop, longest: f64) -> f64 {
         if self.rules.events != Events::Located {
             return longest;
         }
@@ -373,7 +378,7 @@ impl Run<'_> {
         }
     }
 
-    fn impact(&mut self, hop: Hop, threshold: f64) -> Option<Hop> {
+    fn impact(&mut self, hop: NaiveHop, threshold: f64) -> Option<NaiveHop> {
         let scene = self.scene;
         let speed = hop.w.abs();
         self.trace.impacts.push(Impact {
@@ -402,13 +407,13 @@ impl Run<'_> {
             return None;
         }
         if self.makes(WrongModel::SuppressedHop) && side * ground > threshold {
-            return Some(Hop { side: hop.side, z: 0.0, w });
+            return Some(NaiveHop { side: hop.side, z: 0.0, w });
         }
         let z = match self.rules.events {
             Events::StepEndsRotationKept => -hop.z,
             _ => 0.0,
         };
-        Some(Hop { side, z, w })
+        Some(NaiveHop { side, z, w })
     }
 
     /// Time that the infinite chatter takes after an impact that leaves the

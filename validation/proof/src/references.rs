@@ -14,10 +14,10 @@ use serde_json::Value;
 
 use crate::arithmetic::decimal;
 use crate::pulse::rescaled;
-use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning, PulseKind};
 
 /// An embedded file, read once.
-pub(crate) struct Reference<T> {
+pub(crate) struct ReferenceFile<T> {
     file: &'static str,
     text: &'static str,
     read: OnceLock<T>,
@@ -25,7 +25,7 @@ pub(crate) struct Reference<T> {
 
 macro_rules! reference {
     ($name:literal) => {
-        Reference {
+        ReferenceFile {
             file: concat!("fixtures/references/", $name),
             text: rocking_fixtures::text(concat!("references/", $name)),
             read: OnceLock::new(),
@@ -33,20 +33,20 @@ macro_rules! reference {
     };
 }
 
-static TRAJECTORIES: Reference<Cases<Trajectory>> =
+static TRAJECTORIES: ReferenceFile<Cases<Trajectory>> =
     reference!("trajectories.json");
-static RECORDS: Reference<BTreeMap<String, Record>> =
+static RECORDS: ReferenceFile<BTreeMap<String, ReferenceRecord>> =
     reference!("records.json");
-pub(crate) static LINEAR_PULSES: Reference<Cases<LinearPulse>> =
+pub(crate) static LINEAR_PULSES: ReferenceFile<Cases<LinearPulse>> =
     reference!("linear_pulses.json");
-pub(crate) static FREE_ROCKING: Reference<Cases<FreeRocking>> =
+pub(crate) static FREE_ROCKING: ReferenceFile<Cases<FreeReference>> =
     reference!("free_rocking.json");
-pub(crate) static RECT_PULSE: Reference<Cases<RectangularPulse>> =
+pub(crate) static RECT_PULSE: ReferenceFile<Cases<RectangularPulse>> =
     reference!("rect_pulse.json");
-pub(crate) static SPECTRUM: Reference<Spectrum> =
+pub(crate) static SPECTRUM: ReferenceFile<SpectrumTable> =
     reference!("linear_overturning_spectrum.json");
 
-impl<T: DeserializeOwned> Reference<T> {
+impl<T: DeserializeOwned> ReferenceFile<T> {
     /// What the file holds.
     pub fn read(&self) -> Result<&T> {
         if let Some(read) = self.read.get() {
@@ -62,7 +62,7 @@ impl<T: DeserializeOwned> Reference<T> {
     }
 }
 
-impl<T> Reference<Cases<T>>
+impl<T> ReferenceFile<Cases<T>>
 where
     Cases<T>: DeserializeOwned,
 {
@@ -83,12 +83,12 @@ pub(crate) struct Cases<T> {
 /// of a double-double.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(try_from = "String")]
-pub(crate) struct Digits {
+pub(crate) struct Decimal {
     pub near: f64,
     pub wide: DoubleDouble,
 }
 
-impl TryFrom<String> for Digits {
+impl TryFrom<String> for Decimal {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
@@ -104,9 +104,9 @@ impl TryFrom<String> for Digits {
 #[derive(Deserialize)]
 pub(crate) struct Hit {
     #[serde(alias = "tau")]
-    pub t: Digits,
+    pub t: Decimal,
     #[serde(alias = "theta_dot_before", alias = "phi_dot_before")]
-    speed: Digits,
+    speed: Decimal,
 }
 
 impl Hit {
@@ -122,11 +122,11 @@ impl Hit {
 pub(crate) struct Trajectory {
     name: String,
     model: String,
-    alpha: Digits,
-    p: Digits,
-    eta: Digits,
-    g: Digits,
-    forcing: Ground,
+    alpha: Decimal,
+    p: Decimal,
+    eta: Decimal,
+    g: Decimal,
+    forcing: ReferenceForcing,
     pub expected: Expected,
     /// What a careful double-precision code was off by.
     pub attainable_float64: BTreeMap<String, Value>,
@@ -139,41 +139,41 @@ pub(crate) struct Expected {
     pub uplifts: Vec<Uplift>,
     pub impacts: Vec<Hit>,
     #[serde(rename = "peak_of_hop_before_impact")]
-    pub hops: Vec<Hop>,
+    pub hops: Vec<HopPeak>,
     /// Numbers of impacts above a speed over p alpha.
     #[serde(rename = "n_impacts_with_speed_over_p_alpha_above")]
     pub faster: BTreeMap<String, f64>,
-    t_first_abs_theta_eq_alpha: Option<Digits>,
-    t_abs_theta_eq_pi_over_2: Option<Digits>,
+    t_first_abs_theta_eq_alpha: Option<Decimal>,
+    t_abs_theta_eq_pi_over_2: Option<Decimal>,
     peak_abs_theta_over_alpha: String,
-    pub t_peak: Option<Digits>,
-    pub rest_times: Vec<Digits>,
+    pub t_peak: Option<Decimal>,
+    pub rest_times: Vec<Decimal>,
     pub checkpoints: Vec<Checkpoint>,
 }
 
 #[derive(Deserialize)]
 pub(crate) struct Uplift {
-    pub t: Digits,
+    pub t: Decimal,
     pub side: f64,
 }
 
 #[derive(Deserialize)]
-pub(crate) struct Hop {
-    pub t: Digits,
+pub(crate) struct HopPeak {
+    pub t: Decimal,
     pub side: f64,
-    pub abs_theta_over_alpha: Digits,
+    pub abs_theta_over_alpha: Decimal,
 }
 
 #[derive(Deserialize)]
 pub(crate) struct Checkpoint {
-    pub t: Digits,
-    pub theta: Digits,
-    pub theta_dot: Digits,
+    pub t: Decimal,
+    pub theta: Decimal,
+    pub theta_dot: Decimal,
 }
 
 impl Expected {
     /// When the block overturns by a criterion.
-    pub fn overturned(&self, criterion: Overturning) -> Option<Digits> {
+    pub fn overturned(&self, criterion: Overturning) -> Option<Decimal> {
         match criterion {
             Overturning::Alpha => self.t_first_abs_theta_eq_alpha,
             Overturning::HalfPi => self.t_abs_theta_eq_pi_over_2,
@@ -181,7 +181,7 @@ impl Expected {
     }
 
     /// The peak; none where the file says that pi/2 is reached.
-    pub fn peak(&self) -> Option<Digits> {
+    pub fn peak(&self) -> Option<Decimal> {
         self.peak_abs_theta_over_alpha.clone().try_into().ok()
     }
 
@@ -199,38 +199,38 @@ impl Expected {
 
 /// A ground motion: its kind, and those parameters that the kind has.
 #[derive(Deserialize)]
-struct Ground {
+struct ReferenceForcing {
     #[serde(alias = "pulse")]
     kind: String,
     #[serde(alias = "A")]
-    a_p: Option<Digits>,
+    a_p: Option<Decimal>,
     #[serde(alias = "Omega")]
-    omega: Option<Digits>,
+    omega: Option<Decimal>,
     #[serde(alias = "tau_d")]
-    t_d: Option<Digits>,
+    t_d: Option<Decimal>,
     #[serde(alias = "tau_p", rename = "T_p")]
-    t_p: Option<Digits>,
+    t_p: Option<Decimal>,
     #[serde(rename = "n_Tp")]
     cycles: Option<f64>,
     #[serde(rename = "A_v")]
-    a_v: Option<Digits>,
-    f_p: Option<Digits>,
-    gamma: Option<Digits>,
-    nu: Option<Digits>,
-    dt: Option<Digits>,
-    acc: Option<Samples>,
+    a_v: Option<Decimal>,
+    f_p: Option<Decimal>,
+    gamma: Option<Decimal>,
+    nu: Option<Decimal>,
+    dt: Option<Decimal>,
+    acc: Option<SampleSource>,
     record: Option<String>,
 }
 
 /// Samples, or where they stand.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Samples {
-    Here(Vec<Digits>),
+enum SampleSource {
+    Here(Vec<Decimal>),
     Elsewhere(String),
 }
 
-impl Ground {
+impl ReferenceForcing {
     /// The pulse; none where the kind is not that of a pulse.
     fn pulse(&self) -> Result<Option<PulseKind>> {
         let name = match self.kind.as_str() {
@@ -262,13 +262,13 @@ impl Ground {
         kind.map(Some)
     }
 
-    fn forcing(&self) -> Result<Forcing> {
+    fn forcing(&self) -> Result<CaseForcing> {
         if let Some(pulse) = self.pulse()? {
-            return Ok(Forcing::Pulse(pulse));
+            return Ok(CaseForcing::Pulse(pulse));
         }
         let acceleration_m_s2 = match (&self.acc, &self.record) {
-            (Some(Samples::Here(acc)), _) => nearest(acc),
-            (Some(Samples::Elsewhere(place)), Some(name))
+            (Some(SampleSource::Here(acc)), _) => nearest(acc),
+            (Some(SampleSource::Elsewhere(place)), Some(name))
                 if place.ends_with(name) =>
             {
                 record(name)?.1
@@ -276,7 +276,7 @@ impl Ground {
             _ => return Err(self.lacks()),
         };
         let dt_s = self.dt.ok_or_else(|| self.lacks())?.near;
-        Ok(Forcing::Samples { dt_s, acceleration_m_s2 })
+        Ok(CaseForcing::Samples { dt_s, acceleration_m_s2 })
     }
 
     fn lacks(&self) -> Error {
@@ -291,7 +291,7 @@ pub(crate) fn hits(list: &[Hit], unit: f64) -> Vec<(f64, f64)> {
 }
 
 /// The nearest doubles of a list.
-pub(crate) fn nearest(list: &[Digits]) -> Vec<f64> {
+pub(crate) fn nearest(list: &[Decimal]) -> Vec<f64> {
     list.iter().map(|digits| digits.near).collect()
 }
 
@@ -307,9 +307,10 @@ pub(crate) fn trajectory(name: &str) -> Result<&'static Trajectory> {
 }
 
 impl Trajectory {
-    pub fn scene(&self, criterion: Overturning) -> Result<Scene> {
+    pub fn scene(&self, criterion: Overturning) -> Result<CaseScene> {
         let block = [self.alpha, self.p, self.g].map(|digits| digits.near);
-        let scene = Scene::new(block, self.eta.near, self.forcing.forcing()?);
+        let scene =
+            CaseScene::new(block, self.eta.near, self.forcing.forcing()?);
         let equation = match self.model.as_str() {
             "nonlinear" => Model::Nonlinear,
             "linear" => Model::Linearized,
@@ -321,9 +322,9 @@ impl Trajectory {
 
 /// A synthetic record.
 #[derive(Deserialize)]
-struct Record {
-    dt: Digits,
-    acc: Vec<Digits>,
+struct ReferenceRecord {
+    dt: Decimal,
+    acc: Vec<Decimal>,
 }
 
 /// A synthetic record: interval in s and samples in m/s2.
@@ -337,31 +338,31 @@ pub(crate) fn record(name: &str) -> Result<(f64, Vec<f64>)> {
 #[derive(Deserialize)]
 pub(crate) struct LinearPulse {
     #[serde(flatten)]
-    ground: Ground,
-    eta: Digits,
+    ground: ReferenceForcing,
+    eta: Decimal,
     pub expected: LinearExpected,
 }
 
 /// What the block does.
 #[derive(Deserialize)]
 pub(crate) struct LinearExpected {
-    pub uplift_tau: Digits,
+    pub uplift_tau: Decimal,
     pub side: f64,
     pub state_at_pulse_end: Option<LinearEnd>,
     pub impacts: Vec<Hit>,
     #[serde(rename = "peak_of_hop_before_impact")]
-    pub hops: Vec<Digits>,
+    pub hops: Vec<Decimal>,
     pub verdict: Option<String>,
     #[serde(rename = "tau_first_abs_phi_eq_1")]
-    pub overturned: Option<Digits>,
+    pub overturned: Option<Decimal>,
 }
 
 #[derive(Deserialize)]
 pub(crate) struct LinearEnd {
     #[serde(rename = "E_plus")]
-    pub growing: Digits,
+    pub growing: Decimal,
     #[serde(rename = "E_minus")]
-    pub decaying: Digits,
+    pub decaying: Decimal,
 }
 
 impl LinearPulse {
@@ -370,21 +371,21 @@ impl LinearPulse {
         &self,
         [alpha, p, g]: [f64; 3],
         criterion: Overturning,
-    ) -> Result<Scene> {
+    ) -> Result<CaseScene> {
         let pulse = self.ground.pulse()?.ok_or_else(|| self.ground.lacks())?;
-        let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
-        let scene = Scene::new([alpha, p, g], self.eta.near, forcing);
+        let forcing = CaseForcing::Pulse(rescaled(pulse, g * alpha, p));
+        let scene = CaseScene::new([alpha, p, g], self.eta.near, forcing);
         Ok(scene.in_equation(Model::Linearized).to(criterion))
     }
 }
 
 /// A release, and what follows in both equations.
 #[derive(Deserialize)]
-pub(crate) struct FreeRocking {
-    pub alpha: Digits,
-    pub p: Digits,
-    pub eta: Digits,
-    pub theta0: Digits,
+pub(crate) struct FreeReference {
+    pub alpha: Decimal,
+    pub p: Decimal,
+    pub eta: Decimal,
+    pub theta0: Decimal,
     pub nonlinear: FreeExpected,
     pub linear: FreeExpected,
 }
@@ -392,37 +393,37 @@ pub(crate) struct FreeRocking {
 #[derive(Deserialize)]
 pub(crate) struct FreeExpected {
     pub impacts: Vec<Hit>,
-    pub settling_time: Digits,
+    pub settling_time: Decimal,
 }
 
 /// A rectangular pulse in Eq. 1.
 #[derive(Deserialize)]
 pub(crate) struct RectangularPulse {
-    alpha: Digits,
-    pub p: Digits,
-    eta: Digits,
-    a0: Digits,
-    td: Digits,
-    t_theta_eq_alpha: Option<Digits>,
-    t_theta_eq_pi_over_2: Option<Digits>,
+    alpha: Decimal,
+    pub p: Decimal,
+    eta: Decimal,
+    a0: Decimal,
+    td: Decimal,
+    t_theta_eq_alpha: Option<Decimal>,
+    t_theta_eq_pi_over_2: Option<Decimal>,
     #[serde(default)]
     pub impacts: Vec<Hit>,
-    pub peak_over_alpha: Option<Digits>,
-    pub t_peak: Option<Digits>,
-    pub settling_time: Option<Digits>,
+    pub peak_over_alpha: Option<Decimal>,
+    pub t_peak: Option<Decimal>,
+    pub settling_time: Option<Decimal>,
 }
 
 impl RectangularPulse {
-    pub fn scene(&self, criterion: Overturning) -> Scene {
+    pub fn scene(&self, criterion: Overturning) -> CaseScene {
         let [amplitude, duration_s] = [self.a0.near, self.td.near];
         let pulse = PulseKind::Rectangle { amplitude, duration_s };
         let block = [self.alpha.near, self.p.near, 9.81];
-        let forcing = Forcing::Pulse(pulse);
-        Scene::new(block, self.eta.near, forcing).to(criterion)
+        let forcing = CaseForcing::Pulse(pulse);
+        CaseScene::new(block, self.eta.near, forcing).to(criterion)
     }
 
     /// When the block overturns by a criterion.
-    pub fn overturned(&self, criterion: Overturning) -> Option<Digits> {
+    pub fn overturned(&self, criterion: Overturning) -> Option<Decimal> {
         match criterion {
             Overturning::Alpha => self.t_theta_eq_alpha,
             Overturning::HalfPi => self.t_theta_eq_pi_over_2,
@@ -432,28 +433,28 @@ impl RectangularPulse {
 
 /// Edges of overturning under one-sine pulses in Eq. 2.
 #[derive(Deserialize)]
-pub(crate) struct Spectrum {
+pub(crate) struct SpectrumTable {
     pub table: Vec<SpectrumRow>,
 }
 
 /// The edges at one restitution and frequency.
 #[derive(Deserialize)]
 pub(crate) struct SpectrumRow {
-    pub eta: Digits,
+    pub eta: Decimal,
     #[serde(rename = "Omega")]
-    pub omega: Digits,
-    pub mode2_lower: Digits,
-    pub mode2_lower_alpha_criterion: Digits,
-    pub mode1_lower: Option<Digits>,
-    pub mode1_upper: Option<Digits>,
+    pub omega: Decimal,
+    pub mode2_lower: Decimal,
+    pub mode2_lower_alpha_criterion: Decimal,
+    pub mode1_lower: Option<Decimal>,
+    pub mode1_upper: Option<Decimal>,
     #[serde(default)]
-    pub multi_impact_bands: Vec<Band>,
+    pub multi_impact_bands: Vec<ImpactBand>,
 }
 
 /// A band of overturning after some impacts.
 #[derive(Deserialize)]
-pub(crate) struct Band {
+pub(crate) struct ImpactBand {
     pub n_impacts: u32,
-    pub lower: Digits,
-    pub upper: Digits,
+    pub lower: Decimal,
+    pub upper: Decimal,
 }

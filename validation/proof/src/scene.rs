@@ -5,7 +5,7 @@
 //! the end of a pulse anew.
 //!
 //! Engines (the core behind its public interface, the naive integrator) all
-//! read the same [`Scene`] and answer with the same [`Trace`].
+//! read the same [`CaseScene`] and answer with the same [`Trace`].
 
 use std::convert::Infallible;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ use crate::pulse;
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Forcing {
+pub enum CaseForcing {
     /// None; the block is released at rest at this rotation (rad).
     Free {
         /// Initial rotation in rad.
@@ -40,7 +40,7 @@ pub enum Forcing {
 
 /// A block, what moves it, and what ends the run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
+pub struct CaseScene {
     /// Slenderness angle alpha in rad.
     pub slenderness_rad: f64,
     /// Frequency parameter p in rad/s.
@@ -54,7 +54,7 @@ pub struct Scene {
     /// What ends the run.
     pub overturning: Overturning,
     /// Ground acceleration.
-    pub forcing: Forcing,
+    pub forcing: CaseForcing,
     /// Where the run stops at the latest, s; none: at rest or overturning.
     pub until_s: Option<f64>,
 }
@@ -106,17 +106,17 @@ pub trait Engine: Sync {
     ///
     /// # Errors
     /// [`EngineError`] when no trace can be given.
-    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError>;
+    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError>;
 }
 
-impl Scene {
+impl CaseScene {
     /// A block (alpha in rad, p in rad/s, g in m/s2) of a restitution in
     /// Eq. 1, until it rests or reaches alpha.
     #[must_use]
     pub fn new(
         [slenderness_rad, frequency_rad_s, gravity_m_s2]: [f64; 3],
         restitution: f64,
-        forcing: Forcing,
+        forcing: CaseForcing,
     ) -> Self {
         Self {
             slenderness_rad,
@@ -134,7 +134,7 @@ impl Scene {
     /// 9.81 m/s2.
     #[must_use]
     pub fn at_rest([alpha, p]: [f64; 2], restitution: f64) -> Self {
-        Self::new([alpha, p, 9.81], restitution, Forcing::NONE)
+        Self::new([alpha, p, 9.81], restitution, CaseForcing::NONE)
     }
 
     /// The scene in another equation of motion.
@@ -158,7 +158,7 @@ impl Scene {
     /// The scene under a ground motion that follows from its uplift
     /// threshold (m/s2).
     #[must_use]
-    pub fn under(self, forcing: impl FnOnce(f64) -> Forcing) -> Self {
+    pub fn under(self, forcing: impl FnOnce(f64) -> CaseForcing) -> Self {
         Self { forcing: forcing(self.threshold_m_s2()), ..self }
     }
 
@@ -167,7 +167,7 @@ impl Scene {
     #[must_use]
     pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
         self.under(|threshold| {
-            let mut forcing = Forcing::samples(dt_s, samples);
+            let mut forcing = CaseForcing::samples(dt_s, samples);
             let own = forcing.peak();
             forcing.scale(peak * threshold / own);
             forcing
@@ -213,7 +213,7 @@ pub fn other(model: Model) -> Model {
     }
 }
 
-impl Forcing {
+impl CaseForcing {
     /// A block at rest, and no ground motion.
     pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
 

@@ -17,8 +17,10 @@ mod search;
 mod summary;
 
 pub use address::Trial;
-pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
-pub use summary::{Judgement, SHARES, Summary};
+pub use compare::{
+    CertificateReading, DoubleRun, Finding, WideTruth, compare, truth,
+};
+pub use summary::{Judgement, SHARES, TrialSummary};
 
 use rayon::prelude::*;
 use rocking_statistics::streams::Streams;

@@ -6,13 +6,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::cases::{Basis, Bound, Case, Kind, Status};
-use crate::methods::{self, Answer, Quantities};
+use crate::cases::{Bound, Case, EvidenceKind, Status, ToleranceBasis};
+use crate::methods::{self, Quantities, Reply};
 use rocking::names::named;
 
 named! {
     /// Result of a case.
-    pub enum Verdict: "verdict" {
+    pub enum CaseVerdict: "verdict" {
         /// Every bound holds and every wrong model is rejected.
         Pass = "pass",
         /// A bound is broken, or a wrong model is not rejected.
@@ -26,7 +26,7 @@ named! {
     }
 }
 
-impl Verdict {
+impl CaseVerdict {
     /// Whether the gate stays green.
     #[must_use]
     pub fn is_accepted(self) -> bool {
@@ -73,24 +73,24 @@ pub struct Rejection {
 
 /// A judged case.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// The case's id.
     pub id: String,
     /// Its kind.
-    pub kind: Kind,
+    pub kind: EvidenceKind,
     /// Where its bounds come from.
-    pub basis: Basis,
+    pub basis: ToleranceBasis,
     /// Each quantity.
     pub checks: Vec<Check>,
     /// Each wrong model.
     pub rejections: Vec<Rejection>,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: CaseVerdict,
     /// What went wrong, if anything did.
     pub messages: Vec<String>,
 }
 
-impl Outcome {
+impl CaseOutcome {
     /// Largest margin over the quantities; none where all are exact.
     #[must_use]
     pub fn worst_margin(&self) -> f64 {
@@ -102,8 +102,8 @@ impl Outcome {
     /// tightened; printed digits use up their bound.
     #[must_use]
     pub fn bounds_to_look_at(&self) -> Vec<&Check> {
-        let printed = self.basis == Basis::ReferenceRounding;
-        let given = self.basis == Basis::AttainableFloat64;
+        let printed = self.basis == ToleranceBasis::ReferenceRounding;
+        let given = self.basis == ToleranceBasis::AttainableFloat64;
         let odd = |c: &&Check| {
             let (Bound::Absolute(bound) | Bound::Relative(bound)) = c.bound
             else {
@@ -232,14 +232,14 @@ fn measure(
 
 /// Runs a case and its wrong models, and gives the verdict.
 #[must_use]
-pub fn run_case(case: &Case) -> Outcome {
-    let mut outcome = Outcome {
+pub fn run_case(case: &Case) -> CaseOutcome {
+    let mut outcome = CaseOutcome {
         id: case.id.clone(),
         kind: case.kind,
         basis: case.tolerance.basis,
         checks: Vec::new(),
         rejections: Vec::new(),
-        verdict: Verdict::Error,
+        verdict: CaseVerdict::Error,
         messages: Vec::new(),
     };
     if let Err(error) = fill(&mut outcome, case) {
@@ -248,10 +248,10 @@ pub fn run_case(case: &Case) -> Outcome {
     }
     let holds = outcome.messages.is_empty();
     outcome.verdict = match (&case.status, holds) {
-        (Status::Pass, true) => Verdict::Pass,
-        (Status::Pass, false) => Verdict::Fail,
-        (Status::KnownFailure { .. }, false) => Verdict::KnownFailure,
-        (Status::KnownFailure { .. }, true) => Verdict::UnexpectedPass,
+        (Status::Pass, true) => CaseVerdict::Pass,
+        (Status::Pass, false) => CaseVerdict::Fail,
+        (Status::KnownFailure { .. }, false) => CaseVerdict::KnownFailure,
+        (Status::KnownFailure { .. }, true) => CaseVerdict::UnexpectedPass,
     };
     outcome
 }
@@ -265,7 +265,7 @@ pub fn checks_of(case: &Case) -> Result<Vec<Check>> {
 }
 
 /// Runs the case and its wrong models.
-fn fill(outcome: &mut Outcome, case: &Case) -> Result<()> {
+fn fill(outcome: &mut CaseOutcome, case: &Case) -> Result<()> {
     outcome.checks = checks_of(case)?;
     let messages = &mut outcome.messages;
     let broken = outcome.checks.iter().filter(|check| !check.holds());
@@ -293,7 +293,7 @@ fn fill(outcome: &mut Outcome, case: &Case) -> Result<()> {
 
 /// Runs cases side by side; outcomes in the order of the cases.
 #[must_use]
-pub fn run_all(cases: &[Case]) -> Vec<Outcome> {
+pub fn run_all(cases: &[Case]) -> Vec<CaseOutcome> {
     use rayon::prelude::*;
     cases.par_iter().map(run_case).collect()
 }
@@ -316,10 +316,10 @@ fn naive_passes(case: &Case) -> Result<()> {
 
 fn checks(
     case: &Case,
-    answer: Result<Answer>,
+    answer: Result<Reply>,
     floor: Option<f64>,
 ) -> Result<Vec<Check>> {
-    let Answer { observed, mut expected } = answer?;
+    let Reply { observed, mut expected } = answer?;
     for (name, values) in &case.expect.values {
         if expected.insert(name.clone(), values.to_vec()).is_some() {
             bail!(

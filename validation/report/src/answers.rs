@@ -4,7 +4,7 @@
 use anyhow::Context as _;
 use serde::Deserialize;
 
-use crate::basis::Basis;
+use crate::basis::FindingSets;
 use crate::evidence::Proof;
 use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
@@ -19,23 +19,23 @@ const ASKED: &str = include_str!("../answers.toml");
 /// A question of a reader that claims answer.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Asked {
+struct ReaderQuestion {
     question: String,
     leads: [String; 5],
-    parts: Vec<Part>,
-    aside: Option<Part>,
+    parts: Vec<QuestionPart>,
+    aside: Option<QuestionPart>,
     figures: Vec<u32>,
 }
 
 /// Claims that one fact answers.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Part {
+struct QuestionPart {
     claims: Vec<String>,
     /// What is measured, in a few words.
     name: String,
     fact: String,
-    shown: Shown,
+    shown: FactNumber,
     #[serde(default)]
     against: bool,
 }
@@ -43,7 +43,7 @@ struct Part {
 /// Which number of a result a fact has.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Shown {
+enum FactNumber {
     /// The distance of a ratio from 1, in per cent.
     Apart,
     /// The value, in per cent.
@@ -52,26 +52,26 @@ enum Shown {
     Plain,
 }
 
-fn asked() -> anyhow::Result<Vec<Asked>> {
+fn asked() -> anyhow::Result<Vec<ReaderQuestion>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File {
-        asked: Vec<Asked>,
+    struct QuestionFile {
+        asked: Vec<ReaderQuestion>,
     }
-    let file: File = toml::from_str(ASKED).context("answers.toml")?;
+    let file: QuestionFile = toml::from_str(ASKED).context("answers.toml")?;
     Ok(file.asked)
 }
 
 /// What came out about a part.
-struct Found {
+struct PartResult {
     /// The verdicts, each once and for the part, the worst one first.
     verdicts: Vec<Verdict>,
     /// None without data.
-    words: Option<Words>,
+    words: Option<PartWords>,
 }
 
 /// A part in words.
-struct Words {
+struct PartWords {
     fact: String,
     /// Its number with interval and suite.
     number: String,
@@ -79,7 +79,7 @@ struct Words {
     blocks: String,
 }
 
-impl Part {
+impl QuestionPart {
     /// The verdict on the part by one on its claim; a value without an
     /// interval decides nothing.
     fn verdict(&self, result: &ClaimResult) -> Verdict {
@@ -93,7 +93,7 @@ impl Part {
     /// What came out, in the arm that stands among the findings. The result
     /// with the worst verdict speaks; of several, the one with the worst
     /// number.
-    fn found(&self, claims: &[Claim], first: Arm) -> Found {
+    fn found(&self, claims: &[Claim], first: Arm) -> PartResult {
         let own = claims
             .iter()
             .filter(|c| self.claims.contains(&c.id) && c.region.is_some());
@@ -117,13 +117,15 @@ impl Part {
         verdicts.dedup();
         let several = verdicts.len() > 1;
         let words = all.first().map(|(c, r)| self.words(c, r, several));
-        Found { verdicts, words }
+        PartResult { verdicts, words }
     }
 
     /// The number that is shown: a ratio's is that of the deciding cell.
     fn value(&self, result: &ClaimResult) -> f64 {
         match &result.deciding_cell {
-            Some(cell) if self.shown == Shown::Apart => cell.measured.value,
+            Some(cell) if self.shown == FactNumber::Apart => {
+                cell.measured.value
+            }
             _ => result.value,
         }
     }
@@ -135,12 +137,12 @@ impl Part {
         claim: &Claim,
         result: &ClaimResult,
         disagree: bool,
-    ) -> Words {
+    ) -> PartWords {
         let value = self.value(result);
         let shown = match self.shown {
-            Shown::Apart => number(100.0 * (value - 1.0).abs()) + " %",
-            Shown::Percent => number(100.0 * value) + " %",
-            Shown::Plain => number(value),
+            FactNumber::Apart => number(100.0 * (value - 1.0).abs()) + " %",
+            FactNumber::Percent => number(100.0 * value) + " %",
+            FactNumber::Plain => number(value),
         };
         let limit = match claim.region {
             Some(Region::Within(_, b)) => number(100.0 * (b - 1.0)) + " %",
@@ -156,20 +158,20 @@ impl Part {
             fact += &format!(" ({suite})");
         }
         let text = match &result.deciding_cell {
-            Some(cell) if self.shown == Shown::Apart => {
+            Some(cell) if self.shown == FactNumber::Apart => {
                 cell_text(claim, cell.measured)
             }
             _ => measured_text(claim, result),
         };
         let place = if suite.is_empty() { "" } else { &format!(", {suite}") };
         let number = format!("{} {text}{place}", self.name);
-        Words { fact, number, blocks: claim.blocks.clone() }
+        PartWords { fact, number, blocks: claim.blocks.clone() }
     }
 }
 
-impl Asked {
+impl ReaderQuestion {
     /// The parts, and then what is said besides.
-    fn all(&self) -> impl Iterator<Item = &Part> {
+    fn all(&self) -> impl Iterator<Item = &QuestionPart> {
         self.parts.iter().chain(&self.aside)
     }
 
@@ -194,7 +196,7 @@ impl Asked {
         let Some(lead) = self.lead(claims, first) else {
             return "There are no data.".into();
         };
-        let found: Vec<(&Part, Found)> =
+        let found: Vec<(&QuestionPart, PartResult)> =
             self.parts.iter().map(|p| (p, p.found(claims, first))).collect();
         let facts = |verdict: Option<Verdict>| -> String {
             let own = found
@@ -222,7 +224,7 @@ impl Asked {
         }
         out += ".";
         let aside = self.aside.as_ref().map(|p| p.found(claims, first));
-        if let Some(Found { verdicts, words: Some(words) }) = aside
+        if let Some(PartResult { verdicts, words: Some(words) }) = aside
             && verdicts[0] != Verdict::Inconclusive
         {
             out += &format!(" {}.", words.fact);
@@ -236,7 +238,7 @@ impl Asked {
         let found = self.all().filter_map(|p| p.found(claims, first).words);
         let mut out = String::new();
         let mut found = found.peekable();
-        while let Some(Words { number, blocks, .. }) = found.next() {
+        while let Some(PartWords { number, blocks, .. }) = found.next() {
             out += &number;
             match found.peek() {
                 Some(next) if next.blocks == blocks => out += "; ",
@@ -263,7 +265,7 @@ pub(super) struct AnswerRow {
 }
 
 /// A question with what the findings of one study answer.
-pub(super) struct Answered {
+pub(super) struct QuestionAnswer {
     pub question: String,
     /// Which of the first words; none without data.
     pub lead: Option<usize>,
@@ -279,11 +281,13 @@ pub(super) struct Answered {
 ///
 /// # Errors
 /// Where the questions have been damaged.
-pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
+pub(super) fn answers(
+    findings: &Findings,
+) -> anyhow::Result<Vec<QuestionAnswer>> {
     let (claims, first) = (&findings.claims, first_arm(findings));
-    let answered = |asked: Asked| {
+    let answered = |asked: ReaderQuestion| {
         let lead = asked.lead(claims, first);
-        Answered {
+        QuestionAnswer {
             lead,
             first: lead.map_or("No data", |k| &asked.leads[k]).into(),
             answer: asked.answer(claims, first),
@@ -300,7 +304,7 @@ pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
 /// # Errors
 /// As [`answers`].
 pub(super) fn rows(
-    basis: &Basis<'_>,
+    basis: &FindingSets<'_>,
     timings: &Timings,
     proof: Option<&Proof>,
     figures: &[&Figure],
@@ -360,7 +364,7 @@ pub(super) const LEFT_OUT: &str =
     "sliding, bouncing, vertical motion and flexible supports";
 
 /// What else was not run.
-pub(super) fn not_run(basis: &Basis<'_>) -> String {
+pub(super) fn not_run(basis: &FindingSets<'_>) -> String {
     let records = match (basis.embedded, basis.recorded()) {
         (true, Some(_)) => "recorded motions anew (their results are kept), ",
         (true, None) => "recorded motions, ",
@@ -406,7 +410,7 @@ fn chance(findings: &Findings) -> String {
 }
 
 /// What was done, in a few sentences.
-pub(super) fn done(basis: &Basis<'_>) -> String {
+pub(super) fn done(basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
     let source = match (basis.embedded, basis.recorded()) {
         (true, Some(_)) => " recorded",
@@ -458,7 +462,9 @@ pub(super) fn done(basis: &Basis<'_>) -> String {
 ///
 /// # Errors
 /// As [`answers`].
-pub(super) fn otherwise(basis: &Basis<'_>) -> anyhow::Result<Option<String>> {
+pub(super) fn otherwise(
+    basis: &FindingSets<'_>,
+) -> anyhow::Result<Option<String>> {
     let Some(recorded) = basis.recorded() else { return basis.left_out() };
     let (turned, all) = turned(basis.here, recorded);
     let alike = |lead| if lead == Some(1) { Some(0) } else { lead };

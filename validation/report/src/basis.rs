@@ -19,10 +19,10 @@ const HISTORIES: [u32; 2] = [2, 3];
 const LAST: u32 = 18;
 
 /// Findings under the name of their suites, such as "recorded suites".
-pub(crate) type Column<'a> = (&'static str, &'a Findings);
+pub(crate) type FindingColumn<'a> = (&'static str, &'a Findings);
 
 /// The findings of a run and, if it has their settings, the kept ones.
-pub(crate) struct Basis<'a> {
+pub(crate) struct FindingSets<'a> {
     /// What the run found.
     pub here: &'a Findings,
     /// Whether its suites are the embedded ones.
@@ -30,7 +30,7 @@ pub(crate) struct Basis<'a> {
     kept: Option<Kept>,
 }
 
-impl<'a> Basis<'a> {
+impl<'a> FindingSets<'a> {
     /// The basis of a run, on embedded suites or others.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl<'a> Basis<'a> {
     }
 
     /// All findings, those that answer first.
-    pub fn columns(&self) -> Vec<Column<'_>> {
+    pub fn columns(&self) -> Vec<FindingColumn<'_>> {
         let here = match self.embedded {
             true => "embedded suites",
             false => "your suites",
@@ -90,7 +90,7 @@ impl<'a> Basis<'a> {
 
     /// A word on the suites of each side.
     fn each(&self, of: impl Fn(&[Suite]) -> String) -> String {
-        let side = |(name, findings): Column<'_>| {
+        let side = |(name, findings): FindingColumn<'_>| {
             format!("{} ({name})", of(&findings.suites))
         };
         let sides: Vec<String> =
@@ -145,11 +145,11 @@ impl<'a> Basis<'a> {
             let same = |f: &&Figure| f.heading.is_beside(&own.heading);
             let mut own = own.clone();
             if let Some(recorded) = kept.iter().find(same) {
-                all.push(of(recorded.clone(), Motions::Recorded));
-                own = of(own, Motions::Embedded);
+                all.push(of_motions(recorded.clone(), Motions::Recorded));
+                own = of_motions(own, Motions::Embedded);
             }
             if own.heading.number.is_some_and(|n| HISTORIES.contains(&n)) {
-                own = of(own, Motions::Embedded);
+                own = of_motions(own, Motions::Embedded);
                 own.reading += " These motions are synthetic: from a history \
                                 the acceleration of its record could be \
                                 computed, and recorded motions may not be \
@@ -161,7 +161,7 @@ impl<'a> Basis<'a> {
     }
 }
 
-fn of(mut figure: Figure, motions: Motions) -> Figure {
+fn of_motions(mut figure: Figure, motions: Motions) -> Figure {
     figure.heading = figure.heading.of_motions(motions);
     figure
 }

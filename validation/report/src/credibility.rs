@@ -31,7 +31,7 @@ const RATIOS: [&str; 4] =
 
 /// A number of ours beside the paper's.
 #[derive(Clone)]
-struct Compared {
+struct PaperNumber {
     quantity: String,
     ours: Measured,
     paper: f64,
@@ -49,8 +49,8 @@ struct Compared {
 ///
 /// # Errors
 /// [`BlockError`] for a block out of range.
-fn printed() -> Result<Vec<Compared>, BlockError> {
-    let one = |quantity: &str, ours: f64, paper: f64, unit: f64| Compared {
+fn printed() -> Result<Vec<PaperNumber>, BlockError> {
+    let one = |quantity: &str, ours: f64, paper: f64, unit: f64| PaperNumber {
         quantity: quantity.into(),
         ours: Measured::exact(ours),
         paper,
@@ -85,7 +85,7 @@ fn printed() -> Result<Vec<Compared>, BlockError> {
 }
 
 /// Ratios that the paper says to be 1: the cell that decides.
-fn ratios(results: &Results, claims: &[Claim]) -> Vec<Compared> {
+fn ratios(results: &Results, claims: &[Claim]) -> Vec<PaperNumber> {
     let mut out = Vec::new();
     for claim in claims.iter().filter(|c| RATIOS.contains(&c.id.as_str())) {
         for result in &claim.results {
@@ -94,7 +94,7 @@ fn ratios(results: &Results, claims: &[Claim]) -> Vec<Compared> {
                 without_closed_form(results, result.suite, arm)
             });
             let left = left.into_iter().find(|(at, _)| *at == cell.name);
-            out.push(Compared {
+            out.push(PaperNumber {
                 quantity: format!(
                     "{} ({}; {})",
                     claim.measure,
@@ -131,7 +131,7 @@ pub fn comparison(
 
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
 /// relative change that wrong first overturnings make.
-fn comparison_table(compared: &[Compared], shift: f64) -> PlainTable {
+fn comparison_table(compared: &[PaperNumber], shift: f64) -> PlainTable {
     let rows = compared.iter().map(|one| row(one, shift)).collect();
     let header = [
         "quantity",
@@ -166,7 +166,7 @@ fn comparison_table(compared: &[Compared], shift: f64) -> PlainTable {
     )
 }
 
-fn row(one: &Compared, shift: f64) -> Vec<String> {
+fn row(one: &PaperNumber, shift: f64) -> Vec<String> {
     let value = one.ours.value;
     // An error below the ninth digit is rounding.
     let error = value - one.paper;
@@ -267,7 +267,7 @@ pub struct Factor {
 }
 
 /// After NASA-STD-7009B, by our own judgement.
-pub struct Assessment(Vec<Factor>);
+pub struct Credibility(Vec<Factor>);
 
 /// The assessment of a study.
 pub fn assessment(
@@ -275,7 +275,7 @@ pub fn assessment(
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
     words: &Words,
-) -> Assessment {
+) -> Credibility {
     let factor = |name: &str, level: &str, evidence: String, gaps: &str| {
         let (name, level, gaps) = (name.into(), level.into(), gaps.into());
         Factor { name, level, evidence, gaps }
@@ -305,10 +305,10 @@ pub fn assessment(
         words.given.clone()
     };
     factors.insert(3, input);
-    Assessment(factors)
+    Credibility(factors)
 }
 
-impl Assessment {
+impl Credibility {
     /// The levels, in a sentence.
     pub fn levels(&self) -> String {
         let all: Vec<String> = self
@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn errors_are_set_against_their_uncertainty() {
-        let one = |value, paper, interval, rounding| Compared {
+        let one = |value, paper, interval, rounding| PaperNumber {
             quantity: "q".into(),
             ours: Measured { value, interval },
             paper,
@@ -379,7 +379,7 @@ mod tests {
     fn a_known_bias_is_named_and_what_it_leaves_is_judged() {
         // Standard uncertainty 0.001; 0.9866 is 13 of them from 1.
         let says = |left| {
-            let one = Compared {
+            let one = PaperNumber {
                 quantity: "q".into(),
                 ours: Measured {
                     value: 0.9866,

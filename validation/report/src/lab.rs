@@ -20,19 +20,19 @@ const SCRIPT: &str = include_str!("lab/page.js");
 /// What the compiled program gives.
 #[derive(Serialize)]
 struct Native {
-    cases: BTreeMap<String, Found>,
+    cases: BTreeMap<String, CaseBits>,
     /// Cases that take too long in a browser.
     left: Vec<String>,
 }
 
 #[derive(Deserialize)]
-struct Listed {
+struct CaseId {
     id: String,
 }
 
 /// The result of a case.
 #[derive(Serialize, Deserialize)]
-struct Found {
+struct CaseBits {
     #[serde(skip_serializing)]
     holds: bool,
     bits: String,
@@ -47,11 +47,11 @@ fn ask<T: for<'a> Deserialize<'a>>(question: &serde_json::Value) -> Result<T> {
 }
 
 fn native() -> Result<Native> {
-    let listed: Vec<Listed> = ask(&serde_json::json!({ "ask": "cases" }))?;
-    let run = |listed: &Listed| {
+    let listed: Vec<CaseId> = ask(&serde_json::json!({ "ask": "cases" }))?;
+    let run = |listed: &CaseId| {
         let id = listed.id.clone();
         let question = serde_json::json!({ "ask": "case", "id": id });
-        let found: Found = ask(&question)?;
+        let found: CaseBits = ask(&question)?;
         if !found.holds {
             return Err(anyhow!("the case {id} fails"));
         }

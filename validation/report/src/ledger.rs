@@ -60,7 +60,7 @@ pub struct Requirement {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct RequirementFile {
     requirement: Vec<Requirement>,
 }
 
@@ -73,7 +73,7 @@ pub fn requirements() -> anyhow::Result<Vec<Requirement>> {
 }
 
 fn parse(text: &str) -> anyhow::Result<Vec<Requirement>> {
-    let file: File = toml::from_str(text).context(PLACE)?;
+    let file: RequirementFile = toml::from_str(text).context(PLACE)?;
     let mut ids = BTreeSet::new();
     for requirement in &file.requirement {
         if !ids.insert(requirement.id.as_str()) {

@@ -4,7 +4,7 @@
 use anyhow::{Context as _, bail};
 
 use crate::answers::{self, AnswerRow};
-use crate::basis::Basis;
+use crate::basis::FindingSets;
 use crate::evidence::Proof;
 use crate::scored::codes_table;
 use crate::timings::Timings;
@@ -20,14 +20,14 @@ const OPENS: [&str; 2] = ["<!-- results: ", " -->"];
 const END: &str = "<!-- end of results -->";
 
 /// What the marks show.
-pub struct Results<'a> {
+pub struct PageResults<'a> {
     /// Findings of the committed report.
     pub findings: &'a Findings,
     /// Results of the declared cases.
     pub proof: &'a Proof,
 }
 
-impl Results<'_> {
+impl PageResults<'_> {
     /// The text of a page with these results between its marks.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl Results<'_> {
     }
 
     fn shown(&self, name: &str) -> anyhow::Result<String> {
-        let basis = Basis::of(true, self.findings)?;
+        let basis = FindingSets::of(true, self.findings)?;
         Ok(match name {
             "answers" => self.answers(&basis)?,
             "accuracy" => Timings::kept()?.error(),
@@ -80,7 +80,7 @@ impl Results<'_> {
         })
     }
 
-    fn answers(&self, basis: &Basis<'_>) -> anyhow::Result<String> {
+    fn answers(&self, basis: &FindingSets<'_>) -> anyhow::Result<String> {
         let timings = Timings::kept()?;
         let rows = answers::rows(basis, &timings, Some(self.proof), &[])?;
         let line = |row: &AnswerRow| {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::answers::{self, AnswerRow};
-use crate::basis::{self, Basis};
+use crate::basis::{self, FindingSets};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
 use crate::page::{Page, TITLE, annexes};
@@ -109,7 +109,7 @@ pub fn files(
     let timings = Timings::kept()?;
     let mut charts = vec![timings.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
-    let basis = Basis::of(study.results.embedded(), &study.findings)?;
+    let basis = FindingSets::of(study.results.embedded(), &study.findings)?;
     let figures = basis.figures(&study.figures)?;
     for figure in figures.iter().chain(&charts) {
         let name = &figure.heading.name;
@@ -261,7 +261,7 @@ pub fn answers_text(
     study: &Study,
     proof: Option<&Proof>,
 ) -> anyhow::Result<String> {
-    let basis = Basis::of(study.results.embedded(), &study.findings)?;
+    let basis = FindingSets::of(study.results.embedded(), &study.findings)?;
     let rows = answers::rows(&basis, &Timings::kept()?, proof, &[])?;
     let text = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;

@@ -11,7 +11,7 @@ mod sections;
 
 use maud::{DOCTYPE, html};
 
-use crate::basis::Basis;
+use crate::basis::FindingSets;
 use crate::evidence::Proof;
 use crate::head::Signatures;
 use crate::lab::LAB;
@@ -35,7 +35,7 @@ pub(crate) struct Page<'a> {
     /// The run at hand.
     pub study: &'a Study,
     /// The findings of the run, and the kept ones.
-    pub basis: &'a Basis<'a>,
+    pub basis: &'a FindingSets<'a>,
     /// Figures of the study, those of the recorded suites among them.
     pub figures: &'a [Figure],
     /// Figures of proof, speed and other codes.
@@ -82,7 +82,7 @@ impl<'a> Page<'a> {
         annexes: &[Annex<'_>],
         files: &PlainTable,
     ) -> anyhow::Result<String> {
-        let sections = sections::all(self, annexes, files)?;
+        let sections = sections::page_sections(self, annexes, files)?;
         let page = html! {
             (DOCTYPE)
             html lang="en" {

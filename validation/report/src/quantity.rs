@@ -7,7 +7,7 @@ use rocking_common::words::{rounded, rounded_text};
 
 /// How a number is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Scale {
+enum ValueScale {
     /// As it is.
     Plain,
     /// In per cent.
@@ -21,23 +21,23 @@ enum Scale {
 /// How numbers are shown that are held against `region`. Ratios with limits
 /// that lie as far above 1 as below are shown as a change, and small
 /// differences in per cent.
-fn scale(unit: Unit, region: Option<Region>) -> Scale {
+fn scale(unit: Unit, region: Option<Region>) -> ValueScale {
     match (unit, region) {
-        (Unit::Share, _) => Scale::Percent,
-        (Unit::Points, _) => Scale::Points,
+        (Unit::Share, _) => ValueScale::Percent,
+        (Unit::Points, _) => ValueScale::Points,
         (Unit::One, Some(Region::Within(a, b)))
             if (a + b - 2.0).abs() < 1e-9 =>
         {
-            Scale::Change
+            ValueScale::Change
         }
         (Unit::One, Some(Region::Below(x) | Region::Above(x))) if x < 0.5 => {
-            Scale::Percent
+            ValueScale::Percent
         }
-        _ => Scale::Plain,
+        _ => ValueScale::Plain,
     }
 }
 
-impl Scale {
+impl ValueScale {
     fn of(self, x: f64) -> f64 {
         match self {
             Self::Plain => x,
@@ -80,7 +80,7 @@ pub fn number(x: f64) -> String {
     if x == 0.0 { "0".into() } else { x.to_string() }
 }
 
-fn measured(measured: Measured, scale: Scale) -> String {
+fn measured(measured: Measured, scale: ValueScale) -> String {
     let unit = scale.unit();
     let value = scale.number(measured.value);
     if measured.value.is_nan() {

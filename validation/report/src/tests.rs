@@ -10,7 +10,7 @@ use rocking_records::{Processing, ReadOptions, SetAside};
 use rocking_statistics::Clusters;
 
 use crate::answers;
-use crate::basis::{self, Basis};
+use crate::basis::{self, FindingSets};
 use crate::credibility::{assessment, comparison};
 use crate::evidence::{NOT_RUN, Proof};
 use crate::findings;
@@ -192,7 +192,7 @@ fn said_of(source: &Source) -> String {
     let cells: String = cells.collect();
     let mut found = basis::recorded();
     found.settings = results.plan.settings();
-    let basis = Basis::of(results.embedded(), &found).expect("basis");
+    let basis = FindingSets::of(results.embedded(), &found).expect("basis");
     limits + &answers::not_run(&basis) + &cells
 }
 

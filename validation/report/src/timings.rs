@@ -107,7 +107,12 @@ impl Timings {
         )
     }
 
-    fn of(&self, tool: &str, method: &str, without: &[&str]) -> Vec<&Total> {
+    fn totals_of(
+        &self,
+        tool: &str,
+        method: &str,
+        without: &[&str],
+    ) -> Vec<&Total> {
         let own = |t: &&Total| {
             let [name, _, how, setting] = &t.label;
             name == tool
@@ -126,7 +131,7 @@ impl Timings {
                 &str,
                 &[&str],
             )| {
-                let of = self.of(tool, method, without);
+                let of = self.totals_of(tool, method, without);
                 let mark = if INTERPRETED.contains(tool) {
                     Mark::DashedAndPoints
                 } else {
@@ -248,8 +253,8 @@ impl Timings {
     /// error, and how fast.
     pub fn speed(&self) -> (String, String) {
         let ratio = |work: &str| {
-            let ours = self.of_many(work)?.rate_per_s();
-            Some(ours / self.of_many(STOPPED.work)?.rate_per_s())
+            let ours = self.throughput_of(work)?.rate_per_s();
+            Some(ours / self.throughput_of(STOPPED.work)?.rate_per_s())
         };
         let answer = match (ratio(PAPER), ratio(ONE_BY_ONE)) {
             (Some(lanes), Some(one))
@@ -272,7 +277,7 @@ impl Timings {
             }
             (None, _) => "Open: no timing compares them.".into(),
         };
-        let many = self.of_many(PAPER).zip(self.equal(&STOPPED));
+        let many = self.throughput_of(PAPER).zip(self.equal(&STOPPED));
         let effect =
             many.map_or(String::new(), |(paper, (setting, times))| {
                 format!(
@@ -288,7 +293,7 @@ impl Timings {
     /// The fastest of our settings whose errors are no larger than a peer's,
     /// and how many times as fast it is.
     fn equal(&self, peer: &Peer) -> Option<(&str, f64)> {
-        let theirs = self.of_many(peer.work)?;
+        let theirs = self.throughput_of(peer.work)?;
         let (setting, ours) = self.fastest(peer, theirs)?;
         Some((setting, ours.rate_per_s() / theirs.rate_per_s()))
     }
@@ -296,8 +301,8 @@ impl Timings {
     /// How fast, in a sentence.
     pub fn plain(&self) -> String {
         let peer = || {
-            let rate = self.of_many(STOPPED.work)?.rate_per_s();
-            let ratio = self.of_many(PAPER)?.rate_per_s() / rate;
+            let rate = self.throughput_of(STOPPED.work)?.rate_per_s();
+            let ratio = self.throughput_of(PAPER)?.rate_per_s() / rate;
             let (setting, times) = self.equal(&STOPPED)?;
             Some(format!(
                 ", {} times as many as {} at 1e-9. At {setting}, our fastest \
@@ -308,7 +313,7 @@ impl Timings {
             ))
         };
         let peer = peer().unwrap_or_default();
-        let many = self.of_many(PAPER).map_or(String::new(), |paper| {
+        let many = self.throughput_of(PAPER).map_or(String::new(), |paper| {
             format!(
                 " The paper's 15 blocks run at {:.0} analyses a second and \
                  core{peer}.",
@@ -323,14 +328,14 @@ impl Timings {
     }
 
     /// A piece of work on one thread.
-    fn of_many(&self, work: &str) -> Option<&Throughput> {
+    fn throughput_of(&self, work: &str) -> Option<&Throughput> {
         self.many.iter().find(|t| t.threads == 1 && t.work == work)
     }
 
     /// Our settings that are no worse than a peer's 1e-9 in any error, the
     /// largest ones too.
     fn no_worse(&self, peer: &Peer) -> Vec<&str> {
-        let of = self.of(TOOL, peer.method, &[]);
+        let of = self.totals_of(TOOL, peer.method, &[]);
         let theirs = of.into_iter().find(|t| t.label[3] == TOLERANCE);
         let errors = |t: &Total| {
             [
@@ -344,7 +349,7 @@ impl Timings {
             ]
         };
         let Some(limits) = theirs.map(errors) else { return Vec::new() };
-        self.of(BASE[0], BASE[1], &[])
+        self.totals_of(BASE[0], BASE[1], &[])
             .into_iter()
             .filter(|t| errors(t).iter().zip(limits).all(|(e, max)| *e <= max))
             .map(|t| t.label[3].as_str())
@@ -361,7 +366,8 @@ impl Timings {
         self.no_worse(peer)
             .into_iter()
             .filter_map(|setting| {
-                let work = self.of_many(&format!("{PAPER}, {setting}"))?;
+                let work =
+                    self.throughput_of(&format!("{PAPER}, {setting}"))?;
                 (work.moved? <= theirs.moved?).then_some((setting, work))
             })
             .max_by(|a, b| a.1.rate_per_s().total_cmp(&b.1.rate_per_s()))
@@ -372,7 +378,7 @@ impl Timings {
         LINES[1..]
             .iter()
             .filter_map(|(_, tool, method, without)| {
-                self.of(tool, method, without)
+                self.totals_of(tool, method, without)
                     .into_iter()
                     .min_by(|a, b| a.peak_error.total_cmp(&b.peak_error))
             })

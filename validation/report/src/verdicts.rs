@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::basis::{Basis, Column};
+use crate::basis::{FindingColumn, FindingSets};
 use rocking_common::findings::{Claim, ClaimResult, Findings, Suite, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::{capital, rounded_text};
@@ -20,7 +20,7 @@ pub(super) const FALSE_DISCOVERIES: f64 = 0.05;
 /// What the work on the suites of a side was, and what rounding may have
 /// changed.
 pub(super) fn work(
-    (name, findings): Column<'_>,
+    (name, findings): FindingColumn<'_>,
 ) -> impl Iterator<Item = String> {
     let name = capital(name);
     findings.suites.iter().map(move |suite| of_suite(&name, suite))
@@ -55,7 +55,7 @@ fn of_suite(name: &str, suite: &Suite) -> String {
 
 /// How many decisions chance may have given, by the two false discovery
 /// rates.
-pub(super) fn trust(basis: &Basis<'_>) -> String {
+pub(super) fn trust(basis: &FindingSets<'_>) -> String {
     let counts = |findings: &Findings| {
         let found = findings.withdrawn(FALSE_DISCOVERIES);
         format!(
@@ -81,7 +81,7 @@ pub(super) fn trust(basis: &Basis<'_>) -> String {
 
 /// What came out about a theme: the plain words of its findings by verdict,
 /// and where another suite says something else.
-pub(super) fn by_theme(theme: Theme, basis: &Basis<'_>) -> String {
+pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
     let own = |findings: &Findings| -> Vec<(String, Verdict)> {
         let first = first_arm(findings);

@@ -16,13 +16,13 @@ use rocking_common::files::Outputs;
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 use rocking_common::suites::inputs::read_suite;
-use rocking_report::speed::answers::Answer;
-use rocking_report::speed::cases::{self, Case};
+use rocking_report::speed::answers::ToolAnswer;
+use rocking_report::speed::cases::{self, SpeedCase};
 use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
 use rocking_report::speed::throughput::{
-    self, AgainstLoop, Job, Throughput, analyses, on_threads,
+    self, AgainstLoop, CurveJob, Throughput, analyses, on_threads,
 };
 use rocking_report::speed::{export, many};
 
@@ -68,14 +68,15 @@ pub struct SpeedCommand {
 /// [`Failure`] for a suite or an answer that is refused, or a file that
 /// cannot be written.
 pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
-    let cases = cases::all()?;
+    let cases = cases::speed_cases()?;
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
         let (records, _) = records(args)?;
         let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
         let way = Execution::default();
-        let job = Job { analyses: &analyses, records: &records, way, threads };
+        let job =
+            CurveJob { analyses: &analyses, records: &records, way, threads };
         let (_, found) = job.measure("")?;
         for (analysis, found) in analyses.iter().zip(&found) {
             let block = &analysis.block;
@@ -128,11 +129,13 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     })
 }
 
-fn with_references(cases: Vec<Case>) -> Result<Vec<(Case, Answer)>, Failure> {
+fn with_references(
+    cases: Vec<SpeedCase>,
+) -> Result<Vec<(SpeedCase, ToolAnswer)>, Failure> {
     cases
         .into_iter()
         .map(|case| {
-            let reference = Answer::reference(&case)?;
+            let reference = ToolAnswer::reference(&case)?;
             Ok((case, reference))
         })
         .collect()

@@ -13,7 +13,7 @@ use crate::terminal::say;
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};
-use rocking_proof::verdict::{Outcome, Verdict, run_all, snapshot};
+use rocking_proof::verdict::{CaseOutcome, CaseVerdict, run_all, snapshot};
 use rocking_report::diff::{self, ResultFiles};
 
 // With `--out` it writes the results to OUT/data/validation.json, and to
@@ -123,7 +123,7 @@ fn stale(path: &Path) -> Failure {
 /// What the cases came to.
 #[derive(Serialize)]
 struct ValidateSummary<'a> {
-    cases: Vec<CaseVerdict<'a>>,
+    cases: Vec<CaseMargin<'a>>,
     messages: Vec<CaseMessage<'a>>,
     /// Checks whose margin is below 1e-3 or above 0.9.
     bounds_to_look_at: Vec<CloseBound<'a>>,
@@ -133,7 +133,7 @@ struct ValidateSummary<'a> {
 }
 
 #[derive(Serialize)]
-struct CaseVerdict<'a> {
+struct CaseMargin<'a> {
     case: &'a str,
     verdict: &'static str,
     margin: f64,
@@ -161,8 +161,8 @@ struct VerdictCount<'a> {
 }
 
 impl<'a> ValidateSummary<'a> {
-    fn of(outcomes: &'a [Outcome]) -> Self {
-        let judged = |outcome: &'a Outcome| CaseVerdict {
+    fn of(outcomes: &'a [CaseOutcome]) -> Self {
+        let judged = |outcome: &'a CaseOutcome| CaseMargin {
             case: &outcome.id,
             verdict: outcome.verdict.name(),
             margin: outcome.worst_margin(),
@@ -172,11 +172,11 @@ impl<'a> ValidateSummary<'a> {
                 .filter(|r| r.margin > 1.0)
                 .count(),
         };
-        let said = |outcome: &'a Outcome| {
+        let said = |outcome: &'a CaseOutcome| {
             let all = outcome.messages.iter().flat_map(|all| all.lines());
             all.map(|message| CaseMessage { case: &outcome.id, message })
         };
-        let bounds = |outcome: &'a Outcome| {
+        let bounds = |outcome: &'a CaseOutcome| {
             let all = outcome.bounds_to_look_at().into_iter();
             all.map(|check| CloseBound {
                 case: &outcome.id,
@@ -190,7 +190,7 @@ impl<'a> ValidateSummary<'a> {
             *kinds.entry(key).or_default() += 1;
         }
         let kinds = kinds.into_iter();
-        let passed = |o: &&Outcome| o.verdict == Verdict::Pass;
+        let passed = |o: &&CaseOutcome| o.verdict == CaseVerdict::Pass;
         Self {
             cases: outcomes.iter().map(judged).collect(),
             messages: outcomes.iter().flat_map(said).collect(),

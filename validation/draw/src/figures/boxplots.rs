@@ -10,7 +10,7 @@ use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::panel::{Marker, Panel};
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, optional};
 use rocking_common::words::letter;
@@ -135,7 +135,7 @@ const WIDEST: (f64, f64) = (0.1, 10.0);
 /// Width about 1, in ln, within which the axis of every figure is linear.
 const STRETCH: f64 = 0.005;
 
-pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Scene {
+pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
     let grid = Grid::new(figure.panels.len(), figure.columns);

@@ -9,7 +9,7 @@ use crate::geometry::{Point, kept};
 use crate::grid::Grid;
 use crate::legend::Entry;
 use crate::panel::Panel;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
 use serde::{Deserialize, Serialize};
@@ -54,9 +54,9 @@ pub struct ChartAxis {
     /// Label with unit, in markup.
     pub label: String,
     /// Linear or logarithmic.
-    pub scale: Scale,
+    pub scale: ChartScale,
     /// Both ends; none: from the data.
-    pub range: Ends,
+    pub range: AxisRange,
     /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
     pub categories: Vec<String>,
     /// The same in another unit, at the opposite edge; of a horizontal axis
@@ -73,7 +73,7 @@ impl From<Axis> for ChartAxis {
 }
 
 /// Both ends of an axis; none: from the data.
-pub type Ends = Option<(f64, f64)>;
+pub type AxisRange = Option<(f64, f64)>;
 
 /// Another unit of an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,27 +85,34 @@ pub struct Second {
 }
 
 impl ChartAxis {
-    fn new(label: impl Into<String>, scale: Scale, range: Ends) -> Self {
+    fn new(
+        label: impl Into<String>,
+        scale: ChartScale,
+        range: AxisRange,
+    ) -> Self {
         let (label, categories) = (label.into(), Vec::new());
         Self { label, scale, range, categories, second: None, drawn: None }
     }
 
     /// A linear axis with these ends, or with those of the data.
-    pub fn linear(label: impl Into<String>, ends: impl Into<Ends>) -> Self {
-        Self::new(label, Scale::Linear, ends.into())
+    pub fn linear(
+        label: impl Into<String>,
+        ends: impl Into<AxisRange>,
+    ) -> Self {
+        Self::new(label, ChartScale::Linear, ends.into())
     }
 
     /// A logarithmic axis with these ends, or with those of the data.
     pub fn logarithmic(
         label: impl Into<String>,
-        ends: impl Into<Ends>,
+        ends: impl Into<AxisRange>,
     ) -> Self {
-        Self::new(label, Scale::Logarithmic, ends.into())
+        Self::new(label, ChartScale::Logarithmic, ends.into())
     }
 
     /// An axis with these names at 1, 2, 3 and so on.
     pub fn named(categories: Vec<String>) -> Self {
-        Self { categories, ..Self::new("", Scale::Linear, None) }
+        Self { categories, ..Self::new("", ChartScale::Linear, None) }
     }
 
     /// The same axis with another unit beside its own.
@@ -116,7 +123,7 @@ impl ChartAxis {
 
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Scale {
+pub enum ChartScale {
     /// Linear.
     Linear,
     /// Logarithmic; values that are not positive are gaps.
@@ -294,7 +301,7 @@ fn grid(panels: usize, columns: usize) -> Grid {
     }
 }
 
-pub(super) fn scene(heading: &Heading, figure: &Panels) -> Scene {
+pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     let mut labels: Vec<&str> = Vec::new();
     let mut legend: Vec<Entry> = Vec::new();
     for series in figure.panels.iter().flat_map(|p| &p.series) {
@@ -330,8 +337,8 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Scene {
             let (low, high) = x.range();
             let range = (second.factor * low, second.factor * high);
             let of = match shown.x.scale {
-                Scale::Logarithmic => Axis::logarithmic(range.0, range.1),
-                Scale::Linear => Axis::linear(range.0, range.1, 6),
+                ChartScale::Logarithmic => Axis::logarithmic(range.0, range.1),
+                ChartScale::Linear => Axis::linear(range.0, range.1, 6),
             };
             of.label(second.label.as_str())
         });
@@ -372,7 +379,7 @@ fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
     if !asked.categories.is_empty() {
         return Axis::named(&asked.categories).label(asked.label.as_str());
     }
-    let logarithmic = asked.scale == Scale::Logarithmic;
+    let logarithmic = asked.scale == ChartScale::Logarithmic;
     let span = asked.range.or_else(|| common::span(values, logarithmic));
     let (low, high) = span.unwrap_or((1.0, 10.0));
     let axis = match (logarithmic, asked.range) {

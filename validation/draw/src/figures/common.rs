@@ -6,7 +6,7 @@ use crate::grid::Grid;
 use crate::legend;
 use crate::legend::Entry;
 use crate::markup;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use crate::text::Caption;
 use rocking_common::paper::{Arm, SLENDERNESSES_RAD};
 use rocking_common::words::letter;
@@ -16,11 +16,11 @@ pub fn scene(
     heading: &Heading,
     grid: Grid,
     entries: &[Entry],
-) -> (Scene, Grid) {
+) -> (Drawing, Grid) {
     let head = grid.head + legend::height(entries, grid.total_width());
     let grid = Grid { head, ..grid };
     let (width, height) = (grid.total_width(), grid.total_height());
-    let mut scene = Scene::new(caption(heading), width, height);
+    let mut scene = Drawing::new(caption(heading), width, height);
     legend::draw(&mut scene, entries);
     (scene, grid)
 }

@@ -1,20 +1,20 @@
 //! A map of fates in the plane of frequency and amplitude.
 
 use super::common;
-use super::figure::{Drawn, Figure};
+use super::figure::{Figure, Graphic};
 use super::heading::Heading;
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::panel::Panel;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use rocking::names::named;
 use rocking_common::table::{Table, number};
 
 named! {
     /// What becomes of a block.
-    pub enum Fate: "fate" {
+    pub enum MapFate: "fate" {
         /// It comes to rest.
         Stands = "stands",
         /// It overturns before an impact.
@@ -26,7 +26,7 @@ named! {
     }
 }
 
-impl Fate {
+impl MapFate {
     /// The fate of a block that overturns after so many impacts, if it does.
     pub fn after(impacts: Option<usize>) -> Self {
         match impacts {
@@ -57,7 +57,7 @@ pub struct FateMap {
     /// Ends of the rows: amplitude over the uplift threshold, rising.
     pub amplitudes: Vec<f64>,
     /// By column, then by row.
-    pub cells: Vec<Vec<Fate>>,
+    pub cells: Vec<Vec<MapFate>>,
     /// Name and points of each boundary.
     pub boundaries: Vec<(String, Vec<(f64, f64)>)>,
 }
@@ -67,7 +67,7 @@ impl FateMap {
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(
             &self.heading,
-            Drawn::Other(scene(self), self.csv()),
+            Graphic::Other(scene(self), self.csv()),
             reading,
         )
     }
@@ -97,8 +97,8 @@ impl FateMap {
     }
 
     /// Rows of a column with the same fate together: fate, ends.
-    fn runs(&self, cells: &[Fate]) -> Vec<(Fate, f64, f64)> {
-        let mut out: Vec<(Fate, f64, f64)> = Vec::new();
+    fn runs(&self, cells: &[MapFate]) -> Vec<(MapFate, f64, f64)> {
+        let mut out: Vec<(MapFate, f64, f64)> = Vec::new();
         for (fate, y) in cells.iter().zip(self.amplitudes.windows(2)) {
             match out.last_mut() {
                 Some(last) if last.0 == *fate => last.2 = y[1],
@@ -114,8 +114,8 @@ fn pen(boundary: usize) -> Pen {
     Pen::new(Ink::Text, 1.6).dash(dash)
 }
 
-fn scene(figure: &FateMap) -> Scene {
-    let mut legend: Vec<Entry> = Fate::ALL
+fn scene(figure: &FateMap) -> Drawing {
+    let mut legend: Vec<Entry> = MapFate::ALL
         .into_iter()
         .filter_map(|fate| {
             let sample = Sample::Band(fate.fill()?);

@@ -3,7 +3,7 @@
 use super::boxplots::{self, Boxplots};
 use super::chart::{self, Chart, Layout, NUMBERS, Panels};
 use super::heading::Heading;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use serde::{Deserialize, Serialize};
 
 /// A figure: its words, its shapes and its numbers.
@@ -12,45 +12,45 @@ pub struct Figure {
     /// The words that go with it.
     pub heading: Heading,
     /// The numbers that it draws.
-    drawn: Drawn,
+    drawn: Graphic,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
 }
 
 /// The numbers of a figure in the form in which they are drawn.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) enum Drawn {
+pub(super) enum Graphic {
     Chart(Panels),
     Boxplots(Boxplots),
     /// Shapes and CSV of what is neither; such a figure is not kept.
     #[serde(skip)]
-    Other(Scene, String),
+    Other(Drawing, String),
 }
 
 impl Figure {
     pub(super) fn new(
         heading: &Heading,
-        drawn: Drawn,
+        drawn: Graphic,
         reading: String,
     ) -> Self {
         Self { heading: heading.clone(), drawn, reading }
     }
 
     /// The shapes, before they are written.
-    pub fn scene(&self) -> Scene {
+    pub fn scene(&self) -> Drawing {
         match &self.drawn {
-            Drawn::Chart(panels) => chart::scene(&self.heading, panels),
-            Drawn::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
-            Drawn::Other(scene, _) => scene.clone(),
+            Graphic::Chart(panels) => chart::scene(&self.heading, panels),
+            Graphic::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
+            Graphic::Other(scene, _) => scene.clone(),
         }
     }
 
     /// The numbers, one header line, long format.
     pub fn csv(&self) -> String {
         match &self.drawn {
-            Drawn::Chart(panels) => panels.csv(),
-            Drawn::Boxplots(boxes) => boxes.csv(),
-            Drawn::Other(_, csv) => csv.clone(),
+            Graphic::Chart(panels) => panels.csv(),
+            Graphic::Boxplots(boxes) => boxes.csv(),
+            Graphic::Other(_, csv) => csv.clone(),
         }
     }
 
@@ -72,7 +72,7 @@ impl Chart {
         layout: &Layout,
         reading: impl Into<String>,
     ) -> Figure {
-        let drawn = Drawn::Chart(Panels {
+        let drawn = Graphic::Chart(Panels {
             panels: self.panels.clone(),
             columns: self.columns,
             layout: layout.clone(),
@@ -84,6 +84,6 @@ impl Chart {
 impl Boxplots {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(self, heading: &Heading, reading: String) -> Figure {
-        Figure::new(heading, Drawn::Boxplots(self), reading)
+        Figure::new(heading, Graphic::Boxplots(self), reading)
     }
 }

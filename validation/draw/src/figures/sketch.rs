@@ -1,11 +1,11 @@
 //! Figure 1: the block and its symbols.
 
 use super::common;
-use super::figure::{Drawn, Figure};
+use super::figure::{Figure, Graphic};
 use super::heading::Heading;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::Drawing;
 use crate::text::{Horizontal, TextLine};
 use rocking_common::table::{Table, number};
 
@@ -25,7 +25,7 @@ impl BlockSketch {
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(
             &self.heading,
-            Drawn::Other(scene(self), self.csv()),
+            Graphic::Other(scene(self), self.csv()),
             reading,
         )
     }
@@ -60,9 +60,9 @@ fn from((x, y): Point, length: f64, angle: f64) -> Point {
     )
 }
 
-fn scene(figure: &BlockSketch) -> Scene {
+fn scene(figure: &BlockSketch) -> Drawing {
     let caption = common::caption(&figure.heading);
-    let mut scene = Scene::new(caption, WIDTH, HEIGHT);
+    let mut scene = Drawing::new(caption, WIDTH, HEIGHT);
     let alpha = figure.alpha_rad.clamp(0.1, 0.6);
     let theta = figure.rotation_rad.clamp(0.05, 0.35);
     let base = 2.0 * HALF_DIAGONAL * libm::sin(alpha);
@@ -94,12 +94,12 @@ fn corners(base: f64, height: f64, turn: f64) -> [Point; 4] {
     [left, from(left, height, turn), from(PIVOT, height, turn), PIVOT]
 }
 
-fn word(scene: &mut Scene, markup: &str, at: Point) {
+fn word(scene: &mut Drawing, markup: &str, at: Point) {
     let line = TextLine::new(markup, at, Horizontal::Centre);
     scene.text(line.size(SIZE));
 }
 
-fn ground(scene: &mut Scene) {
+fn ground(scene: &mut Drawing) {
     let (left, right, y) = (40.0, WIDTH - 40.0, PIVOT.1);
     scene.line(&[(left, y), (right, y)], Pen::new(Ink::Text, 1.2));
     let mut x = left + 4.0;
@@ -110,14 +110,14 @@ fn ground(scene: &mut Scene) {
 }
 
 /// An arrow head at `tip`, coming along `angle` from the upward vertical.
-fn head(scene: &mut Scene, tip: Point, angle: f64, ink: Ink) {
+fn head(scene: &mut Drawing, tip: Point, angle: f64, ink: Ink) {
     let back = angle + std::f64::consts::PI;
     let wings = [from(tip, 8.0, back - 0.33), from(tip, 8.0, back + 0.33)];
     scene.area(&[tip, wings[0], wings[1]], Fill::solid(ink));
 }
 
 /// A line with an arrow head at each end.
-fn measure(scene: &mut Scene, a: Point, b: Point) {
+fn measure(scene: &mut Drawing, a: Point, b: Point) {
     let angle = libm::atan2(b.0 - a.0, a.1 - b.1);
     scene.line(&[a, b], THIN);
     head(scene, b, angle, Ink::Text);
@@ -125,7 +125,7 @@ fn measure(scene: &mut Scene, a: Point, b: Point) {
 }
 
 /// 2b along the top, 2h along the left side, both outside the block.
-fn dimensions(scene: &mut Scene, block: &[Point; 4]) {
+fn dimensions(scene: &mut Drawing, block: &[Point; 4]) {
     let [low_left, top_left, top_right, _] = *block;
     let turn = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
     let away = |p| from(p, 16.0, turn);
@@ -145,7 +145,7 @@ fn dimensions(scene: &mut Scene, block: &[Point; 4]) {
 
 /// The half diagonal R to the centre of mass, alpha between it and the
 /// block's side, theta between the vertical and that side.
-fn angles(scene: &mut Scene, alpha: f64, theta: f64) {
+fn angles(scene: &mut Drawing, alpha: f64, theta: f64) {
     let centre = from(PIVOT, HALF_DIAGONAL, theta - alpha);
     scene.line(&[PIVOT, centre], Pen::new(Ink::Series(1), 1.3));
     scene.dot(centre, 3.2, Ink::Series(1));
@@ -174,7 +174,7 @@ fn angles(scene: &mut Scene, alpha: f64, theta: f64) {
 }
 
 /// The ground's acceleration.
-fn excitation(scene: &mut Scene) {
+fn excitation(scene: &mut Drawing) {
     let y = PIVOT.1 + 34.0;
     let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
     scene.line(&[a, b], Pen::new(Ink::Series(2), 1.5));

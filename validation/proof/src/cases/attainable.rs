@@ -10,7 +10,7 @@ use rocking_common::words::rounded;
 /// A quantity whose error the reference lists.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Quantity {
+enum ErrorQuantity {
     /// Times of impacts, times p.
     ImpactTimes,
     /// Speeds before impacts, relative.
@@ -21,7 +21,7 @@ enum Quantity {
     AlphaTime,
 }
 
-impl Quantity {
+impl ErrorQuantity {
     const ALL: [Self; 4] =
         [Self::ImpactTimes, Self::ImpactSpeeds, Self::Peak, Self::AlphaTime];
 
@@ -39,11 +39,11 @@ impl Quantity {
 /// A bound that follows from errors of the reference.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Rule {
+struct AttainableRule {
     /// So many times the largest error of
     attainable: f64,
     /// these quantities,
-    of: Vec<Quantity>,
+    of: Vec<ErrorQuantity>,
     /// and never less than this.
     least: f64,
 }
@@ -68,7 +68,7 @@ impl Attainable {
 
     /// The largest error of some quantities. One that the reference does not
     /// list, because the motion lacks the quantity, counts as 0.
-    fn largest(&self, of: &[Quantity]) -> Result<f64, String> {
+    fn largest(&self, of: &[ErrorQuantity]) -> Result<f64, String> {
         let entry = self.entry.as_ref().map_err(String::clone)?;
         let case = trajectory(entry).map_err(|error| error.to_string())?;
         let errors = &case.attainable_float64;
@@ -94,7 +94,7 @@ impl Attainable {
             (["tolerance", "because"], Value::String(text))
                 if text.contains(WORDS) =>
             {
-                let error = self.largest(&Quantity::ALL)?;
+                let error = self.largest(&ErrorQuantity::ALL)?;
                 *text = text.replace(WORDS, &format!("{error:.0e}"));
             }
             (["tolerance", "bounds", _], Value::Table(bound)) => {
@@ -103,7 +103,7 @@ impl Attainable {
                     if !size.is_table() {
                         continue;
                     }
-                    let rule: Rule = size
+                    let rule: AttainableRule = size
                         .clone()
                         .try_into()
                         .map_err(|error| error.message().to_owned())?;

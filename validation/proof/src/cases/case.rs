@@ -9,7 +9,7 @@ use rocking::names::named;
 
 named! {
     /// The kind of evidence a family gives.
-    pub enum Kind: "kind" {
+    pub enum EvidenceKind: "kind" {
         /// The code does what the model says: closed forms, high precision.
         CodeVerification = "code-verification",
         /// The numerical error is what the method promises.
@@ -30,7 +30,7 @@ pub struct Family {
     /// One line for people.
     pub title: String,
     /// Kind of evidence.
-    pub kind: Kind,
+    pub kind: EvidenceKind,
     /// What every case of the file inherits.
     #[serde(default)]
     pub default: toml::Table,
@@ -42,7 +42,7 @@ pub struct Family {
 /// Where a claim comes from.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct CaseSource {
     /// Author and year, or the document.
     pub cite: String,
     /// Equation, table or section.
@@ -162,7 +162,7 @@ impl Bound {
 /// Why a bound is what it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Basis {
+pub enum ToleranceBasis {
     /// 100 times what a careful double-precision code reached, and never
     /// less than 1e-13.
     AttainableFloat64,
@@ -185,7 +185,7 @@ pub enum Basis {
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
     /// Where the bounds come from.
-    pub basis: Basis,
+    pub basis: ToleranceBasis,
     /// Why they are right, in words.
     pub because: String,
     /// Bound of each quantity.
@@ -222,11 +222,11 @@ pub struct Case {
     /// Name of the family; not in the file.
     pub family: String,
     /// Kind of evidence, from the family; not in the file.
-    pub kind: Kind,
+    pub kind: EvidenceKind,
     /// What is claimed.
     pub claim: String,
     /// Where it comes from.
-    pub source: Source,
+    pub source: CaseSource,
     /// Name of the registered method.
     pub method: String,
     /// When it is run.

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use super::attainable::Attainable;
 use super::case::Family;
-use super::error::Fault;
+use super::error::CaseFault;
 
 /// Tables that are merged key by key. Every other value, a bound or a list
 /// too, replaces the inherited one as a whole.
@@ -78,16 +78,16 @@ impl Defaults {
     /// The case with what it inherits.
     ///
     /// # Errors
-    /// [`Fault`] for a value that equals the inherited one, for a
+    /// [`CaseFault`] for a value that equals the inherited one, for a
     /// quantity in `without` that is not inherited, and for bounds that
     /// cannot be computed.
-    pub fn complete(&mut self, case: Table) -> Result<Table, Fault> {
+    pub fn complete(&mut self, case: Table) -> Result<Table, CaseFault> {
         let named = case.get("name").and_then(Value::as_str);
         let name = format!("case `{}`", named.unwrap_or_default());
         let stated = case.get("method").and_then(Value::as_str);
         let method = stated.or(self.method.as_deref()).map(of_method);
         let attainable = Attainable::of(&case);
-        let mut found = Found::default();
+        let mut found = ValueLayers::default();
         for (index, layer) in self.layers.iter().enumerate() {
             if index < 2 || Some(&layer.name) == method.as_ref() {
                 let values = layer.values.clone();
@@ -109,21 +109,21 @@ impl Defaults {
     /// Lays the values of a layer over those found below it.
     fn lay(
         &self,
-        found: &mut Found,
+        found: &mut ValueLayers,
         index: usize,
         mut values: Flat,
         place: &str,
         attainable: &Attainable,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), CaseFault> {
         for name in without(&mut values) {
             let path = path(&["tolerance", "bounds", &name]);
             if found.remove(&path).is_none() {
                 let place = place.to_owned();
-                return Err(Fault::Absent { place, name });
+                return Err(CaseFault::Absent { place, name });
             }
         }
         // Another document, and another basis, bring their own words.
-        let other = |found: &Found, keys: &[&str]| {
+        let other = |found: &ValueLayers, keys: &[&str]| {
             let path = path(keys);
             let below = found.get(&path).map(|(_, value)| value);
             values.get(&path).is_some_and(|value| below != Some(value))
@@ -137,11 +137,11 @@ impl Defaults {
         for (path, value) in &mut values {
             attainable.resolve(path, value).map_err(|message| {
                 let key = path.join(".");
-                Fault::Form(format!("{place}: {key}: {message}"))
+                CaseFault::Form(format!("{place}: {key}: {message}"))
             })?;
             if found.get(path).is_some_and(|(_, below)| below == value) {
                 let (place, key) = (place.to_owned(), path.join("."));
-                return Err(Fault::Repeated { place, key });
+                return Err(CaseFault::Repeated { place, key });
             }
         }
         found.extend(values.into_iter().map(|(p, v)| (p, (index, v))));
@@ -151,13 +151,13 @@ impl Defaults {
     /// Refuses a default that no case has inherited.
     ///
     /// # Errors
-    /// [`Fault::Idle`] with the first one.
-    pub fn all_used(&self) -> Result<(), Fault> {
+    /// [`CaseFault::Idle`] with the first one.
+    pub fn all_used(&self) -> Result<(), CaseFault> {
         for layer in &self.layers[1..] {
             let idle = |path: &&Path| !layer.used.contains(*path);
             if let Some(path) = layer.values.keys().find(idle) {
                 let (place, key) = (layer.name.clone(), path.join("."));
-                return Err(Fault::Idle { place, key });
+                return Err(CaseFault::Idle { place, key });
             }
         }
         Ok(())
@@ -165,7 +165,7 @@ impl Defaults {
 }
 
 /// Values with the number of the layer that gave each.
-type Found = BTreeMap<Path, (usize, Value)>;
+type ValueLayers = BTreeMap<Path, (usize, Value)>;
 
 fn path(keys: &[&str]) -> Path {
     keys.iter().map(|key| (*key).to_owned()).collect()
@@ -216,7 +216,7 @@ fn without(values: &mut Flat) -> Vec<String> {
 /// An entry of a reference: by name, or with a claim of its own.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected names or pairs of name and claim")]
-enum Named {
+enum EntryName {
     Name(String),
     Claimed([String; 2]),
 }
@@ -230,7 +230,7 @@ pub(super) fn expand(mut declared: Table) -> Result<Vec<Table>, String> {
     let Some(entries) = declared.remove("entries") else {
         return Ok(vec![declared]);
     };
-    let entries: Vec<Named> = entries
+    let entries: Vec<EntryName> = entries
         .try_into()
         .map_err(|error| format!("`entries`: {}", error.message()))?;
     if entries.is_empty() {
@@ -240,8 +240,8 @@ pub(super) fn expand(mut declared: Table) -> Result<Vec<Table>, String> {
     for named in entries {
         let mut case = declared.clone();
         let (entry, claim) = match named {
-            Named::Name(entry) => (entry, None),
-            Named::Claimed([entry, claim]) => (entry, Some(claim)),
+            EntryName::Name(entry) => (entry, None),
+            EntryName::Claimed([entry, claim]) => (entry, Some(claim)),
         };
         let twice = |key: &str| format!("entry `{entry}`: `{key}` twice");
         if case.insert("name".into(), entry.to_lowercase().into()).is_some() {

@@ -14,14 +14,14 @@ pub struct CaseError {
     /// The family.
     pub family: String,
     /// What is wrong with its file.
-    pub fault: Fault,
+    pub fault: CaseFault,
 }
 
 /// What is wrong with a file of cases; `place` is a case, or a table of
 /// defaults.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum CaseFault {
     /// The file is not of the expected form; with its line or its case.
     #[error("{0}")]
     Form(String),

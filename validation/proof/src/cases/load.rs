@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use super::case::{Bound, Case, Family};
 use super::defaults::{Defaults, expand};
-use super::error::{CaseError, Fault, LARGEST};
+use super::error::{CaseError, CaseFault, LARGEST};
 use super::pinned;
 
 /// Each family with the text of its file, in the order of their names.
@@ -16,7 +16,7 @@ pub const FAMILIES: &[(&str, &str)] =
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct CaseFile {
     family: Family,
     #[serde(default)]
     case: Vec<Table>,
@@ -55,30 +55,32 @@ pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>, CaseError> {
     load(family, text).map_err(refused)
 }
 
-fn load(family: &str, text: &str) -> Result<Vec<Case>, Fault> {
+fn load(family: &str, text: &str) -> Result<Vec<Case>, CaseFault> {
     if text.len() > LARGEST {
-        return Err(Fault::Long(text.len()));
+        return Err(CaseFault::Long(text.len()));
     }
-    let file: File = toml::from_str(text)
-        .map_err(|error| Fault::Form(error.to_string()))?;
+    let file: CaseFile = toml::from_str(text)
+        .map_err(|error| CaseFault::Form(error.to_string()))?;
     if file.case.is_empty() {
-        return Err(Fault::Empty);
+        return Err(CaseFault::Empty);
     }
     let kind = file.family.kind.name();
     let mut defaults = Defaults::new(file.family);
     let mut names = BTreeSet::new();
     let mut cases = Vec::with_capacity(file.case.len());
     for declared in file.case {
-        for case in expand(declared).map_err(Fault::Form)? {
+        for case in expand(declared).map_err(CaseFault::Form)? {
             let mut case = defaults.complete(case)?;
             for (key, value) in [("family", family), ("kind", kind)] {
                 if case.insert(key.into(), value.into()).is_some() {
-                    return Err(Fault::Form(format!("unknown field `{key}`")));
+                    return Err(CaseFault::Form(format!(
+                        "unknown field `{key}`"
+                    )));
                 }
             }
-            let mut case = read(case).map_err(Fault::Form)?;
+            let mut case = typed_case(case).map_err(CaseFault::Form)?;
             if !names.insert(case.id.clone()) {
-                return Err(Fault::Duplicate(case.id));
+                return Err(CaseFault::Duplicate(case.id));
             }
             check(&case)?;
             case.id = format!("{family}/{}", case.id);
@@ -90,7 +92,7 @@ fn load(family: &str, text: &str) -> Result<Vec<Case>, Fault> {
 }
 
 /// A case that has all it inherits; its id is still its name.
-fn read(case: Table) -> Result<Case, String> {
+fn typed_case(case: Table) -> Result<Case, String> {
     let name = case.get("name").and_then(Value::as_str);
     let place = format!("case `{}`", name.unwrap_or_default());
     Value::Table(case)
@@ -98,13 +100,13 @@ fn read(case: Table) -> Result<Case, String> {
         .map_err(|error: toml::de::Error| format!("{place}: {error}"))
 }
 
-fn check(case: &Case) -> Result<(), Fault> {
+fn check(case: &Case) -> Result<(), CaseFault> {
     let name = || case.id.clone();
     let known = |c: char| {
         c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c)
     };
     if case.id.is_empty() || !case.id.chars().all(known) {
-        return Err(Fault::Name(name()));
+        return Err(CaseFault::Name(name()));
     }
     let texts = [
         ("claim", &case.claim),
@@ -114,7 +116,7 @@ fn check(case: &Case) -> Result<(), Fault> {
     ];
     let is_empty = |(_, text): &(_, &String)| text.trim().is_empty();
     if let Some((field, _)) = texts.into_iter().find(is_empty) {
-        return Err(Fault::Silent { name: name(), field });
+        return Err(CaseFault::Silent { name: name(), field });
     }
     for (quantity, bound) in &case.tolerance.bounds {
         let sound = match bound {
@@ -128,7 +130,7 @@ fn check(case: &Case) -> Result<(), Fault> {
         };
         if !sound {
             let (quantity, bound) = (quantity.clone(), bound.clone());
-            return Err(Fault::BadBound { name: name(), quantity, bound });
+            return Err(CaseFault::BadBound { name: name(), quantity, bound });
         }
     }
     Ok(())

@@ -8,13 +8,13 @@ use rocking::integrator::{
 };
 use rocking::number::Real;
 
-use crate::scene::{Engine, EngineError, Forcing, Scene, Trace};
+use crate::scene::{CaseForcing, CaseScene, Engine, EngineError, Trace};
 
 /// The code under test.
 pub struct Core;
 
 impl Engine for Core {
-    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError> {
+    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
         let observe = Observe {
             events: true,
             until_s: scene.until_s,
@@ -42,7 +42,10 @@ impl Engine for Core {
 
 /// Sign of the rotation after the first uplift. An overturned block shows
 /// it by its side and its impacts; any other by a history of its first hop.
-fn first_side(scene: &Scene, response: &Response) -> Result<f64, EngineError> {
+fn first_side(
+    scene: &CaseScene,
+    response: &Response,
+) -> Result<f64, EngineError> {
     if let Outcome::Overturned { side, .. } = response.outcome {
         let even = response.impacts.len().is_multiple_of(2);
         return Ok(if even { side.sign() } else { -side.sign() });
@@ -51,7 +54,7 @@ fn first_side(scene: &Scene, response: &Response) -> Result<f64, EngineError> {
         (response.uplift_time_s, response.impacts.first())
     else {
         return Ok(match &scene.forcing {
-            Forcing::Free { rotation_rad } => rotation_rad.signum(),
+            CaseForcing::Free { rotation_rad } => rotation_rad.signum(),
             _ => 0.0,
         });
     };
@@ -71,7 +74,7 @@ fn first_side(scene: &Scene, response: &Response) -> Result<f64, EngineError> {
 /// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
 /// words.
 pub fn respond(
-    scene: &Scene,
+    scene: &CaseScene,
     observe: &Observe,
 ) -> Result<Response, EngineError> {
     with_core_scene(scene, Quotient::Rounded, |scene| {
@@ -94,7 +97,7 @@ pub enum Quotient {
 /// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
 /// words.
 pub fn respond_in<N: Real>(
-    scene: &Scene,
+    scene: &CaseScene,
     observe: &Observe,
     quotient: Quotient,
 ) -> Result<Response<N>, EngineError> {
@@ -109,7 +112,7 @@ pub fn respond_in<N: Real>(
 /// # Errors
 /// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
 /// words.
-pub fn certify(scene: &Scene) -> Result<CertifiedFate, EngineError> {
+pub fn certify(scene: &CaseScene) -> Result<CertifiedFate, EngineError> {
     let ask = Certify { until_s: scene.until_s, ..Certify::default() };
     with_core_scene(scene, Quotient::Kept, |scene| {
         integrator::certify(scene, &ask)
@@ -122,7 +125,7 @@ pub fn certify(scene: &Scene) -> Result<CertifiedFate, EngineError> {
 /// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
 /// words.
 pub fn respond_at_order(
-    scene: &Scene,
+    scene: &CaseScene,
     order: Order,
 ) -> Result<Response, EngineError> {
     let observe = Observe { events: true, ..Observe::default() };
@@ -133,7 +136,7 @@ pub fn respond_at_order(
 }
 
 fn with_core_scene<R>(
-    scene: &Scene,
+    scene: &CaseScene,
     quotient: Quotient,
     run: impl FnOnce(&integrator::Scene<'_>) -> Result<R, SceneError>,
 ) -> Result<R, EngineError> {
@@ -151,21 +154,23 @@ fn with_core_scene<R>(
         Quotient::Kept => (1.0, g),
     };
     let mut forcing = scene.forcing.clone();
-    if !matches!(forcing, Forcing::Free { .. }) {
+    if !matches!(forcing, CaseForcing::Free { .. }) {
         forcing.amplitudes_mut().iter_mut().for_each(|a| *a /= unit);
     }
     let mut initial_ratio = 0.0;
     let pulse;
     let excitation = match &forcing {
-        Forcing::Samples { dt_s, acceleration_m_s2 } => Excitation::Record(
-            ScaledRecord::try_new_si(acceleration_m_s2, *dt_s, divisor)
-                .map_err(refused)?,
-        ),
-        Forcing::Pulse(kind) => {
+        CaseForcing::Samples { dt_s, acceleration_m_s2 } => {
+            Excitation::Record(
+                ScaledRecord::try_new_si(acceleration_m_s2, *dt_s, divisor)
+                    .map_err(refused)?,
+            )
+        }
+        CaseForcing::Pulse(kind) => {
             pulse = Pulse::try_new_si(*kind, divisor).map_err(refused)?;
             Excitation::Pulse(&pulse)
         }
-        Forcing::Free { rotation_rad } => {
+        CaseForcing::Free { rotation_rad } => {
             initial_ratio = rotation_rad.abs() / scene.slenderness_rad;
             Excitation::Free
         }

@@ -3,7 +3,7 @@ use rocking::number::double::DoubleDouble;
 
 use super::core::{Quotient, respond, respond_in};
 use crate::arithmetic::{RoundedConstants, Single, Wide};
-use crate::scene::{EngineError, Scene};
+use crate::scene::{CaseScene, EngineError};
 
 /// What a run in any arithmetic saw, as double-doubles.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct WideTrace {
 
 /// Arithmetic of a run. A page has none that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arithmetic {
+pub enum Precision {
     /// Every operation rounded to 24 bits.
     #[cfg(not(target_family = "wasm"))]
     Single,
@@ -68,8 +68,8 @@ impl WideTrace {
     /// # Errors
     /// [`EngineError::Refused`] with the core's own words.
     pub fn run(
-        scene: &Scene,
-        arithmetic: Arithmetic,
+        scene: &CaseScene,
+        arithmetic: Precision,
     ) -> Result<Self, EngineError> {
         let observe = Observe {
             events: true,
@@ -80,18 +80,18 @@ impl WideTrace {
         let (o, rounded, kept) = (&observe, Quotient::Rounded, Quotient::Kept);
         Ok(match arithmetic {
             #[cfg(not(target_family = "wasm"))]
-            Arithmetic::Single => {
+            Precision::Single => {
                 Self::of(&respond_in::<Single>(scene, o, kept)?)
             }
-            Arithmetic::Double => Self::of(&respond(scene, o)?),
-            Arithmetic::DoubleDouble => {
+            Precision::Double => Self::of(&respond(scene, o)?),
+            Precision::DoubleDouble => {
                 Self::of(&respond_in::<DoubleDouble>(scene, o, kept)?)
             }
-            Arithmetic::DoubleDoubleOfRounded => {
+            Precision::DoubleDoubleOfRounded => {
                 Self::of(&respond_in::<DoubleDouble>(scene, o, rounded)?)
             }
             #[cfg(not(target_family = "wasm"))]
-            Arithmetic::RoundedConstants => {
+            Precision::RoundedConstants => {
                 Self::of(&respond_in::<RoundedConstants>(scene, o, kept)?)
             }
         })

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use anyhow::{Context as _, Error, Result, anyhow};
 use rocking::number::double::DoubleDouble;
 
-use super::method::Answer;
+use super::method::Reply;
 use crate::arithmetic::decimal;
 
 /// A CSV of expected values, embedded.
@@ -27,13 +27,13 @@ pub(super) use csv;
 
 impl Csv {
     /// Rows by their first field.
-    pub fn rows(&self, first: &str) -> Result<Vec<Row>> {
+    pub fn rows(&self, first: &str) -> Result<Vec<CsvRow>> {
         let file = self.file;
         let cells = |line: &'static str| line.split(',').collect::<Vec<_>>();
         let lines = self.text.lines().map(cells);
-        let rows: Vec<Row> = lines
+        let rows: Vec<CsvRow> = lines
             .filter(|cells| cells.first() == Some(&first))
-            .map(|cells| Row { file, cells })
+            .map(|cells| CsvRow { file, cells })
             .collect();
         if rows.is_empty() {
             return Err(self.lacks(format!("no row `{first}`")));
@@ -42,7 +42,7 @@ impl Csv {
     }
 
     /// The row that begins with these fields.
-    pub fn row(&self, first: &[&str]) -> Result<Row> {
+    pub fn row(&self, first: &[&str]) -> Result<CsvRow> {
         let mut rows = self.rows(first.first().unwrap_or(&""))?.into_iter();
         let found = rows.find(|row| row.cells.starts_with(first));
         found
@@ -55,12 +55,12 @@ impl Csv {
 }
 
 /// A row.
-pub struct Row {
+pub struct CsvRow {
     file: &'static str,
     cells: Vec<&'static str>,
 }
 
-impl Row {
+impl CsvRow {
     /// The text in a column, empty where there is none.
     pub fn text(&self, column: usize) -> &'static str {
         self.cells.get(column).copied().unwrap_or_default()
@@ -114,7 +114,7 @@ impl Row {
     /// stands where the reference has none.
     pub fn put(
         &self,
-        answer: &mut Answer,
+        answer: &mut Reply,
         from: usize,
         quantities: &[(&str, f64)],
     ) -> Result<()> {

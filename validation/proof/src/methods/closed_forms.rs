@@ -2,16 +2,18 @@
 
 use anyhow::{Result, bail};
 
-use super::method::{Answer, Context, SPEEDS, pairs};
+use super::method::{Context, Reply, SPEEDS, pairs};
 use crate::edge::{around, edge};
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};
 use crate::pulse::rescaled;
-use crate::scene::{Engine, Forcing, Model, Overturning, PulseName, Scene};
+use crate::scene::{
+    CaseForcing, CaseScene, Engine, Model, Overturning, PulseName,
+};
 
 /// Free rocking of every combination of block, loss and release.
-pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         restitution: Vec<f64>,
@@ -27,8 +29,8 @@ pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
     let releases = pairs(&restitution, &release);
     for ((alpha, p), (eta, release)) in pairs(&blocks, &releases) {
         let rotation_rad = release * alpha;
-        let forcing = Forcing::Free { rotation_rad };
-        let scene = Scene::new([alpha, p, 9.81], eta, forcing);
+        let forcing = CaseForcing::Free { rotation_rad };
+        let scene = CaseScene::new([alpha, p, 9.81], eta, forcing);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
         let form = oracle(alpha, eta, rotation_rad, impacts);
         let (seen, units) = (&trace.impacts, [p, p]);
@@ -44,7 +46,7 @@ pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Pulses in Eq. 2 over amplitudes and durations.
-pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         pulse: PulseName, amplitudes: Vec<f64>,
         /// Frequencies over p, or durations or periods times p.
@@ -56,8 +58,8 @@ pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
     }
     let shapes = pairs(&amplitudes, &scales);
     for ((a, scale), eta) in pairs(&shapes, &restitution) {
-        let pulse = Forcing::pulse(pulse, a, scale);
-        let Forcing::Pulse(kind) = pulse else { continue };
+        let pulse = CaseForcing::pulse(pulse, a, scale);
+        let CaseForcing::Pulse(kind) = pulse else { continue };
         let form = linear::respond(kind, eta, impacts);
         for block in &blocks {
             let [alpha, p, _] = *block;
@@ -78,16 +80,18 @@ pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
 /// A block (alpha, p, g) in Eq. 2 under the pulse that acts on one with
 /// p = 1 rad/s and g alpha = 1 m/s2 as it does on this one.
 pub(super) fn linear_scene(
-    pulse: &Forcing,
+    pulse: &CaseForcing,
     restitution: f64,
     block: [f64; 3],
-) -> Scene {
+) -> CaseScene {
     let [alpha, p, g] = block;
     let forcing = match pulse {
-        Forcing::Pulse(kind) => Forcing::Pulse(rescaled(*kind, g * alpha, p)),
+        CaseForcing::Pulse(kind) => {
+            CaseForcing::Pulse(rescaled(*kind, g * alpha, p))
+        }
         other => other.clone(),
     };
-    Scene::new(block, restitution, forcing).in_equation(Model::Linearized)
+    CaseScene::new(block, restitution, forcing).in_equation(Model::Linearized)
 }
 
 /// Where a pulse begins to overturn such a block without an impact, within
@@ -99,14 +103,14 @@ pub(super) fn overturns_from(
     near: f64,
 ) -> Result<f64> {
     flip(near, |a| {
-        let pulse = Forcing::pulse(pulse, a, scale);
+        let pulse = CaseForcing::pulse(pulse, a, scale);
         let scene = linear_scene(&pulse, 0.92, block).until(200.0 / block[1]);
         overturns_at_once(context.engine, scene)
     })
 }
 
 /// Amplitudes at which a pulse overturns without impact.
-pub fn critical(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn critical(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         pulse: PulseName, scales: Vec<f64>,
         /// Block: alpha (rad), p (rad/s), g (m/s2).
@@ -130,7 +134,7 @@ pub fn critical(context: &Context, answer: &mut Answer) -> Result<()> {
 /// Whether a scene ends beyond pi/2, before any impact.
 pub(super) fn overturns_at_once(
     engine: &dyn Engine,
-    scene: Scene,
+    scene: CaseScene,
 ) -> Result<bool> {
     let trace = engine.respond(&scene.to(Overturning::HalfPi))?;
     Ok(trace.overturned_s.is_some() && trace.impacts.is_empty())
@@ -147,12 +151,12 @@ pub(super) fn flip(
 
 /// The frequency beyond which a one-sine pulse cannot overturn after an
 /// impact.
-pub fn fold(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn fold(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; restitution: Vec<f64>, block: [f64; 3]);
     for &eta in &restitution {
         let (omega, a) = overturning::fold(eta);
         let scene = |omega: f64| {
-            let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
+            let pulse = CaseForcing::pulse(PulseName::OneSine, a, omega);
             linear_scene(&pulse, eta, block)
         };
         let found = flip(omega, |omega| {
@@ -173,7 +177,7 @@ pub fn fold(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Critical durations of rectangular pulses in Eq. 1.
-pub fn durations(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn durations(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         /// Acceleration over g tan(alpha).
@@ -186,8 +190,8 @@ pub fn durations(context: &Context, answer: &mut Answer) -> Result<()> {
         let critical = form.critical_duration_s();
         let found = flip(critical, |duration_s| {
             let name = PulseName::Rectangle;
-            let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
-            let scene = Scene::new([alpha, p, 9.81], 0.92, pulse);
+            let pulse = CaseForcing::pulse(name, pull * 9.81, duration_s);
+            let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
             overturns_at_once(context.engine, scene.until(200.0 / p))
         })?;
         answer.put("critical-duration-p", [found * p], [critical * p]);

@@ -4,14 +4,14 @@ use anyhow::Result;
 use rocking::integrator::{Impact, Order};
 use serde::Deserialize;
 
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 use crate::engine;
 use crate::naive::{Events, Naive, Rules};
-use crate::scene::{Engine as _, Forcing, Scene};
+use crate::scene::{CaseForcing, CaseScene, Engine as _};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Input {
+struct OrderInput {
     order: u32,
     /// Block: alpha (rad), p (rad/s), eta.
     block: [f64; 3],
@@ -26,8 +26,8 @@ const FINEST: usize = 16;
 
 /// Observed order in the step: the same broken line with more samples. The
 /// slope is signed, so an error that grows has a negative one.
-pub fn order(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Input = context.input()?;
+pub fn order(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: OrderInput = context.input()?;
     let order = match (input.order, context.wrong) {
         // A series that stops two terms early.
         (6.., Some(WrongModel::OrderTooLow)) => input.order - 2,
@@ -69,7 +69,7 @@ pub fn order(context: &Context, answer: &mut Answer) -> Result<()> {
     Ok(())
 }
 
-fn divided(input: &Input, division: usize) -> Scene {
+fn divided(input: &OrderInput, division: usize) -> CaseScene {
     let [alpha, p, eta] = input.block;
     let mut fine = Vec::new();
     for pair in input.acceleration_m_s2.windows(2) {
@@ -77,8 +77,8 @@ fn divided(input: &Input, division: usize) -> Scene {
         fine.extend((0..division).map(|k| pair[0] + rise * k as f64));
     }
     fine.extend(input.acceleration_m_s2.last());
-    let forcing = Forcing::samples(input.dt_s / division as f64, fine);
-    Scene::new([alpha, p, 9.81], eta, forcing)
+    let forcing = CaseForcing::samples(input.dt_s / division as f64, fine);
+    CaseScene::new([alpha, p, 9.81], eta, forcing)
 }
 
 /// Peak, and time and speed of the first impact.

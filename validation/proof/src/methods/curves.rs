@@ -16,8 +16,8 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
 use super::memo::Memo;
-use super::method::{Answer, Context, WrongModel};
-use crate::scene::Forcing;
+use super::method::{Context, Reply, WrongModel};
+use crate::scene::CaseForcing;
 use crate::trials::{Stratum, trial};
 
 /// Difference of a peak ratio that counts as another peak.
@@ -31,7 +31,7 @@ const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// A level in every way in which it is analysed.
 #[derive(Clone)]
-struct Level {
+struct LevelResult {
     alone: IdaPoint,
     lanes: IdaPoint,
     certified: IdaPoint,
@@ -44,32 +44,32 @@ struct Level {
 }
 
 /// Levels by the number of scenes.
-static FOUND: Memo<u64, Level> = Memo::new();
+static FOUND: Memo<u64, LevelResult> = Memo::new();
 
 /// Peaks and fates that a curve calls resolved and that are others in wider
 /// arithmetic; levels at which the lanes give another result.
-pub fn first_hops(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn first_hops(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Scenes whose first hop grazes: this many, from index 0 on.
         first_hops: u64,
     }
     let found = FOUND.get(first_hops, |count| {
         let all = (0..*count).into_par_iter().map(level);
-        let all = all.collect::<Result<Vec<Option<Level>>>>()?;
+        let all = all.collect::<Result<Vec<Option<LevelResult>>>>()?;
         Ok(all.into_iter().flatten().collect())
     })?;
     let at_landing = context.is(WrongModel::RoundingAtTheLanding);
-    let resolved = |level: &Level, point: &IdaPoint| {
+    let resolved = |level: &LevelResult, point: &IdaPoint| {
         if at_landing {
             level.at_landing < FLAGGED
         } else {
             point.resolution.resolved
         }
     };
-    let count = |is: &dyn Fn(&Level) -> bool| {
+    let count = |is: &dyn Fn(&LevelResult) -> bool| {
         [found.iter().filter(|level| is(level)).count() as f64]
     };
-    let silent = |level: &Level, point: &IdaPoint| {
+    let silent = |level: &LevelResult, point: &IdaPoint| {
         resolved(level, point) && level.is_other(point, ANOTHER)
     };
     let alone = count(&|level| silent(level, &level.alone));
@@ -91,7 +91,7 @@ pub fn first_hops(context: &Context, answer: &mut Answer) -> Result<()> {
     Ok(())
 }
 
-impl Level {
+impl LevelResult {
     /// Whether a point's fate is another in wider arithmetic, or its peak by
     /// more than so much.
     fn is_other(&self, point: &IdaPoint, error: f64) -> bool {
@@ -104,12 +104,12 @@ impl Level {
 }
 
 /// The scene of an index as the one level of a curve.
-fn level(index: u64) -> Result<Option<Level>> {
+fn level(index: u64) -> Result<Option<LevelResult>> {
     let Some(trial) = trial(Stratum::FirstHop, index)? else {
         return Ok(None);
     };
     let of = trial.scene;
-    let Forcing::Samples { dt_s, acceleration_m_s2 } = of.forcing else {
+    let CaseForcing::Samples { dt_s, acceleration_m_s2 } = of.forcing else {
         return Ok(None);
     };
     let record = Accelerogram::try_new(trial.name, dt_s, acceleration_m_s2);
@@ -156,7 +156,7 @@ fn level(index: u64) -> Result<Option<Level>> {
     // A level that is not assessed is as good as one that is not flagged.
     let error = error.unwrap_or(0.0).max(ANOTHER);
     let at_landing = at_landing(&scene, of.restitution, &record)?;
-    Ok(Some(Level { alone, lanes, certified, error, truth, at_landing }))
+    Ok(Some(LevelResult { alone, lanes, certified, error, truth, at_landing }))
 }
 
 /// Fate and peak in wider arithmetic; none where that does not decide.

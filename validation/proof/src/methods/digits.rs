@@ -8,9 +8,9 @@ use rocking::number::{Number as _, Real as _};
 
 use super::fates;
 use crate::cases::{Case, load_all};
-use crate::engine::{Arithmetic, WideTrace};
+use crate::engine::{Precision, WideTrace};
 use crate::references;
-use crate::scene::{Model, Overturning, Scene};
+use crate::scene::{CaseScene, Model, Overturning};
 
 /// What a precision reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub enum Reach {
 /// Significant digits of one scene in single, double and double-double
 /// precision.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct DigitsRow {
     /// The case.
     pub id: String,
     /// 1 or 2.
@@ -41,10 +41,10 @@ pub struct Row {
 }
 
 /// Arithmetics in the order of the columns, and the digits of each.
-const PRECISIONS: [(Arithmetic, f64); 3] = [
-    (Arithmetic::Single, 7.2),
-    (Arithmetic::Double, 16.0),
-    (Arithmetic::DoubleDouble, 31.9),
+const PRECISIONS: [(Precision, f64); 3] = [
+    (Precision::Single, 7.2),
+    (Precision::Double, 16.0),
+    (Precision::DoubleDouble, 31.9),
 ];
 
 /// Impacts compared.
@@ -54,17 +54,17 @@ const IMPACTS: usize = 10;
 ///
 /// # Errors
 /// An error where a case cannot be read or run.
-pub fn digits() -> Result<Vec<Row>> {
+pub fn digits() -> Result<Vec<DigitsRow>> {
     let mut cases = load_all()?;
     let is_hard = |case: &Case| case.family == "hard-cases";
     cases.retain(|case| is_hard(case) || case.method == "trajectory");
     cases.sort_by_key(|case| !is_hard(case));
     let rows = cases.par_iter().map(|case| row(case).context(case.id.clone()));
-    let rows: Vec<Option<Row>> = rows.collect::<Result<_>>()?;
+    let rows: Vec<Option<DigitsRow>> = rows.collect::<Result<_>>()?;
     Ok(rows.into_iter().flatten().collect())
 }
 
-fn row(case: &Case) -> Result<Option<Row>> {
+fn row(case: &Case) -> Result<Option<DigitsRow>> {
     let (scene, truth) = match case.method.as_str() {
         "trajectory" => {
             let (scene, truth) = reference(case)?;
@@ -93,7 +93,7 @@ fn row(case: &Case) -> Result<Option<Row>> {
         end[k] = end_reach(run, &truth, most);
         impacts[k] = impact_reach(run, &truth, most);
     }
-    Ok(Some(Row {
+    Ok(Some(DigitsRow {
         id: case.id.clone(),
         equation: match scene.model {
             Model::Nonlinear => 1,
@@ -106,7 +106,7 @@ fn row(case: &Case) -> Result<Option<Row>> {
 }
 
 /// Scene and truth of a trajectory, under the criterion that it is about.
-fn reference(case: &Case) -> Result<(Scene, WideTrace)> {
+fn reference(case: &Case) -> Result<(CaseScene, WideTrace)> {
     let entry = case.input.get("entry").and_then(toml::Value::as_str);
     let entry = references::trajectory(entry.unwrap_or_default())?;
     let tangency = case.id.contains("-flip-");
@@ -182,8 +182,8 @@ pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
 
 /// The table as CSV.
 #[must_use]
-pub fn digits_csv(rows: &[Row]) -> String {
-    let line = |row: &Row| {
+pub fn digits_csv(rows: &[DigitsRow]) -> String {
+    let line = |row: &DigitsRow| {
         let truth =
             if row.has_reference { "36 digits" } else { "double-double" };
         let reached = row.end.iter().chain(&row.impacts).map(|r| r.text());

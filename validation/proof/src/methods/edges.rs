@@ -5,10 +5,10 @@ use anyhow::{Context as _, Result};
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::method::{Answer, Context, pairs};
+use super::method::{Context, Reply, pairs};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
-use crate::scene::{Forcing, Model, Overturning, PulseName, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning, PulseName};
 
 /// What flips at an edge.
 #[derive(Clone, Copy)]
@@ -63,14 +63,14 @@ impl OneSine {
         let p = self.block[1];
         // The saddle holds a block for 28/p at most when the amplitude is
         // 1e-12 from the edge.
-        let scene = Scene::new(self.block, self.eta, Forcing::NONE)
+        let scene = CaseScene::new(self.block, self.eta, CaseForcing::NONE)
             .in_equation(self.equation)
             .to(criterion)
             .until((7.0 / self.omega + 100.0) / p);
         edge::edge(range, 1e-12, |amplitude| {
             let scene = scene.clone().under(|threshold| {
                 let (a, omega) = (amplitude * threshold, self.omega * p);
-                Forcing::pulse(PulseName::OneSine, a, omega)
+                CaseForcing::pulse(PulseName::OneSine, a, omega)
             });
             let trace = context.engine.respond(&scene)?;
             let over = trace.overturned_s.is_some();
@@ -85,7 +85,7 @@ impl OneSine {
 
 /// Relative change of an edge of Eq. 1, over g tan(alpha), against that of
 /// Eq. 2, over g alpha; eta 0.92.
-pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         edge: Edge, omega_over_p: f64,
         /// The edge in Eq. 2, over g alpha.
@@ -109,7 +109,7 @@ pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// The frequency at which the two edges of the bay meet, by |theta| >= alpha:
 /// the upper edge of mode 1 and the lower edge of mode 2.
-pub fn bay(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn bay(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; eta: f64, omega_over_p: f64, block: [f64; 3]);
     let pulse = OneSine {
         equation: Model::Linearized,
@@ -133,7 +133,7 @@ pub fn bay(context: &Context, answer: &mut Answer) -> Result<()> {
 /// crest, peaks 2 w and lands 3 w after it; the peak is
 /// (9/2) eps^2 k/Omega^2 and the landing speed (8/3) (2 eps)^(3/2) k/Omega,
 /// k = sin(alpha)/alpha in Eq. 1 and 1 in Eq. 2. To leading order in w.
-pub fn grazing(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn grazing(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, omega_over_p: f64,
         /// Amplitude over the threshold, less 1.
@@ -142,10 +142,10 @@ pub fn grazing(context: &Context, answer: &mut Answer) -> Result<()> {
     let p = 2.0;
     for (alpha, excess) in pairs(&slenderness_rad, &excess) {
         let omega = omega_over_p;
-        let scene = Scene::at_rest([alpha, p], 0.92).in_equation(equation);
+        let scene = CaseScene::at_rest([alpha, p], 0.92).in_equation(equation);
         let scene = scene.under(|threshold| {
             let (a, omega) = ((1.0 + excess) * threshold, omega * p);
-            Forcing::pulse(PulseName::HalfSine, a, omega)
+            CaseForcing::pulse(PulseName::HalfSine, a, omega)
         });
         let k = match scene.model {
             Model::Nonlinear => libm::sin(alpha) / alpha,
@@ -174,11 +174,11 @@ pub fn grazing(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Table 1 of the paper: R, 2b and 2h from alpha and p.
-pub fn sizes(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn sizes(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; slenderness_rad: Vec<f64>, frequency_rad_s: f64);
     for &alpha in &slenderness_rad {
         let block = [alpha, frequency_rad_s];
-        let scene = context.altered(&Scene::at_rest(block, 0.92));
+        let scene = context.altered(&CaseScene::at_rest(block, 0.92));
         let block =
             Block::try_new(scene.slenderness_rad, scene.frequency_rad_s);
         let size = block?.dimensions(scene.gravity_m_s2)?;
@@ -195,10 +195,10 @@ pub fn sizes(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Housner's coefficient of restitution, and the energy that an impact with
 /// a constant one takes.
-pub fn restitution(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn restitution(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; slenderness_rad: Vec<f64>, eta: f64);
     for &alpha in &slenderness_rad {
-        let scene = context.altered(&Scene::at_rest([alpha, 1.0], eta));
+        let scene = context.altered(&CaseScene::at_rest([alpha, 1.0], eta));
         let block = Block::try_new(scene.slenderness_rad, 1.0);
         let housner = Restitution::housner(&block?);
         answer.see("housner", [housner?.velocity_ratio()]);

@@ -8,11 +8,11 @@ use rocking::integrator::{
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::cells::{Csv, Row, csv};
-use super::method::{Answer, Context};
+use super::cells::{Csv, CsvRow, csv};
+use super::method::{Context, Reply};
 use crate::engine::{certify, respond};
-use crate::scene::{Forcing, Overturning, Scene};
-use crate::trials::{Reading, Seen};
+use crate::scene::{CaseForcing, CaseScene, Overturning};
+use crate::trials::{CertificateReading, DoubleRun};
 
 const ENDS: Csv = csv!("oracles/ends.csv");
 
@@ -20,20 +20,20 @@ const ENDS: Csv = csv!("oracles/ends.csv");
 const PRINTED: f64 = 0.5 * f64::EPSILON;
 
 /// The scenes of a kind, each with three numbers that are known of it.
-fn scenes(kind: &str) -> Result<Vec<(Scene, [DoubleDouble; 3])>> {
-    let of = |row: Row| {
+fn scenes(kind: &str) -> Result<Vec<(CaseScene, [DoubleDouble; 3])>> {
+    let of = |row: CsvRow| {
         let given = row.list(10, ';')?;
         let forcing = match (row.text(7), given.as_slice()) {
             ("record", [dt_s, samples @ ..]) => {
-                Forcing::samples(*dt_s, samples.to_vec())
+                CaseForcing::samples(*dt_s, samples.to_vec())
             }
             (pulse, [amplitude, scale]) => {
-                Forcing::pulse(pulse.parse()?, *amplitude, *scale)
+                CaseForcing::pulse(pulse.parse()?, *amplitude, *scale)
             }
             (other, _) => bail!(ENDS.lacks(other)),
         };
         let [alpha, p, eta, gravity] = row.numbers(3)?;
-        let scene = Scene::new([alpha, p, gravity], eta, forcing)
+        let scene = CaseScene::new([alpha, p, gravity], eta, forcing)
             .in_equation(row.text(1).parse()?)
             .to(row.text(2).parse()?);
         let known = <[DoubleDouble; 3]>::try_from(row.decimals(9)?);
@@ -88,15 +88,15 @@ impl Counts {
     /// doubles surely have one.
     fn take(
         &mut self,
-        scene: &Scene,
+        scene: &CaseScene,
         (due, one_fate): (Due, bool),
-        reading: Reading,
+        reading: CertificateReading,
     ) -> Result<()> {
         let until_s = scene.until_s;
         let observe =
             Observe { accuracy: true, until_s, ..Observe::default() };
         let response: Response = respond(scene, &observe)?;
-        let seen = Seen::of(&response, response.peak_ratio);
+        let seen = DoubleRun::of(&response, response.peak_ratio);
         let clear = reading.is_clear(&seen);
         let error = match response.assessment() {
             Assessment::Clear => reading.estimate(&seen),
@@ -119,7 +119,7 @@ impl Counts {
         Ok(())
     }
 
-    fn put(&self, answer: &mut Answer) {
+    fn put(&self, answer: &mut Reply) {
         for (name, count) in [
             ("wrong-and-clear", self.wrong_and_clear),
             ("certified-wrong", self.certified_wrong),
@@ -144,13 +144,13 @@ fn moved(x: f64, ulps: i64) -> f64 {
 }
 
 /// Overturned before the end or not, lifted before it or not, and how far.
-pub fn ends(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn ends(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Units in the last place between the double next to an event and the
         /// end, to either side.
         ulps: Vec<i64>,
     }
-    let reading = Reading(context.wrong);
+    let reading = CertificateReading(context.wrong);
     let mut counts = Counts::default();
     for (mut scene, [lifted_s, over_s, rate]) in scenes("end")? {
         let alpha = DoubleDouble::from_f64(scene.slenderness_rad);
@@ -182,8 +182,8 @@ pub fn ends(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Pulses whose peak is some units in the last place from the threshold.
-pub fn touches(context: &Context, answer: &mut Answer) -> Result<()> {
-    let reading = Reading(context.wrong);
+pub fn touches(context: &Context, answer: &mut Reply) -> Result<()> {
+    let reading = CertificateReading(context.wrong);
     let mut counts = Counts::default();
     for (scene, [lifts, peak, one_fate]) in scenes("touch")? {
         let is = |x: DoubleDouble| x > DoubleDouble::zero();

@@ -6,14 +6,14 @@ use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking_statistics::streams::Streams;
 
-use super::method::{Answer, Context, WrongModel};
-use crate::engine::{Arithmetic, WideTrace};
+use super::method::{Context, Reply, WrongModel};
+use crate::engine::{Precision, WideTrace};
 use crate::references;
-use crate::scene::{Model, Overturning, Scene};
+use crate::scene::{CaseScene, Model, Overturning};
 use crate::trials::Draw;
 
 /// One scene's verdict.
-enum Comparison {
+enum EstimateCheck {
     /// Error of the peak ratio over its estimate.
     Ratio(f64),
     /// The fates differ, and the run says that its fate is not resolved.
@@ -29,7 +29,7 @@ const SHARES: [(&str, usize); 3] =
     [("median-ratio", 50), ("upper-decile-ratio", 90), ("largest-ratio", 100)];
 
 /// Error of the peak over its estimate, over many scenes.
-pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn estimate(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Random scenes; none: the reference trajectories.
         #[serde(default)]
@@ -38,8 +38,8 @@ pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
         arithmetic: String,
     }
     let arithmetic = match arithmetic.as_str() {
-        "double" => Arithmetic::Double,
-        "double-double" => Arithmetic::DoubleDouble,
+        "double" => Precision::Double,
+        "double-double" => Precision::DoubleDouble,
         other => bail!("arithmetic `{other}`"),
     };
     let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
@@ -52,7 +52,7 @@ pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
             .map(|k| {
                 let scene = drawn(&streams, k);
                 let run = WideTrace::run(&scene, arithmetic)?;
-                let truth = WideTrace::run(&scene, Arithmetic::DoubleDouble)?;
+                let truth = WideTrace::run(&scene, Precision::DoubleDouble)?;
                 Ok(compare(&run, &truth, f64::EPSILON))
             })
             .collect::<Result<Vec<_>>>()?
@@ -61,10 +61,10 @@ pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
     let (mut wrong, mut open) = (0.0, 0.0);
     for one in all {
         match one {
-            Comparison::Ratio(ratio) => ratios.push(ratio / factor),
-            Comparison::Open => open += 1.0,
-            Comparison::Wrong => wrong += 1.0,
-            Comparison::NoPeak => {}
+            EstimateCheck::Ratio(ratio) => ratios.push(ratio / factor),
+            EstimateCheck::Open => open += 1.0,
+            EstimateCheck::Wrong => wrong += 1.0,
+            EstimateCheck::NoPeak => {}
         }
     }
     ratios.sort_by(f64::total_cmp);
@@ -81,25 +81,25 @@ pub fn estimate(context: &Context, answer: &mut Answer) -> Result<()> {
     Ok(())
 }
 
-fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
+fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> EstimateCheck {
     match (run.overturned_s.is_some(), truth.overturned_s.is_some()) {
         (false, false) => {
             let error = (run.peak_ratio - truth.peak_ratio).abs().to_f64();
             // A run that does not move claims no error at all: it is held to
             // one unit in the last place.
             let estimate = run.error_estimate.max(unit);
-            Comparison::Ratio(error / estimate)
+            EstimateCheck::Ratio(error / estimate)
         }
-        (true, true) => Comparison::NoPeak,
-        _ if run.resolved => Comparison::Wrong,
-        _ => Comparison::Open,
+        (true, true) => EstimateCheck::NoPeak,
+        _ if run.resolved => EstimateCheck::Wrong,
+        _ => EstimateCheck::Open,
     }
 }
 
-fn against_references(arithmetic: Arithmetic) -> Result<Vec<Comparison>> {
+fn against_references(arithmetic: Precision) -> Result<Vec<EstimateCheck>> {
     let mut found = Vec::new();
     let unit = match arithmetic {
-        Arithmetic::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
+        Precision::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
         _ => f64::EPSILON,
     };
     for case in references::trajectories()? {
@@ -120,7 +120,7 @@ fn against_references(arithmetic: Arithmetic) -> Result<Vec<Comparison>> {
 
 /// A random block under random filtered noise, uniform or uniform in the
 /// logarithm over the ranges of the study and beyond.
-fn drawn(streams: &Streams, index: u64) -> Scene {
+fn drawn(streams: &Streams, index: u64) -> CaseScene {
     let mut draw = Draw(streams.stream(index));
     let mut uniform = |low: f64, high: f64| draw.uniform(low, high);
     let alpha = uniform(0.02, 0.4);
@@ -141,7 +141,7 @@ fn drawn(streams: &Streams, index: u64) -> Scene {
         })
         .collect();
     let half_pi = uniform(0.0, 1.0) < 0.3;
-    Scene::at_rest([alpha, p], eta)
+    CaseScene::at_rest([alpha, p], eta)
         .in_equation(if linear { Model::Linearized } else { Model::Nonlinear })
         .to(if half_pi { Overturning::HalfPi } else { Overturning::Alpha })
         .shaken(dt_s, samples, intensity)

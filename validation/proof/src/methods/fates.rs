@@ -3,26 +3,26 @@
 use anyhow::{Context as _, Result, bail};
 use serde::Deserialize;
 
-use super::method::{Answer, Context, input_of};
+use super::method::{Context, Reply, input_of};
 use crate::cases::Case;
 use crate::engine::Core;
 use crate::references;
 use crate::scene::{
-    Engine as _, Forcing, Model, Overturning, PulseName, Scene,
+    CaseForcing, CaseScene, Engine as _, Model, Overturning, PulseName,
 };
 
 /// A scene that a case writes out.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Written {
+pub(super) struct SceneInput {
     equation: Model,
     slenderness_rad: f64,
     frequency_rad_s: f64,
     restitution: f64,
-    half_sine: Option<Sine>,
+    half_sine: Option<SineInput>,
     /// A record of the references, scaled to PGA over the threshold.
     named: Option<(String, f64)>,
-    record: Option<Samples>,
+    record: Option<CornerRecord>,
     until_s: Option<f64>,
     /// The whole motion times each of these, where there are such.
     #[serde(default)]
@@ -34,7 +34,7 @@ pub(super) struct Written {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Sine {
+struct SineInput {
     amplitude_m_s2: f64,
     omega_rad_s: f64,
 }
@@ -42,14 +42,14 @@ struct Sine {
 /// A record written as runs of straight lines.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Samples {
+struct CornerRecord {
     dt_s: f64,
     /// Corner points: sample number and acceleration in m/s2.
     corners: Vec<(usize, f64)>,
 }
 
-impl Samples {
-    fn forcing(&self) -> Result<Forcing> {
+impl CornerRecord {
+    fn forcing(&self) -> Result<CaseForcing> {
         let mut samples = Vec::new();
         for pair in self.corners.windows(2) {
             let [(from, a), (to, b)] = pair else { continue };
@@ -60,21 +60,23 @@ impl Samples {
             samples.extend((0..to - from).map(|k| a + rise * k as f64));
         }
         samples.extend(self.corners.last().map(|corner| corner.1));
-        Ok(Forcing::samples(self.dt_s, samples))
+        Ok(CaseForcing::samples(self.dt_s, samples))
     }
 }
 
-impl Written {
+impl SceneInput {
     /// The scene with each of the factors.
-    pub(super) fn scenes(&self) -> Result<Vec<Scene>> {
+    pub(super) fn scenes(&self) -> Result<Vec<CaseScene>> {
         let block = [self.slenderness_rad, self.frequency_rad_s];
-        let scene = Scene::at_rest(block, self.restitution);
-        let scene = Scene { until_s: self.until_s, ..scene };
+        let scene = CaseScene::at_rest(block, self.restitution);
+        let scene = CaseScene { until_s: self.until_s, ..scene };
         let scene = scene.in_equation(self.equation);
         let scene = match (&self.half_sine, &self.named, &self.record) {
             (Some(sine), None, None) => {
                 let (a, omega) = (sine.amplitude_m_s2, sine.omega_rad_s);
-                scene.under(|_| Forcing::pulse(PulseName::HalfSine, a, omega))
+                scene.under(|_| {
+                    CaseForcing::pulse(PulseName::HalfSine, a, omega)
+                })
             }
             (None, Some((name, intensity)), None) => {
                 let (dt_s, samples) = references::record(name)?;
@@ -99,13 +101,13 @@ impl Written {
 }
 
 /// The first scene that a case writes out.
-pub(super) fn scene_of(case: &Case) -> Result<Scene> {
-    let scenes = input_of::<Written>(case)?.scenes()?;
+pub(super) fn scene_of(case: &Case) -> Result<CaseScene> {
+    let scenes = input_of::<SceneInput>(case)?.scenes()?;
     scenes.into_iter().next().context("no scene")
 }
 
 /// Peak, fate and counts of a scene; what is expected is in the case.
-pub fn response(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn response(context: &Context, answer: &mut Reply) -> Result<()> {
     let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
     answer.see("peak-ratio", [trace.peak_ratio]);
@@ -116,7 +118,7 @@ pub fn response(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Fates of one record over levels of 0.01 g, under both criteria.
-pub fn levels(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn levels(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         record: String, slenderness_rad: f64, frequency_rad_s: f64,
         first_level_g: f64,
@@ -129,10 +131,10 @@ pub fn levels(context: &Context, answer: &mut Answer) -> Result<()> {
     answer.put("impact-in-between", [], []);
     for (k, letter) in letters.chars().enumerate() {
         let level_g = first_level_g + 0.01 * k as f64;
-        let mut forcing = Forcing::samples(dt_s, record.clone());
+        let mut forcing = CaseForcing::samples(dt_s, record.clone());
         forcing.scale(level_g * 9.81 / peak);
         let block = [slenderness_rad, frequency_rad_s, 9.81];
-        let scene = Scene::new(block, 0.92, forcing);
+        let scene = CaseScene::new(block, 0.92, forcing);
         let first = context.engine.respond(&scene)?.overturned_s;
         let trace = context.engine.respond(&scene.to(Overturning::HalfPi))?;
         let last = trace.overturned_s;
@@ -158,7 +160,7 @@ pub fn levels(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Eq. 2 on every record of an embedded suite: the scaled record on the
 /// reference block against the record as it is on the adjusted block.
-pub fn adjustment(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         suite: String, slenderness_rad: f64, frequency_rad_s: f64,
         /// PGA/(g alpha).
@@ -178,8 +180,8 @@ pub fn adjustment(context: &Context, answer: &mut Answer) -> Result<()> {
             let factor = im * alpha / record.pga_g();
             let scene = |slenderness_rad: f64, factor: f64| {
                 let block = [slenderness_rad, frequency_rad_s, 1.0];
-                let forcing = Forcing::record(record, factor);
-                let scene = Scene::new(block, 0.92, forcing);
+                let forcing = CaseForcing::record(record, factor);
+                let scene = CaseScene::new(block, 0.92, forcing);
                 scene.in_equation(Model::Linearized)
             };
             // A slenderness above pi/2 is none.

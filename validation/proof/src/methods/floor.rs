@@ -5,12 +5,12 @@ use rocking::accelerogram::Accelerogram;
 use rocking_records::floor::Floor;
 
 use super::cells::{Csv, csv};
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 
 const EXPECTED: Csv = csv!("oracles/floor.csv");
 
 /// Absolute acceleration of a floor.
-pub fn motion(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn motion(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         dt_s: f64, samples_g: Vec<f64>, period_s: f64, damping_ratio: f64,
         height_ratio: f64,

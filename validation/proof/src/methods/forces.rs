@@ -4,15 +4,15 @@
 use anyhow::{Context as _, Result, bail};
 use rocking::integrator::{Forces, Observe};
 
-use super::method::{Answer, Context, WrongModel, pairs};
+use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
-use crate::scene::{Forcing, Model, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model};
 
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
 
 /// The forces that the core reports, for the scene as the wrong model has it.
-fn forces(context: &Context, scene: &Scene) -> Result<Forces> {
+fn forces(context: &Context, scene: &CaseScene) -> Result<Forces> {
     let observe =
         Observe { forces: true, until_s: scene.until_s, ..Observe::default() };
     let run = engine::respond(&context.altered(scene), &observe)?;
@@ -20,18 +20,18 @@ fn forces(context: &Context, scene: &Scene) -> Result<Forces> {
 }
 
 /// A record that goes up to `intensity` times the threshold and back.
-pub fn uplift(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn uplift(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: f64,
         /// Peak of the record over the threshold.
         intensity: f64,
     }
     for &alpha in &slenderness_rad {
-        let scene = Scene::at_rest([alpha, frequency_rad_s], 0.92);
+        let scene = CaseScene::at_rest([alpha, frequency_rad_s], 0.92);
         let scene = scene.in_equation(equation).under(|threshold| {
             let peak = intensity * threshold;
             let samples = vec![0.0, 0.5 * peak, peak, 0.5 * peak, 0.0];
-            Forcing::samples(0.01, samples)
+            CaseForcing::samples(0.01, samples)
         });
         let found = forces(context, &scene)?;
         let threshold = match scene.model {
@@ -53,15 +53,15 @@ const PLACES: usize = 200_000;
 
 /// Rocking without loss: one orbit, on which the energy gives velocity and
 /// acceleration at every rotation.
-pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, initial_ratio: Vec<f64>,
     }
     for (alpha, initial_ratio) in pairs(&slenderness_rad, &initial_ratio) {
         let p = 3.0;
         let rotation_rad = initial_ratio * alpha;
-        let release = Forcing::Free { rotation_rad };
-        let scene = Scene::new([alpha, p, 9.81], 1.0, release);
+        let release = CaseForcing::Free { rotation_rad };
+        let scene = CaseScene::new([alpha, p, 9.81], 1.0, release);
         let scene = scene.in_equation(equation).until(20.0 / p);
         let found = forces(context, &scene)?;
         let top = alpha * (1.0 - initial_ratio);
@@ -92,7 +92,7 @@ pub fn free(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Second differences of the position of the centre of mass, from the
 /// rotations of a history alone: the pivot gives what they and gravity ask.
-pub fn momentum(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn momentum(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, blocks: Vec<[f64; 2]>, restitution: f64,
         /// Peak over the threshold, and phase of a sample in rad.
@@ -102,14 +102,14 @@ pub fn momentum(context: &Context, answer: &mut Answer) -> Result<()> {
         interval_p: f64,
     }
     for &[alpha, p] in &blocks {
-        let scene = Scene::at_rest([alpha, p], restitution);
+        let scene = CaseScene::at_rest([alpha, p], restitution);
         let mut scene = scene.in_equation(equation);
         let peak = intensity * scene.threshold_m_s2();
         let dt_s = dt_p / p;
         let sample = |k: usize| peak * libm::sin(phase * k as f64);
         scene.until_s = Some(1.3 * dt_s * samples as f64);
         let samples: Vec<f64> = (0..samples).map(sample).collect();
-        scene.forcing = Forcing::samples(dt_s, samples.clone());
+        scene.forcing = CaseForcing::samples(dt_s, samples.clone());
         let found = forces(context, &scene)?;
         let (friction, normal) =
             differences(context, &scene, &samples, interval_p / p)?;
@@ -122,11 +122,11 @@ pub fn momentum(context: &Context, answer: &mut Answer) -> Result<()> {
 /// Largest |H|/N and least N/(m g) of a scene, by differences over `h`.
 fn differences(
     context: &Context,
-    scene: &Scene,
+    scene: &CaseScene,
     samples: &[f64],
     h: f64,
 ) -> Result<(f64, f64)> {
-    let Forcing::Samples { dt_s, .. } = scene.forcing else {
+    let CaseForcing::Samples { dt_s, .. } = scene.forcing else {
         bail!("no samples");
     };
     let (alpha, g) = (scene.slenderness_rad, scene.gravity_m_s2);

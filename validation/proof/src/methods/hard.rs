@@ -4,16 +4,16 @@
 use anyhow::{Result, bail};
 use rocking::number::Real as _;
 
-use super::fates::Written;
-use super::method::{Answer, Context, SPEEDS};
-use crate::engine::{Arithmetic, WideTrace};
+use super::fates::SceneInput;
+use super::method::{Context, Reply, SPEEDS};
+use crate::engine::{Precision, WideTrace};
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
-use crate::scene::{Forcing, Model, PulseName, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model, PulseName};
 
 /// Rectangular pulses in Eq. 1 that leave a block an energy so much below
 /// the saddle that its peak stops at a distance from it, or as much above.
-pub fn saddle(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         slenderness_rad: Vec<f64>, frequency_rad_s: f64,
         /// Acceleration over g tan(alpha).
@@ -33,8 +33,8 @@ pub fn saddle(context: &Context, answer: &mut Answer) -> Result<()> {
             for (sign, falls) in [(-1.0, 0.0), (1.0, 1.0)] {
                 let duration_s = form.duration_to_energy_s(sign * depth);
                 let name = PulseName::Rectangle;
-                let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
-                let scene = Scene::new([alpha, p, 9.81], 0.92, pulse);
+                let pulse = CaseForcing::pulse(name, pull * 9.81, duration_s);
+                let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
                 let trace = context.engine.respond(&scene.until(100.0 / p))?;
                 let over = f64::from(trace.overturned_s.is_some());
                 answer.put("overturned", [over], [falls]);
@@ -50,7 +50,7 @@ pub fn saddle(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Chatter to rest under a constant acceleration: after the first impact
 /// every time, speed and the end of the series are known in closed form.
-pub fn chatter(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: f64, frequency_rad_s: f64,
         restitution: f64,
@@ -60,13 +60,14 @@ pub fn chatter(context: &Context, answer: &mut Answer) -> Result<()> {
         impacts: usize,
     }
     let (p, alpha) = (frequency_rad_s, slenderness_rad);
-    let scene = Scene::at_rest([alpha, p], restitution).in_equation(equation);
+    let scene =
+        CaseScene::at_rest([alpha, p], restitution).in_equation(equation);
     let steady = intensity * scene.threshold_m_s2();
     let dt_s = 0.01 / p;
     let scene = scene.under(|threshold| {
         let mut samples = vec![1.6 * threshold; 12];
         samples.resize(4000, steady);
-        Forcing::samples(dt_s, samples)
+        CaseForcing::samples(dt_s, samples)
     });
     let trace = context.engine.respond(&scene)?;
     // The jolt drives theta negative; the first hop on the other side is
@@ -91,11 +92,11 @@ pub fn chatter(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Double precision against double-double, to the last digits.
-pub fn twin(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Written = context.input()?;
+pub fn twin(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: SceneInput = context.input()?;
     for scene in input.scenes()? {
         let p = scene.frequency_rad_s;
-        let truth = WideTrace::run(&scene, Arithmetic::DoubleDouble)?;
+        let truth = WideTrace::run(&scene, Precision::DoubleDouble)?;
         let trace = context.engine.respond(&scene)?;
         let listed = truth.impacts.iter().take(input.impacts);
         let listed = listed.map(|i| (i.0.to_f64() * p, i.1.to_f64()));

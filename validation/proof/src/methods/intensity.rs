@@ -9,7 +9,7 @@ use rocking_records::intensity::{Measures, PairMeasures, Settings};
 use serde::Deserialize;
 
 use super::cells::{Csv, csv};
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 
 const EXPECTED: Csv = csv!("oracles/intensity.csv");
 const PAIR_CSV: &str = rocking_fixtures::text("oracles/intensity-pair.csv");
@@ -17,7 +17,7 @@ const PAIR_CSV: &str = rocking_fixtures::text("oracles/intensity-pair.csv");
 /// How a component is made.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
-enum Motion {
+enum ComponentInput {
     /// The samples themselves.
     Listed { dt_s: f64, samples_g: Vec<f64> },
     /// `count` samples of a sum of amplitude times sin(2 pi f t + phase).
@@ -28,7 +28,7 @@ enum Motion {
     Synthetic { column: usize },
 }
 
-impl Motion {
+impl ComponentInput {
     fn record(&self, first: Option<&Accelerogram>) -> Result<Accelerogram> {
         let (dt_s, samples) = match self {
             Self::Listed { dt_s, samples_g } => (*dt_s, samples_g.clone()),
@@ -74,13 +74,13 @@ fn velocity(record: &Accelerogram) -> Option<Accelerogram> {
 }
 
 /// Measures of one or two components.
-pub fn measures(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the motion in the file of expected values.
         motion: String,
         /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
         of: Vec<String>,
-        first: Motion, second: Option<Motion>,
+        first: ComponentInput, second: Option<ComponentInput>,
     }
     let rows = EXPECTED.rows(&motion)?;
     let mut periods: Vec<f64> = Vec::new();

@@ -5,14 +5,14 @@ use anyhow::{Result, bail};
 use rocking::accelerogram::Accelerogram;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, SPEEDS};
+use super::method::{Context, Reply, SPEEDS};
 use crate::engine::Core;
 use crate::references;
-use crate::scene::{Engine, Forcing, Model, PulseName, Scene, Trace};
+use crate::scene::{CaseForcing, CaseScene, Engine, Model, PulseName, Trace};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Change {
+enum Transform {
     /// The record times -1.
     Mirror,
     /// 64 exact zeros and a ramp's foot before the record.
@@ -31,9 +31,9 @@ enum Change {
 const SHIFT: usize = 64;
 
 /// A record and its changed twin on several blocks.
-pub fn invariance(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn invariance(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        change: Change, equation: Model, record: String,
+        change: Transform, equation: Model, record: String,
         /// PGA over the uplift threshold.
         intensity: f64,
         /// Samples kept; the record then ends with a jump.
@@ -47,15 +47,15 @@ pub fn invariance(context: &Context, answer: &mut Answer) -> Result<()> {
         record.truncate(count);
     }
     for [alpha, p, eta] in blocks {
-        let scene = Scene::at_rest([alpha, p], eta).in_equation(equation);
+        let scene = CaseScene::at_rest([alpha, p], eta).in_equation(equation);
         let scene = scene.shaken(dt_s, record.clone(), intensity);
         let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let expected = Core.respond(&scene)?;
         let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
         let (shift_s, mirror) = match change {
-            Change::Shift => (SHIFT as f64 * dt_s, 1.0),
-            Change::Mirror => (0.0, -1.0),
+            Transform::Shift => (SHIFT as f64 * dt_s, 1.0),
+            Transform::Mirror => (0.0, -1.0),
             _ => (0.0, 1.0),
         };
         let speed_ratio = alpha / twin.slenderness_rad;
@@ -69,7 +69,7 @@ pub fn invariance(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 fn compare(
-    answer: &mut Answer,
+    answer: &mut Reply,
     (observed, expected): (&Trace, &Trace),
     (p, shift_s, mirror, speed_ratio): (f64, f64, f64, f64),
 ) {
@@ -92,19 +92,23 @@ fn compare(
     answer.put("side", [observed.first_side * mirror], [expected.first_side]);
 }
 
-fn twin(scene: &Scene, change: Change, peak_m_s2: f64) -> Result<Scene> {
+fn twin(
+    scene: &CaseScene,
+    change: Transform,
+    peak_m_s2: f64,
+) -> Result<CaseScene> {
     let mut twin = scene.clone();
-    let Forcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
+    let CaseForcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
     else {
         bail!("no record");
     };
     let a = acceleration_m_s2;
     match change {
-        Change::Mirror => a.iter_mut().for_each(|x| *x = -*x),
-        Change::Shift => {
+        Transform::Mirror => a.iter_mut().for_each(|x| *x = -*x),
+        Transform::Shift => {
             a.splice(0..0, std::iter::repeat_n(0.0, SHIFT));
         }
-        Change::Resample => {
+        Transform::Resample => {
             let mut fine = Vec::with_capacity(2 * a.len());
             for pair in a.windows(2) {
                 fine.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
@@ -113,12 +117,12 @@ fn twin(scene: &Scene, change: Change, peak_m_s2: f64) -> Result<Scene> {
             *a = fine;
             *dt_s *= 0.5;
         }
-        Change::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
-        Change::Unit => {
+        Transform::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
+        Transform::Unit => {
             a.iter_mut().for_each(|x| *x *= 100.0);
             twin.gravity_m_s2 *= 100.0;
         }
-        Change::Adjust => {
+        Transform::Adjust => {
             // The record as it was, on the block that it moves as much.
             let factor =
                 peak_m_s2 / a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -131,7 +135,7 @@ fn twin(scene: &Scene, change: Change, peak_m_s2: f64) -> Result<Scene> {
 
 /// Relative change of the first peak of Eq. 1 against Eq. 2 as alpha grows,
 /// and the order of that change between the two smallest alphas.
-pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         omega_over_p: f64, amplitude: f64,
         /// `g-tan-alpha` or `g-alpha`.
@@ -146,8 +150,8 @@ pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
             (_, other) => bail!("over `{other}`"),
         };
         let (a, omega) = (amplitude * 9.81 * over, omega_over_p * p);
-        let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
-        let scene = Scene::new([alpha, p, 9.81], 0.92, pulse);
+        let pulse = CaseForcing::pulse(PulseName::OneSine, a, omega);
+        let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
         let impact = trace.impacts.first();
         Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
@@ -182,7 +186,7 @@ pub fn defect(context: &Context, answer: &mut Answer) -> Result<()> {
 /// The slendernesses are those given or, of Figure 9, those on which each
 /// record as it is has that intensity, tan(alpha) = PGA/(g IM); their closed
 /// form is divided out record by record.
-pub fn sine_bias(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// None: adjusted to each record.
         #[serde(default)]
@@ -196,10 +200,10 @@ pub fn sine_bias(context: &Context, answer: &mut Answer) -> Result<()> {
     for &p in &frequencies_rad_s {
         let peak = |alpha: f64, record: &Accelerogram| {
             let factor = intensity * 9.81 * libm::tan(alpha) / record.pga_g();
-            let scene = Scene::new(
+            let scene = CaseScene::new(
                 [alpha, p, 9.81],
                 0.92,
-                Forcing::Samples {
+                CaseForcing::Samples {
                     dt_s: record.dt_s(),
                     acceleration_m_s2: record
                         .samples_g()

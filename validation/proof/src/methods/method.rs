@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::cases::Case;
 use crate::engine;
-use crate::scene::{Engine, Impact, Scene};
+use crate::scene::{CaseScene, Engine, Impact};
 
 pub(super) use crate::cases::WrongModel;
 
@@ -31,14 +31,14 @@ pub type Quantities = BTreeMap<String, Vec<f64>>;
 /// What a method observed, and what it expected where the case names a
 /// reference or an oracle instead of writing the values.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Answer {
+pub struct Reply {
     /// From the code under test.
     pub observed: Quantities,
     /// From outside it.
     pub expected: Quantities,
 }
 
-impl Answer {
+impl Reply {
     /// Adds to the lists of a quantity: what was observed, and what is
     /// expected of it.
     pub fn put(
@@ -129,7 +129,7 @@ impl Context<'_> {
     /// The scene as the wrong model sees it, where that changes the input;
     /// for methods that run the core themselves.
     #[must_use]
-    pub fn altered(&self, scene: &Scene) -> Scene {
+    pub fn altered(&self, scene: &CaseScene) -> CaseScene {
         let mut scene = scene.clone();
         if let Some(wrong) = self.wrong {
             wrong.alter(&mut scene);
@@ -140,7 +140,7 @@ impl Context<'_> {
     /// The state of a scene at an instant, by a history of that interval.
     pub(super) fn state(
         &self,
-        scene: &Scene,
+        scene: &CaseScene,
         time_s: f64,
     ) -> Result<HistoryPoint> {
         let observe = Observe {

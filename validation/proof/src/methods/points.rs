@@ -1,13 +1,13 @@
 //! States along a trajectory: checkpoints, the turning point of every hop,
 //! and the end of a pulse.
 
-use super::method::{Answer, Context};
+use super::method::{Context, Reply};
 use crate::references::{self, LINEAR_PULSES};
 use crate::scene::Overturning;
 use anyhow::Result;
 
 /// Checkpoints of trajectories, and the peak of every hop that they list.
-pub fn trajectories(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn trajectories(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entries: Vec<String>);
     for entry in &entries {
         let case = references::trajectory(entry)?;
@@ -41,7 +41,7 @@ pub fn trajectories(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Coordinates on the growing and the decaying manifold of the saddle,
 /// z - 1 + z' and z - 1 - z', where a pulse in Eq. 2 ends.
-pub fn pulse_ends(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn pulse_ends(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; block: [f64; 3]);
     let [alpha, p, _] = block;
     for case in &LINEAR_PULSES.read()?.cases {

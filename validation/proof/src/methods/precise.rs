@@ -8,16 +8,16 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
 use super::cells::{Csv, csv};
-use super::method::{Answer, Context, WrongModel};
-use crate::engine::{Arithmetic, WideTrace};
-use crate::references::{self, Digits, Expected, LINEAR_PULSES, RECT_PULSE};
-use crate::scene::{Forcing, Model, Overturning, Scene};
+use super::method::{Context, Reply, WrongModel};
+use crate::engine::{Precision, WideTrace};
+use crate::references::{self, Decimal, Expected, LINEAR_PULSES, RECT_PULSE};
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
 
 /// Largest error of each quantity; infinite where something is missing.
 #[derive(Default)]
-struct Errors(BTreeMap<&'static str, f64>);
+struct LargestErrors(BTreeMap<&'static str, f64>);
 
-impl Errors {
+impl LargestErrors {
     fn add(&mut self, name: &'static str, error: f64) {
         let error = if error.is_nan() { f64::INFINITY } else { error };
         let worst = self.0.entry(name).or_insert(0.0);
@@ -43,7 +43,7 @@ impl Errors {
     }
 
     /// The peak's relative error; the error itself where none is due.
-    fn peak(&mut self, found: DoubleDouble, due: Option<Digits>) {
+    fn peak(&mut self, found: DoubleDouble, due: Option<Decimal>) {
         let due = due.map(|peak| peak.wide);
         let size = due.map_or(f64::NAN, DoubleDouble::to_f64);
         let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
@@ -52,7 +52,12 @@ impl Errors {
     }
 
     /// When the criterion of a scene is met.
-    fn end(&mut self, scene: &Scene, trace: &WideTrace, due: Option<Digits>) {
+    fn end(
+        &mut self,
+        scene: &CaseScene,
+        trace: &WideTrace,
+        due: Option<Decimal>,
+    ) {
         let name = match scene.overturning {
             Overturning::Alpha => "error-of-alpha-time-p",
             Overturning::HalfPi => "error-of-half-pi-time-p",
@@ -78,31 +83,31 @@ impl Errors {
         }
     }
 
-    fn put(self, answer: &mut Answer) {
+    fn put(self, answer: &mut Reply) {
         for (name, error) in self.0 {
             answer.put(name, [error], [0.0]);
         }
     }
 }
 
-fn run(context: &Context, scene: &Scene) -> Result<WideTrace> {
+fn wide_trace(context: &Context, scene: &CaseScene) -> Result<WideTrace> {
     let arithmetic = match context.wrong {
         #[cfg(not(target_family = "wasm"))]
-        Some(WrongModel::F64Constants) => Arithmetic::RoundedConstants,
-        Some(WrongModel::F64Inputs) => Arithmetic::DoubleDoubleOfRounded,
-        _ => Arithmetic::DoubleDouble,
+        Some(WrongModel::F64Constants) => Precision::RoundedConstants,
+        Some(WrongModel::F64Inputs) => Precision::DoubleDoubleOfRounded,
+        _ => Precision::DoubleDouble,
     };
     Ok(WideTrace::run(&context.altered(scene), arithmetic)?)
 }
 
 /// A trajectory of 36 digits, under both criteria.
-pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: String);
     let case = references::trajectory(&entry)?;
-    let mut errors = Errors::default();
+    let mut errors = LargestErrors::default();
     for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = case.scene(criterion)?;
-        let trace = run(context, &scene)?;
+        let trace = wide_trace(context, &scene)?;
         put_trajectory(&mut errors, &case.expected, &scene, &trace);
     }
     errors.put(answer);
@@ -110,9 +115,9 @@ pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 fn put_trajectory(
-    errors: &mut Errors,
+    errors: &mut LargestErrors,
     due: &Expected,
-    scene: &Scene,
+    scene: &CaseScene,
     trace: &WideTrace,
 ) {
     let (p, criterion) = (scene.frequency_rad_s, scene.overturning);
@@ -136,22 +141,23 @@ fn put_trajectory(
 }
 
 /// A pulse in Eq. 2 on blocks that scale exactly.
-pub fn linear_pulse(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize, blocks: Vec<[f64; 3]>);
     let case = LINEAR_PULSES.entry(entry)?;
     let due = &case.expected;
-    let mut errors = Errors::default();
+    let mut errors = LargestErrors::default();
     for block in blocks {
         let [alpha, p, g] = block;
         if block.iter().any(|x| libm::frexp(*x).0 != 0.5) {
             bail!("block {alpha}, {p}, {g}: powers of two");
         }
-        let trace = run(context, &case.scene(block, Overturning::Alpha)?)?;
+        let trace =
+            wide_trace(context, &case.scene(block, Overturning::Alpha)?)?;
         let units = [1.0 / p, p * alpha];
         let listed: Vec<_> =
             due.impacts.iter().map(|hit| hit.wide(units)).collect();
         errors.impacts(&trace.impacts, &listed, p);
-        let time = |t: Digits| Some(t.wide * DoubleDouble::from_f64(1.0 / p));
+        let time = |t: Decimal| Some(t.wide * DoubleDouble::from_f64(1.0 / p));
         let uplift = time(due.uplift_tau);
         errors.compare("error-of-uplift-time-p", trace.uplift_s, uplift, p);
         let over = due.overturned.and_then(time);
@@ -168,14 +174,14 @@ const FREE: Csv = csv!("oracles/free.csv");
 type Free = [Vec<DoubleDouble>; 3];
 
 /// Free rocking in one of the equations, every block of the file.
-pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; equation: Model, frequency_rad_s: f64);
     let p = frequency_rad_s;
-    let mut scenes: BTreeMap<[&str; 3], (Scene, Free)> = BTreeMap::new();
+    let mut scenes: BTreeMap<[&str; 3], (CaseScene, Free)> = BTreeMap::new();
     for row in FREE.rows(equation.name())? {
         let [alpha, eta, ratio] = row.numbers(1)?;
-        let release = Forcing::Free { rotation_rad: alpha * ratio };
-        let scene = Scene::new([alpha, p, 9.81], eta, release);
+        let release = CaseForcing::Free { rotation_rad: alpha * ratio };
+        let scene = CaseScene::new([alpha, p, 9.81], eta, release);
         let name = [1, 2, 3].map(|column| row.text(column));
         let entry = scenes.entry(name);
         let new = || (scene.in_equation(equation), Free::default());
@@ -187,10 +193,10 @@ pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
         };
         list.push(row.decimal(6)?);
     }
-    let mut errors = Errors::default();
+    let mut errors = LargestErrors::default();
     let unit = DoubleDouble::from_f64(p);
     for (scene, [times, speeds, rest]) in scenes.values() {
-        let trace = run(context, scene)?;
+        let trace = wide_trace(context, scene)?;
         let pairs = times.iter().zip(speeds);
         let listed: Vec<_> =
             pairs.map(|(t, v)| (*t / unit, *v * unit)).collect();
@@ -203,17 +209,14 @@ pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Rectangular pulse in Eq. 1, by elliptic integrals.
-pub fn rectangular_pulse(
-    context: &Context,
-    answer: &mut Answer,
-) -> Result<()> {
+pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize);
     let case = RECT_PULSE.entry(entry)?;
     let p = case.p.near;
-    let mut errors = Errors::default();
+    let mut errors = LargestErrors::default();
     for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = case.scene(criterion);
-        let trace = run(context, &scene)?;
+        let trace = wide_trace(context, &scene)?;
         errors.end(&scene, &trace, case.overturned(criterion));
         let Some(peak) = case.peak_over_alpha else { continue };
         let listed: Vec<_> =

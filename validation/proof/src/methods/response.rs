@@ -2,18 +2,18 @@
 
 use anyhow::Result;
 
-use super::method::{Answer, Context, SPEEDS};
+use super::method::{Context, Reply, SPEEDS};
 use crate::references::{
-    self, Digits, FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, hits,
+    self, Decimal, FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, hits,
 };
-use crate::scene::{Forcing, Model, Overturning, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
 
 /// A time that there may be, found and due, each times `p`.
 fn put_time(
-    answer: &mut Answer,
+    answer: &mut Reply,
     name: &str,
     found_s: Option<f64>,
-    due: Option<Digits>,
+    due: Option<Decimal>,
     p: f64,
 ) {
     let due = due.map(|t| t.near * p);
@@ -21,7 +21,7 @@ fn put_time(
 }
 
 /// A sampled or pulse trajectory of 36 digits.
-pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: String);
     let case = references::trajectory(&entry)?;
     let due = &case.expected;
@@ -58,7 +58,7 @@ pub fn trajectory(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// A pulse in Eq. 2 on several blocks: theta/alpha against p t is the same.
-pub fn linear_pulse(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize, blocks: Vec<[f64; 3]>);
     let case = LINEAR_PULSES.entry(entry)?;
     let due = &case.expected;
@@ -84,7 +84,7 @@ pub fn linear_pulse(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Free rocking: impacts and settling time.
-pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize, equation: Model);
     let case = FREE_ROCKING.entry(entry)?;
     let due = match equation {
@@ -93,8 +93,8 @@ pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
     };
     let [alpha, p, rotation_rad] =
         [case.alpha, case.p, case.theta0].map(|digits| digits.near);
-    let release = Forcing::Free { rotation_rad };
-    let scene = Scene::new([alpha, p, 9.81], case.eta.near, release);
+    let release = CaseForcing::Free { rotation_rad };
+    let scene = CaseScene::new([alpha, p, 9.81], case.eta.near, release);
     let trace = context.engine.respond(&scene.in_equation(equation))?;
     answer.put_impacts(
         SPEEDS,
@@ -109,10 +109,7 @@ pub fn free_rocking(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Rectangular pulse in Eq. 1, by elliptic integrals.
-pub fn rectangular_pulse(
-    context: &Context,
-    answer: &mut Answer,
-) -> Result<()> {
+pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize);
     let case = RECT_PULSE.entry(entry)?;
     let p = case.p.near;

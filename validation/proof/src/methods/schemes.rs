@@ -3,15 +3,15 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
-use crate::scene::{Engine as _, Forcing, Overturning};
+use crate::scene::{CaseForcing, Engine as _, Overturning};
 use anyhow::{Result, bail};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Input {
+struct SchemeInput {
     /// Trajectories under records.
     entries: Vec<String>,
     /// Impacts whose times are compared.
@@ -26,8 +26,8 @@ struct Input {
 
 /// Slope of the root mean square error of the impact times, over steps that
 /// set the impacts anywhere in a step.
-pub fn orders(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Input = context.input()?;
+pub fn orders(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: SchemeInput = context.input()?;
     let late = context.is(WrongModel::OrderTooLow);
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),
@@ -52,7 +52,7 @@ pub fn orders(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 fn error(
-    input: &Input,
+    input: &SchemeInput,
     events: Events,
     divisions: &[u32],
     finer: u32,
@@ -61,7 +61,7 @@ fn error(
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
         let scene = case.scene(Overturning::HalfPi)?;
-        let Forcing::Samples { dt_s, .. } = scene.forcing else {
+        let CaseForcing::Samples { dt_s, .. } = scene.forcing else {
             bail!("`{entry}`: no record");
         };
         for &division in divisions {

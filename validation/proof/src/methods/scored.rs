@@ -11,10 +11,10 @@ use rocking_score::{
 };
 use rocking_statistics::streams::{Streams, standard_normal};
 
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 use crate::arithmetic::{RoundedConstants, Wide, decimal};
 use crate::engine::Core;
-use crate::scene::{Forcing, Scene, Trace};
+use crate::scene::{CaseForcing, CaseScene, Trace};
 
 /// The scene as a wrong model of the input has it.
 fn mistaken(context: &Context, scene: &ReferenceScene) -> ReferenceScene {
@@ -27,7 +27,7 @@ fn mistaken(context: &Context, scene: &ReferenceScene) -> ReferenceScene {
 
 /// Largest error of a certified value over its size and condition; fates and
 /// counts that differ.
-pub fn certified(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn certified(context: &Context, answer: &mut Reply) -> Result<()> {
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
     for (index, scene) in reference().scenes.iter().enumerate() {
         let scene = mistaken(context, scene);
@@ -74,7 +74,7 @@ fn errors<N: Wide>(
 /// wrong model and pair on its own answers, of wrong models by the core on
 /// altered inputs; and the share of wrong models that are taken for another
 /// one where they are not known.
-pub fn diagnosis(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Relative scatter of the answers.
         noise: Vec<f64>,
@@ -151,18 +151,18 @@ fn names(found: &Diagnosis) -> Vec<String> {
 }
 
 /// A scene of the data set as the harness has it.
-fn scene_of(asked: &ReferenceScene) -> Scene {
+fn scene_of(asked: &ReferenceScene) -> CaseScene {
     let forcing = match &asked.excitation {
         SceneExcitation::Free => {
-            Forcing::Free { rotation_rad: asked.initial_theta_rad }
+            CaseForcing::Free { rotation_rad: asked.initial_theta_rad }
         }
-        SceneExcitation::Pulse(kind) => Forcing::Pulse(*kind),
+        SceneExcitation::Pulse(kind) => CaseForcing::Pulse(*kind),
         SceneExcitation::Samples { dt_s, samples_m_s2 } => {
-            Forcing::samples(*dt_s, samples_m_s2.clone())
+            CaseForcing::samples(*dt_s, samples_m_s2.clone())
         }
     };
     let block = [asked.alpha_rad, asked.p_rad_s, asked.g_m_s2];
-    Scene::new(block, asked.eta, forcing)
+    CaseScene::new(block, asked.eta, forcing)
         .in_equation(asked.equation)
         .to(asked.overturning)
 }

@@ -6,10 +6,10 @@ use std::f64::consts::PI;
 use anyhow::Result;
 
 use super::closed_forms::{overturns_at_once, overturns_from};
-use super::method::{Answer, Context, WrongModel, pairs};
+use super::method::{Context, Reply, WrongModel, pairs};
 use crate::edge::{around, edge};
 use crate::oracles::overturning::sine_without_impact;
-use crate::scene::{Forcing, Model, PulseName, Scene};
+use crate::scene::{CaseForcing, CaseScene, Model, PulseName};
 
 /// Least amplitude at which a sine that never ends overturns without impact:
 /// Housner's for the half sine, and the limit of many half cycles.
@@ -19,7 +19,7 @@ fn semi_infinite(omega: f64) -> f64 {
 
 /// Housner's sqrt(1 + Omega^2) over the least amplitude at which a half sine
 /// overturns.
-pub fn approximation(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn approximation(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         omega_over_p: Vec<f64>,
         /// Block: alpha (rad), p (rad/s), g (m/s2).
@@ -43,7 +43,7 @@ pub fn approximation(context: &Context, answer: &mut Answer) -> Result<()> {
 /// impact. The core reads such a sine as a record, whose broken line lies
 /// below the curve by the second order of the interval: extrapolated from
 /// two intervals to none.
-pub fn many(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn many(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         half_cycles: Vec<u32>, omega_over_p: Vec<f64>, block: [f64; 3],
         /// Intervals that a half cycle is divided into, and then into twice as
@@ -62,7 +62,7 @@ pub fn many(context: &Context, answer: &mut Answer) -> Result<()> {
                 let [alpha, p, g] = block;
                 let sine = (a * (g * alpha), omega * p, half_cycles);
                 let forcing = broken(sine, intervals);
-                let scene = Scene::new(block, 0.92, forcing);
+                let scene = CaseScene::new(block, 0.92, forcing);
                 let scene = scene.in_equation(Model::Linearized);
                 overturns_at_once(context.engine, scene.until(200.0 / p))
             })
@@ -80,7 +80,7 @@ pub fn many(context: &Context, answer: &mut Answer) -> Result<()> {
 fn broken(
     (amplitude_m_s2, omega_rad_s, half_cycles): (f64, f64, u32),
     intervals: u32,
-) -> Forcing {
+) -> CaseForcing {
     let sample = |k: u32| {
         // Exact zeros where a half period ends.
         let (whole, part) = (k / intervals, k % intervals);
@@ -90,5 +90,5 @@ fn broken(
     };
     let dt_s = PI / (omega_rad_s * f64::from(intervals));
     let samples = (0..=half_cycles * intervals).map(sample);
-    Forcing::samples(dt_s, samples.collect())
+    CaseForcing::samples(dt_s, samples.collect())
 }

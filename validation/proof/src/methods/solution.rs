@@ -4,15 +4,15 @@
 use anyhow::Result;
 use rocking::integrator::Observe;
 
-use super::method::{Answer, Context, WrongModel, pairs};
+use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
 use crate::references;
-use crate::scene::{Forcing, Model, Overturning, Scene, other};
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning, other};
 
 /// Energy above the base over that of the saddle, along a history in free
 /// flight, divided by eta^2 for each impact met: it stays what it was when
 /// the pulse ended.
-pub fn energy(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
         restitution: f64,
@@ -32,13 +32,13 @@ pub fn energy(context: &Context, answer: &mut Answer) -> Result<()> {
         // through intervals of silence, step by step.
         let dt_s = 0.02 / p;
         let on = (duration_p / 0.02).round() as usize;
-        let scene = Scene::at_rest([alpha, p], restitution)
+        let scene = CaseScene::at_rest([alpha, p], restitution)
             .in_equation(equation)
             .until((duration_p + 12.0) / p)
             .under(|threshold| {
                 let mut samples = vec![intensity * threshold; on];
                 samples.resize(on + 800, 0.0);
-                Forcing::samples(dt_s, samples)
+                CaseForcing::samples(dt_s, samples)
             });
         let observe = Observe {
             events: true,
@@ -94,7 +94,7 @@ fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
 }
 
 /// What runs of reference trajectories cost, apart from what they give.
-pub fn work(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn work(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entries: Vec<String>);
     for entry in &entries {
         let case = references::trajectory(entry)?;

@@ -3,14 +3,14 @@
 use anyhow::Result;
 
 use super::edges::{Flip, OneSine};
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 use crate::edge::around;
-use crate::references::{Band, Digits, SPECTRUM, SpectrumRow};
+use crate::references::{Decimal, ImpactBand, SPECTRUM, SpectrumRow};
 use crate::scene::{Model, Overturning};
 
 /// Every edge at one frequency, found again by bisecting the engine's fate
 /// within 1e-6 of the reference.
-pub fn edges(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn edges(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         eta: f64, omega_over_p: f64,
         /// Block: alpha (rad), p (rad/s), g (m/s2).
@@ -42,7 +42,7 @@ pub fn edges(context: &Context, answer: &mut Answer) -> Result<()> {
 /// Names, amplitudes and fates of the edges.
 fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
     let mut edges = Vec::new();
-    let mut add = |name: &str, amplitude: Digits, criterion, flip| {
+    let mut add = |name: &str, amplitude: Decimal, criterion, flip| {
         edges.push((name.to_owned(), amplitude.near, (criterion, flip)));
     };
     let divergence = Overturning::HalfPi;
@@ -58,7 +58,7 @@ fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
     {
         add("mode-1-upper", upper, divergence, Flip::Stands);
     }
-    for Band { n_impacts: n, lower, upper } in &row.multi_impact_bands {
+    for ImpactBand { n_impacts: n, lower, upper } in &row.multi_impact_bands {
         let name = format!("{n}-impacts-lower");
         add(&name, *lower, divergence, Flip::Overturns);
         let name = format!("{n}-impacts-upper");

@@ -4,13 +4,13 @@
 use anyhow::Result;
 use serde::Deserialize;
 
-use super::method::{Answer, Context, WrongModel};
-use crate::oracles::square::{SquareWave, State};
-use crate::scene::{Forcing, Overturning, Scene};
+use super::method::{Context, Reply, WrongModel};
+use crate::oracles::square::{SquareState, SquareWave};
+use crate::scene::{CaseForcing, CaseScene, Overturning};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Input {
+struct WaveInput {
     /// Block: alpha (rad), p (rad/s), eta.
     block: [f64; 3],
     /// Unit of the durations, times p.
@@ -22,7 +22,7 @@ struct Input {
     waves: Vec<Vec<(f64, usize)>>,
 }
 
-impl Input {
+impl WaveInput {
     fn wave(&self, stretches: &[(f64, usize)]) -> SquareWave {
         let [alpha_rad, _, eta] = self.block;
         let scaled = |(level, units): &(f64, usize)| {
@@ -35,7 +35,11 @@ impl Input {
     /// The wave as a record: a sample at a jump has the mean of both sides,
     /// which keeps the first moment and leaves an error of the second order
     /// in the interval.
-    fn scene(&self, stretches: &[(f64, usize)], intervals: usize) -> Scene {
+    fn scene(
+        &self,
+        stretches: &[(f64, usize)],
+        intervals: usize,
+    ) -> CaseScene {
         let [alpha, p, eta] = self.block;
         let unit = 9.81 * libm::tan(alpha);
         let mut samples: Vec<f64> = Vec::new();
@@ -49,8 +53,8 @@ impl Input {
             samples.resize(more, level * unit);
         }
         let dt_s = self.unit_p / (intervals as f64 * p);
-        let forcing = Forcing::samples(dt_s, samples);
-        Scene::new([alpha, p, 9.81], eta, forcing).to(Overturning::HalfPi)
+        let forcing = CaseForcing::samples(dt_s, samples);
+        CaseScene::new([alpha, p, 9.81], eta, forcing).to(Overturning::HalfPi)
     }
 
     /// What `measure` sees, extrapolated from two intervals to none.
@@ -69,8 +73,8 @@ impl Input {
 }
 
 /// Impacts, peak and end of the motion during square waves.
-pub fn chained(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Input = context.input()?;
+pub fn chained(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: WaveInput = context.input()?;
     let [alpha, p, _] = input.block;
     for wave in &input.waves {
         let form = input.wave(wave);
@@ -103,7 +107,7 @@ pub fn chained(context: &Context, answer: &mut Answer) -> Result<()> {
                 seen.velocity_rad_s / (p * alpha),
             ])
         })?;
-        let State { side, y, w } = due.end;
+        let SquareState { side, y, w } = due.end;
         let list = [side * y / alpha, side * w / alpha];
         answer.put("state-at-end", end, list);
     }
@@ -112,8 +116,8 @@ pub fn chained(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Fates after square waves, by where the block is, which way it moves and
 /// whether its energy passes the saddle.
-pub fn exclusions(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Input = context.input()?;
+pub fn exclusions(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: WaveInput = context.input()?;
     let [alpha, p, _] = input.block;
     for wave in &input.waves {
         let form = input.wave(wave);

@@ -3,8 +3,10 @@
 use serde::Deserialize;
 
 use super::memo::Memo;
-use super::method::{Answer, Context};
-use crate::trials::{Finding, Reading, SHARES, Stratum, Summary, findings};
+use super::method::{Context, Reply};
+use crate::trials::{
+    CertificateReading, Finding, SHARES, Stratum, TrialSummary, findings,
+};
 use anyhow::{Context as _, Result};
 
 /// Scenes of a stratum.
@@ -30,7 +32,7 @@ impl Scenes {
 static FOUND: Memo<(Stratum, Vec<u64>), Finding> = Memo::new();
 
 /// Wrong fates and exceeded estimates of runs whose certificate is clear.
-pub fn certificate(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn certificate(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Stratum: `ordinary`, `extreme` or `grazing`.
         kind: Stratum,
@@ -40,7 +42,7 @@ pub fn certificate(context: &Context, answer: &mut Answer) -> Result<()> {
     let key = (kind, scenes.indices()?);
     let make = |(kind, indices): &(_, Vec<_>)| Ok(findings(*kind, indices)?);
     let found = FOUND.get(key, make)?;
-    let summary = Summary::of(&found, Reading(context.wrong));
+    let summary = TrialSummary::of(&found, CertificateReading(context.wrong));
     for (name, count) in [
         ("wrong-and-clear", summary.wrong_and_clear),
         ("estimates-exceeded", summary.exceeded),

@@ -11,7 +11,7 @@ use rocking_records::intensity::velocity_pulse::{
 use serde::Deserialize;
 
 use super::cells::{Csv, csv};
-use super::method::{Answer, Context, WrongModel};
+use super::method::{Context, Reply, WrongModel};
 
 const EXPECTED: Csv = csv!("oracles/velocity_pulse.csv");
 
@@ -28,13 +28,13 @@ const SINES: [(f64, f64, f64); 5] = [
 ];
 
 /// A number of a candidate.
-type Quantity = fn(&Candidate) -> f64;
+type PulseQuantity = fn(&Candidate) -> f64;
 
 /// A pulse of Mavroeidis and Papageorgiou along one direction, and modulated
 /// sines, rounded to a millionth of g.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Input {
+struct PulseInput {
     motion: String,
     amplitude_m_s: f64,
     frequency_hz: f64,
@@ -45,7 +45,7 @@ struct Input {
     noise_g: f64,
 }
 
-impl Input {
+impl PulseInput {
     fn acceleration_g(&self, t: f64) -> f64 {
         let w = 2.0 * PI * self.frequency_hz;
         let tau = t - self.time_s;
@@ -78,8 +78,8 @@ impl Input {
 }
 
 /// The five candidates of a pair, and whether one is a pulse.
-pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
-    let input: Input = context.input()?;
+pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
+    let input: PulseInput = context.input()?;
     let (sin, cos) = libm::sincos(input.angle_deg.to_radians());
     let first = input.component(cos, 1.0)?;
     let second = match context.wrong {
@@ -95,7 +95,7 @@ pub fn pulses(context: &Context, answer: &mut Answer) -> Result<()> {
         STANDARD_GRAVITY_M_S2,
     );
     let found = candidates(&first, &second, gravity_m_s2)?;
-    let quantities: [(&str, Quantity); 8] = [
+    let quantities: [(&str, PulseQuantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
         ("direction_rad", |c| c.direction_rad),

@@ -2,7 +2,7 @@
 
 use crate::cases::WrongModel;
 use crate::naive::{Events, Naive, Rules};
-use crate::scene::{Engine, EngineError, Scene, Trace, other};
+use crate::scene::{CaseScene, Engine, EngineError, Trace, other};
 
 impl WrongModel {
     /// Rules of the naive integrator, where it carries out the mistake.
@@ -34,7 +34,7 @@ impl WrongModel {
     }
 
     /// Makes the mistake in a scene, where it is one of the input.
-    pub fn alter(self, scene: &mut Scene) {
+    pub fn alter(self, scene: &mut CaseScene) {
         match self {
             Self::GroundSign => scene.forcing.scale(-1.0),
             Self::EtaSquared => scene.restitution *= scene.restitution,
@@ -81,7 +81,7 @@ struct Changed<'a> {
 }
 
 impl Engine for Changed<'_> {
-    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError> {
+    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
         let mut scene = scene.clone();
         self.model.alter(&mut scene);
         self.right.respond(&scene)

@@ -7,7 +7,7 @@ use crate::scene::PulseKind;
 
 /// What the block does.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Response {
+pub struct LinearResponse {
     /// First uplift.
     pub uplift: Option<f64>,
     /// Sign of theta after it.
@@ -26,7 +26,7 @@ const POINTS: usize = 4000;
 const ROUNDING: f64 = 1e-13;
 
 /// A hop on one smooth piece: z = |theta|/alpha from `start` on.
-struct Hop {
+struct LinearHop {
     pulse: Option<(PulseKind, usize)>,
     side: f64,
     start: f64,
@@ -34,7 +34,7 @@ struct Hop {
     decaying: f64,
 }
 
-impl Hop {
+impl LinearHop {
     fn new(
         pulse: Option<(PulseKind, usize)>,
         side: f64,
@@ -79,8 +79,8 @@ fn in_flight(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
 
 /// Response from rest, with at most `impacts` impacts.
 #[must_use]
-pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
-    let mut response = Response::default();
+pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> LinearResponse {
+    let mut response = LinearResponse::default();
     let kinks = kinks(pulse);
     // Uplift: the first |A| > 1.
     let Some((piece, uplift)) = uplift(pulse, &kinks) else {
@@ -97,7 +97,8 @@ pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
             let over = end.is_infinite();
             // The free branch is followed until its fate is settled.
             let last = if over { t + 60.0 } else { end };
-            let hop = Hop::new((!over).then_some((pulse, k)), side, t, (z, w));
+            let hop =
+                LinearHop::new((!over).then_some((pulse, k)), side, t, (z, w));
             match next(&hop, last) {
                 Next::Reached(state) => {
                     (z, w) = state;
@@ -128,7 +129,7 @@ enum Next {
 }
 
 /// First event of a hop before `end`.
-fn next(hop: &Hop, end: f64) -> Next {
+fn next(hop: &LinearHop, end: f64) -> Next {
     let length = end - hop.start;
     let at = |k: usize| {
         let share = k as f64 / POINTS as f64;

@@ -21,7 +21,7 @@ pub struct SquareWave {
 
 /// State of rocking: theta is `side` times `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct SquareState {
     /// Sign of theta.
     pub side: f64,
     /// |theta| in rad.
@@ -32,16 +32,16 @@ pub struct State {
 
 /// What the block does from rest at t = 0.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct SquareMotion {
     /// Times and speeds just before each impact during the wave.
     pub impacts: Vec<(f64, f64)>,
     /// State where the wave ends.
-    pub end: State,
+    pub end: SquareState,
 }
 
 /// A hop on one stretch. With u = (alpha + side psi - y)/2 the motion is
 /// u'^2 = P^2 (kappa + sin^2 u), P^2 = sqrt(1 + (a/g)^2).
-struct Hop {
+struct SquareHop {
     turned: f64,
     rate: f64,
     kappa: f64,
@@ -50,8 +50,8 @@ struct Hop {
     inward: bool,
 }
 
-impl Hop {
-    fn new(alpha_rad: f64, pull: f64, state: State) -> Self {
+impl SquareHop {
+    fn new(alpha_rad: f64, pull: f64, state: SquareState) -> Self {
         let turned = alpha_rad + state.side * libm::atan(pull);
         let rate = (1.0 + pull * pull).sqrt().sqrt();
         let u = 0.5 * (turned - state.y);
@@ -102,7 +102,7 @@ impl Hop {
     }
 
     /// State `t` later.
-    fn after(&self, side: f64, t: f64) -> State {
+    fn after(&self, side: f64, t: f64) -> SquareState {
         let clock = self.clock(self.u, self.inward) + t;
         let low =
             if self.turns() { libm::asin((-self.kappa).sqrt()) } else { 0.0 };
@@ -122,7 +122,7 @@ impl Hop {
         };
         let s = libm::sin(size);
         let speed = 2.0 * self.rate * (self.kappa + s * s).max(0.0).sqrt();
-        State {
+        SquareState {
             side,
             y: self.turned - 2.0 * sign * size,
             w: if inward { -speed } else { speed },
@@ -133,15 +133,15 @@ impl Hop {
 impl SquareWave {
     /// Motion from rest, lifted by the first stretch.
     #[must_use]
-    pub fn motion(&self) -> Motion {
+    pub fn motion(&self) -> SquareMotion {
         let first = self.stretches.first().map_or(0.0, |s| s.0);
-        let mut state = State { side: -first.signum(), y: 0.0, w: 0.0 };
+        let mut state = SquareState { side: -first.signum(), y: 0.0, w: 0.0 };
         let mut impacts = Vec::new();
         let mut start = 0.0;
         for &(pull, duration) in &self.stretches {
             let mut left = duration;
             loop {
-                let hop = Hop::new(self.alpha_rad, pull, state);
+                let hop = SquareHop::new(self.alpha_rad, pull, state);
                 let base = 0.5 * hop.turned;
                 let hit = hop.until(base, true);
                 // A hop that starts at the base and outwards is not there
@@ -155,17 +155,20 @@ impl SquareWave {
                 let speed = 2.0 * hop.rate * (hop.kappa + s * s).sqrt();
                 left -= hit;
                 impacts.push((start + duration - left, speed));
-                state =
-                    State { side: -state.side, y: 0.0, w: self.eta * speed };
+                state = SquareState {
+                    side: -state.side,
+                    y: 0.0,
+                    w: self.eta * speed,
+                };
             }
             start += duration;
         }
-        Motion { impacts, end: state }
+        SquareMotion { impacts, end: state }
     }
 
     /// What becomes of the block after the wave, by energy.
     #[must_use]
-    pub fn ending(&self, end: State) -> Ending {
+    pub fn ending(&self, end: SquareState) -> Ending {
         let alpha = self.alpha_rad;
         // Above that of the base, and of the saddle above the base.
         let above = 0.5 * end.w * end.w

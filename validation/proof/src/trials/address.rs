@@ -1,6 +1,6 @@
 //! A scene with its address.
 
-use crate::scene::Scene;
+use crate::scene::CaseScene;
 
 /// A scene with its address.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,5 +8,5 @@ pub struct Trial {
     /// Stratum, index and kind of the excitation.
     pub name: String,
     /// The scene.
-    pub scene: Scene,
+    pub scene: CaseScene,
 }

@@ -15,7 +15,7 @@ use crate::scene::EngineError;
 
 /// What a run says of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct DoubleRun {
     /// Whether the block overturned.
     pub overturned: bool,
     /// Largest |theta|/alpha.
@@ -27,7 +27,7 @@ pub struct Seen {
     pub certificate: Certificate,
 }
 
-impl Seen {
+impl DoubleRun {
     /// What a response says, its peak as a double.
     #[must_use]
     pub fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
@@ -43,9 +43,9 @@ impl Seen {
 
 /// How a certificate is read: as it is, or as a wrong model reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reading(pub Option<WrongModel>);
+pub struct CertificateReading(pub Option<WrongModel>);
 
-impl Reading {
+impl CertificateReading {
     /// The certificate as it is.
     pub const WHOLE: Self = Self(None);
 
@@ -60,7 +60,7 @@ impl Reading {
 
     /// Whether the run may be relied on.
     #[must_use]
-    pub fn is_clear(self, seen: &Seen) -> bool {
+    pub fn is_clear(self, seen: &DoubleRun) -> bool {
         let is = |wrong| self.0 == Some(wrong);
         Decision::ALL.into_iter().all(|decision| {
             let left_out = match decision {
@@ -80,14 +80,14 @@ impl Reading {
 
     /// Bound on the error of the peak.
     #[must_use]
-    pub fn estimate(self, seen: &Seen) -> f64 {
+    pub fn estimate(self, seen: &DoubleRun) -> f64 {
         seen.estimate * self.factor()
     }
 }
 
 /// What wider arithmetic says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Truth {
+pub enum WideTruth {
     /// The block stands.
     Stands {
         /// Largest |theta|/alpha.
@@ -107,9 +107,9 @@ pub struct Finding {
     /// Address and kind of the trial.
     pub name: String,
     /// The run in double precision.
-    pub seen: Seen,
+    pub seen: DoubleRun,
     /// The truth.
-    pub truth: Truth,
+    pub truth: WideTruth,
 }
 
 impl Finding {
@@ -117,7 +117,7 @@ impl Finding {
     /// where one of the two has no peak.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
-        let Truth::Stands { peak_ratio, error } = self.truth else {
+        let WideTruth::Stands { peak_ratio, error } = self.truth else {
             return None;
         };
         if self.seen.overturned {
@@ -134,9 +134,9 @@ impl Finding {
 ///
 /// # Errors
 /// [`EngineError`] where the scene is refused.
-pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
+pub fn truth(trial: &Trial) -> Result<WideTruth, EngineError> {
     match by::<DoubleDouble>(trial)? {
-        Truth::Undecided => by::<Octuple>(trial),
+        WideTruth::Undecided => by::<Octuple>(trial),
         truth => Ok(truth),
     }
 }
@@ -145,7 +145,7 @@ pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
 const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// The truth by one arithmetic.
-fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
+fn by<N: Wide>(trial: &Trial) -> Result<WideTruth, EngineError> {
     let observe = Observe {
         accuracy: true,
         until_s: trial.scene.until_s,
@@ -156,12 +156,12 @@ fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
     let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
     let error = response.error_estimate.unwrap_or(f64::INFINITY);
     Ok(if response.assessment() != Assessment::Clear {
-        Truth::Undecided
+        WideTruth::Undecided
     } else if response.outcome.is_overturned() {
-        Truth::Overturned
+        WideTruth::Overturned
     } else {
         let peak_ratio = response.peak_ratio.wide();
-        Truth::Stands { peak_ratio, error }
+        WideTruth::Stands { peak_ratio, error }
     })
 }
 
@@ -185,7 +185,7 @@ pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
     let response = respond(&trial.scene, &observe)?;
     Ok(Finding {
         name: trial.name.clone(),
-        seen: Seen::of(&response, response.peak_ratio),
+        seen: DoubleRun::of(&response, response.peak_ratio),
         truth: truth(trial)?,
     })
 }

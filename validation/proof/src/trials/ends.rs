@@ -6,10 +6,10 @@ use rocking::integrator::{Observe, Outcome};
 
 use super::draw::Draw;
 use super::grazing::few;
-use super::random::{self, Named, ordinary_record, under_pulse};
+use super::random::{self, NamedScene, ordinary_record, under_pulse};
 use super::search::moved;
 use crate::engine::respond;
-use crate::scene::{EngineError, Forcing};
+use crate::scene::{CaseForcing, EngineError};
 
 /// Scenes drawn, at most, to find one that has what is asked for.
 const ATTEMPTS: usize = 60;
@@ -30,7 +30,7 @@ const PULSES: usize = PulseName::ALL.len();
 pub(super) fn ending(
     draw: &mut Draw,
     index: u64,
-) -> Result<Option<Named>, EngineError> {
+) -> Result<Option<NamedScene>, EngineError> {
     for _ in 0..ATTEMPTS {
         let (_, mut scene) = match draw.below(3) {
             0 => ordinary_record(draw, LONGEST),
@@ -77,7 +77,7 @@ pub(super) fn ending(
 
 /// A pulse, or the first sample of a record, that rises to the threshold of
 /// uplift but for some units in the last place.
-pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<Named> {
+pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<NamedScene> {
     let which = (index % (PULSES as u64 + 1)) as usize;
     if which == PULSES {
         let (_, mut scene) = ordinary_record(draw, LONGEST);
@@ -91,7 +91,7 @@ pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<Named> {
     let (kind, mut scene) = under_pulse(draw, which);
     let name = format!("touch, {kind}");
     let threshold = scene.threshold_m_s2();
-    let Forcing::Pulse(kind) = &mut scene.forcing else { return None };
+    let CaseForcing::Pulse(kind) = &mut scene.forcing else { return None };
     let pulse = Pulse::try_new(*kind).ok()?.with_pga(threshold).ok()?;
     *kind = pulse.kind();
     let amplitude = kind.amplitude_mut();

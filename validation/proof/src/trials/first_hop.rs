@@ -8,10 +8,10 @@
 use rocking::integrator::Observe;
 
 use super::draw::Draw;
-use super::random::{Named, ordinary_record};
-use super::search::{Search, geometric, near};
+use super::random::{NamedScene, ordinary_record};
+use super::search::{SceneSearch, geometric, near};
 use crate::engine::respond;
-use crate::scene::{EngineError, Forcing, Scene};
+use crate::scene::{CaseForcing, CaseScene, EngineError};
 
 /// Blocks drawn, at most, to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -23,7 +23,7 @@ const COUNTS: f64 = 1e-6;
 /// A graze of the first hop, then shaking.
 pub(super) fn first_hop(
     draw: &mut Draw,
-) -> Result<Option<Named>, EngineError> {
+) -> Result<Option<NamedScene>, EngineError> {
     for _ in 0..ATTEMPTS {
         if let Some(scene) = grazing(draw)? {
             return Ok(Some(("first hop".to_owned(), scene)));
@@ -35,7 +35,7 @@ pub(super) fn first_hop(
 /// A lobe that lifts the block, one that pulls it back, and one that catches
 /// it, each held constant, then levels held for a few samples each, under
 /// which a block rocks for long; the amplitude of all of it decides.
-fn grazing(draw: &mut Draw) -> Result<Option<Scene>, EngineError> {
+fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
     let (_, plain) = ordinary_record(draw, 100);
     let in_p = draw.log(0.01, 0.05);
     let dt_s = in_p / plain.frequency_rad_s;
@@ -53,11 +53,11 @@ fn grazing(draw: &mut Draw) -> Result<Option<Scene>, EngineError> {
     let threshold = plain.threshold_m_s2();
     let at = move |amplitude: f64| {
         let samples = shape.iter().map(|x| x * amplitude).collect();
-        let forcing = Forcing::samples(dt_s, samples);
-        Scene { forcing, ..plain.clone() }
+        let forcing = CaseForcing::samples(dt_s, samples);
+        CaseScene { forcing, ..plain.clone() }
     };
     let until_s = Some((first - 1) as f64 * dt_s);
-    let impacts = |scene: &Scene| {
+    let impacts = |scene: &CaseScene| {
         let observe = Observe { until_s, ..Observe::default() };
         let response = respond(scene, &observe)?;
         let over = response.outcome.is_overturned();
@@ -67,12 +67,12 @@ fn grazing(draw: &mut Draw) -> Result<Option<Scene>, EngineError> {
     let turns = |a: &Option<u64>, b: &Option<u64>| {
         matches!((a, b), (Some(0), Some(2)) | (Some(2), Some(0)))
     };
-    let search = Search { at, see: impacts, turns, first };
+    let search = SceneSearch { at, see: impacts, turns, first };
     let range = geometric(1.05 * threshold, 4.0 * threshold);
     let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
     };
-    let peak = |scene: &Scene| {
+    let peak = |scene: &CaseScene| {
         let response = respond(scene, &Observe::default())?;
         let over = response.outcome.is_overturned();
         Ok::<_, EngineError>((!over).then_some(response.peak_ratio))

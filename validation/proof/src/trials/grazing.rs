@@ -7,11 +7,11 @@
 use rocking::integrator::{Observe, Response};
 
 use super::draw::Draw;
-use super::random::{Named, PULSES, ordinary_record, under_pulse};
+use super::random::{NamedScene, PULSES, ordinary_record, under_pulse};
 use super::records::{filtered, noise, normalised};
-use super::search::{Search, geometric, linear, moved, near};
+use super::search::{SceneSearch, geometric, linear, moved, near};
 use crate::engine::respond;
-use crate::scene::{EngineError, Forcing, Scene};
+use crate::scene::{CaseForcing, CaseScene, EngineError};
 
 /// Scenes drawn, at most, to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -30,7 +30,7 @@ const LONGEST: usize = 400;
 pub(super) fn grazing(
     draw: &mut Draw,
     index: u64,
-) -> Result<Option<Named>, EngineError> {
+) -> Result<Option<NamedScene>, EngineError> {
     for _ in 0..ATTEMPTS {
         let found = match index % KINDS {
             0 => contact(draw)?,
@@ -47,9 +47,10 @@ pub(super) fn grazing(
 }
 
 /// A contact made or missed during the first part of a record.
-fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let (_, scene) = ordinary_record(draw, LONGEST);
-    let Forcing::Samples { dt_s, acceleration_m_s2: first } = &scene.forcing
+    let CaseForcing::Samples { dt_s, acceleration_m_s2: first } =
+        &scene.forcing
     else {
         return Ok(None);
     };
@@ -59,7 +60,7 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         let samples = first.iter().map(|x| x * factor);
         scene.with_samples(samples.chain(then.iter().copied()).collect())
     };
-    let impacts = |scene: &Scene| {
+    let impacts = |scene: &CaseScene| {
         let response = run_until(scene, late)?;
         let over = response.outcome.is_overturned();
         Ok((!over).then_some(response.work.impacts))
@@ -70,11 +71,11 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         (Some(a), Some(b)) => a.abs_diff(*b) == 2,
         _ => false,
     };
-    let search = Search { at, see: impacts, turns, first: first.len() };
+    let search = SceneSearch { at, see: impacts, turns, first: first.len() };
     let Some([a, b]) = search.sides(draw, &linear(0.7, 1.7))? else {
         return Ok(None);
     };
-    let peak = |scene: &Scene| {
+    let peak = |scene: &CaseScene| {
         let response = respond(scene, &Observe::default())?;
         Ok::<f64, EngineError>(response.peak_ratio)
     };
@@ -85,7 +86,10 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
 }
 
 /// An amplitude between two fates.
-fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
+fn fate(
+    draw: &mut Draw,
+    which: usize,
+) -> Result<Option<NamedScene>, EngineError> {
     // A block that is released stands: a record takes that place.
     let (kind, mut scene) = match which % PULSES {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
@@ -94,7 +98,7 @@ fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
     let size = scene.forcing.peak();
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
     let search =
-        Search { at, see: overturns, turns: differ, first: usize::MAX };
+        SceneSearch { at, see: overturns, turns: differ, first: usize::MAX };
     let range = geometric(0.5 * size, 10.0 * size);
     let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
@@ -103,7 +107,7 @@ fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
 }
 
 /// A peak or a plateau at the threshold of uplift, then a shock.
-fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
+fn uplift(draw: &mut Draw) -> Result<NamedScene, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.1);
     let dt_s = in_p / scene.frequency_rad_s;
@@ -121,16 +125,16 @@ fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
     let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
     let skipped = if draw.chance(0.7) { strong } else { 0 };
     samples.extend(then.into_iter().skip(skipped).map(|x| sign * x));
-    scene.forcing = Forcing::samples(dt_s, samples);
+    scene.forcing = CaseForcing::samples(dt_s, samples);
     Ok(("uplift".to_owned(), scene))
 }
 
 /// A rest that just comes before the next uplift, or just does not.
-fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.05);
     let dt_s = in_p / scene.frequency_rad_s;
-    scene.forcing = Forcing::samples(dt_s, Vec::new());
+    scene.forcing = CaseForcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
     let first: Vec<f64> = if draw.chance(0.5) {
@@ -159,9 +163,9 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         scene.with_samples(samples.chain(again.iter().copied()).collect())
     };
     let late = (first.len() + quiet + lifts) as f64 * dt_s;
-    let uplifts = |scene: &Scene| Ok(run_until(scene, late)?.work.uplifts);
+    let uplifts = |scene: &CaseScene| Ok(run_until(scene, late)?.work.uplifts);
     let turns = |a: &u64, b: &u64| a != b;
-    let search = Search { at, see: uplifts, turns, first: first.len() };
+    let search = SceneSearch { at, see: uplifts, turns, first: first.len() };
     let Some([a, b]) = search.sides(draw, &linear(0.8, 1.2))? else {
         return Ok(None);
     };
@@ -170,12 +174,12 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
 
 /// A clear shock that makes the highest peak, then long shaking at the
 /// amplitude between two fates.
-fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let p = scene.frequency_rad_s;
     let in_p = draw.log(0.02, 0.1);
     let dt_s = in_p / p;
-    scene.forcing = Forcing::samples(dt_s, Vec::new());
+    scene.forcing = CaseForcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
     let half = std::f64::consts::PI / length as f64;
@@ -191,7 +195,7 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         scene.with_samples(first.iter().copied().chain(shaking).collect())
     };
     let search =
-        Search { at, see: overturns, turns: differ, first: usize::MAX };
+        SceneSearch { at, see: overturns, turns: differ, first: usize::MAX };
     let range = geometric(threshold, 20.0 * threshold);
     let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
@@ -203,7 +207,7 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
 /// that it overturns the block.
 fn shock(
     draw: &mut Draw,
-    scene: &Scene,
+    scene: &CaseScene,
     before: &[f64],
     dt_s: f64,
 ) -> Result<Vec<f64>, EngineError> {
@@ -215,7 +219,7 @@ fn shock(
     let mut whole = scene.clone();
     for _ in 0..tries {
         let all = before.iter().chain(&samples).copied().collect();
-        whole.forcing = Forcing::samples(dt_s, all);
+        whole.forcing = CaseForcing::samples(dt_s, all);
         let response = respond(&whole, &Observe::default())?;
         if !response.outcome.is_overturned() {
             break;
@@ -225,12 +229,15 @@ fn shock(
     Ok(samples)
 }
 
-fn run_until(scene: &Scene, until_s: f64) -> Result<Response, EngineError> {
+fn run_until(
+    scene: &CaseScene,
+    until_s: f64,
+) -> Result<Response, EngineError> {
     let until_s = Some(until_s);
     respond(scene, &Observe { until_s, ..Observe::default() })
 }
 
-fn overturns(scene: &Scene) -> Result<bool, EngineError> {
+fn overturns(scene: &CaseScene) -> Result<bool, EngineError> {
     Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
 }
 
@@ -245,7 +252,7 @@ pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
 }
 
 /// The scene with another amplitude than its own.
-fn scaled(scene: &Scene, own: f64, amplitude: f64) -> Scene {
+fn scaled(scene: &CaseScene, own: f64, amplitude: f64) -> CaseScene {
     let mut scene = scene.clone();
     // A pulse's quotient is 1 or -1: its amplitude takes every double.
     let change = |a: &mut f64| *a = *a / own * amplitude;

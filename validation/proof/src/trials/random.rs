@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use rocking::excitation::{PulseName, PulseParameter as P};
 
 use super::draw::Draw;
-use super::records::Kind;
-use crate::scene::{Forcing, Model, Overturning, Scene};
+use super::records::RecordKind;
+use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
 
 /// Samples of a record, at most, but for the few long ones.
 const COMMON: usize = 2000;
@@ -17,7 +17,7 @@ const LONG: usize = 100_000;
 const SHARE_OF_LONG: f64 = 1.0 / 256.0;
 
 /// What a kind of excitation is called, and a scene.
-pub(super) type Named = (String, Scene);
+pub(super) type NamedScene = (String, CaseScene);
 
 /// Ranges of a stratum.
 struct Ranges {
@@ -55,7 +55,7 @@ const EXTREME: Ranges = Ranges {
 const LONGEST_PULSE: f64 = 500.0;
 
 /// A scene of the study's kind.
-pub(super) fn ordinary(draw: &mut Draw) -> Named {
+pub(super) fn ordinary(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &ORDINARY);
     scene.restitution = draw.uniform(0.8, 0.97);
     if !draw.chance(0.6) {
@@ -65,14 +65,14 @@ pub(super) fn ordinary(draw: &mut Draw) -> Named {
     let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
     let n = draw.count(200, 4000);
     let two = draw.chance(0.15);
-    let kind = if two { Kind::TwoShocks } else { Kind::Filtered };
+    let kind = if two { RecordKind::TwoShocks } else { RecordKind::Filtered };
     let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
     (kind.name().to_owned(), scene)
 }
 
 /// A scene at the ends of what is accepted.
-pub(super) fn extreme(draw: &mut Draw) -> Named {
+pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &EXTREME);
     let eta = draw.uniform(0.0, 1.0);
     scene.restitution = match eta {
@@ -93,7 +93,7 @@ pub(super) fn extreme(draw: &mut Draw) -> Named {
         draw.count(2, COMMON)
     };
     let dt_s = draw.log(1e-4, 0.5) / scene.frequency_rad_s;
-    let kind = draw.one_of(&Kind::ALL);
+    let kind = draw.one_of(&RecordKind::ALL);
     let intensity = draw.log(EXTREME.intensity[0], EXTREME.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
     let threshold = scene.threshold_m_s2();
@@ -111,12 +111,12 @@ pub(super) fn extreme(draw: &mut Draw) -> Named {
 }
 
 /// A block at rest, without ground motion; restitution 1.
-fn block(draw: &mut Draw, ranges: &Ranges) -> Scene {
+fn block(draw: &mut Draw, ranges: &Ranges) -> CaseScene {
     let linear = draw.chance(0.3);
     let half_pi = draw.chance(0.3);
     let alpha = draw.uniform(ranges.alpha[0], ranges.alpha[1]);
     let p = draw.log(ranges.p[0], ranges.p[1]);
-    Scene::new([alpha, p, 1.0], 1.0, Forcing::NONE)
+    CaseScene::new([alpha, p, 1.0], 1.0, CaseForcing::NONE)
         .in_equation(if linear { Model::Linearized } else { Model::Nonlinear })
         .to(if half_pi { Overturning::HalfPi } else { Overturning::Alpha })
 }
@@ -124,8 +124,8 @@ fn block(draw: &mut Draw, ranges: &Ranges) -> Scene {
 /// Gives a scene a record of a kind with a peak over the threshold.
 fn record(
     draw: &mut Draw,
-    scene: &mut Scene,
-    kind: Kind,
+    scene: &mut CaseScene,
+    kind: RecordKind,
     n: usize,
     dt_s: f64,
     intensity: f64,
@@ -133,11 +133,11 @@ fn record(
     let mut samples = kind.samples(draw, n, dt_s);
     let peak = intensity * scene.threshold_m_s2();
     samples.iter_mut().for_each(|x| *x *= peak);
-    scene.forcing = Forcing::samples(dt_s, samples);
+    scene.forcing = CaseForcing::samples(dt_s, samples);
 }
 
 /// Gives a scene a pulse, or a rotation to be released from.
-fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> String {
+fn pulse(draw: &mut Draw, scene: &mut CaseScene, ranges: &Ranges) -> String {
     let which = draw.below(PULSES);
     shaped(draw, scene, ranges, which)
 }
@@ -146,7 +146,7 @@ fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> String {
 pub(super) const PULSES: usize = PulseName::ALL.len() + 1;
 
 /// A block under a pulse of a kind.
-pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> Named {
+pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> NamedScene {
     let (ranges, least, most) = if draw.chance(0.3) {
         (EXTREME, 0.3, 1.0)
     } else {
@@ -159,19 +159,19 @@ pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> Named {
 }
 
 /// An ordinary block under a short ordinary record.
-pub(super) fn ordinary_record(draw: &mut Draw, longest: usize) -> Named {
+pub(super) fn ordinary_record(draw: &mut Draw, longest: usize) -> NamedScene {
     let mut scene = block(draw, &ORDINARY);
     scene.restitution = draw.uniform(0.8, 0.97);
     let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
     let n = draw.count(100, longest);
     let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
-    record(draw, &mut scene, Kind::Filtered, n, dt_s, intensity);
-    (Kind::Filtered.name().to_owned(), scene)
+    record(draw, &mut scene, RecordKind::Filtered, n, dt_s, intensity);
+    (RecordKind::Filtered.name().to_owned(), scene)
 }
 
 fn shaped(
     draw: &mut Draw,
-    scene: &mut Scene,
+    scene: &mut CaseScene,
     ranges: &Ranges,
     which: usize,
 ) -> String {
@@ -191,7 +191,7 @@ fn shaped(
         // Below 1 after any rounding.
         let ratio = ratio.min(1.0 - 1e-14);
         let rotation_rad = scene.slenderness_rad * ratio;
-        scene.forcing = Forcing::Free { rotation_rad };
+        scene.forcing = CaseForcing::Free { rotation_rad };
         return "free".to_owned();
     };
     let Ok(kind) = pulse.kind(|parameter| {
@@ -208,6 +208,6 @@ fn shaped(
             P::Phase => draw.uniform(0.0, TAU),
         })
     });
-    scene.forcing = Forcing::Pulse(kind);
+    scene.forcing = CaseForcing::Pulse(kind);
     pulse.to_string()
 }

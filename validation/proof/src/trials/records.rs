@@ -7,7 +7,7 @@ use rocking::names::named;
 
 named! {
     /// What a record is like.
-    pub(super) enum Kind: "kind" {
+    pub(super) enum RecordKind: "kind" {
         /// White noise through an oscillator, under an envelope.
         Filtered = "filtered noise",
         /// White noise.
@@ -27,7 +27,7 @@ named! {
     }
 }
 
-impl Kind {
+impl RecordKind {
     /// So many samples, each `dt_s` after the other, with peak 1.
     pub fn samples(self, draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
         let samples = match self {

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::draw::Draw;
-use crate::scene::{EngineError, Forcing, Scene};
+use crate::scene::{CaseForcing, CaseScene, EngineError};
 
 /// Parts into which the range of the number is divided to find a change.
 const PARTS: usize = 24;
@@ -23,13 +23,13 @@ pub(super) fn geometric(low: f64, high: f64) -> Vec<f64> {
 }
 
 /// A scene that a number makes, with the number and what else it makes.
-pub(super) type Side<'a> = (Scene, f64, Made<'a>);
+pub(super) type SearchSide<'a> = (CaseScene, f64, SceneMaker<'a>);
 
 /// What makes a scene from a number.
-pub(super) type Made<'a> = Rc<dyn Fn(f64) -> Scene + 'a>;
+pub(super) type SceneMaker<'a> = Rc<dyn Fn(f64) -> CaseScene + 'a>;
 
 /// A search for a decision that turns.
-pub(super) struct Search<A, S, T> {
+pub(super) struct SceneSearch<A, S, T> {
     /// The scene of a positive number.
     pub at: A,
     /// What is seen of a scene.
@@ -40,9 +40,9 @@ pub(super) struct Search<A, S, T> {
     pub first: usize,
 }
 
-impl<A, S, T> Search<A, S, T>
+impl<A, S, T> SceneSearch<A, S, T>
 where
-    A: Fn(f64) -> Scene,
+    A: Fn(f64) -> CaseScene,
 {
     /// Two scenes of neighbouring doubles between which the decision turns,
     /// somewhere in a rising range; none where it does not.
@@ -50,10 +50,10 @@ where
         self,
         draw: &mut Draw,
         range: &[f64],
-    ) -> Result<Option<[Side<'a>; 2]>, EngineError>
+    ) -> Result<Option<[SearchSide<'a>; 2]>, EngineError>
     where
         A: 'a,
-        S: Fn(&Scene) -> Result<V, EngineError>,
+        S: Fn(&CaseScene) -> Result<V, EngineError>,
         T: Fn(&V, &V) -> bool,
     {
         let Self { at, see, turns, first } = self;
@@ -69,7 +69,7 @@ where
         }
         let place = draw.one_of(&places);
         let ends = [range[place - 1], range[place]];
-        let at: Made<'a> = Rc::new(at);
+        let at: SceneMaker<'a> = Rc::new(at);
         let Some(ends) = bisected(ends, &*at, &see, &turns)? else {
             return Ok(None);
         };
@@ -86,8 +86,8 @@ where
 /// Neighbouring doubles between two positive numbers.
 fn bisected<V>(
     [mut low, mut high]: [f64; 2],
-    at: &dyn Fn(f64) -> Scene,
-    see: &impl Fn(&Scene) -> Result<V, EngineError>,
+    at: &dyn Fn(f64) -> CaseScene,
+    see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
     turns: &impl Fn(&V, &V) -> bool,
 ) -> Result<Option<[f64; 2]>, EngineError> {
     let (mut at_low, mut at_high) = (see(&at(low))?, see(&at(high))?);
@@ -111,19 +111,20 @@ fn bisected<V>(
 /// one unit in the last place of them all.
 fn finer<'a, V>(
     draw: &mut Draw,
-    scene: &Scene,
+    scene: &CaseScene,
     first: usize,
-    see: &impl Fn(&Scene) -> Result<V, EngineError>,
+    see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
     turns: &impl Fn(&V, &V) -> bool,
-) -> Result<Option<(Made<'a>, [f64; 2])>, EngineError> {
-    let Forcing::Samples { acceleration_m_s2: samples, .. } = &scene.forcing
+) -> Result<Option<(SceneMaker<'a>, [f64; 2])>, EngineError> {
+    let CaseForcing::Samples { acceleration_m_s2: samples, .. } =
+        &scene.forcing
     else {
         return Ok(None);
     };
     let place = draw.below(first.min(samples.len()));
     let (size, sign) = (samples[place].abs(), samples[place].signum());
     let own = scene.clone();
-    let at: Made<'a> = Rc::new(move |size: f64| {
+    let at: SceneMaker<'a> = Rc::new(move |size: f64| {
         let mut scene = own.clone();
         scene.forcing.amplitudes_mut()[place] = sign * size;
         scene
@@ -148,9 +149,9 @@ fn finer<'a, V>(
 pub(super) fn near(
     draw: &mut Draw,
     most: usize,
-    (low, below, at): Side<'_>,
-    (high, above, _): Side<'_>,
-) -> Scene {
+    (low, below, at): SearchSide<'_>,
+    (high, above, _): SearchSide<'_>,
+) -> CaseScene {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) as i64 };
     match (draw.chance(0.5), ulps) {
         (true, 0) => low,

@@ -2,7 +2,7 @@
 
 use rocking::number::Real as _;
 
-use super::compare::{Finding, Reading, Truth};
+use super::compare::{CertificateReading, Finding, WideTruth};
 
 /// What a finding says about a certificate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,15 +26,15 @@ pub enum Judgement {
 impl Judgement {
     /// Judges a finding.
     #[must_use]
-    pub fn of(finding: &Finding, reading: Reading) -> Self {
+    pub fn of(finding: &Finding, reading: CertificateReading) -> Self {
         let seen = &finding.seen;
         let wrong = match finding.truth {
-            Truth::Stands { peak_ratio, .. } => {
+            WideTruth::Stands { peak_ratio, .. } => {
                 let lifts = peak_ratio.to_f64() > 0.0;
                 Some(seen.overturned || lifts != (seen.peak_ratio > 0.0))
             }
-            Truth::Overturned => Some(!seen.overturned),
-            Truth::Undecided => None,
+            WideTruth::Overturned => Some(!seen.overturned),
+            WideTruth::Undecided => None,
         };
         if !reading.is_clear(&finding.seen) {
             return Self::Unresolved(wrong == Some(true));
@@ -72,7 +72,7 @@ pub const SHARES: [(&str, usize); 5] = [
 
 /// Many findings in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Summary {
+pub struct TrialSummary {
     /// Trials.
     pub runs: usize,
     /// Runs that are clear.
@@ -91,10 +91,10 @@ pub struct Summary {
     pub ratios: Vec<f64>,
 }
 
-impl Summary {
+impl TrialSummary {
     /// Counts findings.
     #[must_use]
-    pub fn of(findings: &[Finding], reading: Reading) -> Self {
+    pub fn of(findings: &[Finding], reading: CertificateReading) -> Self {
         let mut all = Self { runs: findings.len(), ..Self::default() };
         for finding in findings {
             match Judgement::of(finding, reading) {

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{Check, Outcome, Verdict};
-use crate::cases::{Bound, Case, Kind, OracleKind};
+use super::{CaseOutcome, CaseVerdict, Check};
+use crate::cases::{Bound, Case, EvidenceKind, OracleKind};
 use rocking_common::json::{self, Extended};
 use rocking_common::words::rounded;
 
@@ -19,7 +19,7 @@ pub type Results = BTreeMap<String, CaseResult>;
 #[serde(deny_unknown_fields)]
 pub struct CaseResult {
     /// Kind of evidence.
-    pub kind: Kind,
+    pub kind: EvidenceKind,
     /// Name of the method.
     pub method: String,
     /// Nature of the expected values.
@@ -29,7 +29,7 @@ pub struct CaseResult {
     /// Wrong models that the case rejected.
     pub rejected: BTreeMap<String, Rejected>,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: CaseVerdict,
 }
 
 /// A quantity against its bound.
@@ -62,7 +62,7 @@ impl CaseResult {
     /// Whether the case passed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.verdict == Verdict::Pass
+        self.verdict == CaseVerdict::Pass
     }
 
     /// Quantities that are compared: all but those that are waived.
@@ -80,8 +80,8 @@ const MOST_VALUES: usize = 3;
 
 /// The snapshot's text, ending in a line feed.
 #[must_use]
-pub fn text(cases: &[Case], outcomes: &[Outcome]) -> String {
-    let entry = |outcome: &Outcome| {
+pub fn text(cases: &[Case], outcomes: &[CaseOutcome]) -> String {
+    let entry = |outcome: &CaseOutcome| {
         let case = cases.iter().find(|c| c.id == outcome.id)?;
         Some((outcome.id.clone(), entry(case, outcome)))
     };
@@ -89,7 +89,7 @@ pub fn text(cases: &[Case], outcomes: &[Outcome]) -> String {
     format!("{:#}\n", json!(all))
 }
 
-fn entry(case: &Case, outcome: &Outcome) -> CaseResult {
+fn entry(case: &Case, outcome: &CaseOutcome) -> CaseResult {
     let quantities = outcome.checks.iter();
     let rejected = outcome.rejections.iter().map(|rejection| {
         let margin = Extended(rounded(rejection.margin, 1));

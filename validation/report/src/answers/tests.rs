@@ -30,7 +30,11 @@ const STATES: [State; 7] = {
 };
 
 /// The claims of a question, each part in its state.
-fn claims(asked: &Asked, states: &[State], all: &[Claim]) -> Vec<Claim> {
+fn claims(
+    asked: &ReaderQuestion,
+    states: &[State],
+    all: &[Claim],
+) -> Vec<Claim> {
     let mut out = Vec::new();
     for (part, state) in asked.all().zip(states) {
         let turned = |v| match v {
@@ -71,7 +75,10 @@ fn combinations(n: usize) -> Vec<Vec<State>> {
 }
 
 /// The first words by the verdicts, written down apart from the rule.
-fn expected<'a>(asked: &'a Asked, states: &[State]) -> Option<&'a str> {
+fn expected<'a>(
+    asked: &'a ReaderQuestion,
+    states: &[State],
+) -> Option<&'a str> {
     let (mut yes, mut no, mut open) = (false, false, false);
     for state in &states[..asked.parts.len()] {
         match state {
@@ -195,7 +202,11 @@ fn a_fact_has_the_number_of_the_worst_verdict() {
 }
 
 /// The answers to the questions that start so, with proof and basis.
-fn answered(basis: &Basis<'_>, proof: Option<&Proof>, start: &str) -> String {
+fn answered(
+    basis: &FindingSets<'_>,
+    proof: Option<&Proof>,
+    start: &str,
+) -> String {
     let timings = Timings::kept().unwrap();
     let rows = rows(basis, &timings, proof, &[]).unwrap();
     let own = rows.into_iter().find(|row| row.question.starts_with(start));
@@ -211,9 +222,9 @@ fn other_answers_follow_from_the_cases_that_passed() {
     let here = recorded();
     let mut elsewhere = here.clone();
     elsewhere.settings.eta = 0.90;
-    let kept = Basis::of(true, &here).unwrap();
-    let left_out = Basis::of(true, &elsewhere).unwrap();
-    let own = Basis::of(false, &here).unwrap();
+    let kept = FindingSets::of(true, &here).unwrap();
+    let left_out = FindingSets::of(true, &elsewhere).unwrap();
+    let own = FindingSets::of(false, &here).unwrap();
     for (basis, are_kept) in [(&kept, true), (&left_out, false), (&own, false)]
     {
         let sure = |proof| answered(basis, proof, "How sure");
@@ -247,15 +258,15 @@ fn other_answers_follow_from_the_cases_that_passed() {
 #[test]
 fn results_of_other_settings_are_left_out_and_named() {
     let mut here = recorded();
-    let basis = Basis::of(true, &here).unwrap();
+    let basis = FindingSets::of(true, &here).unwrap();
     assert!(basis.recorded().is_some() && basis.left_out().unwrap().is_none());
     assert!(done(&basis).contains("analyses of an earlier run"));
     // Suites of files have no kept results beside them.
-    let own = Basis::of(false, &here).unwrap();
+    let own = FindingSets::of(false, &here).unwrap();
     assert!(own.recorded().is_none() && otherwise(&own).unwrap().is_none());
     here.settings.eta = 0.90;
     here.settings.arms = vec![Arm::A];
-    let basis = Basis::of(true, &here).unwrap();
+    let basis = FindingSets::of(true, &here).unwrap();
     assert!(basis.recorded().is_none());
     let words = otherwise(&basis).unwrap().unwrap();
     assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
@@ -290,7 +301,7 @@ fn what_rounding_changed_is_said_of_both_suites() {
     counts(&mut here, 0, 4, 90);
     counts(&mut here, 1, 3, 8);
     here.suites[0].largest_shift_if_flipped = 0.0421;
-    let basis = Basis::of(true, &here).unwrap();
+    let basis = FindingSets::of(true, &here).unwrap();
     let said = basis.rounding();
     let kept = recorded();
     let ends = kept.suites.iter().map(|s| s.first_overturnings_reevaluated);

@@ -23,7 +23,10 @@ impl Difference {
         out
     }
 
-    fn of(&self, kind: Subject) -> impl Iterator<Item = &Change> + Clone {
+    fn changes_of(
+        &self,
+        kind: Subject,
+    ) -> impl Iterator<Item = &Change> + Clone {
         self.changes.iter().filter(move |change| change.kind == kind)
     }
 
@@ -54,10 +57,11 @@ impl Difference {
             out.push(format!(
                 "Answers that rest on findings: {} of {answers} changed; only \
                  numbers moved in {}.",
-                some(self.of(Subject::Answer)),
-                some(self.of(Subject::Wording))
+                some(self.changes_of(Subject::Answer)),
+                some(self.changes_of(Subject::Wording))
             ));
-            let flips = self.of(Subject::Verdict).filter(|c| c.is_common());
+            let flips =
+                self.changes_of(Subject::Verdict).filter(|c| c.is_common());
             out.push(format!(
                 "Verdicts: {} of {verdicts} flipped, {} from confirmed to not \
                  confirmed or back.",
@@ -68,14 +72,20 @@ impl Difference {
         if cases > 0 {
             out.push(format!(
                 "Declared cases: {} of {cases} verdicts changed.",
-                some(self.of(Subject::Case))
+                some(self.changes_of(Subject::Case))
             ));
         }
         out.push(format!(
             "Numbers: {} of {numbers} moved by more than the smallest effect \
              of interest or their tolerance, {} by less.",
-            some(self.of(Subject::Number).filter(|change| change.relevant)),
-            some(self.of(Subject::Number).filter(|change| !change.relevant))
+            some(
+                self.changes_of(Subject::Number)
+                    .filter(|change| change.relevant)
+            ),
+            some(
+                self.changes_of(Subject::Number)
+                    .filter(|change| !change.relevant)
+            )
         ));
         out
     }
@@ -92,7 +102,7 @@ impl Difference {
         } else {
             String::new()
         };
-        let settings = lines(self.of(Subject::Setting));
+        let settings = lines(self.changes_of(Subject::Setting));
         match settings.len() {
             0 => format!("No setting changed{same}."),
             1 => format!("Setting changed: {}{same}.", settings[0]),
@@ -102,11 +112,13 @@ impl Difference {
 
     /// The lists that have something, in the order of consequence.
     fn lists(&self, all: bool) -> Vec<(&'static str, Vec<String>)> {
-        let common = |kind| lines(self.of(kind).filter(|c| c.is_common()));
-        let moved = self.of(Subject::Number).filter(|c| all || c.relevant);
+        let common =
+            |kind| lines(self.changes_of(kind).filter(|c| c.is_common()));
+        let moved =
+            self.changes_of(Subject::Number).filter(|c| all || c.relevant);
         let changes = self.changes.iter();
         let mut notes = self.notes.clone();
-        let texts = self.of(Subject::Text).count();
+        let texts = self.changes_of(Subject::Text).count();
         if texts > 0 && !all {
             notes.push(format!("{texts} words, intervals and details differ"));
         }

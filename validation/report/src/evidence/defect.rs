@@ -3,7 +3,8 @@ use rocking_draw::figures::{
 };
 use rocking_proof::engine::Core;
 use rocking_proof::scene::{
-    Engine as _, EngineError, Forcing, Model, Overturning, PulseKind, Scene,
+    CaseForcing, CaseScene, Engine as _, EngineError, Model, Overturning,
+    PulseKind,
 };
 
 /// One-sine pulses: frequency over p and amplitude over the threshold.
@@ -96,14 +97,14 @@ fn departure(
             Model::Nonlinear if tangent => libm::tan(alpha),
             _ => alpha,
         };
-        let trace = Core.respond(&Scene {
+        let trace = Core.respond(&CaseScene {
             model: equation,
             overturning: Overturning::HalfPi,
             until_s: Some(20.0),
-            ..Scene::new(
+            ..CaseScene::new(
                 [alpha, p, 1.0],
                 0.92,
-                Forcing::Pulse(PulseKind::OneSine {
+                CaseForcing::Pulse(PulseKind::OneSine {
                     amplitude: amplitude * unit,
                     omega_rad_s: omega * p,
                 }),

@@ -4,7 +4,7 @@ use libm::{exp, log};
 use rayon::prelude::*;
 
 use super::spectrum::{ETA, STOCKY_RAD, fate};
-use rocking_draw::figures::{Fate, FateMap, Figure, Heading};
+use rocking_draw::figures::{FateMap, Figure, Heading, MapFate};
 use rocking_proof::oracles::overturning;
 use rocking_proof::scene::{EngineError, Model, Overturning};
 
@@ -40,9 +40,9 @@ pub(super) fn map() -> anyhow::Result<Figure> {
                 .map(|row| {
                     let criterion = Overturning::HalfPi;
                     fate(Model::Nonlinear, criterion, omega, middle(row))
-                        .map(Fate::after)
+                        .map(MapFate::after)
                 })
-                .collect::<Result<Vec<Fate>, EngineError>>()
+                .collect::<Result<Vec<MapFate>, EngineError>>()
         })
         .collect::<Result<Vec<_>, EngineError>>()?;
     let (fold, at_fold) = overturning::fold(ETA);
@@ -60,7 +60,7 @@ pub(super) fn map() -> anyhow::Result<Figure> {
         .collect();
     after_one.push((fold, at_fold));
     let apart = apart(&frequencies, &amplitudes, &cells, &without);
-    let share = |is: fn(&Fate) -> bool| {
+    let share = |is: fn(&MapFate) -> bool| {
         let all = cells.iter().flatten();
         let count = all.filter(|f| is(f)).count();
         rocking_common::words::percent(
@@ -73,7 +73,7 @@ pub(super) fn map() -> anyhow::Result<Figure> {
         .windows(2)
         .zip(&cells)
         .rev()
-        .find(|(_, column)| column.contains(&Fate::AfterOne));
+        .find(|(_, column)| column.contains(&MapFate::AfterOne));
     let reading = format!(
         "Without impact the boundary of Eq. 2 lies within {} of that of Eq. 1 \
          at alpha = {STOCKY_RAD}, in amplitude. After one impact Eq. 2 \
@@ -84,8 +84,8 @@ pub(super) fn map() -> anyhow::Result<Figure> {
             1
         ),
         last.map_or(f64::NAN, |(pair, _)| middle(pair)),
-        share(|f| *f == Fate::Before),
-        share(|f| *f == Fate::AfterOne),
+        share(|f| *f == MapFate::Before),
+        share(|f| *f == MapFate::AfterOne),
     );
     Ok(FateMap {
         heading: Heading::numbered(
@@ -114,7 +114,7 @@ pub(super) fn map() -> anyhow::Result<Figure> {
 fn apart(
     frequencies: &[f64],
     amplitudes: &[f64],
-    cells: &[Vec<Fate>],
+    cells: &[Vec<MapFate>],
     boundary: &[(f64, f64)],
 ) -> usize {
     let mut most = 0;
@@ -129,7 +129,7 @@ fn apart(
         let expected = amplitudes.partition_point(|a| a < amplitude);
         let found = column
             .iter()
-            .rposition(|fate| *fate != Fate::Before)
+            .rposition(|fate| *fate != MapFate::Before)
             .map_or(0, |k| k + 1);
         most = most.max(expected.abs_diff(found));
     }

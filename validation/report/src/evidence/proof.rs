@@ -86,7 +86,7 @@ impl Proof {
     /// For a file that is missing or damaged, and for results
     /// of other cases than this program's.
     pub fn read(folder: &Path) -> anyhow::Result<Self> {
-        let text = |name| read(&folder.join(name));
+        let text = |name| file_text(&folder.join(name));
         Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
     }
 
@@ -247,7 +247,7 @@ impl fmt::Display for Proof {
     }
 }
 
-fn read(path: &Path) -> anyhow::Result<String> {
+fn file_text(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path).map_err(|error| {
         anyhow!(
             "cannot read {}: {error}; expected {RESULTS} and {DIGITS} as \
@@ -315,7 +315,7 @@ fn committed() -> std::path::PathBuf {
 impl Proof {
     /// The committed results, of which the first `failed` are made to fail.
     pub(crate) fn committed(failed: usize) -> Self {
-        let text = |name| read(&committed().join(name)).expect(name);
+        let text = |name| file_text(&committed().join(name)).expect(name);
         let results = text(RESULTS).replacen(
             "\"verdict\": \"pass\"",
             "\"verdict\": \"fail\"",

@@ -7,7 +7,8 @@ use rocking_proof::edge::edge;
 use rocking_proof::engine::Core;
 use rocking_proof::oracles::overturning;
 use rocking_proof::scene::{
-    Engine as _, EngineError, Forcing, Model, Overturning, PulseKind, Scene,
+    CaseForcing, CaseScene, Engine as _, EngineError, Model, Overturning,
+    PulseKind,
 };
 
 /// Restitution of the figure.
@@ -28,13 +29,13 @@ pub(super) fn fate(
     omega: f64,
     amplitude: f64,
 ) -> Result<Option<usize>, EngineError> {
-    let mut scene = Scene {
+    let mut scene = CaseScene {
         model: equation,
         overturning: criterion,
         until_s: Some(7.0 / omega + 60.0),
-        ..Scene::new([STOCKY_RAD, 1.0, 1.0], ETA, Forcing::NONE)
+        ..CaseScene::new([STOCKY_RAD, 1.0, 1.0], ETA, CaseForcing::NONE)
     };
-    scene.forcing = Forcing::Pulse(PulseKind::OneSine {
+    scene.forcing = CaseForcing::Pulse(PulseKind::OneSine {
         amplitude: amplitude * scene.threshold_m_s2(),
         omega_rad_s: omega,
     });

@@ -25,12 +25,12 @@ const SIZES: [usize; 1] = [5];
 const FORMULA_TO: usize = 100;
 
 #[derive(Deserialize)]
-struct Pulses {
-    cases: Vec<Pulse>,
+struct PulseFile {
+    cases: Vec<PulseEntry>,
 }
 
 #[derive(Deserialize)]
-struct Pulse {
+struct PulseEntry {
     pulse: String,
     /// Of the acceleration, of one pulse of the velocity: a number, and words
     /// in brackets.
@@ -43,7 +43,7 @@ struct Pulse {
 
 /// Errors against the closed forms, pulse by pulse; by the results handed in.
 pub fn similarity(proof: &Proof) -> PlainTable {
-    let pulses: Vec<Pulse> = serde_json::from_str::<Pulses>(PULSES)
+    let pulses: Vec<PulseEntry> = serde_json::from_str::<PulseFile>(PULSES)
         .map_or_else(|_| Vec::new(), |found| found.cases);
     let row = |(case, result): (&Case, &CaseResult)| {
         let entry = case.input.get("entry")?.as_integer()?;
@@ -102,14 +102,14 @@ fn bare(number: &str) -> &str {
 }
 
 #[derive(Default, Deserialize)]
-struct Simulated {
+struct SimulationInput {
     n: Vec<usize>,
     levels: Vec<f64>,
     values: Vec<Vec<f64>>,
 }
 
 #[derive(Default, Deserialize)]
-struct Published {
+struct PublicationInput {
     sources: Vec<String>,
     n: Vec<usize>,
     values: Vec<f64>,
@@ -127,8 +127,8 @@ pub fn critical_values() -> Result<PlainTable, CaseError> {
         let case = cases.iter().find(|case| case.id == id);
         case.map(|case| toml::Value::Table(case.input.clone()))
     };
-    let simulated: Simulated = read(input(SIMULATION));
-    let published: Published = read(input(PUBLISHED));
+    let simulated: SimulationInput = case_input(input(SIMULATION));
+    let published: PublicationInput = case_input(input(PUBLISHED));
     let mut all: Vec<(usize, String, f64)> = Vec::new();
     let at = simulated.levels.iter().position(|level| *level == LEVEL);
     for (n, values) in simulated.n.iter().zip(&simulated.values) {
@@ -191,7 +191,7 @@ pub fn critical_values() -> Result<PlainTable, CaseError> {
     ))
 }
 
-fn read<T: Default + serde::de::DeserializeOwned>(
+fn case_input<T: Default + serde::de::DeserializeOwned>(
     input: Option<toml::Value>,
 ) -> T {
     input.and_then(|value| value.try_into().ok()).unwrap_or_default()

@@ -50,7 +50,7 @@ pub fn families(proof: &Proof) -> Markup {
 }
 
 /// Every case, family by family.
-pub fn all(proof: &Proof) -> Markup {
+pub fn every_case(proof: &Proof) -> Markup {
     html! {
         @for (name, cases) in proof.families() {
             div id={ "cases-" (name) } {

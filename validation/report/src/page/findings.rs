@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::chapter::{drawings, folded, labels};
-use crate::basis::Column;
+use crate::basis::FindingColumn;
 use crate::findings::identities;
 use crate::quantity::{remarks, rule_text, value_text};
 use crate::verdicts::{by_theme, first_arm, score};
@@ -50,7 +50,7 @@ fn legend() -> Markup {
     }
 }
 
-fn counts((name, findings): Column<'_>) -> Markup {
+fn counts((name, findings): FindingColumn<'_>) -> Markup {
     html! {
         p {
             (capital(name)) ", "
@@ -130,7 +130,7 @@ fn claims<'a>(page: &Page<'a>, theme: Theme) -> Vec<&'a Claim> {
 /// The claim as a column has it, with each of its results.
 fn results<'a>(
     claim: &Claim,
-    (_, findings): Column<'a>,
+    (_, findings): FindingColumn<'a>,
 ) -> impl Iterator<Item = (&'a Claim, &'a ClaimResult)> {
     let own = findings.claims.iter().find(|c| c.id == claim.id);
     own.into_iter().flat_map(|own| own.results.iter().map(move |r| (own, r)))
@@ -229,7 +229,7 @@ fn finding(page: &Page<'_>, claim: &Claim) -> Markup {
 /// first column has the value, the others the verdict alone.
 fn outcomes(
     claim: &Claim,
-    column: Column<'_>,
+    column: FindingColumn<'_>,
     first: Arm,
     suite: Tested,
     value: bool,
@@ -286,7 +286,7 @@ pub fn every_result(page: &Page<'_>) -> Markup {
     }
 }
 
-fn all_of(claim: &Claim, columns: &[Column<'_>]) -> Markup {
+fn all_of(claim: &Claim, columns: &[FindingColumn<'_>]) -> Markup {
     html! {
         th scope="row" {
             a href={ "#finding-" (claim.id) } { (claim.id) }

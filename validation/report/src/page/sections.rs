@@ -23,7 +23,7 @@ const SKETCH: &str = include_str!("sketch.svg");
 const EQUATIONS: &str = include_str!("equations.html");
 
 /// Anchor, title and body of a section.
-type Section = (&'static str, &'static str, Markup);
+type PageSection = (&'static str, &'static str, Markup);
 
 /// What the page is about.
 pub fn head(page: &Page<'_>) -> Markup {
@@ -43,11 +43,11 @@ pub fn head(page: &Page<'_>) -> Markup {
 ///
 /// # Errors
 /// For kept files that cannot be read.
-pub fn all(
+pub fn page_sections(
     page: &Page<'_>,
     annexes: &[Annex<'_>],
     files: &PlainTable,
-) -> anyhow::Result<Vec<Section>> {
+) -> anyhow::Result<Vec<PageSection>> {
     Ok(vec![
         ("answers", "Answers", answers(page)?),
         ("scope", "Scope", scope(page)),
@@ -218,7 +218,7 @@ fn folded_annexes(
         (folded("files", &files.title, &table::untitled(files)))
         (folded("all-results", "Every result", &findings::every_result(page)))
         @if let Some(proof) = page.proof {
-            (folded("cases", "Every declared case", &cases::all(proof)))
+            (folded("cases", "Every declared case", &cases::every_case(proof)))
         }
         @for one in annexes { (folded(one.id, one.title, &one.body())) }
     }

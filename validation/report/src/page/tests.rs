@@ -56,7 +56,8 @@ fn page_of(names: Names) -> String {
     };
     let page = Page {
         study: &study,
-        basis: &Basis::of(!names.own_suites, &study.findings).expect("kept"),
+        basis: &FindingSets::of(!names.own_suites, &study.findings)
+            .expect("kept"),
         figures: &sketches(),
         charts: &[],
         proof: Some(&Proof::committed(0)),

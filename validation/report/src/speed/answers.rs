@@ -5,15 +5,15 @@ use rocking::integrator::{
 };
 use rocking::number::double::DoubleDouble;
 
-use super::cases::{Case, ETA};
-use super::rest::{Ground, without_chatter};
+use super::cases::{ETA, SpeedCase};
+use super::rest::{GroundRecord, without_chatter};
 
 /// Impacts whose times are compared.
 pub const COMPARED: usize = 10;
 
 /// A tool's answer.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
+pub struct ToolAnswer {
     /// Peak |theta|/alpha; infinite when overturned, NaN without an answer.
     pub peak_ratio: f64,
     /// Impacts up to the record's end, those of series that end at rest
@@ -25,7 +25,7 @@ pub struct Answer {
 
 /// How far an answer is from the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Error {
+pub struct ToolError {
     /// Absolute error of peak |theta|/alpha; NaN where one overturned.
     pub peak: f64,
     /// Largest error of the times of the first impacts in s; infinite where
@@ -37,9 +37,9 @@ pub struct Error {
     pub same_impacts: bool,
 }
 
-impl Answer {
+impl ToolAnswer {
     /// The answer in a response that was observed with events.
-    pub fn of(case: &Case, response: &Response) -> Self {
+    pub fn of(case: &SpeedCase, response: &Response) -> Self {
         let seen = response.impacts.iter();
         let all: Vec<(f64, f64)> =
             seen.map(|i| (i.time_s, i.speed_before_rad_s)).collect();
@@ -50,7 +50,7 @@ impl Answer {
     ///
     /// # Errors
     /// As [`respond_precise`].
-    pub fn reference(case: &Case) -> Result<Self, SceneError> {
+    pub fn reference(case: &SpeedCase) -> Result<Self, SceneError> {
         let observe = Observe { events: true, ..Observe::default() };
         let response =
             respond_precise::<DoubleDouble>(&case.scene(), &observe)?;
@@ -65,10 +65,10 @@ impl Answer {
         Ok(Self::new(case, peak_ratio, &all))
     }
 
-    fn new(case: &Case, peak_ratio: f64, all: &[(f64, f64)]) -> Self {
+    fn new(case: &SpeedCase, peak_ratio: f64, all: &[(f64, f64)]) -> Self {
         let samples_g = case.samples_g();
         let dt_s = case.record.dt_s();
-        let ground = Ground { samples_g: &samples_g, dt_s };
+        let ground = GroundRecord { samples_g: &samples_g, dt_s };
         let mut times = without_chatter(&case.block, ETA, &ground, all);
         let impacts = times.len();
         times.truncate(COMPARED);
@@ -76,7 +76,7 @@ impl Answer {
     }
 
     /// Its error against the reference.
-    pub fn error(&self, reference: &Self) -> Error {
+    pub fn error(&self, reference: &Self) -> ToolError {
         let overturned = |a: &Self| a.peak_ratio == f64::INFINITY;
         let right_fate = !self.peak_ratio.is_nan()
             && overturned(self) == overturned(reference);
@@ -89,7 +89,7 @@ impl Answer {
         } else {
             apart.fold(0.0, f64::max)
         };
-        Error {
+        ToolError {
             peak: if stands {
                 (self.peak_ratio - reference.peak_ratio).abs()
             } else {

@@ -18,7 +18,7 @@ pub const ETA: f64 = 0.92;
 const SHARES: [f64; 5] = [0.80, 0.85, 0.90, 0.95, 1.0];
 
 /// One analysis.
-pub struct Case {
+pub struct SpeedCase {
     /// `ordinary-01-a-p1-a0.05`.
     pub name: String,
     /// The block.
@@ -31,7 +31,7 @@ pub struct Case {
     pub pga_g: f64,
 }
 
-impl Case {
+impl SpeedCase {
     /// What is integrated.
     pub fn scene(&self) -> Scene<'_> {
         let record = ScaledRecord::to_pga(&self.record, self.pga_g);
@@ -57,7 +57,7 @@ impl Case {
 ///
 /// # Errors
 /// None in practice: records and blocks are in range.
-pub fn all() -> anyhow::Result<Vec<Case>> {
+pub fn speed_cases() -> anyhow::Result<Vec<SpeedCase>> {
     let mut cases = Vec::new();
     for suite in StudySuite::embedded()? {
         for (k, block) in BLOCKS.into_iter().enumerate() {
@@ -74,7 +74,7 @@ fn case(
     record: &Accelerogram,
     block: Block,
     share: f64,
-) -> anyhow::Result<Case> {
+) -> anyhow::Result<SpeedCase> {
     let record = NormalisedRecord::new(record);
     let restitution = Restitution::constant(ETA)?;
     let curve = curve(&record, &Analysis::paper(block, restitution))?;
@@ -85,7 +85,7 @@ fn case(
     // A sliver above: 0.9 of 0.50 is 0.45, not 0.44.
     let wanted = share * last * (1.0 + 1e-12);
     let pga_g = pgas().rfind(|pga| *pga <= wanted).unwrap_or(least);
-    Ok(Case {
+    Ok(SpeedCase {
         name: format!(
             "{}-p{}-a{:.2}",
             record.name(),

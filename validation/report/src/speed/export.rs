@@ -6,11 +6,11 @@ use std::path::Path;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, IdaCurve};
 
-use super::cases::Case;
+use super::cases::SpeedCase;
 use rocking_common::files::{WriteError, write_atomically};
 
 /// One block under one record at some levels.
-struct Exported<'a> {
+struct ToolFile<'a> {
     name: &'a str,
     analysis: &'a Analysis,
     record: &'a NormalisedRecord,
@@ -23,13 +23,13 @@ struct Exported<'a> {
 ///
 /// # Errors
 /// [`WriteError`] naming the file or folder.
-pub fn singles(folder: &Path, cases: &[Case]) -> Result<(), WriteError> {
+pub fn singles(folder: &Path, cases: &[SpeedCase]) -> Result<(), WriteError> {
     create(folder)?;
     cases.iter().try_for_each(|case| {
         let (name, record) = (case.name.as_str(), &case.record);
         let analysis = Analysis::paper(case.block, case.restitution);
         let levels_g = vec![case.pga_g];
-        let shown = Exported { name, analysis: &analysis, record, levels_g };
+        let shown = ToolFile { name, analysis: &analysis, record, levels_g };
         shown.write(folder)
     })
 }
@@ -48,7 +48,7 @@ pub fn chains(
     records.iter().zip(found).try_for_each(|(record, curve)| {
         let levels_g = curve.points.iter().map(|p| p.pga_g).collect();
         let name = record.name();
-        Exported { name, analysis, record, levels_g }.write(folder)
+        ToolFile { name, analysis, record, levels_g }.write(folder)
     })
 }
 
@@ -57,7 +57,7 @@ fn create(folder: &Path) -> Result<(), WriteError> {
         .map_err(|source| WriteError { path: folder.to_owned(), source })
 }
 
-impl Exported<'_> {
+impl ToolFile<'_> {
     fn write(&self, folder: &Path) -> Result<(), WriteError> {
         let path = folder.join(format!("{}.txt", self.name));
         write_atomically(&path, self.text())

@@ -5,15 +5,15 @@ use std::path::Path;
 use anyhow::{Context as _, bail};
 use serde::{Deserialize, Serialize};
 
-use super::answers::{Answer, COMPARED};
-use super::cases::Case;
+use super::answers::{COMPARED, ToolAnswer};
+use super::cases::SpeedCase;
 use super::csv;
 use rocking_common::words::rounded;
 
 /// A tool with its setting on one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Row {
+pub struct TimingRow {
     /// `rocking`, `SciPy` and so on.
     pub tool: String,
     /// Its version.
@@ -42,7 +42,7 @@ pub struct Row {
 /// What a tool other than ours answered: one line of its driver's output.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Given {
+struct ToolRow {
     tool: String,
     version: String,
     method: String,
@@ -60,12 +60,12 @@ struct Given {
 /// A row from an answer and what it took.
 pub fn row(
     [tool, version, method, setting]: [&str; 4],
-    (case, reference): (&Case, &Answer),
+    (case, reference): (&SpeedCase, &ToolAnswer),
     (cpu_s, work): (f64, u64),
-    answer: &Answer,
-) -> Row {
+    answer: &ToolAnswer,
+) -> TimingRow {
     let error = answer.error(reference);
-    Row {
+    TimingRow {
         tool: tool.into(),
         version: version.into(),
         method: method.into(),
@@ -86,14 +86,14 @@ pub fn row(
 /// For a file that is not a driver's output.
 pub fn read_answers(
     path: &Path,
-    cases: &[(Case, Answer)],
-) -> anyhow::Result<Vec<Row>> {
+    cases: &[(SpeedCase, ToolAnswer)],
+) -> anyhow::Result<Vec<TimingRow>> {
     let shown = path.display();
     let table = || shown.to_string();
     let mut reader = csv::Reader::from_path(path).with_context(table)?;
     let mut rows = Vec::new();
     for given in reader.deserialize() {
-        let given: Given = given.with_context(table)?;
+        let given: ToolRow = given.with_context(table)?;
         let known = cases.iter().find(|(case, _)| case.name == given.case);
         let Some((case, reference)) = known else {
             bail!("{shown}: no such case: {}", given.case);
@@ -108,12 +108,12 @@ pub fn read_answers(
             );
         };
         times.truncate(COMPARED);
-        let answer = Answer {
+        let answer = ToolAnswer {
             peak_ratio: given.peak_ratio,
             impacts: given.impacts,
             first_impacts_s: times,
         };
-        let Given { tool, version, method, setting, .. } = &given;
+        let ToolRow { tool, version, method, setting, .. } = &given;
         rows.push(row(
             [tool, version, method, setting],
             (case, reference),
@@ -128,8 +128,8 @@ pub fn read_answers(
 ///
 /// # Errors
 /// None in practice: memory can be written to.
-pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
-    csv(rows.iter().map(|row| Row {
+pub fn text(rows: &[TimingRow]) -> Result<Vec<u8>, csv::Error> {
+    csv(rows.iter().map(|row| TimingRow {
         cpu_s: rounded(row.cpu_s, 4),
         peak_error: row.peak_error.map(|e| rounded(e, 3)),
         impact_error_s: rounded(row.impact_error_s, 3),
@@ -171,8 +171,8 @@ pub struct Total {
 
 /// Totals by tool and setting, in the order of the rows; ratios to the times
 /// of `base` (tool, method, setting).
-pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
-    let label = |row: &Row| {
+pub fn totals(rows: &[TimingRow], base: [&str; 3]) -> Vec<Total> {
+    let label = |row: &TimingRow| {
         [&row.tool, &row.version, &row.method, &row.setting].map(String::clone)
     };
     let mut labels: Vec<[String; 4]> = Vec::new();
@@ -183,7 +183,7 @@ pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
         }
     }
     let base_s = |case: &str| {
-        let is = |row: &&Row| {
+        let is = |row: &&TimingRow| {
             row.case == case
                 && [row.tool.as_str(), &row.method, &row.setting] == base
         };
@@ -192,9 +192,9 @@ pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
     labels
         .into_iter()
         .map(|own| {
-            let of: Vec<&Row> =
+            let of: Vec<&TimingRow> =
                 rows.iter().filter(|row| label(row) == own).collect();
-            let each = |value: &dyn Fn(&Row) -> f64| {
+            let each = |value: &dyn Fn(&TimingRow) -> f64| {
                 of.iter().map(|row| value(row)).collect::<Vec<f64>>()
             };
             let peaks: Vec<f64> =
@@ -206,24 +206,24 @@ pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
             Total {
                 label: own.clone(),
                 cases: of.len(),
-                cpu_s: at(times, 0.5),
+                cpu_s: ranked(times, 0.5),
                 mean_cpu_s: mean,
-                work: at(each(&|row| row.work as f64), 0.5),
-                peak_error: at(peaks.clone(), 0.5),
-                peak_error_90: at(peaks.clone(), 0.9),
-                peak_error_worst: at(peaks, 1.0),
-                impact_error_s: at(impacts.clone(), 0.5),
-                impact_error_worst_s: at(impacts, 1.0),
+                work: ranked(each(&|row| row.work as f64), 0.5),
+                peak_error: ranked(peaks.clone(), 0.5),
+                peak_error_90: ranked(peaks.clone(), 0.9),
+                peak_error_worst: ranked(peaks, 1.0),
+                impact_error_s: ranked(impacts.clone(), 0.5),
+                impact_error_worst_s: ranked(impacts, 1.0),
                 wrong_fates: of.iter().filter(|r| !r.right_fate).count(),
                 other_impacts: of.iter().filter(|r| !r.same_impacts).count(),
-                ratio: at(each(&|row| row.cpu_s / base_s(&row.case)), 0.5),
+                ratio: ranked(each(&|row| row.cpu_s / base_s(&row.case)), 0.5),
             }
         })
         .collect()
 }
 
 /// The value that a share of the values does not exceed, in steps of one.
-fn at(mut values: Vec<f64>, share: f64) -> f64 {
+fn ranked(mut values: Vec<f64>, share: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let n = values.len();
     let place = (share * n as f64).ceil() as usize;

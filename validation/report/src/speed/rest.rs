@@ -8,14 +8,14 @@
 use rocking::block::Block;
 
 /// Ground acceleration over gravity, linear between samples.
-pub struct Ground<'a> {
+pub struct GroundRecord<'a> {
     /// Samples, multiples of gravity.
     pub samples_g: &'a [f64],
     /// Interval in s.
     pub dt_s: f64,
 }
 
-impl Ground<'_> {
+impl GroundRecord<'_> {
     /// End of the record in s.
     pub fn end_s(&self) -> f64 {
         (self.samples_g.len() - 1) as f64 * self.dt_s
@@ -64,7 +64,7 @@ impl Ground<'_> {
 pub fn chatter_s(
     block: &Block,
     eta: f64,
-    ground: &Ground<'_>,
+    ground: &GroundRecord<'_>,
     time_s: f64,
     side: f64,
     speed_rad_s: f64,
@@ -115,7 +115,7 @@ pub fn chatter_s(
 pub fn without_chatter(
     block: &Block,
     eta: f64,
-    ground: &Ground<'_>,
+    ground: &GroundRecord<'_>,
     all: &[(f64, f64)],
 ) -> Vec<f64> {
     let threshold = libm::tan(block.slenderness_rad());

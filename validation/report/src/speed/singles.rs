@@ -5,10 +5,10 @@ use rocking::integrator::{
 };
 use rocking::number::double::DoubleDouble;
 
-use super::answers::Answer;
-use super::cases::Case;
+use super::answers::ToolAnswer;
+use super::cases::SpeedCase;
 use super::clock::least_s;
-use super::measured::{Row, row};
+use super::measured::{TimingRow, row};
 
 /// The tool, method and setting that ratios refer to.
 pub const BASE: [&str; 3] = ["rocking", "Taylor", "as shipped"];
@@ -33,7 +33,7 @@ fn double_double(
     respond_precise(scene, observe)
 }
 
-fn run(
+fn respond_at_order(
     scene: &Scene<'_>,
     observe: &Observe,
     order: Option<Order>,
@@ -46,9 +46,9 @@ fn run(
 /// # Errors
 /// [`SceneError`] in none of the cases.
 pub fn measure(
-    cases: &[(Case, Answer)],
+    cases: &[(SpeedCase, ToolAnswer)],
     done: impl Fn(),
-) -> Result<Vec<Row>, SceneError> {
+) -> Result<Vec<TimingRow>, SceneError> {
     let version = env!("CARGO_PKG_VERSION");
     let mut rows = Vec::new();
     for (setting, order) in ORDERS {
@@ -57,10 +57,12 @@ pub fn measure(
             let scene = case.scene();
             let bare = Observe::default();
             let (batches, batch_s) = BATCHES;
-            let (cpu_s, plain) =
-                least_s(batches, batch_s, || run(&scene, &bare, order));
+            let (cpu_s, plain) = least_s(batches, batch_s, || {
+                respond_at_order(&scene, &bare, order)
+            });
             let seen = Observe { events: true, ..bare };
-            let answer = Answer::of(case, &run(&scene, &seen, order)?);
+            let answer =
+                ToolAnswer::of(case, &respond_at_order(&scene, &seen, order)?);
             let took = (cpu_s, plain?.work.steps);
             rows.push(row(label, (case, reference), took, &answer));
             done();

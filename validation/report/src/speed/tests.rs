@@ -4,15 +4,15 @@ use std::fs;
 
 use rocking::block::Block;
 
-use super::answers::Answer;
+use super::answers::ToolAnswer;
 use super::cases;
-use super::measured::{Row, read_answers, row, text};
+use super::measured::{TimingRow, read_answers, row, text};
 use super::parse;
-use super::rest::{Ground, chatter_s};
+use super::rest::{GroundRecord, chatter_s};
 
 #[test]
 fn cases_have_names_of_their_own_and_our_answers_are_right() {
-    let cases = cases::all().expect("cases");
+    let cases = cases::speed_cases().expect("cases");
     assert_eq!(cases.len(), 30);
     let mut names: Vec<&str> = cases.iter().map(|c| c.name.as_str()).collect();
     names.sort_unstable();
@@ -20,13 +20,13 @@ fn cases_have_names_of_their_own_and_our_answers_are_right() {
     assert_eq!(names.len(), 30);
     let mut overturned = 0;
     for case in cases.iter().step_by(4) {
-        let reference = Answer::reference(case).expect("reference");
+        let reference = ToolAnswer::reference(case).expect("reference");
         let seen = rocking::integrator::Observe {
             events: true,
             ..rocking::integrator::Observe::default()
         };
         let own = rocking::integrator::respond(&case.scene(), &seen);
-        let own = Answer::of(case, &own.expect("response"));
+        let own = ToolAnswer::of(case, &own.expect("response"));
         let error = own.error(&reference);
         assert!(error.right_fate, "{}", case.name);
         assert!(error.impact_s < 1e-9, "{}: {error:?}", case.name);
@@ -39,7 +39,7 @@ fn cases_have_names_of_their_own_and_our_answers_are_right() {
 fn hops_end_where_their_geometric_series_ends() {
     // Without ground motion: hops of 2 w/D each, falling by eta.
     let block = Block::try_new(0.2, 2.0).expect("block");
-    let ground = Ground { samples_g: &[0.0, 0.0], dt_s: 1.0 };
+    let ground = GroundRecord { samples_g: &[0.0, 0.0], dt_s: 1.0 };
     let (eta, w) = (0.9, 1e-4);
     let down = 4.0 * libm::sin(0.2);
     let expected = 2.0 * w / down / (1.0 - eta);
@@ -47,13 +47,13 @@ fn hops_end_where_their_geometric_series_ends() {
     assert!(f64::abs(found / expected - 1.0) < 1e-12, "{found} {expected}");
     // Not before the interval ends, or where the ground lifts the block.
     assert_eq!(chatter_s(&block, eta, &ground, 0.9999, 1.0, w), None);
-    let strong = Ground { samples_g: &[0.3, 0.3], dt_s: 1.0 };
+    let strong = GroundRecord { samples_g: &[0.3, 0.3], dt_s: 1.0 };
     assert_eq!(chatter_s(&block, eta, &strong, 0.5, 1.0, w), None);
 }
 
 #[test]
 fn uplift_is_at_the_crossing_and_points_away() {
-    let ground = Ground { samples_g: &[0.0, 0.1, -0.3, 0.0], dt_s: 0.5 };
+    let ground = GroundRecord { samples_g: &[0.0, 0.1, -0.3, 0.0], dt_s: 0.5 };
     let (time_s, sign) = ground.exceedance(0.0, 0.2).expect("exceeds");
     assert!((time_s - 0.875).abs() < 1e-15, "{time_s}");
     assert_eq!(sign, -1.0);
@@ -64,8 +64,8 @@ fn uplift_is_at_the_crossing_and_points_away() {
 
 #[test]
 fn answers_of_other_tools_are_judged_or_refused() {
-    let case = cases::all().expect("cases").swap_remove(0);
-    let reference = Answer::reference(&case).expect("reference");
+    let case = cases::speed_cases().expect("cases").swap_remove(0);
+    let reference = ToolAnswer::reference(&case).expect("reference");
     let known = [(case, reference)];
     let (case, reference) = &known[0];
     let header = "tool,version,method,setting,case,cpu_s,work,peak_ratio,\
@@ -88,7 +88,8 @@ fn answers_of_other_tools_are_judged_or_refused() {
     assert_eq!(rows[0].impact_error_s, 0.0);
     assert!(rows[0].right_fate && rows[0].same_impacts);
     // Kept to three digits.
-    let back: Vec<Row> = parse(str(&text(&rows).expect("CSV"))).expect("rows");
+    let back: Vec<TimingRow> =
+        parse(str(&text(&rows).expect("CSV"))).expect("rows");
     assert_eq!(back[0].peak_error, Some(0.25));
     assert_eq!((back.len(), &back[0].case), (1, &case.name));
     // One impact less, the other fate, no answer at all.
@@ -107,7 +108,7 @@ fn answers_of_other_tools_are_judged_or_refused() {
         assert!(refused.contains(words), "{refused}");
     }
     fs::remove_file(&path).expect("removed");
-    let none = Answer { peak_ratio: f64::NAN, ..reference.clone() };
+    let none = ToolAnswer { peak_ratio: f64::NAN, ..reference.clone() };
     let row = row(["T", "1", "M", "s"], (case, reference), (1.0, 1), &none);
     assert!(!row.right_fate);
 }

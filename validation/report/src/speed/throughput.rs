@@ -57,7 +57,7 @@ impl Throughput {
 
 /// Analyses and how they are made.
 #[derive(Clone, Copy)]
-pub struct Job<'a> {
+pub struct CurveJob<'a> {
     /// The analyses, each of every record.
     pub analyses: &'a [Analysis],
     /// The records.
@@ -99,7 +99,7 @@ pub fn on_threads<T: Send>(
     }))
 }
 
-impl Job<'_> {
+impl CurveJob<'_> {
     /// Makes the curves three times, and says how long that took in the
     /// median: one of four took up to 1.5 times as long as the others.
     ///
@@ -202,13 +202,13 @@ pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
 
 /// The kernel of the lanes with hardly anything else: blocks rock freely
 /// after a push, in long flights with many samples.
-struct Kernel {
+struct LaneKernel {
     record: [NormalisedRecord; 1],
     chains: Vec<Analysis>,
     samples: u64,
 }
 
-impl Kernel {
+impl LaneKernel {
     /// Of samples of `step` in 1/p, at an order if one is given.
     fn new(
         model: Model,
@@ -252,7 +252,8 @@ impl Kernel {
     fn measure(&self, work: &str, isa: Isa) -> anyhow::Result<Throughput> {
         let Self { record, chains, samples } = self;
         let way = Execution::Lanes(isa);
-        let job = Job { analyses: chains, records: record, way, threads: 1 };
+        let job =
+            CurveJob { analyses: chains, records: record, way, threads: 1 };
         let samples = Some(*samples);
         Ok(Throughput { samples, ..job.measure(work)?.0 })
     }
@@ -268,7 +269,7 @@ pub fn kernel(
     order: Option<Order>,
     step: f64,
 ) -> anyhow::Result<Throughput> {
-    let kernel = Kernel::new(model, order, step)?;
+    let kernel = LaneKernel::new(model, order, step)?;
     let fly = || kernel.measure(work, Isa::best());
     let (mut least, others) = (fly()?, [fly()?, fly()?]);
     for again in others {
@@ -298,7 +299,7 @@ pub fn against_loop() -> anyhow::Result<Vec<AgainstLoop>> {
     const TURNS: usize = 7;
     const FLIGHTS: u32 = 100;
     let step = 1e-3;
-    let kernel = Kernel::new(Model::Nonlinear, Some(Order::Eight), step)?;
+    let kernel = LaneKernel::new(Model::Nonlinear, Some(Order::Eight), step)?;
     let samples = [0.0; 1001];
     let block = Block::try_new(0.2, 1.0)?;
     let bare = BareSteps { block, samples: &samples, step, ratio: 0.5 };

@@ -99,12 +99,12 @@ impl Timings {
 
     /// Which of our settings when.
     pub fn settings(&self) -> PlainTable {
-        let shipped = self.of_many(PAPER).map(Throughput::rate_per_s);
+        let shipped = self.throughput_of(PAPER).map(Throughput::rate_per_s);
         let many = |setting: &str| {
             if setting == BASE[2] {
-                return self.of_many(PAPER);
+                return self.throughput_of(PAPER);
             }
-            self.of_many(&format!("{PAPER}, {setting}"))
+            self.throughput_of(&format!("{PAPER}, {setting}"))
         };
         let moved = |setting| Some(many(setting)?.moved?.to_string());
         let in_lanes =

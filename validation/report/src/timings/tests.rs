@@ -6,7 +6,7 @@ use super::*;
 fn kept_timings_have_every_line_and_a_base_for_ratios() {
     let kept = Timings::kept().expect("tables");
     for (label, tool, method, without) in LINES {
-        let of = kept.of(tool, method, without);
+        let of = kept.totals_of(tool, method, without);
         assert!(of.len() > 1, "{label}");
         for total in of {
             assert!(total.ratio > 0.0, "{label}");
@@ -22,7 +22,7 @@ fn kept_timings_have_every_line_and_a_base_for_ratios() {
 #[test]
 fn heyoka_agreed_with_the_reference() {
     let kept = Timings::kept().expect("tables");
-    for total in kept.of("heyoka", "Taylor sample by sample", &[]) {
+    for total in kept.totals_of("heyoka", "Taylor sample by sample", &[]) {
         assert_eq!((total.wrong_fates, total.other_impacts), (0, 0));
         assert!(total.peak_error < 1e-12 && total.impact_error_s < 1e-11);
     }
@@ -49,7 +49,7 @@ fn draws_the_same_bytes_twice() {
 #[test]
 fn ratios_are_at_no_larger_error() {
     let mut kept = Timings::kept().expect("tables");
-    let mut peer = kept.of_many(STOPPED.work).expect("work").clone();
+    let mut peer = kept.throughput_of(STOPPED.work).expect("work").clone();
     let quick = |kept: &Timings, peer: &Throughput| {
         kept.fastest(&STOPPED, peer).map(|(setting, _)| setting.to_owned())
     };
@@ -58,7 +58,7 @@ fn ratios_are_at_no_larger_error() {
 
     // Order 4 has the smaller medians, but a larger worst case.
     let of = |[tool, method, setting]: [&str; 3]| {
-        let mut all = kept.of(tool, method, &[]).into_iter();
+        let mut all = kept.totals_of(tool, method, &[]).into_iter();
         all.find(|t| t.label[3] == setting).expect("setting").clone()
     };
     let (low, theirs) = (
@@ -68,8 +68,10 @@ fn ratios_are_at_no_larger_error() {
     assert!(low.peak_error_worst > theirs.peak_error_worst);
     assert_ne!(setting, "order 4");
 
-    let moved =
-        kept.of_many(&format!("{PAPER}, {setting}")).expect("work").moved;
+    let moved = kept
+        .throughput_of(&format!("{PAPER}, {setting}"))
+        .expect("work")
+        .moved;
     peer.moved = moved.map(|n| n - 1);
     assert_ne!(quick(&kept, &peer), Some(setting));
     let theirs = |t: &&mut Total| t.label[0] == TOOL;

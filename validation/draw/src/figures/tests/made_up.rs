@@ -45,7 +45,8 @@ pub fn fates() -> FateMap {
     let ends = |count: usize, step: f64| -> Vec<f64> {
         (0..=count).map(|k| libm::exp(step * k as f64)).collect()
     };
-    let of = |k: usize| Fate::after([None, Some(0), Some(1), Some(2)][k % 4]);
+    let of =
+        |k: usize| MapFate::after([None, Some(0), Some(1), Some(2)][k % 4]);
     FateMap {
         heading: heading("figure-21", None),
         frequencies: ends(20, 0.1),

@@ -21,7 +21,7 @@ use rocking_statistics::paired::{
 use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 
 use super::truths::{Truth, share};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Deviation in standard errors, half a printed unit taken off.
 fn gap(difference: f64, rounding: f64, error: f64) -> f64 {
@@ -44,7 +44,7 @@ fn rate_gap(
 }
 
 /// Rejected shares of four tests.
-pub fn rejection(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, level: f64,
         /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
@@ -81,7 +81,7 @@ pub fn rejection(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Share of the samples in which an interval covers the truth, or a test
 /// says what it says with a known probability.
-pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, procedure: String, rate: f64,
         reference: u64, rounding: f64,
@@ -225,7 +225,7 @@ fn rejects_above_the_smallest(
 }
 
 /// Means of a fit's parameters over lognormal samples.
-pub fn bias(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         dispersion: f64, n: usize, trials: u64, estimator: FitMethod,
         /// Mean of the estimated dispersion over the true one; none where a

@@ -18,9 +18,9 @@ use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{CensoredSample, Clusters, Lognormal};
 use serde::Deserialize;
 
-use super::truths::{Shape, share};
+use super::truths::{SuiteShape, share};
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Context, Reply};
 
 const VALUES: Csv = csv!("oracles/earthquakes.csv");
 
@@ -33,7 +33,7 @@ const REPLICATES: usize = 400;
 /// What is judged.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Measure {
+enum RateMeasure {
     /// BCa interval of the median.
     Median,
     /// BCa interval of the dispersion.
@@ -50,9 +50,9 @@ enum Measure {
 
 /// Share of simulated suites whose interval holds the truth, or whose slope
 /// on an attribute without meaning is rejected at 5 %.
-pub fn rates(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        measure: Measure, suite: Shape, intraclass: f64, trials: u64,
+        measure: RateMeasure, suite: SuiteShape, intraclass: f64, trials: u64,
     }
     let shape = suite.clusters();
     let taken = context.drawn(&shape);
@@ -74,7 +74,7 @@ pub fn rates(context: &Context, answer: &mut Answer) -> Result<()> {
                 DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
             })
             .collect();
-        if matches!(measure, Measure::Slope) {
+        if matches!(measure, RateMeasure::Slope) {
             let x: Vec<f64> =
                 (0..logs.len()).map(|r| attribute[shape.of(r)]).collect();
             let found = mixed(&x, &logs, &taken)?;
@@ -85,14 +85,15 @@ pub fn rates(context: &Context, answer: &mut Answer) -> Result<()> {
     };
     let found = (0..trials).into_par_iter().panic_fuse().map(trial);
     let rate = share(&found.collect::<Result<Vec<bool>>>()?);
-    let nominal = if matches!(measure, Measure::Slope) { 0.05 } else { 0.95 };
+    let nominal =
+        if matches!(measure, RateMeasure::Slope) { 0.05 } else { 0.95 };
     answer.put("rate", [rate], [nominal]);
     Ok(())
 }
 
 /// Whether the interval of a measure holds its truth.
 fn holds(
-    measure: Measure,
+    measure: RateMeasure,
     values: &[f64],
     clusters: &Clusters,
     seed: u64,
@@ -103,7 +104,7 @@ fn holds(
         low.is_some_and(|low| low <= x) && high.is_some_and(|high| x <= high)
     };
     let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?;
-    if matches!(measure, Measure::Counts) {
+    if matches!(measure, RateMeasure::Counts) {
         let stripe = |&im: &f64| {
             let of = move |(record, x): (usize, &f64)| Outcome {
                 im,
@@ -126,7 +127,7 @@ fn holds(
         band: vec![AT],
         ..FitOptions::default()
     };
-    if matches!(measure, Measure::AnnualFrequency) {
+    if matches!(measure, RateMeasure::AnnualFrequency) {
         let text = "intensity,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
         let hazard = Hazard::parse("h", text, &HazardOptions::default());
         let exposed = |fitted, sampled| Exposed {
@@ -150,7 +151,7 @@ fn holds(
         ));
     }
     let fit = fit_sample(&sample, &options)?;
-    if matches!(measure, Measure::Probability) {
+    if matches!(measure, RateMeasure::Probability) {
         let point = fit.band.as_ref().and_then(|band| band.points.first());
         let (low, high) =
             (point.and_then(|p| p.low), point.and_then(|p| p.high));
@@ -159,7 +160,7 @@ fn holds(
     let none = || anyhow!("no bootstrap");
     let all = fit.bootstrap.ok_or_else(none)?;
     let (own, truth) = match measure {
-        Measure::Dispersion => (all.dispersion, DISPERSION),
+        RateMeasure::Dispersion => (all.dispersion, DISPERSION),
         _ => (all.median, 1.0),
     };
     let found = own.bca.or(own.percentile);
@@ -169,7 +170,7 @@ fn holds(
 
 /// Slopes with a random intercept, and what widens an interval of few
 /// earthquakes.
-pub fn other_packages(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
     let clusters = |text: &'static str| {
         context.drawn(&Clusters::from_labels(text.split(' ')))
     };

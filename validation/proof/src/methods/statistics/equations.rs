@@ -5,13 +5,13 @@ use libm::{exp, log};
 use rocking_procedures::fragility::{c_max, eq5, eq6, eq7};
 
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const FRAGILITY: Csv = csv!("oracles/fragility.csv");
 
 /// Eq. 7 over constants against 50 digits; Eqs. 5 and 6 of the shifted
 /// lognormal that Eq. 7 is about; its limit and its end.
-pub fn transforms(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn transforms(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Median as it stands in the file.
         median: String,

@@ -12,7 +12,7 @@ use rocking_statistics::paired::{
 use rocking_statistics::{ExtendedSample, QuantileType, Sample};
 
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
 const NORMALITY: Csv = csv!("oracles/normality.csv");
@@ -20,7 +20,7 @@ const PAIRED: Csv = csv!("oracles/paired.csv");
 const QUANTILES: Csv = csv!("oracles/quantiles.csv");
 
 /// A fit with and without a shift: parameters, likelihood and distances.
-pub fn fits(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn fits(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// Its name in the file.
@@ -63,7 +63,7 @@ pub fn fits(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Quantiles of one type for several sizes and probabilities.
-pub fn quantiles(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn quantiles(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// Types 1 to 9.
@@ -91,7 +91,7 @@ pub fn quantiles(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Statistics and p-values of four tests of normality of the logarithms.
-pub fn tests(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn tests(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         sample: Vec<f64>,
         /// Its letter in the file.
@@ -121,7 +121,7 @@ pub fn tests(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Equivalence by t and sign tests, the sign test, Hodges and Lehmann.
-pub fn paired(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn paired(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; ratios: Vec<f64>, letter: String);
     // 1 -+ m instead of 1/(1 + m) to 1 + m.
     let margin = context.or(WrongModel::OtherMargin, 0.06, 0.05);

@@ -24,8 +24,8 @@ use rocking_statistics::{
 };
 use serde::Deserialize;
 
-use super::truths::{Shape, share};
-use crate::methods::method::{Answer, Context, WrongModel};
+use super::truths::{SuiteShape, share};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Replicates of an interval; the study has 2000. With 400 the level of an
 /// interval is uncertain by 0.01, which the bounds leave room for.
@@ -57,7 +57,7 @@ const PROBABILITY: f64 = 0.05;
 /// What an interval is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Measure {
+enum IntervalMeasure {
     /// Median of paired ratios in one cell, BCa.
     Median,
     /// The same by percentiles.
@@ -88,11 +88,11 @@ enum Measure {
 
 /// Share of the simulated suites whose interval holds the truth; of what lies
 /// on a limit, share of those in which it is decided.
-pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        measure: Measure,
+        measure: IntervalMeasure,
         /// The recorded suite that the simulated ones are like.
-        like: Shape,
+        like: SuiteShape,
         trials: u64,
         /// Share of the suites in which the interval is to hold the truth, or
         /// what lies on the limit may be decided.
@@ -108,7 +108,7 @@ pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
     };
     let all = (0..trials).into_par_iter();
     let held: Vec<bool> = match measure {
-        Measure::Distance | Measure::AcceptedShare => {
+        IntervalMeasure::Distance | IntervalMeasure::AcceptedShare => {
             let found = all
                 .map(|trial| suites.lognormal(trial, measure))
                 .collect::<Result<Vec<_>, _>>()?;
@@ -205,18 +205,18 @@ impl Trials {
         (replicates, without)
     }
 
-    fn holds(&self, trial: u64, measure: Measure) -> bool {
+    fn holds(&self, trial: u64, measure: IntervalMeasure) -> bool {
         let scores = self.scores(trial);
         let every = vec![1; self.clusters.records()];
         let ratio = |shift: f64| move |z: f64| exp(SPREAD * z + shift);
         match measure {
-            Measure::CellShare
-            | Measure::ShareRefuted
-            | Measure::ShareBesideSurvivors => {
+            IntervalMeasure::CellShare
+            | IntervalMeasure::ShareRefuted
+            | IntervalMeasure::ShareBesideSurvivors => {
                 self.share(trial, &scores, measure)
             }
-            Measure::FamilyRefuted => self.refuted(trial),
-            Measure::FewSurvivors => {
+            IntervalMeasure::FamilyRefuted => self.refuted(trial),
+            IntervalMeasure::FewSurvivors => {
                 // Some of each large earthquake.
                 let step = scores[0].len() / SURVIVORS;
                 let values: Vec<f64> =
@@ -229,7 +229,7 @@ impl Trials {
                 let found = median_interval(&sample, level);
                 hold(found.map(|i| (i.low, i.high)), 0.0)
             }
-            Measure::Count => {
+            IntervalMeasure::Count => {
                 let limit = normal::quantile(PROBABILITY);
                 let count = scores[0].iter().filter(|z| **z < limit).count();
                 let n = self.clusters.records();
@@ -245,7 +245,8 @@ impl Trials {
             }
             _ => {
                 let edge = match measure {
-                    Measure::CellOnTheEdge | Measure::CellRefuted => log(1.05),
+                    IntervalMeasure::CellOnTheEdge
+                    | IntervalMeasure::CellRefuted => log(1.05),
                     _ => 0.0,
                 };
                 let values: Vec<f64> =
@@ -257,7 +258,7 @@ impl Trials {
                     rows.iter().map(|row| row[0]).collect()
                 };
                 let others = match measure {
-                    Measure::MedianByPercentiles => Vec::new(),
+                    IntervalMeasure::MedianByPercentiles => Vec::new(),
                     _ => column(&without),
                 };
                 let known =
@@ -268,10 +269,10 @@ impl Trials {
                 let Some(known) = known else { return false };
                 let ends = known.interval(self.drawn.half_width(level));
                 match measure {
-                    Measure::CellOnTheEdge => {
+                    IntervalMeasure::CellOnTheEdge => {
                         ends.low >= 0.95 && ends.high <= 1.05
                     }
-                    Measure::CellRefuted => ends.low > 1.05,
+                    IntervalMeasure::CellRefuted => ends.low > 1.05,
                     _ => hold(Some((ends.low, ends.high)), 1.0),
                 }
             }
@@ -337,11 +338,12 @@ impl Trials {
         &self,
         trial: u64,
         scores: &[Vec<f64>],
-        measure: Measure,
+        measure: IntervalMeasure,
     ) -> bool {
         let count = scores.len();
         let few = |k: usize| {
-            measure == Measure::ShareBesideSurvivors && !k.is_multiple_of(4)
+            measure == IntervalMeasure::ShareBesideSurvivors
+                && !k.is_multiple_of(4)
         };
         let enters = |k: &usize| {
             self.wrong == Some(WrongModel::SurvivorsEnter) || !few(*k)
@@ -387,7 +389,7 @@ impl Trials {
         let own = known.interval_of_share(point, &self.drawn, LEVEL);
         let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
         match measure {
-            Measure::ShareRefuted => ends.high < 0.9,
+            IntervalMeasure::ShareRefuted => ends.high < 0.9,
             _ => hold(Some((ends.low, ends.high)), share(&truths)),
         }
     }
@@ -397,7 +399,7 @@ impl Trials {
     fn lognormal(
         &self,
         trial: u64,
-        measure: Measure,
+        measure: IntervalMeasure,
     ) -> Result<(f64, Option<(f64, f64)>)> {
         let table = Table::embedded();
         let logs: Vec<Vec<f64>> = self
@@ -410,7 +412,7 @@ impl Trials {
                 .iter()
                 .map(|level| places.iter().map(|r| level[*r]).collect())
                 .collect();
-            if measure == Measure::AcceptedShare {
+            if measure == IntervalMeasure::AcceptedShare {
                 let critical = table.critical_value(places.len(), 0.05);
                 let (critical, _) = critical?;
                 let found = AcceptedShare::of_values(&drawn, critical);

@@ -3,10 +3,10 @@
 use anyhow::Result;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Capacities at the levels by every rule, and the number of crossings.
-pub fn inversion(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn inversion(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// (IM, EDP), the first with EDP 0.
         curve: Vec<(f64, f64)>,

@@ -8,16 +8,16 @@ use rocking_statistics::lilliefors::{Statistic, Table};
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Sample, normal};
 
-use super::truths::Words;
+use super::truths::StreamRng;
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
 const MEANS: Csv = csv!("oracles/lilliefors_mean.csv");
 
 /// Simulated critical values against the exact ones, in units of both
 /// errors together; and the range of D.
-pub fn null(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn null(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         n: usize, replicates: u64,
         /// Error of the exact values.
@@ -70,7 +70,7 @@ fn with_divisor_n(sample: &Sample) -> f64 {
 }
 
 /// The largest possible D, by its formula and by the sample that attains it.
-pub fn largest(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn largest(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; n: Vec<usize>);
     let mut formula = Vec::new();
     for n in n {
@@ -95,7 +95,7 @@ pub fn largest(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// The mean of D from the table against that of an independent simulation,
 /// in its standard errors and the table's own error.
-pub fn mean(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn mean(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         n: Vec<usize>,
         /// Error of the table's mean.
@@ -120,7 +120,7 @@ pub fn mean(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// The table against an independent simulation, in combined standard
 /// errors.
-pub fn table(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn table(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         n: Vec<usize>, levels: Vec<f64>,
         /// By size, then by level.
@@ -164,7 +164,7 @@ fn linear_in_n(n: usize, level: f64) -> Result<f64> {
 }
 
 /// True level of tests that use others' critical values.
-pub fn published(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the source, for people.
         sources: Vec<String>,
@@ -193,7 +193,7 @@ pub fn published(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// c0 of D = c0/sqrt(n) - c1/n - c2/n^1.5, fitted to the table by weighted
 /// least squares, and the largest residual in standard errors.
-pub fn asymptotics(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; levels: Vec<f64>, least_n: usize);
     let sizes: Vec<usize> = Table::sizes()
         .into_iter()
@@ -238,7 +238,7 @@ pub fn asymptotics(context: &Context, answer: &mut Answer) -> Result<()> {
 }
 
 /// Our normal variates against `rand_distr`'s on the same stream.
-pub fn draws(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn draws(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; draws: usize);
     let streams = Streams::new("two ziggurats", 0);
     let other = u64::from(context.is(WrongModel::NextStream));
@@ -246,7 +246,7 @@ pub fn draws(context: &Context, answer: &mut Answer) -> Result<()> {
     let mut worst: f64 = 0.0;
     for _ in 0..draws {
         let a = standard_normal(&mut ours);
-        let b: f64 = StandardNormal.sample(&mut Words(&mut theirs));
+        let b: f64 = StandardNormal.sample(&mut StreamRng(&mut theirs));
         worst = worst.max((a - b).abs());
     }
     answer.put("largest-difference", [worst], [0.0]);

@@ -4,12 +4,12 @@ use anyhow::Result;
 use rocking_statistics::Sample;
 
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const UNIVARIATE: Csv = csv!("nist/univariate.csv");
 
 /// Mean and standard deviation of a certified data set.
-pub fn moments(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; set: String);
     let row = &UNIVARIATE.rows(&set)?[0];
     let values = row.text(4).split(' ').map(str::parse);

@@ -11,9 +11,9 @@ use rocking_statistics::streams::{Streams, standard_normal};
 use anyhow::Result;
 
 use super::inference::SHARED;
-use super::truths::Shape;
+use super::truths::SuiteShape;
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const VALUES: Csv = csv!("oracles/power.csv");
 
@@ -23,8 +23,8 @@ const REPLICATES: usize = 400;
 /// Power of the mean of a suite that lies so many standard errors from a
 /// limit: the mean of its probability, and the median of its multiple, over
 /// simulated suites.
-pub fn power(context: &Context, answer: &mut Answer) -> Result<()> {
-    input! { context; like: Shape, trials: u64, }
+pub fn power(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context; like: SuiteShape, trials: u64, }
     let clusters = like.clusters();
     let drawn = context.drawn(&clusters);
     let sizes = (0..clusters.count()).map(|g| clusters.members(g).len());
@@ -67,8 +67,8 @@ pub fn power(context: &Context, answer: &mut Answer) -> Result<()> {
         Some(Power::of(own, student, &deviations, |_, high| high < limit))
     };
     let name = match like {
-        Shape::Ordinary => "ordinary",
-        Shape::Pulse => "pulse-type",
+        SuiteShape::Ordinary => "ordinary",
+        SuiteShape::Pulse => "pulse-type",
     };
     for row in VALUES.rows(name)? {
         let distance = row.number(1)?;

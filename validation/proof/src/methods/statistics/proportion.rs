@@ -3,8 +3,8 @@
 use anyhow::Result;
 use rocking_statistics::{Proportion, normal};
 
-use crate::methods::cells::{Csv, Row, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::cells::{Csv, CsvRow, csv};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const PROPORTION: Csv = csv!("oracles/proportion.csv");
 
@@ -20,7 +20,7 @@ fn wilson(share: f64, trials: usize, level: f64) -> (f64, f64) {
 }
 
 /// Exact intervals of probabilities, alone or of many at once.
-pub fn intervals(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Successes and trials.
         counts: Vec<(usize, usize)>,
@@ -40,7 +40,7 @@ pub fn intervals(context: &Context, answer: &mut Answer) -> Result<()> {
         }
         let words = [successes, trials, together].map(|k| k.to_string());
         let rows = PROPORTION.rows(&words[0])?;
-        let is = |row: &&Row| [row.text(1), row.text(2)] == words[1..];
+        let is = |row: &&CsvRow| [row.text(1), row.text(2)] == words[1..];
         let row = rows.iter().find(is).ok_or_else(|| {
             PROPORTION.lacks(format!("no row `{}`", words.join(",")))
         })?;

@@ -9,12 +9,12 @@ use rocking_statistics::lognormal::{FitMethod, fit};
 use rocking_statistics::{ExtendedSample, Lognormal, normal};
 
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const RISK: Csv = csv!("oracles/risk.csv");
 
 /// Annual frequencies under a hazard curve against quadrature over x.
-pub fn annual_frequency(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the curve in the file.
         curve: String,
@@ -47,7 +47,7 @@ pub fn annual_frequency(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Annual frequencies for a power law and a lognormal, which have Cornell's
 /// closed form H(m) exp(k^2 beta^2/2).
-pub fn cornell(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn cornell(context: &Context, answer: &mut Reply) -> Result<()> {
     const K0: f64 = 1e-4;
     input! { context;
         /// Exponents of the hazard k0 x^-k, with median and dispersion.
@@ -74,7 +74,7 @@ pub fn cornell(context: &Context, answer: &mut Answer) -> Result<()> {
 
 /// Widths of the interval of a probability in scores: by the delta method,
 /// over those by drawing the records anew.
-pub fn interval(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
     const LEVEL: f64 = 0.95;
     input! { context;
         n: usize, replicates: usize, shift: f64, ln_median: f64,

@@ -12,9 +12,9 @@ use rocking_statistics::streams::{Stream, Streams, below, standard_normal};
 use serde::Deserialize;
 
 /// A stream as a generator of `rand_distr`.
-pub(super) struct Words<'a>(pub &'a mut Stream);
+pub(super) struct StreamRng<'a>(pub &'a mut Stream);
 
-impl TryRng for Words<'_> {
+impl TryRng for StreamRng<'_> {
     type Error = Infallible;
 
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
@@ -106,11 +106,12 @@ impl Truth {
                     if hit { z + log(factor) } else { z }
                 }
                 Self::Weibull => {
-                    let e: f64 = Exp1.sample(&mut Words(stream));
+                    let e: f64 = Exp1.sample(&mut StreamRng(stream));
                     log(e)
                 }
-                Self::Gamma { .. } => gamma
-                    .map_or(f64::NAN, |g| log(g.sample(&mut Words(stream)))),
+                Self::Gamma { .. } => gamma.map_or(f64::NAN, |g| {
+                    log(g.sample(&mut StreamRng(stream)))
+                }),
                 Self::Lognormal { dispersion } => {
                     exp(dispersion * standard_normal(stream))
                 }
@@ -122,13 +123,13 @@ impl Truth {
 /// Records by earthquake of the recorded suites.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Shape {
+pub(super) enum SuiteShape {
     Ordinary,
     #[serde(alias = "pulse-type")]
     Pulse,
 }
 
-impl Shape {
+impl SuiteShape {
     pub(super) fn clusters(self) -> Clusters {
         let sizes: &[usize] = match self {
             Self::Ordinary => &[

@@ -4,11 +4,11 @@ use anyhow::Result;
 use rocking_statistics::ExtendedSample;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 
-use crate::methods::method::{Answer, Context, WrongModel};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Kolmogorov's and Smirnov's distance of every two of the samples, and its
 /// p-value.
-pub fn two_samples(context: &Context, answer: &mut Answer) -> Result<()> {
+pub fn two_samples(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; samples: Vec<Vec<f64>>);
     let samples = samples
         .iter()

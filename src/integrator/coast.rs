@@ -24,7 +24,7 @@ use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::motion::{BlockMotion, RunTrace, tail_speed};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
-use orbit::{OrbitLevel, OrbitPlace, hop, speed_at, transit, turning};
+use orbit::{Energy, OrbitPlace, hop, speed_at, transit, turning};
 
 /// Impacts logged at most where neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
@@ -68,7 +68,7 @@ pub(crate) fn coast<N: Real>(
     let d = ask.dynamics;
     let BlockMotion { side, u, w } = motion;
     let zero = N::zero();
-    let level = OrbitLevel::of(d, u, w);
+    let level = Energy::of(d, u, w);
     let inward = w < zero;
     let passing = gap(d, u, w).abs().to_f64();
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
@@ -110,7 +110,7 @@ pub(crate) fn coast<N: Real>(
     let errors = record.accuracy.map(|accuracy| {
         let energy = level.above_base.to_f64();
         let late = |[u, w]: [f64; 2]| {
-            let level = OrbitLevel::of(d, N::from_f64(u), N::from_f64(w));
+            let level = Energy::of(d, N::from_f64(u), N::from_f64(w));
             time_to_base(d, N::from_f64(u), N::from_f64(w), level).to_f64()
         };
         let motion = [u, motion.w].map(Real::to_f64);
@@ -139,7 +139,7 @@ pub(crate) fn coast<N: Real>(
 fn flies_out<N: Real>(
     d: &Dynamics<N>,
     (u, w): (N, N),
-    level: OrbitLevel<N>,
+    level: Energy<N>,
 ) -> bool {
     let passes = level.below_saddle < N::zero();
     let inward = w < N::zero();
@@ -168,7 +168,7 @@ pub(crate) fn last<N: Real>(d: &Dynamics<N>, u: N, w: N) -> Last {
 }
 
 fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
-    let level = OrbitLevel::of(d, u, w);
+    let level = Energy::of(d, u, w);
     if flies_out(d, (u, w), level) {
         return (time_out(d, (u, w), level), true);
     }
@@ -183,12 +183,7 @@ fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
 }
 
 /// Time (in 1/p) from a place in free motion to the base.
-fn time_to_base<N: Real>(
-    d: &Dynamics<N>,
-    u: N,
-    w: N,
-    level: OrbitLevel<N>,
-) -> N {
+fn time_to_base<N: Real>(d: &Dynamics<N>, u: N, w: N, level: Energy<N>) -> N {
     let here = OrbitPlace { u, speed: w.abs() };
     if w < N::zero() {
         let base = OrbitPlace { u: N::zero(), speed: level.speed() };
@@ -237,14 +232,14 @@ impl CoastErrors {
     fn after_hop<N: Real>(
         self,
         d: &Dynamics<N>,
-        level: OrbitLevel<N>,
+        level: Energy<N>,
         half: f64,
     ) -> Self {
         let energy = self.energy + 8.0 * N::ROUNDOFF;
         let less = N::one() - N::from_f64(DIFFERENCE);
         let above_base = level.above_base * less;
         let below_saddle = d.saddle_energy() - above_base;
-        let other = hop(d, OrbitLevel { above_base, below_saddle }).to_f64();
+        let other = hop(d, Energy { above_base, below_saddle }).to_f64();
         let by_energy = (half - other).abs() / DIFFERENCE;
         let rounding = 8.0 * N::ROUNDOFF * half;
         let late = self.late + 2.0 * (by_energy * energy + rounding);
@@ -290,7 +285,7 @@ impl<N: Real> Coast<'_, N> {
 fn fly_out<N: Real>(
     ask: &Coast<'_, N>,
     motion: BlockMotion<N>,
-    level: OrbitLevel<N>,
+    level: Energy<N>,
     margin: f64,
     record: &mut RunTrace<N>,
 ) -> CoastFate<N> {
@@ -308,11 +303,7 @@ fn fly_out<N: Real>(
 }
 
 /// Time (in 1/p) from a state to overturning on the branch that it is on.
-fn time_out<N: Real>(
-    d: &Dynamics<N>,
-    (u, w): (N, N),
-    level: OrbitLevel<N>,
-) -> N {
+fn time_out<N: Real>(d: &Dynamics<N>, (u, w): (N, N), level: Energy<N>) -> N {
     let here = OrbitPlace { u, speed: w.abs() };
     let end = OrbitPlace { u: d.limit, speed: speed_at(d, d.limit, level) };
     if !(u < d.limit) {
@@ -385,7 +376,7 @@ fn hops<N: Real>(
     ask: &Coast<'_, N>,
     record: &mut RunTrace<N>,
     first_s: N,
-    before: OrbitLevel<N>,
+    before: Energy<N>,
     state: (N, N),
     mut errors: Option<CoastErrors>,
 ) {

@@ -32,7 +32,7 @@ pub(crate) use step::last_term;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
-use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, PiecePlace};
+use crate::integrator::forcing::{Forcing, Moment, NEAR_THRESHOLD};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
 use crate::integrator::{
@@ -107,7 +107,7 @@ pub(crate) enum Again {
 pub(crate) enum Flight<N> {
     /// At rest from this place on; the time (s) is when the last of the
     /// impacts has accumulated.
-    Rest(PiecePlace<N>, N),
+    Rest(Moment<N>, N),
     /// Overturned.
     Overturned { time_s: N, side: Side, margin: f64 },
     /// Nothing that the excitation has left can overturn the block or raise
@@ -124,7 +124,7 @@ pub(crate) enum Flight<N> {
 /// Motion about to enter a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<N> {
-    pub place: PiecePlace<N>,
+    pub place: Moment<N>,
     /// Number of the step within its piece.
     pub index: usize,
     pub motion: BlockMotion<N>,
@@ -133,7 +133,7 @@ pub(crate) struct Step<N> {
 }
 
 /// Where a run stands between steps.
-pub(crate) enum FlightStage<N> {
+pub(crate) enum Stage<N> {
     /// In flight, about to enter a step.
     Flying(Step<N>),
     /// Nothing is left to step.
@@ -220,11 +220,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 return Err(error);
             }
             match stage {
-                FlightStage::Flying(step) => {
+                Stage::Flying(step) => {
                     see(&self, &step);
                     stage = self.proceed::<SIZE>(step);
                 }
-                FlightStage::Landed(flight) => {
+                Stage::Landed(flight) => {
                     return self.within_limit(&flight);
                 }
             }
@@ -233,14 +233,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// Goes to the first step in flight.
     #[inline(always)]
-    pub fn begin(
-        &mut self,
-        scene: &Scene<'_>,
-        observe: &Observe,
-    ) -> FlightStage<N> {
+    pub fn begin(&mut self, scene: &Scene<'_>, observe: &Observe) -> Stage<N> {
         self.observe(observe);
         self.record.forces = observe.forces.then(|| Forces::at_rest(scene));
-        let start = PiecePlace { piece: 0, offset: N::zero() };
+        let start = Moment { piece: 0, offset: N::zero() };
         if !(scene.initial_ratio > 0.0) {
             return self.uplift(start, N::zero());
         }
@@ -251,7 +247,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         for tracker in self.record.trackers() {
             tracker.release(u.to_f64());
         }
-        FlightStage::Flying(Step {
+        Stage::Flying(Step {
             place: start,
             index: 0,
             motion,
@@ -321,9 +317,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// From a place at rest to the next uplift, if there is one.
     #[inline(always)]
-    fn uplift(&mut self, from: PiecePlace<N>, since_s: N) -> FlightStage<N> {
+    fn uplift(&mut self, from: Moment<N>, since_s: N) -> Stage<N> {
         if self.is_settled(from.piece, N::zero()) {
-            return FlightStage::Landed(Flight::Settled);
+            return Stage::Landed(Flight::Settled);
         }
         let (found, scan) =
             self.forcing.exceedance(from, self.dynamics.threshold);
@@ -337,13 +333,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             screen.doubt = N::one() / N::zero();
         }
         let Some(found) = found else {
-            return FlightStage::Landed(Flight::Rest(from, since_s));
+            return Stage::Landed(Flight::Rest(from, since_s));
         };
         self.screen = self.screen.map(Screen::start);
         let time_s = self.time_s(found.place);
         self.assess_first_uplift(&found, time_s);
         if !self.observes(time_s) {
-            return FlightStage::Landed(Flight::Rest(from, since_s));
+            return Stage::Landed(Flight::Rest(from, since_s));
         }
         self.sample_rest(time_s);
         self.record.work.uplifts += 1;
@@ -354,7 +350,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let side =
             if found.positive { Side::Negative } else { Side::Positive };
         let motion = BlockMotion { side, u: N::zero(), w: N::zero() };
-        FlightStage::Flying(Step {
+        Stage::Flying(Step {
             place: found.place,
             index: self.step_index(found.place),
             motion,
@@ -368,22 +364,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     pub fn proceed<const SIZE: usize>(
         &mut self,
         mut step: Step<N>,
-    ) -> FlightStage<N> {
+    ) -> Stage<N> {
         match self.next::<SIZE>(&mut step) {
-            None => FlightStage::Flying(step),
+            None => Stage::Flying(step),
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
-            Some(flight) => FlightStage::Landed(flight),
+            Some(flight) => Stage::Landed(flight),
         }
     }
 
     /// From an impact elsewhere that leaves a speed, after which the block
     /// comes to rest within `after` (in 1/p), to the next uplift.
-    pub fn rest(
-        &mut self,
-        impact: PiecePlace<N>,
-        w: N,
-        after: N,
-    ) -> FlightStage<N> {
+    pub fn rest(&mut self, impact: Moment<N>, w: N, after: N) -> Stage<N> {
         let (place, time_s) = self.later(impact, w, after);
         self.uplift(place, time_s)
     }
@@ -391,18 +382,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Where in the same piece, and when (s), a block has come to rest some
     /// time (in 1/p) after an impact that leaves a speed.
     #[inline(always)]
-    fn later(
-        &mut self,
-        place: PiecePlace<N>,
-        w: N,
-        after: N,
-    ) -> (PiecePlace<N>, N) {
+    fn later(&mut self, place: Moment<N>, w: N, after: N) -> (Moment<N>, N) {
         let left = self.forcing.length(place.piece) - place.offset;
         let rest = |screen: Screen<N>| screen.rest(w, after, left - after);
         self.screen = self.screen.map(rest);
         let time_s = self.time_s(place) + after / self.dynamics.p;
         let offset = place.offset + after;
-        (PiecePlace { offset, ..place }, time_s)
+        (Moment { offset, ..place }, time_s)
     }
 
     /// One step, or the part of it up to an impact.
@@ -454,12 +440,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 tracker.rest_surely(false);
             }
             step.index = 0;
-            step.place = PiecePlace { piece: piece + 1, offset: N::zero() };
+            step.place = Moment { piece: piece + 1, offset: N::zero() };
         }
         None
     }
 
-    pub fn time_s(&self, place: PiecePlace<N>) -> N {
+    pub fn time_s(&self, place: Moment<N>) -> N {
         let pieces = self.forcing.pieces();
         if place.piece >= pieces {
             return self.end_s();
@@ -478,7 +464,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    fn step_index(&self, place: PiecePlace<N>) -> usize {
+    fn step_index(&self, place: Moment<N>) -> usize {
         let steps = self.forcing.steps();
         let share = place.offset / self.forcing.length(place.piece);
         let index = share.to_f64() * steps as f64;

@@ -47,7 +47,7 @@ const WALKED: u64 = 128;
 /// A place in the excitation: a piece and the time since its start, in units
 /// of 1/p.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PiecePlace<N> {
+pub(crate) struct Moment<N> {
     pub piece: usize,
     pub offset: N,
 }
@@ -55,7 +55,7 @@ pub(crate) struct PiecePlace<N> {
 /// Where a resting block lifts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exceedance<N> {
-    pub place: PiecePlace<N>,
+    pub place: Moment<N>,
     /// Sign of the ground acceleration.
     pub positive: bool,
     /// True where the acceleration crosses the threshold there, false where
@@ -96,13 +96,13 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     fn steps(&self) -> usize;
 
     /// Series of a/g about a place.
-    fn series(&self, place: PiecePlace<N>) -> [N; F];
+    fn series(&self, place: Moment<N>) -> [N; F];
 
     /// First place from `from` on where |a/g| exceeds `threshold`, and what
     /// was seen on the way.
     fn exceedance(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>);
 
@@ -199,7 +199,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
     }
 
     #[inline(always)]
-    fn series(&self, place: PiecePlace<N>) -> [N; 2] {
+    fn series(&self, place: Moment<N>) -> [N; 2] {
         let here = self.sample(place.piece);
         let next = self.sample(place.piece + 1);
         let rate = (next - here) * self.inverse;
@@ -208,7 +208,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 
     fn exceedance(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>) {
         let amplitude = self.record.amplitude().abs();
@@ -226,7 +226,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
             scanned += 1;
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
-            let found = self.within(PiecePlace { piece, offset }, threshold);
+            let found = self.within(Moment { piece, offset }, threshold);
             let own = self.gap(piece, threshold);
             gap = if own < gap { own } else { gap };
             if found.is_some() {
@@ -246,7 +246,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 impl<N: Real> RecordForcing<'_, N> {
     /// Distance of |a/g| from the threshold at the first sample, where a
     /// block rests from there on and |a/g| does not rise; else the threshold.
-    fn gap_at_start(&self, from: PiecePlace<N>, threshold: N) -> N {
+    fn gap_at_start(&self, from: Moment<N>, threshold: N) -> N {
         let is_start = from.piece == 0 && from.offset == N::zero();
         let [first, second] = [0, 1].map(|i| self.sample(i).abs());
         if is_start && !(second > first) {
@@ -271,11 +271,7 @@ impl<N: Real> RecordForcing<'_, N> {
     }
 
     /// Exceedance within one interval, from an offset on.
-    fn within(
-        &self,
-        from: PiecePlace<N>,
-        threshold: N,
-    ) -> Option<Exceedance<N>> {
+    fn within(&self, from: Moment<N>, threshold: N) -> Option<Exceedance<N>> {
         let here = self.series(from)[0];
         if here.abs() > threshold {
             let positive = here > N::zero();
@@ -295,7 +291,7 @@ impl<N: Real> RecordForcing<'_, N> {
         let share = (level - first) / (next - first);
         let offset = share * self.length;
         let offset = if offset > from.offset { offset } else { from.offset };
-        let place = PiecePlace { piece: from.piece, offset };
+        let place = Moment { piece: from.piece, offset };
         Some(Exceedance { place, positive, crossing: true })
     }
 }
@@ -350,7 +346,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         end_s * self.p.to_f64()
     }
 
-    fn series(&self, place: PiecePlace<N>) -> [N; F] {
+    fn series(&self, place: Moment<N>) -> [N; F] {
         let stretch = self.of(place.piece);
         let t = stretch.start_s(place.piece) + place.offset / self.p;
         shape_series(&stretch.shape, t, self.p)
@@ -358,7 +354,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 
     fn exceedance(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>) {
         let mut gap = threshold;
@@ -382,7 +378,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             scanned += 1;
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
-            let place = PiecePlace { piece, offset };
+            let place = Moment { piece, offset };
             let series: [N; F] = self.series(place);
             let above = series[0].abs() > threshold;
             // At the very first instant, or after a jump, the block lifts
@@ -429,7 +425,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 }
             }
             if let Some((tau, positive)) = first {
-                let place = PiecePlace { piece, offset: offset + tau };
+                let place = Moment { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
                 let beyond = self.beyond::<F>(place, threshold);
                 gap = if beyond < gap { beyond } else { gap };
@@ -444,7 +440,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 impl<N: Real> PulseForcing<N> {
     /// How far |a/g| rises beyond the threshold from a place on where it
     /// passes it, looked at until it is far beyond.
-    fn beyond<const F: usize>(&self, from: PiecePlace<N>, threshold: N) -> N
+    fn beyond<const F: usize>(&self, from: Moment<N>, threshold: N) -> N
     where
         Self: Forcing<N, F>,
     {
@@ -463,7 +459,7 @@ impl<N: Real> PulseForcing<N> {
             if most > far || top.is_some() {
                 return most;
             }
-            place = PiecePlace { piece: place.piece + 1, offset: N::zero() };
+            place = Moment { piece: place.piece + 1, offset: N::zero() };
         }
         most
     }
@@ -474,7 +470,7 @@ impl<N: Real> PulseForcing<N> {
     /// takes a share of the distance.
     fn gap_at_edges<const F: usize>(
         &self,
-        place: PiecePlace<N>,
+        place: Moment<N>,
         series: &[N; F],
         threshold: N,
     ) -> N
@@ -484,7 +480,7 @@ impl<N: Real> PulseForcing<N> {
         let length = self.of(place.piece).length(self.p);
         let ends = place.piece + 1 == self.count();
         let last: Option<[N; F]> =
-            ends.then(|| self.series(PiecePlace { offset: length, ..place }));
+            ends.then(|| self.series(Moment { offset: length, ..place }));
         let rises = |c: &[N; F]| {
             if c[0] < N::zero() { c[1] < N::zero() } else { c[1] > N::zero() }
         };

@@ -25,9 +25,9 @@ mod waiting;
 
 use crate::excitation::Excitation;
 use crate::integrator::class::{Class, LONGEST};
-use crate::integrator::driver::{Driver, Flight, FlightStage};
+use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
-use crate::integrator::forcing::{PiecePlace, RecordForcing, steps_of};
+use crate::integrator::forcing::{Moment, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
 use crate::number::dispatch::{Isa, WithSimd};
 use crate::number::lanes::{Simd, WIDTH};
@@ -236,11 +236,11 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         while let Some(slot) = &mut self.slots[k] {
             let refused = slot.driver.refusal(&slot.stage).is_some();
             match slot.stage {
-                FlightStage::Flying(_) if refused => {
+                Stage::Flying(_) if refused => {
                     settled = true;
                     self.settle(k, None);
                 }
-                FlightStage::Flying(step)
+                Stage::Flying(step)
                     if !step.at_threshold
                         && step.place.offset
                             < slot.driver.forcing().step() =>
@@ -248,10 +248,8 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                     groups[lane.group()].load(lane.lane(), slot);
                     break;
                 }
-                FlightStage::Flying(step) => {
-                    slot.advance::<LEN>(step, self.isa)
-                }
-                FlightStage::Landed(ref flight) => {
+                Stage::Flying(step) => slot.advance::<LEN>(step, self.isa),
+                Stage::Landed(ref flight) => {
                     let response = slot.driver.within_limit(flight).ok();
                     settled = true;
                     self.settle(k, response.as_ref());
@@ -288,7 +286,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                 self.tally.left += 1;
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 group.release(lane, slot);
-                if let FlightStage::Flying(step) = slot.stage {
+                if let Stage::Flying(step) = slot.stage {
                     slot.advance::<LEN>(step, self.isa);
                 }
                 settled |= self.proceed(id, groups);
@@ -302,7 +300,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
             self.tally.solved += 1;
             if solved.turned & bit != 0 {
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
-                let place = PiecePlace {
+                let place = Moment {
                     piece: group.next[lane] as usize - 1,
                     offset: group.offset[lane],
                 };
@@ -332,7 +330,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                     };
                     group.release(lane, slot);
                     if solved.settled & bit != 0 {
-                        slot.stage = FlightStage::Landed(Flight::Settled);
+                        slot.stage = Stage::Landed(Flight::Settled);
                     } else if solved.rested & bit != 0 {
                         slot.rest(solved.rest[i]);
                     }

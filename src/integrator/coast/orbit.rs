@@ -8,12 +8,12 @@ use crate::number::Real;
 /// because near the saddle their sum is known and their difference is what
 /// matters.
 #[derive(Clone, Copy)]
-pub(super) struct OrbitLevel<N> {
+pub(super) struct Energy<N> {
     pub above_base: N,
     pub below_saddle: N,
 }
 
-impl<N: Real> OrbitLevel<N> {
+impl<N: Real> Energy<N> {
     pub fn of(d: &Dynamics<N>, u: N, w: N) -> Self {
         Self {
             above_base: (N::ratio(1, 2) * w).mul_add(w, d.potential(u)),
@@ -37,7 +37,7 @@ impl<N: Real> OrbitLevel<N> {
 /// Eq. 1: u = 2 asin[(D/2)/sin((alpha + psi)/2)] with
 /// sin(psi/2) = sqrt(q/2), q below the saddle; Eq. 2:
 /// u = 2 D/(alpha + sqrt(2 q)).
-pub(super) fn turning<N: Real>(d: &Dynamics<N>, level: OrbitLevel<N>) -> N {
+pub(super) fn turning<N: Real>(d: &Dynamics<N>, level: Energy<N>) -> N {
     let two = N::from_f64(2.0);
     let half = N::ratio(1, 2);
     let (energy, room) = (level.above_base, level.below_saddle);
@@ -56,7 +56,7 @@ pub(super) fn turning<N: Real>(d: &Dynamics<N>, level: OrbitLevel<N>) -> N {
 /// Eq. 1: sqrt(D/2) R_F(q^2 c^2, q^2 (1 - q^2), s^2 (1 - q^2)) with
 /// s = sin(alpha/2), c = cos(alpha/2), q^2 = s^2 - D/2. Eq. 2: atanh(v),
 /// v = sqrt(2 D)/alpha.
-pub(super) fn hop<N: Real>(d: &Dynamics<N>, level: OrbitLevel<N>) -> N {
+pub(super) fn hop<N: Real>(d: &Dynamics<N>, level: Energy<N>) -> N {
     let half = N::ratio(1, 2);
     match d.model {
         Model::Nonlinear => {
@@ -90,11 +90,7 @@ pub(super) struct OrbitPlace<N> {
 }
 
 /// Velocity at rotation u of a level.
-pub(super) fn speed_at<N: Real>(
-    d: &Dynamics<N>,
-    u: N,
-    level: OrbitLevel<N>,
-) -> N {
+pub(super) fn speed_at<N: Real>(d: &Dynamics<N>, u: N, level: Energy<N>) -> N {
     let y = d.alpha - u;
     let q = level.below_saddle + level.below_saddle;
     match d.model {
@@ -113,7 +109,7 @@ pub(super) fn transit<N: Real>(
     d: &Dynamics<N>,
     from: OrbitPlace<N>,
     to: OrbitPlace<N>,
-    level: OrbitLevel<N>,
+    level: Energy<N>,
 ) -> N {
     let high = (d.alpha - from.u, from.speed);
     let low = (d.alpha - to.u, to.speed);

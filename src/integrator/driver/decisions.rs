@@ -8,7 +8,7 @@ use crate::integrator::driver::Driver;
 use crate::integrator::driver::events::next_turning;
 use crate::integrator::driver::impact::Chatter;
 use crate::integrator::dynamics::{Drive, Model};
-use crate::integrator::forcing::{Forcing, LONGEST_STEP, PiecePlace};
+use crate::integrator::forcing::{Forcing, LONGEST_STEP, Moment};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::PROPAGATION;
 use crate::integrator::taylor::{TaylorSeries, value};
@@ -51,10 +51,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         x: N,
         step: &StepErrors<N>,
         drive: &Drive<N, F>,
-        place: PiecePlace<N>,
+        place: Moment<N>,
     ) {
         let flown = self.flown(step, drive);
-        let end = PiecePlace { offset: place.offset + step.tau, ..place };
+        let end = Moment { offset: place.offset + step.tau, ..place };
         let time_s = self.time_s(end).to_f64();
         let mut worst = 0.0_f64;
         for tracker in self.record.trackers() {
@@ -245,7 +245,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn assess_impact(
         &mut self,
-        place: PiecePlace<N>,
+        place: Moment<N>,
         speed: N,
         before: N,
         f: &[N; F],
@@ -279,7 +279,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// the piece, the errors of its time and speed being what they are.
     fn surely_rests(
         &self,
-        place: PiecePlace<N>,
+        place: Moment<N>,
         speed: f64,
         errors: [f64; 2],
         f: &[N; F],
@@ -339,7 +339,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn assess_beyond(
         &mut self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         motion: BlockMotion<N>,
     ) {
         let time_s = self.time_s(from).to_f64();
@@ -363,7 +363,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// error is no longer small.
     fn clearance_beyond(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         motion: BlockMotion<N>,
         mut tracker: Accuracy,
     ) -> f64 {
@@ -371,14 +371,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let small = LARGEST_ERROR * self.dynamics.alpha.to_f64();
         let below = N::right_angle() + N::right_angle();
         let BlockMotion { side, mut u, mut w } = motion;
-        let PiecePlace { mut piece, mut offset } = from;
+        let Moment { mut piece, mut offset } = from;
         let mut best = 0.0;
         while piece < self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
             let part = N::from_f64(LONGEST_STEP);
             let (tau, whole) =
                 if part < left { (part, false) } else { (left, true) };
-            let f = self.oriented(PiecePlace { piece, offset }, side, false);
+            let f = self.oriented(Moment { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
             let series: TaylorSeries<N, HARD> =
                 self.expand((u, w), tau, &drive);

@@ -3,7 +3,7 @@
 use crate::integrator::coast::{Coast, coast};
 use crate::integrator::driver::{Driver, Flight};
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::taylor::{TaylorSeries, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
@@ -34,7 +34,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         (tau, length): (N, N),
-        place: PiecePlace<N>,
+        place: Moment<N>,
         side: Side,
     ) {
         let Some(interval) = self.interval_s else { return };

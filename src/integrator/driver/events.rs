@@ -3,7 +3,7 @@
 
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{TaylorSeries, value};
@@ -69,7 +69,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         x: N,
-        step: (PiecePlace<N>, N),
+        step: (Moment<N>, N),
     ) {
         let TaylorSeries { c, v } = series;
         let mut rest = N::zero();
@@ -95,7 +95,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         x: N,
-        step: (PiecePlace<N>, N),
+        step: (Moment<N>, N),
     ) {
         let isa = self.isa;
         isa.run(TurningKernel { driver: self, series, x, step });
@@ -106,7 +106,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         x: N,
-        (place, length): (PiecePlace<N>, N),
+        (place, length): (Moment<N>, N),
     ) {
         let isa = self.isa;
         let mut v = series.v;
@@ -127,13 +127,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// Counts a turning point at `u`, `tau` after a place, if it is the
     /// highest.
-    pub fn raise_peak(&mut self, u: N, place: PiecePlace<N>, tau: N) {
+    pub fn raise_peak(&mut self, u: N, place: Moment<N>, tau: N) {
         if u > self.record.peak {
             self.record.work.turning_points += 1;
             self.record.peak = u;
             self.exit_from = place.piece.saturating_add(PATIENCE);
             let offset = place.offset + tau;
-            let time_s = self.time_s(PiecePlace { offset, ..place });
+            let time_s = self.time_s(Moment { offset, ..place });
             self.record.peak_time_s = Some(time_s);
             self.screen = self.screen.map(|screen| screen.top(tau));
             for tracker in self.record.trackers() {
@@ -148,7 +148,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(never)]
     pub(super) fn margin_beyond<const SIZE: usize>(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         motion: BlockMotion<N>,
     ) -> f64 {
         self.isa.run(Beyond::<_, _, SIZE, _, _> { driver: self, from, motion })
@@ -157,7 +157,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn turning_beyond<const SIZE: usize>(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         motion: BlockMotion<N>,
     ) -> f64 {
         let BlockMotion { side, mut u, mut w } = motion;
@@ -168,7 +168,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let mut offset = from.offset;
         for piece in from.piece..self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
-            let f = self.oriented(PiecePlace { piece, offset }, side, false);
+            let f = self.oriented(Moment { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
             let series: TaylorSeries<N, SIZE> =
                 self.expand((u, w), left, &drive);
@@ -205,7 +205,7 @@ fn is_clear_of_base<N: Real>(
 /// The margin of an overturning, compiled for each instruction-set level.
 struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
     driver: &'d Driver<N, G, F, HARD>,
-    from: PiecePlace<N>,
+    from: Moment<N>,
     motion: BlockMotion<N>,
 }
 
@@ -235,7 +235,7 @@ struct TurningKernel<
     driver: &'d mut Driver<N, G, F, HARD>,
     series: &'d TaylorSeries<N, LEN>,
     x: N,
-    step: (PiecePlace<N>, N),
+    step: (Moment<N>, N),
 }
 
 impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel

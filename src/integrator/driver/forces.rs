@@ -18,7 +18,7 @@ use crate::excitation::Excitation;
 use crate::integrator::Scene;
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::{Dynamics, Model, uplift_threshold};
-use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::taylor::{TaylorSeries, value};
 use crate::number::Real;
 use crate::number::dispatch::Kernel;
@@ -121,7 +121,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         series: &TaylorSeries<N, LEN>,
         f: &[N; F],
         (x, length): (N, N),
-        place: PiecePlace<N>,
+        place: Moment<N>,
     ) {
         let Some(seen) = self.record.forces else { return };
         let start_s = self.time_s(place).to_f64();

@@ -1,6 +1,6 @@
 //! The work of a run is bounded, and may be stopped.
 
-use crate::integrator::driver::{Driver, Flight, FlightStage};
+use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::forcing::Forcing;
 use crate::integrator::motion::RunTrace;
 use crate::integrator::{Response, SceneError, Work, WorkLimit};
@@ -40,9 +40,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// Why a run that stands here is refused, if it is.
     #[inline(always)]
-    pub fn refusal(&mut self, stage: &FlightStage<N>) -> Option<SceneError> {
+    pub fn refusal(&mut self, stage: &Stage<N>) -> Option<SceneError> {
         stop::point();
-        if let FlightStage::Flying(step) = stage {
+        if let Stage::Flying(step) = stage {
             let Work { impacts, steps, .. } = self.record.work;
             if impacts > self.limit.impacts || steps > self.limit.steps {
                 let time_s = self.time_s(step.place);

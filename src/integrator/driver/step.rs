@@ -4,7 +4,7 @@ use crate::integrator::driver::decisions::StepErrors;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Advance, Driver, Flight, Step};
 use crate::integrator::dynamics::{Drive, Model, curvature};
-use crate::integrator::forcing::{Forcing, PiecePlace};
+use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::screen::ScreenFlight;
 use crate::integrator::taylor::{TaylorSeries, expand, slope, value};
@@ -222,7 +222,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub(super) fn oriented(
         &self,
-        place: PiecePlace<N>,
+        place: Moment<N>,
         side: Side,
         exact: bool,
     ) -> [N; F] {

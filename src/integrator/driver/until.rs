@@ -11,9 +11,9 @@ use crate::integrator::HistoryPoint;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::certificate::CLEARANCE;
 use crate::integrator::coast::last;
-use crate::integrator::driver::{Driver, Flight, FlightStage, Step};
+use crate::integrator::driver::{Driver, Flight, Stage, Step};
 use crate::integrator::forcing::{
-    Exceedance, Forcing, GroundForcing, NEAR_THRESHOLD, PiecePlace,
+    Exceedance, Forcing, GroundForcing, Moment, NEAR_THRESHOLD,
 };
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
@@ -209,19 +209,19 @@ impl<N: Real, const LEN: usize> Driver<N, GroundForcing<'_, N>, LEN, LEN> {
     /// Flies from the start on to the end of the flight, or to the limit of
     /// work.
     fn fly_free(&mut self, motion: BlockMotion<N>) -> Flight<N> {
-        let mut stage = FlightStage::Flying(Step {
-            place: PiecePlace { piece: 0, offset: N::zero() },
+        let mut stage = Stage::Flying(Step {
+            place: Moment { piece: 0, offset: N::zero() },
             index: 0,
             motion,
             at_threshold: false,
         });
         loop {
             stage = match stage {
-                FlightStage::Landed(flight) => return flight,
-                FlightStage::Flying(_) if self.refusal(&stage).is_some() => {
+                Stage::Landed(flight) => return flight,
+                Stage::Flying(_) if self.refusal(&stage).is_some() => {
                     return Flight::Stopped;
                 }
-                FlightStage::Flying(step) => self.proceed::<LEN>(step),
+                Stage::Flying(step) => self.proceed::<LEN>(step),
             };
         }
     }

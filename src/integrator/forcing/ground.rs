@@ -4,8 +4,8 @@
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::Scene;
 use crate::integrator::forcing::{
-    Exceedance, Forcing, LONGEST_STEP, PiecePlace, PulseForcing,
-    RecordForcing, Remainder, RestScan,
+    Exceedance, Forcing, LONGEST_STEP, Moment, PulseForcing, RecordForcing,
+    Remainder, RestScan,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
@@ -109,7 +109,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for GroundForcing<'_, N> {
         }
     }
 
-    fn series(&self, place: PiecePlace<N>) -> [N; F] {
+    fn series(&self, place: Moment<N>) -> [N; F] {
         let mut series = [N::zero(); F];
         match self {
             Self::Record(record) => {
@@ -125,7 +125,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for GroundForcing<'_, N> {
 
     fn exceedance(
         &self,
-        from: PiecePlace<N>,
+        from: Moment<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>) {
         match self {

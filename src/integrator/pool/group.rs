@@ -7,7 +7,7 @@
 
 use crate::integrator::Side;
 use crate::integrator::class::is_fixed;
-use crate::integrator::driver::FlightStage;
+use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
@@ -181,7 +181,7 @@ impl<'a> LaneGroup<'a> {
         self.hand_screen(lane, slot);
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
-        let FlightStage::Flying(step) = &mut slot.stage else { return };
+        let Stage::Flying(step) = &mut slot.stage else { return };
         step.place.piece = self.piece(lane);
         step.place.offset = self.offset[lane];
         step.motion.u = self.u[lane];
@@ -193,8 +193,7 @@ impl<'a> LaneGroup<'a> {
     #[inline(always)]
     pub fn load<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let screen = *slot.driver.screen();
-        let (driver, FlightStage::Flying(step)) = (&slot.driver, &slot.stage)
-        else {
+        let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;
         };
         let dynamics = driver.dynamics();

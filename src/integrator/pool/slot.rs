@@ -1,7 +1,7 @@
 //! A run in its slot, and what the scalar driver does with it.
 
 use crate::integrator::class::LONGEST;
-use crate::integrator::driver::{Driver, FlightStage, Step};
+use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::forcing::RecordForcing;
 use crate::number::dispatch::{Isa, Kernel};
 
@@ -12,7 +12,7 @@ pub(super) type Run<'a> = Driver<f64, RecordForcing<'a, f64>, 2, LONGEST>;
 pub(super) struct Slot<'a, T> {
     pub task: T,
     pub driver: Run<'a>,
-    pub stage: FlightStage<f64>,
+    pub stage: Stage<f64>,
     /// Cached result of [`exit_from`](Self::exit_from), and the peak for
     /// which it is valid.
     exit_from: usize,
@@ -20,13 +20,13 @@ pub(super) struct Slot<'a, T> {
 }
 
 impl<'a, T> Slot<'a, T> {
-    pub fn new(task: T, driver: Run<'a>, stage: FlightStage<f64>) -> Self {
+    pub fn new(task: T, driver: Run<'a>, stage: Stage<f64>) -> Self {
         Self { task, driver, stage, exit_from: usize::MAX, seen: 0.0 }
     }
 
     /// Comes to rest, some time after an impact.
     pub fn rest(&mut self, after: f64) {
-        if let FlightStage::Flying(step) = &self.stage {
+        if let Stage::Flying(step) = &self.stage {
             self.stage = self.driver.rest(step.place, step.motion.w, after);
         }
     }
@@ -58,10 +58,10 @@ struct Alone<'r, 'a, const LEN: usize> {
 }
 
 impl<const LEN: usize> Kernel for Alone<'_, '_, LEN> {
-    type Output = FlightStage<f64>;
+    type Output = Stage<f64>;
 
     #[inline(always)]
-    fn run(self) -> FlightStage<f64> {
+    fn run(self) -> Stage<f64> {
         self.driver.proceed::<LEN>(self.step)
     }
 }

@@ -1,9 +1,9 @@
 use crate::block::{Block, Restitution};
 use crate::excitation::{Pulse, PulseKind};
 use crate::integrator::Side;
-use crate::integrator::driver::{Driver, FlightStage, Step};
+use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::forcing::{PiecePlace, PulseForcing};
+use crate::integrator::forcing::{Moment, PulseForcing};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::screen::{DOUBTFUL, PROPAGATION, Screen};
 use crate::number::dispatch::Isa;
@@ -31,12 +31,12 @@ fn estimate(lowest: f64, deviation: f64) -> f64 {
     let (b, w) = (1.0 - ALPHA, -0.01_f64);
     let u = (w * w + (lowest + b) * (lowest + b)).sqrt() - b;
     let step = Step {
-        place: PiecePlace { piece: 0, offset: 0.0 },
+        place: Moment { piece: 0, offset: 0.0 },
         index: 0,
         motion: BlockMotion { side: Side::Positive, u, w },
         at_threshold: false,
     };
-    let FlightStage::Flying(after) = driver.proceed::<12>(step) else {
+    let Stage::Flying(after) = driver.proceed::<12>(step) else {
         panic!("the block stays in flight");
     };
     assert!(after.motion.w > 0.0 && after.motion.u > lowest);

@@ -2,7 +2,7 @@ use super::{Event, is_clear_of_base};
 use crate::block::{Block, Restitution};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::forcing::{GroundForcing, PiecePlace};
+use crate::integrator::forcing::{GroundForcing, Moment};
 use crate::integrator::taylor::TaylorSeries;
 use crate::number::dispatch::Isa;
 
@@ -70,7 +70,7 @@ fn turning_points_count_where_they_raise_the_peak() {
     let counted = |v: [f64; 4], peak: f64| {
         let mut driver = driver();
         driver.record.peak = peak;
-        let place = PiecePlace { piece: 0, offset: 0.0 };
+        let place = Moment { piece: 0, offset: 0.0 };
         driver.turning_points(&TaylorSeries { c, v }, 1.0, (place, 1.0));
         (driver.record.work.turning_points, driver.record.peak)
     };

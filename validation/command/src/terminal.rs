@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use crate::failure::Failure;
-use rocking_common::files::standard_output;
+use rocking_common::files::{Outputs, standard_output};
 use rocking_common::words::printable;
 
 /// Name, version and commit of the program, for results that are not
@@ -39,6 +39,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// [`Failure`] when standard output cannot be written.
 pub fn say(text: &str) -> Result<(), Failure> {
     write(Ok(io::stdout()), text)
+}
+
+/// Prints a summary beside files: on standard error, where an output takes
+/// standard output.
+///
+/// # Errors
+/// As [`say`].
+pub fn print_beside(outputs: &Outputs, text: &str) -> Result<(), Failure> {
+    if outputs.take_standard_output() {
+        eprint!("{}", printable(text));
+        return Ok(());
+    }
+    say(text)
 }
 
 fn write(out: io::Result<io::Stdout>, text: &str) -> Result<(), Failure> {

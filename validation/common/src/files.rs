@@ -52,7 +52,8 @@ enum Sink {
 /// use std::path::Path;
 /// use rocking_common::files::Outputs;
 /// let mut outputs = Outputs::default();
-/// assert!(outputs.open(Path::new("-"))?.is_standard());
+/// let output = outputs.open(Path::new("-"))?;
+/// assert!(outputs.take_standard_output());
 /// let twice = outputs.open(Path::new("-")).unwrap_err().to_string();
 /// assert!(twice.contains("another output goes there"));
 /// # Ok::<(), rocking_common::files::WriteError>(())
@@ -121,6 +122,13 @@ impl Outputs {
         path.map(|path| self.open(path)).transpose()
     }
 
+    /// Whether one of them goes to standard output, where then nothing else
+    /// is printed.
+    #[must_use]
+    pub fn take_standard_output(&self) -> bool {
+        self.taken.contains(&Place::Standard)
+    }
+
     fn sink(&mut self, path: &Path) -> io::Result<Sink> {
         let sink = Sink::open(path, &self.inputs)?;
         if let Some(place) = Place::of(&sink)? {
@@ -136,12 +144,6 @@ impl Outputs {
 }
 
 impl Output {
-    /// Whether it is standard output.
-    #[must_use]
-    pub fn is_standard(&self) -> bool {
-        matches!(self.sink, Sink::Standard(_))
-    }
-
     /// Writes all of it.
     ///
     /// # Errors

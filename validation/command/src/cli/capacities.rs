@@ -206,14 +206,11 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
     let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::PGA);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
-    let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
+    let mut outputs = Outputs::of(inputs);
+    let out = outputs.open_some(args.out.as_ref())?;
     let (table, suite, set_aside) = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, out) {
-        let is_standard = out.is_standard();
         out.write(SampleFile::text(&table, &suite, measure, level, rule)?)?;
-        if is_standard {
-            return Ok(());
-        }
     }
     let measured = |im: f64| suite.measured(im);
     let record = |(record, curve): &(String, ResponseCurve)| {
@@ -240,7 +237,7 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
         levels,
         records,
     };
-    args.json.show(&found)
+    args.json.show_beside(&outputs, &found)
 }
 
 /// The curves of a table against a measure.

@@ -31,13 +31,13 @@ use super::shared::{JsonArg, PlotArg, ThreadsArg, positive};
 use super::show::shown;
 use super::way::WayArgs;
 use crate::failure::{Failure, ensure};
-use crate::terminal::{SOFTWARE, logged, progress, say};
+use crate::terminal::{SOFTWARE, logged, print_beside, progress};
 use rocking_common::files::{Output, Outputs};
 use rocking_common::suites::inputs::{BLOCK_SAMPLES, files, profiles, reread};
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::suites::{clusters, earthquakes};
 use rocking_common::table::body;
-use rocking_common::words::{printable, rounded};
+use rocking_common::words::rounded;
 use rocking_draw::figures::common;
 use rocking_draw::figures::of_suite::ida_svg;
 use rocking_exchange::ida::IdaTable;
@@ -168,7 +168,6 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let events = chosen
         .iter()
         .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")));
-    let is_standard = out.is_standard();
     let mut work = IdaRun {
         args,
         analysis: &analysis,
@@ -178,7 +177,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         bar: progress(chosen.len() as u64),
         out,
         forces_out,
-        curves: plot.is_asked().then(Vec::new),
+        curves: plot.is_some().then(Vec::new),
         summary: summarise_ida(&[], &analysis),
         pivot: None,
     };
@@ -209,9 +208,10 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     if let Some(out) = forces_out {
         out.finish()?;
     }
-    let drawn = plot.draw(|| svg(&curves.unwrap_or_default(), &analysis))?;
-    let is_standard = drawn || is_standard;
-    let as_json = args.json.json && !is_standard;
+    if let Some(out) = plot {
+        out.write(svg(&curves.unwrap_or_default(), &analysis)?)?;
+    }
+    let as_json = args.json.json && !outputs.take_standard_output();
     if !as_json {
         summary.curves.clear();
     }
@@ -227,12 +227,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         summary,
         pivot,
     };
-    let text = shown(as_json, &found)?;
-    if is_standard {
-        eprint!("{}", printable(&text));
-        return Ok(());
-    }
-    say(&text)
+    print_beside(&outputs, &shown(as_json, &found)?)
 }
 
 /// A suite that is worked off in blocks of records.

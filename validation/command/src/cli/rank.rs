@@ -114,11 +114,12 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
             rank(&capacities, &candidates, &covariates, &clusters, draws)?;
         Ok::<_, Failure>((ranking, ground.into_set_aside()))
     })??;
-    if plot.draw(|| Ok(ranking_svg(&ranking, &measures, args.at)))? {
-        return Ok(());
+    if let Some(out) = plot {
+        out.write(ranking_svg(&ranking, &measures, args.at))?;
     }
-    let point = args.point.to_string();
-    args.json.show(&RankSummary { edp: args.at, point, set_aside, ranking })
+    let (edp, point) = (args.at, args.point.to_string());
+    let found = RankSummary { edp, point, set_aside, ranking };
+    args.json.show_beside(&outputs, &found)
 }
 
 impl RankCommand {

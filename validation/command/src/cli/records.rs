@@ -209,10 +209,11 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let mut outputs = Outputs::of(listing.inputs.clone());
     let plot = args.plot.open(&mut outputs)?;
     let (records, done) = (&listing.records, processing.as_deref());
-    if listing.refused.is_empty()
-        && plot.draw(|| measures::svg(records, done, args.gravity))?
-    {
-        return Ok(());
+    if let Some(out) = plot.filter(|_| listing.refused.is_empty()) {
+        out.write(measures::svg(records, done, args.gravity)?)?;
+        if outputs.take_standard_output() {
+            return Ok(());
+        }
     }
     let measured = args.measures.run(records, args.gravity)?;
     let mut remarks: Vec<RecordFinding> =

@@ -17,11 +17,10 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg};
 use super::show::shown;
 use crate::failure::Failure;
-use crate::terminal::{patiently, print};
-use rocking_common::files::{Output, Outputs};
+use crate::terminal::{patiently, print_beside};
+use rocking_common::files::Outputs;
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::table::{Table, columns::HISTORY};
-use rocking_common::words::printable;
 use rocking_draw::figures::of_result::response_svg;
 
 /// Integrate one block under one excitation.
@@ -126,27 +125,27 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
     let observe = Observe {
         events: true,
         accuracy: true,
-        history_interval_s: (history.is_some() || plot.is_asked())
+        history_interval_s: (history.is_some() || plot.is_some())
             .then_some(interval_s),
         until_s: args.until,
         forces: args.forces,
         work_limit,
     };
     let mut response = respond(&scene, &observe).map_err(refused)?;
-    let is_printed = history.as_ref().is_some_and(Output::is_standard);
     if let Some(out) = history {
         out.write(history_csv(&scene, &response))?;
     }
     let (excitation, pga_g) = (args.excitation.name(), ground.pga_g);
-    let svg = || Ok(response_svg(&scene, &response, &excitation, pga_g));
-    let is_printed = plot.draw(svg)? || is_printed;
+    if let Some(out) = plot {
+        out.write(response_svg(&scene, &response, &excitation, pga_g))?;
+    }
     let certified = args
         .certify
         .then(|| certified(&scene, args.until, work_limit))
         .transpose()?;
     // The history has its file; text has the number of impacts alone.
     response.history.clear();
-    let as_json = args.json.json && !is_printed;
+    let as_json = args.json.json && !outputs.take_standard_output();
     if !as_json {
         response.impacts.clear();
         response.input_certificate = None;
@@ -176,12 +175,7 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
             intensity_pga: pga_g / threshold,
         },
     };
-    let text = shown(as_json, &result)?;
-    if is_printed {
-        eprint!("{}", printable(&text));
-        return Ok(());
-    }
-    print(&text)
+    print_beside(&outputs, &shown(as_json, &result)?)
 }
 
 /// The certified fate; where it takes long, with a word on how far it is.

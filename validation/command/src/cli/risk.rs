@@ -142,7 +142,8 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
         RiskBasis::Parameters(..) => Vec::new(),
     };
     let inputs = inputs.chain(named).chain([args.hazard.clone()]).collect();
-    let plot = args.plot.open(&mut Outputs::of(inputs))?;
+    let mut outputs = Outputs::of(inputs);
+    let plot = args.plot.open(&mut outputs)?;
     let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match &basis {
@@ -155,10 +156,10 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     };
     let years = args.site.years();
     let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
-    if plot.draw(|| svg(&hazard, &fragilities))? {
-        return Ok(());
+    if let Some(out) = plot {
+        out.write(svg(&hazard, &fragilities)?)?;
     }
-    args.json.show(&found)
+    args.json.show_beside(&outputs, &found)
 }
 
 /// Fragilities that one drawing can hold.

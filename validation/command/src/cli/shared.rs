@@ -35,6 +35,18 @@ impl JsonArg {
     pub fn show<T: Serialize>(self, result: &T) -> Result<(), Failure> {
         show(self.json, result)
     }
+
+    /// Prints a result, unless an output takes standard output.
+    ///
+    /// # Errors
+    /// As [`show()`].
+    pub fn show_beside<T: Serialize>(
+        self,
+        outputs: &Outputs,
+        result: &T,
+    ) -> Result<(), Failure> {
+        if outputs.take_standard_output() { Ok(()) } else { self.show(result) }
+    }
 }
 
 /// A drawing of the result; a command says by `mut_arg` what is drawn.
@@ -50,34 +62,11 @@ impl PlotArg {
     ///
     /// # Errors
     /// As [`Outputs::open`].
-    pub fn open(&self, outputs: &mut Outputs) -> Result<Plot, Failure> {
-        Ok(Plot(outputs.open_some(self.plot.as_ref())?))
-    }
-}
-
-/// Where a drawing goes.
-pub struct Plot(Option<Output>);
-
-impl Plot {
-    /// Whether a drawing is asked for.
-    #[must_use]
-    pub fn is_asked(&self) -> bool {
-        self.0.is_some()
-    }
-
-    /// Writes the drawing that is asked for; whether standard output has it,
-    /// where nothing else is printed then.
-    ///
-    /// # Errors
-    /// [`Failure`] for a drawing that is refused, and of the file.
-    pub fn draw(
-        self,
-        svg: impl FnOnce() -> Result<String, Failure>,
-    ) -> Result<bool, Failure> {
-        let Some(out) = self.0 else { return Ok(false) };
-        let is_standard = out.is_standard();
-        out.write(svg()?)?;
-        Ok(is_standard)
+    pub fn open(
+        &self,
+        outputs: &mut Outputs,
+    ) -> Result<Option<Output>, Failure> {
+        Ok(outputs.open_some(self.plot.as_ref())?)
     }
 }
 

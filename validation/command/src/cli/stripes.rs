@@ -82,18 +82,14 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     let curves = curves.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
     let axis = args.im.label();
-    let printed = plot.draw(|| Ok(stripes_svg(&curves, &stripes, axis)))?;
+    if let Some(out) = plot {
+        out.write(stripes_svg(&curves, &stripes, axis))?;
+    }
     if let (Some(out), Some(edp)) = (counts, args.at) {
-        let is_standard = out.is_standard();
         out.write(outcomes(&table, &curves, &args.levels.0, edp))?;
-        if is_standard {
-            return Ok(());
-        }
     }
-    if printed {
-        return Ok(());
-    }
-    args.json.show(&StripesSummary { n: curves.len(), edp: args.at, stripes })
+    let found = StripesSummary { n: curves.len(), edp: args.at, stripes };
+    args.json.show_beside(&outputs, &found)
 }
 
 /// The table of what became of each record that was run so far.

@@ -62,15 +62,16 @@ pub(super) fn run_fragility_counts(
     args: &FragilityCountsCommand,
 ) -> Result<(), Failure> {
     let path = &args.counts;
-    let plot = args.plot.open(&mut Outputs::of(vec![path.clone()]))?;
+    let mut outputs = Outputs::of(vec![path.clone()]);
+    let plot = args.plot.open(&mut outputs)?;
     let counted = read(path)?;
     let draws = args.bootstrap.draws();
     let found = args.threads.run(|| counted.fit(args.shift, draws))?;
     let found = found.at(path.display())?;
-    if plot.draw(|| args.threads.run(|| counted.svg(&found, draws))?)? {
-        return Ok(());
+    if let Some(out) = plot {
+        out.write(args.threads.run(|| counted.svg(&found, draws))??)?;
     }
-    args.json.show(&found)
+    args.json.show_beside(&outputs, &found)
 }
 
 /// What a table says of stripes.

@@ -70,13 +70,9 @@ pub(super) fn run_fragility_export(
     let options = args.fit.options(QuantileType::default());
     let fragilities = source.fragilities(&options)?;
     let texts = args.format.texts(&fragilities)?;
-    let is_standard = file.is_standard();
     file.write(texts.main)?;
     if let (Some(second), Some(text)) = (second, texts.beside) {
         second.write(text)?;
-    }
-    if is_standard {
-        return Ok(());
     }
     let states = fragilities.iter().flat_map(|one| {
         one.limit_states.iter().map(|state| LimitStateRow {
@@ -89,7 +85,8 @@ pub(super) fn run_fragility_export(
             beta: state.fragility.dispersion(),
         })
     });
-    args.json.show(&ExportSummary { blocks: states.collect() })
+    let blocks = states.collect();
+    args.json.show_beside(&outputs, &ExportSummary { blocks })
 }
 
 impl FragilityExportCommand {

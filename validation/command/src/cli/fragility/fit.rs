@@ -173,22 +173,15 @@ fn of_sample(
     let options = FitOptions { clusters, ..options.clone() };
     let found = args.threads.run(|| fit_sample(&sample, &options))?;
     let fit = found.at(path.display())?;
-    let printed = plot.draw(|| {
+    if let Some(out) = plot {
         let drawn = [("fit".to_owned(), sample, fit.fitted)];
-        args.threads.run(|| svg(drawn, &options, &unit))?
-    })?;
-    if let (Some(table), Some(band)) = (table, &fit.band) {
-        let is_standard = table.is_standard();
-        table.write(csv(band))?;
-        if is_standard {
-            return Ok(());
-        }
+        out.write(args.threads.run(|| svg(drawn, &options, &unit))??)?;
     }
-    if printed {
-        return Ok(());
+    if let (Some(table), Some(band)) = (table, &fit.band) {
+        table.write(csv(band))?;
     }
     let sample_of = file.of().map(str::to_owned);
-    args.json.show(&OfSample { sample_of, unit, fit })
+    args.json.show_beside(&outputs, &OfSample { sample_of, unit, fit })
 }
 
 fn of_levels(
@@ -216,15 +209,13 @@ fn of_levels(
         };
         Ok((name, sample, level.fit.fitted))
     };
-    let printed = plot.draw(|| {
+    if let Some(out) = plot {
         let drawn = levels.iter().map(level);
         let drawn = drawn.collect::<Result<Vec<_>, Failure>>()?;
-        args.threads.run(|| svg(drawn, &options, &unit))?
-    })?;
-    if printed {
-        return Ok(());
+        out.write(args.threads.run(|| svg(drawn, &options, &unit))??)?;
     }
-    args.json.show(&OfLevels { unit, point: rule.to_string(), levels })
+    let point = rule.to_string();
+    args.json.show_beside(&outputs, &OfLevels { unit, point, levels })
 }
 
 /// Fits to samples, by their names.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::Table;
 
-use super::{files, pass, read, sources};
+use super::{files, pass, read, sources, table};
 
 /// The crates that the user of this project named.
 const NAMED: &str =
@@ -50,17 +50,11 @@ fn every_dependency_is_used_and_explained() {
             direct.insert(name);
         }
     }
-    let page = read("docs/repository.md");
-    let table = page.split("## Dependencies").nth(1).unwrap_or_default();
-    let table = table.split("\n## ").next().unwrap_or_default();
-    let row = |line: &str| match line.split('|').collect::<Vec<_>>()[..] {
-        [_, name, licence, reason, _] if name.contains('`') => {
-            let whole = !licence.trim().is_empty() && reason.len() > 3;
-            whole.then(|| name.trim().trim_matches('`').to_owned())
-        }
-        _ => None,
-    };
-    let explained: BTreeSet<String> = table.lines().filter_map(row).collect();
+    let rows = table(&read("docs/repository.md"), "## Dependencies");
+    // Behind the head and the rule below it.
+    let whole = |row: &&Vec<String>| !row[1].is_empty() && row[2].len() > 1;
+    let rows = rows.iter().skip(2).filter(whole);
+    let explained: BTreeSet<String> = rows.map(|r| r[0].clone()).collect();
     for name in direct.symmetric_difference(&explained) {
         problems.push(format!("{name}: a dependency, or a row alone"));
     }

@@ -1,8 +1,9 @@
-//! Files that lead to each other, and doors that compute.
+//! Files that lead to each other, doors that compute, and names of types.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::source::tokens;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
 use super::{read, sources};
 
 /// Crates in which no files lead to each other in a circle: what a file names
@@ -21,6 +22,38 @@ const PLAIN: &str = "CensoredSample Clusters ExtendedSample FitMethod \
     Lognormal QuantileType Sample SampleError Stripe";
 
 type Path = Vec<String>;
+
+/// Identifiers and single punctuation characters (`::` is one token), without
+/// comments and literals.
+pub fn tokens(source: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    flatten(source.parse().unwrap(), &mut found);
+    found
+}
+
+fn flatten(stream: TokenStream, found: &mut Vec<String>) {
+    for tree in stream {
+        match tree {
+            TokenTree::Group(group) => {
+                let [open, close] = match group.delimiter() {
+                    Delimiter::Brace => ["{", "}"],
+                    Delimiter::Bracket => ["[", "]"],
+                    _ => ["(", ")"],
+                };
+                found.push(open.to_owned());
+                flatten(group.stream(), found);
+                found.push(close.to_owned());
+            }
+            TokenTree::Literal(_) => {}
+            one => match (one.to_string(), found.last_mut()) {
+                (one, Some(last)) if one == ":" && last == ":" => {
+                    last.push(':');
+                }
+                (one, _) => found.push(one),
+            },
+        }
+    }
+}
 
 /// The tokens of a file without its tests.
 fn program(text: &str) -> Vec<String> {
@@ -144,6 +177,26 @@ fn no_files_lead_to_each_other_in_a_circle() {
         file("e", "use std::e; struct Two;"),
     ]);
     assert_eq!(circles(&turning), ["a", "a/b"]);
+}
+
+/// Names that types share, at most.
+const MOST_SHARED: usize = 93;
+
+#[test]
+fn a_type_name_has_one_meaning() {
+    let kinds = ["struct", "enum", "trait", "union"];
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let all = sources(&["src", "crates", "validation", "python/src"]);
+    for path in all.iter().filter(|path| !path.contains("/tests")) {
+        for pair in program(&read(path)).windows(2) {
+            let is_type = pair[1].starts_with(char::is_uppercase);
+            if is_type && kinds.contains(&pair[0].as_str()) {
+                places.entry(pair[1].clone()).or_default().push(path.clone());
+            }
+        }
+    }
+    places.retain(|_, all| all.len() > 1);
+    assert!(places.len() <= MOST_SHARED, "{}: {places:#?}", places.len());
 }
 
 /// The command and Python show results; all but one file compute none.

@@ -12,7 +12,7 @@ use rocking_proof::cases::{
 };
 use rocking_proof::methods::{self, Quantities};
 use rocking_proof::oracles::linear;
-use rocking_proof::scene::CaseForcing;
+use rocking_proof::scene::Forcing;
 use rocking_proof::verdict::judge;
 
 use super::compare::{committed, near};
@@ -357,8 +357,8 @@ fn what_is_counted_is_what_is_expected() {
 #[test]
 fn every_pulse_has_its_oracle() {
     for name in PulseName::ALL {
-        let forcing = CaseForcing::pulse(name, 2.0, 1.3);
-        let CaseForcing::Pulse(kind) = forcing else { unreachable!() };
+        let forcing = Forcing::pulse(name, 2.0, 1.3);
+        let Forcing::Pulse(kind) = forcing else { unreachable!() };
         let core = Pulse::try_new(kind).unwrap();
         let end_s = core.duration_s();
         near(name.name(), forcing.end_s(), end_s, 1e-14 * end_s);

@@ -47,16 +47,6 @@ impl Grid {
         Self { width, height, ..self }
     }
 
-    /// The same with room for a second line of title.
-    pub fn with_subtitles(self) -> Self {
-        Self { above: 38.0, ..self }
-    }
-
-    /// The same with room for an axis at the upper edge.
-    pub fn with_second_axis(self) -> Self {
-        Self { above: 62.0, ..self }
-    }
-
     /// Width of the whole figure.
     pub fn total_width(&self) -> f64 {
         self.columns as f64 * (self.left + self.width + self.right)

@@ -19,7 +19,7 @@ const SUPER_EM: f64 = -0.36;
 
 /// Where a run of text stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TextLevel {
+pub enum Level {
     /// On the baseline.
     Base,
     /// Below.
@@ -32,13 +32,13 @@ pub enum TextLevel {
 
 /// Characters of one style.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TextRun {
+pub struct Run {
     /// The characters.
     pub text: String,
     /// Whether they are italic.
     pub italic: bool,
     /// Where they stand.
-    pub level: TextLevel,
+    pub level: Level,
 }
 
 /// Takes the marked-up text apart.
@@ -50,11 +50,11 @@ pub struct TextRun {
 /// assert!(parts[0].italic);
 /// assert_eq!(parts[1].level, Level::Sub);
 /// ```
-pub fn runs(markup: &str) -> Vec<TextRun> {
-    let mut done: Vec<TextRun> = Vec::new();
+pub fn runs(markup: &str) -> Vec<Run> {
+    let mut done: Vec<Run> = Vec::new();
     let mut now =
-        TextRun { text: String::new(), italic: false, level: TextLevel::Base };
-    let turn = |now: &mut TextRun, done: &mut Vec<TextRun>| {
+        Run { text: String::new(), italic: false, level: Level::Base };
+    let turn = |now: &mut Run, done: &mut Vec<Run>| {
         if !now.text.is_empty() {
             done.push(now.clone());
             now.text.clear();
@@ -72,21 +72,16 @@ pub fn runs(markup: &str) -> Vec<TextRun> {
             '\u{303}' => {
                 turn(&mut now, &mut done);
                 let text = String::from('˜');
-                done.push(TextRun {
-                    text,
-                    italic: false,
-                    level: TextLevel::Accent,
-                });
+                done.push(Run { text, italic: false, level: Level::Accent });
             }
             '_' | '^' if characters.peek() == Some(&'{') => {
                 characters.next();
                 turn(&mut now, &mut done);
-                now.level =
-                    if c == '_' { TextLevel::Sub } else { TextLevel::Super };
+                now.level = if c == '_' { Level::Sub } else { Level::Super };
             }
-            '}' if now.level != TextLevel::Base => {
+            '}' if now.level != Level::Base => {
                 turn(&mut now, &mut done);
-                now.level = TextLevel::Base;
+                now.level = Level::Base;
             }
             _ => now.text.push(c),
         }
@@ -112,9 +107,9 @@ pub fn width(markup: &str, size_px: f64) -> f64 {
     let mut thousandths = 0.0;
     for run in runs(markup) {
         let scale = match run.level {
-            TextLevel::Base => 1.0,
-            TextLevel::Sub | TextLevel::Super => SCRIPT,
-            TextLevel::Accent => 0.0,
+            Level::Base => 1.0,
+            Level::Sub | Level::Super => SCRIPT,
+            Level::Accent => 0.0,
         };
         for c in run.text.chars() {
             thousandths += scale * f64::from(character_width(c));
@@ -173,12 +168,12 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
     let (mut letter, mut along) = (0.0, 0.0);
     for run in runs(markup) {
         let (shift, script) = match run.level {
-            TextLevel::Base => (0.0, false),
-            TextLevel::Sub => (SUB_EM * size_px, true),
-            TextLevel::Super => (SUPER_EM * size_px, true),
-            TextLevel::Accent => (ACCENT_EM * size_px, false),
+            Level::Base => (0.0, false),
+            Level::Sub => (SUB_EM * size_px, true),
+            Level::Super => (SUPER_EM * size_px, true),
+            Level::Accent => (ACCENT_EM * size_px, false),
         };
-        if run.level == TextLevel::Accent {
+        if run.level == Level::Accent {
             along = -f64::midpoint(letter, TILDE_EM) + ACCENT_SLANT_EM;
         }
         let step = shift - raised;
@@ -204,7 +199,7 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
             write_escaped(out, &run.text);
             out.push_str("</tspan>");
         }
-        along = if run.level == TextLevel::Accent {
+        along = if run.level == Level::Accent {
             0.5 * (letter - TILDE_EM) - ACCENT_SLANT_EM
         } else {
             0.0

@@ -264,12 +264,6 @@ impl<'s> Panel<'s> {
         self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
     }
 
-    /// Words outside the right-hand edge, at an ordinate.
-    pub fn right_of(&mut self, y: f64, text: impl Into<String>) {
-        let y = self.to_px((self.x.range().1, y)).1;
-        self.right_of_px(y, text);
-    }
-
     /// Words outside the right-hand edge, at an ordinate in px.
     pub fn right_of_px(&mut self, y: f64, text: impl Into<String>) {
         let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);

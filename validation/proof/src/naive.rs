@@ -8,7 +8,7 @@
 use crate::cases::WrongModel;
 
 use crate::scene::{
-    self, CaseForcing, CaseScene, Engine, EngineError, Impact, Model, Trace,
+    self, CaseScene, Engine, EngineError, Forcing, Impact, Model, Trace,
 };
 
 /// Largest step in units of 1/p of the right rules.
@@ -138,7 +138,7 @@ impl NaiveRun<'_> {
     fn go(&mut self) -> Result<(), EngineError> {
         let threshold = self.threshold();
         let mut hop = None;
-        if let CaseForcing::Free { rotation_rad } = self.scene.forcing {
+        if let Forcing::Free { rotation_rad } = self.scene.forcing {
             let z = rotation_rad.abs();
             hop = Some(NaiveHop { side: rotation_rad.signum(), z, w: 0.0 });
             self.record_peak(z);
@@ -274,7 +274,7 @@ impl NaiveRun<'_> {
         if self.rules.events == Events::Located {
             (self.rules.step_p / self.scene.frequency_rad_s).min(
                 match self.scene.forcing {
-                    CaseForcing::Samples { .. } => length,
+                    Forcing::Samples { .. } => length,
                     _ => length / 100.0,
                 },
             )

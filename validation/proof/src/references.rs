@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::arithmetic::decimal;
 use crate::pulse::rescaled;
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning, PulseKind};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseKind};
 
 /// An embedded file, read once.
 pub(crate) struct ReferenceFile<T> {
@@ -262,9 +262,9 @@ impl ReferenceForcing {
         kind.map(Some)
     }
 
-    fn forcing(&self) -> Result<CaseForcing> {
+    fn forcing(&self) -> Result<Forcing> {
         if let Some(pulse) = self.pulse()? {
-            return Ok(CaseForcing::Pulse(pulse));
+            return Ok(Forcing::Pulse(pulse));
         }
         let acceleration_m_s2 = match (&self.acc, &self.record) {
             (Some(SampleSource::Here(acc)), _) => nearest(acc),
@@ -276,7 +276,7 @@ impl ReferenceForcing {
             _ => return Err(self.lacks()),
         };
         let dt_s = self.dt.ok_or_else(|| self.lacks())?.near;
-        Ok(CaseForcing::Samples { dt_s, acceleration_m_s2 })
+        Ok(Forcing::Samples { dt_s, acceleration_m_s2 })
     }
 
     fn lacks(&self) -> Error {
@@ -373,7 +373,7 @@ impl LinearPulse {
         criterion: Overturning,
     ) -> Result<CaseScene> {
         let pulse = self.ground.pulse()?.ok_or_else(|| self.ground.lacks())?;
-        let forcing = CaseForcing::Pulse(rescaled(pulse, g * alpha, p));
+        let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
         let scene = CaseScene::new([alpha, p, g], self.eta.near, forcing);
         Ok(scene.in_equation(Model::Linearized).to(criterion))
     }
@@ -418,7 +418,7 @@ impl RectangularPulse {
         let [amplitude, duration_s] = [self.a0.near, self.td.near];
         let pulse = PulseKind::Rectangle { amplitude, duration_s };
         let block = [self.alpha.near, self.p.near, 9.81];
-        let forcing = CaseForcing::Pulse(pulse);
+        let forcing = Forcing::Pulse(pulse);
         CaseScene::new(block, self.eta.near, forcing).to(criterion)
     }
 

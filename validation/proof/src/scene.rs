@@ -21,7 +21,7 @@ use crate::pulse;
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
 #[derive(Clone, Debug, PartialEq)]
-pub enum CaseForcing {
+pub enum Forcing {
     /// None; the block is released at rest at this rotation (rad).
     Free {
         /// Initial rotation in rad.
@@ -54,7 +54,7 @@ pub struct CaseScene {
     /// What ends the run.
     pub overturning: Overturning,
     /// Ground acceleration.
-    pub forcing: CaseForcing,
+    pub forcing: Forcing,
     /// Where the run stops at the latest, s; none: at rest or overturning.
     pub until_s: Option<f64>,
 }
@@ -116,7 +116,7 @@ impl CaseScene {
     pub fn new(
         [slenderness_rad, frequency_rad_s, gravity_m_s2]: [f64; 3],
         restitution: f64,
-        forcing: CaseForcing,
+        forcing: Forcing,
     ) -> Self {
         Self {
             slenderness_rad,
@@ -134,7 +134,7 @@ impl CaseScene {
     /// 9.81 m/s2.
     #[must_use]
     pub fn at_rest([alpha, p]: [f64; 2], restitution: f64) -> Self {
-        Self::new([alpha, p, 9.81], restitution, CaseForcing::NONE)
+        Self::new([alpha, p, 9.81], restitution, Forcing::NONE)
     }
 
     /// The scene in another equation of motion.
@@ -158,7 +158,7 @@ impl CaseScene {
     /// The scene under a ground motion that follows from its uplift
     /// threshold (m/s2).
     #[must_use]
-    pub fn under(self, forcing: impl FnOnce(f64) -> CaseForcing) -> Self {
+    pub fn under(self, forcing: impl FnOnce(f64) -> Forcing) -> Self {
         Self { forcing: forcing(self.threshold_m_s2()), ..self }
     }
 
@@ -167,7 +167,7 @@ impl CaseScene {
     #[must_use]
     pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
         self.under(|threshold| {
-            let mut forcing = CaseForcing::samples(dt_s, samples);
+            let mut forcing = Forcing::samples(dt_s, samples);
             let own = forcing.peak();
             forcing.scale(peak * threshold / own);
             forcing
@@ -213,7 +213,7 @@ pub fn other(model: Model) -> Model {
     }
 }
 
-impl CaseForcing {
+impl Forcing {
     /// A block at rest, and no ground motion.
     pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
 

@@ -5,7 +5,6 @@
 //! them alone. Gravity is 1 in all of them, so that accelerations are
 //! multiples of it and no quotient rounds them again.
 
-mod address;
 mod compare;
 mod draw;
 mod ends;
@@ -16,7 +15,6 @@ mod records;
 mod search;
 mod summary;
 
-pub use address::Trial;
 pub use compare::{
     CertificateReading, DoubleRun, Finding, WideTruth, compare, truth,
 };
@@ -25,7 +23,7 @@ pub use summary::{Judgement, SHARES, TrialSummary};
 use rayon::prelude::*;
 use rocking_statistics::streams::Streams;
 
-use crate::scene::EngineError;
+use crate::scene::{CaseScene, EngineError};
 pub(crate) use draw::Draw;
 use rocking::names::named;
 
@@ -47,6 +45,15 @@ named! {
         /// Scenes whose first hop after rest grazes the base.
         FirstHop = "first-hop",
     }
+}
+
+/// A scene with its address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Stratum, index and kind of the excitation.
+    pub name: String,
+    /// The scene.
+    pub scene: CaseScene,
 }
 
 /// The scene of an address.

@@ -27,6 +27,10 @@ pub use input::ResultFiles;
 /// What two sets of results say differently.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Difference {
+    /// Number of changes that are relevant: of answers, verdicts, settings
+    /// and records, of numbers beyond the smallest effect of interest or
+    /// their tolerance, and of what is on one side only.
+    pub relevant: usize,
     /// Whether nothing at all differs in what both sides have.
     pub identical: bool,
     /// How many of each kind both sides have.
@@ -94,16 +98,6 @@ impl Change {
     }
 }
 
-impl Difference {
-    /// Number of changes that are relevant: of answers, verdicts, settings
-    /// and records, of numbers beyond the smallest effect of interest or
-    /// their tolerance, and of what is on one side only.
-    pub fn relevant(&self) -> usize {
-        self.changes.iter().filter(|change| change.relevant).count()
-            + self.records.values().filter(|r| !r.are_same()).count()
-    }
-}
-
 /// Sets two results beside each other.
 ///
 /// # Errors
@@ -139,8 +133,10 @@ pub fn compare(
             new.path.display()
         );
     }
-    out.identical = out.changes.is_empty()
-        && out.records.values().all(RecordSets::are_same);
+    let other = out.records.values().filter(|r| !r.are_same()).count();
+    out.identical = out.changes.is_empty() && other == 0;
+    let relevant = out.changes.iter().filter(|change| change.relevant);
+    out.relevant = relevant.count() + other;
     out.changes.sort_by_key(|change| {
         let weight = change.moved.as_ref().map(NumberChange::weight);
         Reverse((change.relevant, change.opposite, weight))

@@ -21,22 +21,14 @@ const CONDITIONS: &str = rocking_fixtures::text("speed/conditions.csv");
 const PAPER: &str = "15 blocks, Eq. 1, in lanes";
 const ONE_BY_ONE: &str = "15 blocks, Eq. 1, one by one";
 
-/// A compiled tool that did the same work at the tolerance of 1e-9.
-struct Peer {
-    name: &'static str,
-    method: &'static str,
-    work: &'static str,
-}
-
-const TOOL: &str = "Boost.odeint";
-const TOLERANCE: &str = "rtol 1e-09";
-
-/// The fastest of them: stopped at every sample, where the record has a kink.
-const STOPPED: Peer = Peer {
-    name: "Boost.odeint stopped at samples",
-    method: "dopri5 sample by sample",
-    work: "15 blocks, Eq. 1, Boost.odeint dopri5 sample by sample, rtol 1e-09",
-};
+/// The fastest compiled tool that did the same work at the tolerance of 1e-9:
+/// tool, method and setting. It stops at every sample, where the record has a
+/// kink.
+const PEER: [&str; 3] =
+    ["Boost.odeint", "dopri5 sample by sample", "rtol 1e-09"];
+const PEER_NAME: &str = "Boost.odeint stopped at samples";
+const PEER_WORK: &str =
+    "15 blocks, Eq. 1, Boost.odeint dopri5 sample by sample, rtol 1e-09";
 
 /// Lines of the figure: legend, tool, method, and settings left out.
 const LINES: [(&str, &str, &str, &[&str]); 7] = [
@@ -114,10 +106,8 @@ impl Timings {
         without: &[&str],
     ) -> Vec<&Total> {
         let own = |t: &&Total| {
-            let [name, _, how, setting] = &t.label;
-            name == tool
-                && how == method
-                && !without.contains(&setting.as_str())
+            let [name, how, setting] = t.key();
+            [name, how] == [tool, method] && !without.contains(&setting)
         };
         self.singles.iter().filter(own).collect()
     }
@@ -213,12 +203,14 @@ impl Timings {
         drawing.figure(self.reading())
     }
 
+    /// The total of a tool, a method and a setting.
+    fn total(&self, key: [&str; 3]) -> Option<&Total> {
+        self.singles.iter().find(|total| total.key() == key)
+    }
+
     /// Our own run as shipped.
     fn own(&self) -> Option<&Total> {
-        self.singles.iter().find(|t| {
-            let [tool, _, method, setting] = &t.label;
-            [tool.as_str(), method, setting] == BASE
-        })
+        self.total(BASE)
     }
 
     /// Errors against double-double, in a sentence.
@@ -254,17 +246,16 @@ impl Timings {
     pub fn speed(&self) -> (String, String) {
         let ratio = |work: &str| {
             let ours = self.throughput_of(work)?.rate_per_s();
-            Some(ours / self.throughput_of(STOPPED.work)?.rate_per_s())
+            Some(ours / self.throughput_of(PEER_WORK)?.rate_per_s())
         };
         let answer = match (ratio(PAPER), ratio(ONE_BY_ONE)) {
             (Some(lanes), Some(one))
-                if lanes > 1.0
-                    && self.no_worse(&STOPPED).contains(&BASE[2]) =>
+                if lanes > 1.0 && self.no_worse().contains(&BASE[2]) =>
             {
                 format!(
                     "Yes: {} times as fast as {}; one by one, {} times.",
                     digits(lanes),
-                    STOPPED.name,
+                    PEER_NAME,
                     digits(one)
                 )
             }
@@ -272,12 +263,12 @@ impl Timings {
                 format!(
                     "No: {} times as fast as {}.",
                     digits(lanes),
-                    STOPPED.name
+                    PEER_NAME
                 )
             }
             (None, _) => "Open: no timing compares them.".into(),
         };
-        let many = self.throughput_of(PAPER).zip(self.equal(&STOPPED));
+        let many = self.throughput_of(PAPER).zip(self.equal());
         let effect =
             many.map_or(String::new(), |(paper, (setting, times))| {
                 format!(
@@ -290,25 +281,25 @@ impl Timings {
         (answer, effect)
     }
 
-    /// The fastest of our settings whose errors are no larger than a peer's,
+    /// The fastest of our settings whose errors are no larger than the peer's,
     /// and how many times as fast it is.
-    fn equal(&self, peer: &Peer) -> Option<(&str, f64)> {
-        let theirs = self.throughput_of(peer.work)?;
-        let (setting, ours) = self.fastest(peer, theirs)?;
+    fn equal(&self) -> Option<(&str, f64)> {
+        let theirs = self.throughput_of(PEER_WORK)?;
+        let (setting, ours) = self.fastest(theirs)?;
         Some((setting, ours.rate_per_s() / theirs.rate_per_s()))
     }
 
     /// How fast, in a sentence.
     pub fn plain(&self) -> String {
         let peer = || {
-            let rate = self.throughput_of(STOPPED.work)?.rate_per_s();
+            let rate = self.throughput_of(PEER_WORK)?.rate_per_s();
             let ratio = self.throughput_of(PAPER)?.rate_per_s() / rate;
-            let (setting, times) = self.equal(&STOPPED)?;
+            let (setting, times) = self.equal()?;
             Some(format!(
                 ", {} times as many as {} at 1e-9. At {setting}, our fastest \
                  setting with no larger error, it is {} times",
                 digits(ratio),
-                STOPPED.name,
+                PEER_NAME,
                 digits(times)
             ))
         };
@@ -332,11 +323,10 @@ impl Timings {
         self.many.iter().find(|t| t.threads == 1 && t.work == work)
     }
 
-    /// Our settings that are no worse than a peer's 1e-9 in any error, the
+    /// Our settings that are no worse than the peer in any error, the
     /// largest ones too.
-    fn no_worse(&self, peer: &Peer) -> Vec<&str> {
-        let of = self.totals_of(TOOL, peer.method, &[]);
-        let theirs = of.into_iter().find(|t| t.label[3] == TOLERANCE);
+    fn no_worse(&self) -> Vec<&str> {
+        let theirs = self.total(PEER);
         let errors = |t: &Total| {
             [
                 t.peak_error,
@@ -349,21 +339,18 @@ impl Timings {
             ]
         };
         let Some(limits) = theirs.map(errors) else { return Vec::new() };
-        self.totals_of(BASE[0], BASE[1], &[])
+        let [tool, method, _] = BASE;
+        self.totals_of(tool, method, &[])
             .into_iter()
             .filter(|t| errors(t).iter().zip(limits).all(|(e, max)| *e <= max))
-            .map(|t| t.label[3].as_str())
+            .map(|t| t.key()[2])
             .collect()
     }
 
     /// The fastest of those settings that move no more first overturnings
     /// than the peer, and the same work by it.
-    fn fastest(
-        &self,
-        peer: &Peer,
-        theirs: &Throughput,
-    ) -> Option<(&str, &Throughput)> {
-        self.no_worse(peer)
+    fn fastest(&self, theirs: &Throughput) -> Option<(&str, &Throughput)> {
+        self.no_worse()
             .into_iter()
             .filter_map(|setting| {
                 let work =
@@ -389,9 +376,8 @@ impl Timings {
         let own = self.own();
         let best = self.most_accurate();
         let by = |interpreted: bool| {
-            let is = |t: &&&Total| {
-                INTERPRETED.contains(&t.label[0].as_str()) == interpreted
-            };
+            let is =
+                |t: &&&Total| INTERPRETED.contains(&t.key()[0]) == interpreted;
             let (fast, slow) = range(best.iter().filter(is).map(|t| t.ratio));
             format!("{} to {} times", digits(fast), digits(slow))
         };
@@ -419,7 +405,7 @@ impl Timings {
         let all = self.own().map_or(0, |t| t.cases);
         let fewer = self.most_accurate().into_iter().filter(|t| t.cases < all);
         let some: Vec<String> = fewer
-            .map(|t| format!("{} {} of them", t.label[0], t.cases))
+            .map(|t| format!("{} {} of them", t.key()[0], t.cases))
             .collect();
         match some.as_slice() {
             [] => String::new(),

@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
-
 use super::shared::JsonArg;
 use super::study::REPORT;
 use crate::failure::Failure;
 use crate::terminal::{print, say};
-use rocking_report::diff::{Difference, ResultFiles, compare};
+use rocking_report::diff::{ResultFiles, compare};
 
 /// What changed between two results, and whether it matters.
 ///
@@ -43,13 +41,6 @@ pub struct DiffCommand {
     json: JsonArg,
 }
 
-#[derive(Serialize)]
-struct DiffSummary<'a> {
-    relevant: usize,
-    #[serde(flatten)]
-    comparison: &'a Difference,
-}
-
 /// Runs `rocking diff`.
 ///
 /// # Errors
@@ -65,17 +56,14 @@ pub fn run_diff(args: &DiffCommand) -> Result<(), Failure> {
         (ResultFiles::read(&args.old)?, ResultFiles::read(&args.new)?);
     let comparison = compare(&old, &new)?;
     if args.json.json {
-        args.json.show(&DiffSummary {
-            relevant: comparison.relevant(),
-            comparison: &comparison,
-        })?;
+        args.json.show(&comparison)?;
     } else if args.markdown {
         let text = comparison.text(false);
         print(&format!("## What changed\n\n```text\n{text}```\n"))?;
     } else {
         say(&comparison.text(args.all))?;
     }
-    match comparison.relevant() {
+    match comparison.relevant {
         0 => Ok(()),
         1 => Err(Failure::gate("1 relevant change")),
         n => Err(Failure::gate(format!("{n} relevant changes"))),

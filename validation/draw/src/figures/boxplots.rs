@@ -227,7 +227,8 @@ fn draw_stripes(
     for (k, stripe) in shown.stripes.iter().enumerate() {
         let y = (k + 1) as f64;
         let percent = (100.0 * stripe.usable_share()).round();
-        panel.right_of(y, format!("{percent} %"));
+        let (_, y_px) = panel.to_px((1.0, y));
+        panel.right_of_px(y_px, format!("{percent} %"));
         if let Some(summary) = &stripe.summary {
             let notched = stripe.usable >= NOTCHED;
             draw_box(panel, summary, (y, notched), ink, range);

@@ -23,6 +23,10 @@ const APART_PX: f64 = 11.5;
 
 /// Room for words at the right-hand edge, in px.
 const EDGE_PX: f64 = 56.0;
+/// Room above a panel with a second line of title, in px.
+const SUBTITLE_PX: f64 = 38.0;
+/// Room above a panel with an axis at its upper edge, in px.
+const SECOND_AXIS_PX: f64 = 62.0;
 
 /// A figure of one or more panels with a shared legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -325,10 +329,10 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
         grid.right = EDGE_PX;
     }
     if figure.panels.iter().any(|p| p.x.second.is_some()) {
-        grid = grid.with_second_axis();
+        grid.above = SECOND_AXIS_PX;
     }
     if figure.panels.iter().any(|p| p.title.contains('\n')) {
-        grid = grid.with_subtitles();
+        grid.above = SUBTITLE_PX;
     }
     let (mut scene, grid) = common::scene(heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {

@@ -73,14 +73,9 @@ pub fn span(
     })
 }
 
-/// Text that came with the data, safe inside marked-up text.
-pub fn words(text: &str) -> String {
-    markup::escape(text)
-}
-
 /// The name of a record under a panel's title, cut to the panel's width.
 pub fn record(name: &str, width_px: f64) -> String {
-    words(&markup::fit(name, 10.0, width_px + 20.0))
+    markup::escape(&markup::fit(name, 10.0, width_px + 20.0))
 }
 
 /// A number for titles: two decimals, no trailing zeros.

@@ -1,5 +1,7 @@
 //! Figure 1: the block and its symbols.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::common;
 use super::figure::{Figure, Graphic};
 use super::heading::Heading;
@@ -75,8 +77,7 @@ fn scene(figure: &BlockSketch) -> Drawing {
     scene.outline(&rotated, Pen::new(Ink::Series(0), 1.5));
     dimensions(&mut scene, &rotated);
     angles(&mut scene, alpha, theta);
-    let right = std::f64::consts::FRAC_PI_2;
-    let left_pivot = from(PIVOT, -base, right);
+    let left_pivot = from(PIVOT, -base, FRAC_PI_2);
     for (at, name, aside) in [(PIVOT, "O′", 11.0), (left_pivot, "O", -11.0)]
     {
         scene.dot(at, 2.4, Ink::Text);
@@ -89,8 +90,7 @@ fn scene(figure: &BlockSketch) -> Drawing {
 
 /// Corners of the block turned about its right-hand pivot.
 fn corners(base: f64, height: f64, turn: f64) -> [Point; 4] {
-    let right = std::f64::consts::FRAC_PI_2;
-    let left = from(PIVOT, -base, right + turn);
+    let left = from(PIVOT, -base, FRAC_PI_2 + turn);
     [left, from(left, height, turn), from(PIVOT, height, turn), PIVOT]
 }
 
@@ -134,12 +134,11 @@ fn dimensions(scene: &mut Drawing, block: &[Point; 4]) {
     let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
     let at = from(middle, 10.0, turn);
     word(scene, "2*b*", at);
-    let right = std::f64::consts::FRAC_PI_2;
-    let away = |p| from(p, -34.0, turn + right);
+    let away = |p| from(p, -34.0, turn + FRAC_PI_2);
     let (a, b) = (away(low_left), away(top_left));
     measure(scene, a, b);
     let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
-    let (x, y) = from(middle, -16.0, turn + right);
+    let (x, y) = from(middle, -16.0, turn + FRAC_PI_2);
     word(scene, "2*h*", (x, y + 5.0));
 }
 
@@ -167,7 +166,7 @@ fn angles(scene: &mut Drawing, alpha: f64, theta: f64) {
     let radius = 1.18 * HALF_DIAGONAL;
     scene.line(&arc(radius, 0.0, theta), THIN);
     let end = from(PIVOT, radius, theta);
-    let along = theta + std::f64::consts::FRAC_PI_2;
+    let along = theta + FRAC_PI_2;
     head(scene, end, along, Ink::Text);
     let at = from(PIVOT, radius + 12.0, 0.5 * theta);
     word(scene, "*θ*", at);
@@ -178,6 +177,6 @@ fn excitation(scene: &mut Drawing) {
     let y = PIVOT.1 + 34.0;
     let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
     scene.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
-    head(scene, b, std::f64::consts::FRAC_PI_2, Ink::Series(2));
+    head(scene, b, FRAC_PI_2, Ink::Series(2));
     word(scene, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
 }

@@ -8,7 +8,7 @@ use rocking::integrator::{
 };
 use rocking::number::Real;
 
-use crate::scene::{CaseForcing, CaseScene, Engine, EngineError, Trace};
+use crate::scene::{CaseScene, Engine, EngineError, Forcing, Trace};
 
 /// The code under test.
 pub struct Core;
@@ -54,7 +54,7 @@ fn first_side(
         (response.uplift_time_s, response.impacts.first())
     else {
         return Ok(match &scene.forcing {
-            CaseForcing::Free { rotation_rad } => rotation_rad.signum(),
+            Forcing::Free { rotation_rad } => rotation_rad.signum(),
             _ => 0.0,
         });
     };
@@ -154,23 +154,21 @@ fn with_core_scene<R>(
         Quotient::Kept => (1.0, g),
     };
     let mut forcing = scene.forcing.clone();
-    if !matches!(forcing, CaseForcing::Free { .. }) {
+    if !matches!(forcing, Forcing::Free { .. }) {
         forcing.amplitudes_mut().iter_mut().for_each(|a| *a /= unit);
     }
     let mut initial_ratio = 0.0;
     let pulse;
     let excitation = match &forcing {
-        CaseForcing::Samples { dt_s, acceleration_m_s2 } => {
-            Excitation::Record(
-                ScaledRecord::try_new_si(acceleration_m_s2, *dt_s, divisor)
-                    .map_err(refused)?,
-            )
-        }
-        CaseForcing::Pulse(kind) => {
+        Forcing::Samples { dt_s, acceleration_m_s2 } => Excitation::Record(
+            ScaledRecord::try_new_si(acceleration_m_s2, *dt_s, divisor)
+                .map_err(refused)?,
+        ),
+        Forcing::Pulse(kind) => {
             pulse = Pulse::try_new_si(*kind, divisor).map_err(refused)?;
             Excitation::Pulse(&pulse)
         }
-        CaseForcing::Free { rotation_rad } => {
+        Forcing::Free { rotation_rad } => {
             initial_ratio = rotation_rad.abs() / scene.slenderness_rad;
             Excitation::Free
         }

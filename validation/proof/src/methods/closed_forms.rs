@@ -9,7 +9,7 @@ use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};
 use crate::pulse::rescaled;
 use crate::scene::{
-    CaseForcing, CaseScene, Engine, Model, Overturning, PulseName,
+    CaseScene, Engine, Forcing, Model, Overturning, PulseName,
 };
 
 /// Free rocking of every combination of block, loss and release.
@@ -29,7 +29,7 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
     let releases = pairs(&restitution, &release);
     for ((alpha, p), (eta, release)) in pairs(&blocks, &releases) {
         let rotation_rad = release * alpha;
-        let forcing = CaseForcing::Free { rotation_rad };
+        let forcing = Forcing::Free { rotation_rad };
         let scene = CaseScene::new([alpha, p, 9.81], eta, forcing);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
         let form = oracle(alpha, eta, rotation_rad, impacts);
@@ -58,8 +58,8 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     let shapes = pairs(&amplitudes, &scales);
     for ((a, scale), eta) in pairs(&shapes, &restitution) {
-        let pulse = CaseForcing::pulse(pulse, a, scale);
-        let CaseForcing::Pulse(kind) = pulse else { continue };
+        let pulse = Forcing::pulse(pulse, a, scale);
+        let Forcing::Pulse(kind) = pulse else { continue };
         let form = linear::respond(kind, eta, impacts);
         for block in &blocks {
             let [alpha, p, _] = *block;
@@ -80,15 +80,13 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
 /// A block (alpha, p, g) in Eq. 2 under the pulse that acts on one with
 /// p = 1 rad/s and g alpha = 1 m/s2 as it does on this one.
 pub(super) fn linear_scene(
-    pulse: &CaseForcing,
+    pulse: &Forcing,
     restitution: f64,
     block: [f64; 3],
 ) -> CaseScene {
     let [alpha, p, g] = block;
     let forcing = match pulse {
-        CaseForcing::Pulse(kind) => {
-            CaseForcing::Pulse(rescaled(*kind, g * alpha, p))
-        }
+        Forcing::Pulse(kind) => Forcing::Pulse(rescaled(*kind, g * alpha, p)),
         other => other.clone(),
     };
     CaseScene::new(block, restitution, forcing).in_equation(Model::Linearized)
@@ -103,7 +101,7 @@ pub(super) fn overturns_from(
     near: f64,
 ) -> Result<f64> {
     flip(near, |a| {
-        let pulse = CaseForcing::pulse(pulse, a, scale);
+        let pulse = Forcing::pulse(pulse, a, scale);
         let scene = linear_scene(&pulse, 0.92, block).until(200.0 / block[1]);
         overturns_at_once(context.engine, scene)
     })
@@ -156,7 +154,7 @@ pub fn fold(context: &Context, answer: &mut Reply) -> Result<()> {
     for &eta in &restitution {
         let (omega, a) = overturning::fold(eta);
         let scene = |omega: f64| {
-            let pulse = CaseForcing::pulse(PulseName::OneSine, a, omega);
+            let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
             linear_scene(&pulse, eta, block)
         };
         let found = flip(omega, |omega| {
@@ -190,7 +188,7 @@ pub fn durations(context: &Context, answer: &mut Reply) -> Result<()> {
         let critical = form.critical_duration_s();
         let found = flip(critical, |duration_s| {
             let name = PulseName::Rectangle;
-            let pulse = CaseForcing::pulse(name, pull * 9.81, duration_s);
+            let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
             let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
             overturns_at_once(context.engine, scene.until(200.0 / p))
         })?;

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::method::{Context, Reply, WrongModel};
 use crate::engine;
 use crate::naive::{Events, Naive, Rules};
-use crate::scene::{CaseForcing, CaseScene, Engine as _};
+use crate::scene::{CaseScene, Engine as _, Forcing};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -77,7 +77,7 @@ fn divided(input: &OrderInput, division: usize) -> CaseScene {
         fine.extend((0..division).map(|k| pair[0] + rise * k as f64));
     }
     fine.extend(input.acceleration_m_s2.last());
-    let forcing = CaseForcing::samples(input.dt_s / division as f64, fine);
+    let forcing = Forcing::samples(input.dt_s / division as f64, fine);
     CaseScene::new([alpha, p, 9.81], eta, forcing)
 }
 

@@ -17,7 +17,7 @@ use rocking::number::octuple::Octuple;
 
 use super::memo::Memo;
 use super::method::{Context, Reply, WrongModel};
-use crate::scene::CaseForcing;
+use crate::scene::Forcing;
 use crate::trials::{Stratum, trial};
 
 /// Difference of a peak ratio that counts as another peak.
@@ -109,7 +109,7 @@ fn level(index: u64) -> Result<Option<LevelResult>> {
         return Ok(None);
     };
     let of = trial.scene;
-    let CaseForcing::Samples { dt_s, acceleration_m_s2 } = of.forcing else {
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = of.forcing else {
         return Ok(None);
     };
     let record = Accelerogram::try_new(trial.name, dt_s, acceleration_m_s2);

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::method::{Context, Reply, pairs};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning, PulseName};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseName};
 
 /// What flips at an edge.
 #[derive(Clone, Copy)]
@@ -63,14 +63,14 @@ impl OneSine {
         let p = self.block[1];
         // The saddle holds a block for 28/p at most when the amplitude is
         // 1e-12 from the edge.
-        let scene = CaseScene::new(self.block, self.eta, CaseForcing::NONE)
+        let scene = CaseScene::new(self.block, self.eta, Forcing::NONE)
             .in_equation(self.equation)
             .to(criterion)
             .until((7.0 / self.omega + 100.0) / p);
         edge::edge(range, 1e-12, |amplitude| {
             let scene = scene.clone().under(|threshold| {
                 let (a, omega) = (amplitude * threshold, self.omega * p);
-                CaseForcing::pulse(PulseName::OneSine, a, omega)
+                Forcing::pulse(PulseName::OneSine, a, omega)
             });
             let trace = context.engine.respond(&scene)?;
             let over = trace.overturned_s.is_some();
@@ -145,7 +145,7 @@ pub fn grazing(context: &Context, answer: &mut Reply) -> Result<()> {
         let scene = CaseScene::at_rest([alpha, p], 0.92).in_equation(equation);
         let scene = scene.under(|threshold| {
             let (a, omega) = ((1.0 + excess) * threshold, omega * p);
-            CaseForcing::pulse(PulseName::HalfSine, a, omega)
+            Forcing::pulse(PulseName::HalfSine, a, omega)
         });
         let k = match scene.model {
             Model::Nonlinear => libm::sin(alpha) / alpha,

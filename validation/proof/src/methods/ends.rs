@@ -11,7 +11,7 @@ use rocking::number::{Number as _, Real as _};
 use super::cells::{Csv, CsvRow, csv};
 use super::method::{Context, Reply};
 use crate::engine::{certify, respond};
-use crate::scene::{CaseForcing, CaseScene, Overturning};
+use crate::scene::{CaseScene, Forcing, Overturning};
 use crate::trials::{CertificateReading, DoubleRun};
 
 const ENDS: Csv = csv!("oracles/ends.csv");
@@ -25,10 +25,10 @@ fn scenes(kind: &str) -> Result<Vec<(CaseScene, [DoubleDouble; 3])>> {
         let given = row.list(10, ';')?;
         let forcing = match (row.text(7), given.as_slice()) {
             ("record", [dt_s, samples @ ..]) => {
-                CaseForcing::samples(*dt_s, samples.to_vec())
+                Forcing::samples(*dt_s, samples.to_vec())
             }
             (pulse, [amplitude, scale]) => {
-                CaseForcing::pulse(pulse.parse()?, *amplitude, *scale)
+                Forcing::pulse(pulse.parse()?, *amplitude, *scale)
             }
             (other, _) => bail!(ENDS.lacks(other)),
         };

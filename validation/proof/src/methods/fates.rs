@@ -8,7 +8,7 @@ use crate::cases::Case;
 use crate::engine::Core;
 use crate::references;
 use crate::scene::{
-    CaseForcing, CaseScene, Engine as _, Model, Overturning, PulseName,
+    CaseScene, Engine as _, Forcing, Model, Overturning, PulseName,
 };
 
 /// A scene that a case writes out.
@@ -49,7 +49,7 @@ struct CornerRecord {
 }
 
 impl CornerRecord {
-    fn forcing(&self) -> Result<CaseForcing> {
+    fn forcing(&self) -> Result<Forcing> {
         let mut samples = Vec::new();
         for pair in self.corners.windows(2) {
             let [(from, a), (to, b)] = pair else { continue };
@@ -60,7 +60,7 @@ impl CornerRecord {
             samples.extend((0..to - from).map(|k| a + rise * k as f64));
         }
         samples.extend(self.corners.last().map(|corner| corner.1));
-        Ok(CaseForcing::samples(self.dt_s, samples))
+        Ok(Forcing::samples(self.dt_s, samples))
     }
 }
 
@@ -74,9 +74,7 @@ impl SceneInput {
         let scene = match (&self.half_sine, &self.named, &self.record) {
             (Some(sine), None, None) => {
                 let (a, omega) = (sine.amplitude_m_s2, sine.omega_rad_s);
-                scene.under(|_| {
-                    CaseForcing::pulse(PulseName::HalfSine, a, omega)
-                })
+                scene.under(|_| Forcing::pulse(PulseName::HalfSine, a, omega))
             }
             (None, Some((name, intensity)), None) => {
                 let (dt_s, samples) = references::record(name)?;
@@ -131,7 +129,7 @@ pub fn levels(context: &Context, answer: &mut Reply) -> Result<()> {
     answer.put("impact-in-between", [], []);
     for (k, letter) in letters.chars().enumerate() {
         let level_g = first_level_g + 0.01 * k as f64;
-        let mut forcing = CaseForcing::samples(dt_s, record.clone());
+        let mut forcing = Forcing::samples(dt_s, record.clone());
         forcing.scale(level_g * 9.81 / peak);
         let block = [slenderness_rad, frequency_rad_s, 9.81];
         let scene = CaseScene::new(block, 0.92, forcing);
@@ -180,7 +178,7 @@ pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
             let factor = im * alpha / record.pga_g();
             let scene = |slenderness_rad: f64, factor: f64| {
                 let block = [slenderness_rad, frequency_rad_s, 1.0];
-                let forcing = CaseForcing::record(record, factor);
+                let forcing = Forcing::record(record, factor);
                 let scene = CaseScene::new(block, 0.92, forcing);
                 scene.in_equation(Model::Linearized)
             };

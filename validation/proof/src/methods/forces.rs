@@ -6,7 +6,7 @@ use rocking::integrator::{Forces, Observe};
 
 use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
-use crate::scene::{CaseForcing, CaseScene, Model};
+use crate::scene::{CaseScene, Forcing, Model};
 
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
@@ -31,7 +31,7 @@ pub fn uplift(context: &Context, answer: &mut Reply) -> Result<()> {
         let scene = scene.in_equation(equation).under(|threshold| {
             let peak = intensity * threshold;
             let samples = vec![0.0, 0.5 * peak, peak, 0.5 * peak, 0.0];
-            CaseForcing::samples(0.01, samples)
+            Forcing::samples(0.01, samples)
         });
         let found = forces(context, &scene)?;
         let threshold = match scene.model {
@@ -60,7 +60,7 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
     for (alpha, initial_ratio) in pairs(&slenderness_rad, &initial_ratio) {
         let p = 3.0;
         let rotation_rad = initial_ratio * alpha;
-        let release = CaseForcing::Free { rotation_rad };
+        let release = Forcing::Free { rotation_rad };
         let scene = CaseScene::new([alpha, p, 9.81], 1.0, release);
         let scene = scene.in_equation(equation).until(20.0 / p);
         let found = forces(context, &scene)?;
@@ -109,7 +109,7 @@ pub fn momentum(context: &Context, answer: &mut Reply) -> Result<()> {
         let sample = |k: usize| peak * libm::sin(phase * k as f64);
         scene.until_s = Some(1.3 * dt_s * samples as f64);
         let samples: Vec<f64> = (0..samples).map(sample).collect();
-        scene.forcing = CaseForcing::samples(dt_s, samples.clone());
+        scene.forcing = Forcing::samples(dt_s, samples.clone());
         let found = forces(context, &scene)?;
         let (friction, normal) =
             differences(context, &scene, &samples, interval_p / p)?;
@@ -126,7 +126,7 @@ fn differences(
     samples: &[f64],
     h: f64,
 ) -> Result<(f64, f64)> {
-    let CaseForcing::Samples { dt_s, .. } = scene.forcing else {
+    let Forcing::Samples { dt_s, .. } = scene.forcing else {
         bail!("no samples");
     };
     let (alpha, g) = (scene.slenderness_rad, scene.gravity_m_s2);

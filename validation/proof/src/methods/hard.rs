@@ -9,7 +9,7 @@ use super::method::{Context, Reply, SPEEDS};
 use crate::engine::{Precision, WideTrace};
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
-use crate::scene::{CaseForcing, CaseScene, Model, PulseName};
+use crate::scene::{CaseScene, Forcing, Model, PulseName};
 
 /// Rectangular pulses in Eq. 1 that leave a block an energy so much below
 /// the saddle that its peak stops at a distance from it, or as much above.
@@ -33,7 +33,7 @@ pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
             for (sign, falls) in [(-1.0, 0.0), (1.0, 1.0)] {
                 let duration_s = form.duration_to_energy_s(sign * depth);
                 let name = PulseName::Rectangle;
-                let pulse = CaseForcing::pulse(name, pull * 9.81, duration_s);
+                let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
                 let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
                 let trace = context.engine.respond(&scene.until(100.0 / p))?;
                 let over = f64::from(trace.overturned_s.is_some());
@@ -67,7 +67,7 @@ pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
     let scene = scene.under(|threshold| {
         let mut samples = vec![1.6 * threshold; 12];
         samples.resize(4000, steady);
-        CaseForcing::samples(dt_s, samples)
+        Forcing::samples(dt_s, samples)
     });
     let trace = context.engine.respond(&scene)?;
     // The jolt drives theta negative; the first hop on the other side is

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::method::{Context, Reply, SPEEDS};
 use crate::engine::Core;
 use crate::references;
-use crate::scene::{CaseForcing, CaseScene, Engine, Model, PulseName, Trace};
+use crate::scene::{CaseScene, Engine, Forcing, Model, PulseName, Trace};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -98,7 +98,7 @@ fn twin(
     peak_m_s2: f64,
 ) -> Result<CaseScene> {
     let mut twin = scene.clone();
-    let CaseForcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
     else {
         bail!("no record");
     };
@@ -150,7 +150,7 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
             (_, other) => bail!("over `{other}`"),
         };
         let (a, omega) = (amplitude * 9.81 * over, omega_over_p * p);
-        let pulse = CaseForcing::pulse(PulseName::OneSine, a, omega);
+        let pulse = Forcing::pulse(PulseName::OneSine, a, omega);
         let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
         let impact = trace.impacts.first();
@@ -203,7 +203,7 @@ pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
             let scene = CaseScene::new(
                 [alpha, p, 9.81],
                 0.92,
-                CaseForcing::Samples {
+                Forcing::Samples {
                     dt_s: record.dt_s(),
                     acceleration_m_s2: record
                         .samples_g()

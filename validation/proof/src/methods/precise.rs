@@ -11,7 +11,7 @@ use super::cells::{Csv, csv};
 use super::method::{Context, Reply, WrongModel};
 use crate::engine::{Precision, WideTrace};
 use crate::references::{self, Decimal, Expected, LINEAR_PULSES, RECT_PULSE};
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
+use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
 /// Largest error of each quantity; infinite where something is missing.
 #[derive(Default)]
@@ -180,7 +180,7 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut scenes: BTreeMap<[&str; 3], (CaseScene, Free)> = BTreeMap::new();
     for row in FREE.rows(equation.name())? {
         let [alpha, eta, ratio] = row.numbers(1)?;
-        let release = CaseForcing::Free { rotation_rad: alpha * ratio };
+        let release = Forcing::Free { rotation_rad: alpha * ratio };
         let scene = CaseScene::new([alpha, p, 9.81], eta, release);
         let name = [1, 2, 3].map(|column| row.text(column));
         let entry = scenes.entry(name);

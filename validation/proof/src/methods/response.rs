@@ -6,7 +6,7 @@ use super::method::{Context, Reply, SPEEDS};
 use crate::references::{
     self, Decimal, FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, hits,
 };
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
+use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
 /// A time that there may be, found and due, each times `p`.
 fn put_time(
@@ -93,7 +93,7 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     };
     let [alpha, p, rotation_rad] =
         [case.alpha, case.p, case.theta0].map(|digits| digits.near);
-    let release = CaseForcing::Free { rotation_rad };
+    let release = Forcing::Free { rotation_rad };
     let scene = CaseScene::new([alpha, p, 9.81], case.eta.near, release);
     let trace = context.engine.respond(&scene.in_equation(equation))?;
     answer.put_impacts(

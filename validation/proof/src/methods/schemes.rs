@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::method::{Context, Reply, WrongModel};
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
-use crate::scene::{CaseForcing, Engine as _, Overturning};
+use crate::scene::{Engine as _, Forcing, Overturning};
 use anyhow::{Result, bail};
 
 #[derive(Deserialize)]
@@ -61,7 +61,7 @@ fn error(
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
         let scene = case.scene(Overturning::HalfPi)?;
-        let CaseForcing::Samples { dt_s, .. } = scene.forcing else {
+        let Forcing::Samples { dt_s, .. } = scene.forcing else {
             bail!("`{entry}`: no record");
         };
         for &division in divisions {

@@ -14,7 +14,7 @@ use rocking_statistics::streams::{Streams, standard_normal};
 use super::method::{Context, Reply, WrongModel};
 use crate::arithmetic::{RoundedConstants, Wide, decimal};
 use crate::engine::Core;
-use crate::scene::{CaseForcing, CaseScene, Trace};
+use crate::scene::{CaseScene, Forcing, Trace};
 
 /// The scene as a wrong model of the input has it.
 fn mistaken(context: &Context, scene: &ReferenceScene) -> ReferenceScene {
@@ -154,11 +154,11 @@ fn names(found: &Diagnosis) -> Vec<String> {
 fn scene_of(asked: &ReferenceScene) -> CaseScene {
     let forcing = match &asked.excitation {
         SceneExcitation::Free => {
-            CaseForcing::Free { rotation_rad: asked.initial_theta_rad }
+            Forcing::Free { rotation_rad: asked.initial_theta_rad }
         }
-        SceneExcitation::Pulse(kind) => CaseForcing::Pulse(*kind),
+        SceneExcitation::Pulse(kind) => Forcing::Pulse(*kind),
         SceneExcitation::Samples { dt_s, samples_m_s2 } => {
-            CaseForcing::samples(*dt_s, samples_m_s2.clone())
+            Forcing::samples(*dt_s, samples_m_s2.clone())
         }
     };
     let block = [asked.alpha_rad, asked.p_rad_s, asked.g_m_s2];

@@ -9,7 +9,7 @@ use super::closed_forms::{overturns_at_once, overturns_from};
 use super::method::{Context, Reply, WrongModel, pairs};
 use crate::edge::{around, edge};
 use crate::oracles::overturning::sine_without_impact;
-use crate::scene::{CaseForcing, CaseScene, Model, PulseName};
+use crate::scene::{CaseScene, Forcing, Model, PulseName};
 
 /// Least amplitude at which a sine that never ends overturns without impact:
 /// Housner's for the half sine, and the limit of many half cycles.
@@ -80,7 +80,7 @@ pub fn many(context: &Context, answer: &mut Reply) -> Result<()> {
 fn broken(
     (amplitude_m_s2, omega_rad_s, half_cycles): (f64, f64, u32),
     intervals: u32,
-) -> CaseForcing {
+) -> Forcing {
     let sample = |k: u32| {
         // Exact zeros where a half period ends.
         let (whole, part) = (k / intervals, k % intervals);
@@ -90,5 +90,5 @@ fn broken(
     };
     let dt_s = PI / (omega_rad_s * f64::from(intervals));
     let samples = (0..=half_cycles * intervals).map(sample);
-    CaseForcing::samples(dt_s, samples.collect())
+    Forcing::samples(dt_s, samples.collect())
 }

@@ -7,7 +7,7 @@ use rocking::integrator::Observe;
 use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
 use crate::references;
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning, other};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, other};
 
 /// Energy above the base over that of the saddle, along a history in free
 /// flight, divided by eta^2 for each impact met: it stays what it was when
@@ -38,7 +38,7 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
             .under(|threshold| {
                 let mut samples = vec![intensity * threshold; on];
                 samples.resize(on + 800, 0.0);
-                CaseForcing::samples(dt_s, samples)
+                Forcing::samples(dt_s, samples)
             });
         let observe = Observe {
             events: true,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::method::{Context, Reply, WrongModel};
 use crate::oracles::square::{SquareState, SquareWave};
-use crate::scene::{CaseForcing, CaseScene, Overturning};
+use crate::scene::{CaseScene, Forcing, Overturning};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,7 +53,7 @@ impl WaveInput {
             samples.resize(more, level * unit);
         }
         let dt_s = self.unit_p / (intervals as f64 * p);
-        let forcing = CaseForcing::samples(dt_s, samples);
+        let forcing = Forcing::samples(dt_s, samples);
         CaseScene::new([alpha, p, 9.81], eta, forcing).to(Overturning::HalfPi)
     }
 

@@ -7,7 +7,7 @@ use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
-use super::address::Trial;
+use super::Trial;
 use crate::arithmetic::Wide;
 use crate::cases::WrongModel;
 use crate::engine::{Quotient, respond, respond_in};
@@ -172,10 +172,11 @@ fn by<N: Wide>(trial: &Trial) -> Result<WideTruth, EngineError> {
 ///
 /// ```
 /// use rocking_proof::trials::{
-///     Judgement, Reading, Stratum, compare, trial,
+///     CertificateReading, Judgement, Stratum, compare, trial,
 /// };
 /// let trial = trial(Stratum::Ordinary, 0)?.unwrap();
-/// let judgement = Judgement::of(&compare(&trial)?, Reading::WHOLE);
+/// let finding = compare(&trial)?;
+/// let judgement = Judgement::of(&finding, CertificateReading::WHOLE);
 /// assert!(matches!(judgement, Judgement::Right | Judgement::Within(_)));
 /// # Ok::<(), rocking_proof::scene::EngineError>(())
 /// ```

@@ -9,7 +9,7 @@ use super::grazing::few;
 use super::random::{self, NamedScene, ordinary_record, under_pulse};
 use super::search::moved;
 use crate::engine::respond;
-use crate::scene::{CaseForcing, EngineError};
+use crate::scene::{EngineError, Forcing};
 
 /// Scenes drawn, at most, to find one that has what is asked for.
 const ATTEMPTS: usize = 60;
@@ -91,7 +91,7 @@ pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<NamedScene> {
     let (kind, mut scene) = under_pulse(draw, which);
     let name = format!("touch, {kind}");
     let threshold = scene.threshold_m_s2();
-    let CaseForcing::Pulse(kind) = &mut scene.forcing else { return None };
+    let Forcing::Pulse(kind) = &mut scene.forcing else { return None };
     let pulse = Pulse::try_new(*kind).ok()?.with_pga(threshold).ok()?;
     *kind = pulse.kind();
     let amplitude = kind.amplitude_mut();

@@ -9,9 +9,9 @@ use rocking::integrator::Observe;
 
 use super::draw::Draw;
 use super::random::{NamedScene, ordinary_record};
-use super::search::{SceneSearch, geometric, near};
+use super::search::{geometric, near, sides};
 use crate::engine::respond;
-use crate::scene::{CaseForcing, CaseScene, EngineError};
+use crate::scene::{CaseScene, EngineError, Forcing};
 
 /// Blocks drawn, at most, to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -53,7 +53,7 @@ fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
     let threshold = plain.threshold_m_s2();
     let at = move |amplitude: f64| {
         let samples = shape.iter().map(|x| x * amplitude).collect();
-        let forcing = CaseForcing::samples(dt_s, samples);
+        let forcing = Forcing::samples(dt_s, samples);
         CaseScene { forcing, ..plain.clone() }
     };
     let until_s = Some((first - 1) as f64 * dt_s);
@@ -67,9 +67,9 @@ fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
     let turns = |a: &Option<u64>, b: &Option<u64>| {
         matches!((a, b), (Some(0), Some(2)) | (Some(2), Some(0)))
     };
-    let search = SceneSearch { at, see: impacts, turns, first };
     let range = geometric(1.05 * threshold, 4.0 * threshold);
-    let Some([a, b]) = search.sides(draw, &range)? else {
+    let range = (&range[..], first);
+    let Some([a, b]) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
     let peak = |scene: &CaseScene| {

@@ -9,9 +9,9 @@ use rocking::integrator::{Observe, Response};
 use super::draw::Draw;
 use super::random::{NamedScene, PULSES, ordinary_record, under_pulse};
 use super::records::{filtered, noise, normalised};
-use super::search::{SceneSearch, geometric, linear, moved, near};
+use super::search::{geometric, linear, moved, near, sides};
 use crate::engine::respond;
-use crate::scene::{CaseForcing, CaseScene, EngineError};
+use crate::scene::{CaseScene, EngineError, Forcing};
 
 /// Scenes drawn, at most, to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -49,8 +49,7 @@ pub(super) fn grazing(
 /// A contact made or missed during the first part of a record.
 fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let (_, scene) = ordinary_record(draw, LONGEST);
-    let CaseForcing::Samples { dt_s, acceleration_m_s2: first } =
-        &scene.forcing
+    let Forcing::Samples { dt_s, acceleration_m_s2: first } = &scene.forcing
     else {
         return Ok(None);
     };
@@ -71,8 +70,8 @@ fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
         (Some(a), Some(b)) => a.abs_diff(*b) == 2,
         _ => false,
     };
-    let search = SceneSearch { at, see: impacts, turns, first: first.len() };
-    let Some([a, b]) = search.sides(draw, &linear(0.7, 1.7))? else {
+    let range = (&linear(0.7, 1.7)[..], first.len());
+    let Some([a, b]) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
     let peak = |scene: &CaseScene| {
@@ -97,10 +96,8 @@ fn fate(
     };
     let size = scene.forcing.peak();
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
-    let search =
-        SceneSearch { at, see: overturns, turns: differ, first: usize::MAX };
-    let range = geometric(0.5 * size, 10.0 * size);
-    let Some([a, b]) = search.sides(draw, &range)? else {
+    let range = (&geometric(0.5 * size, 10.0 * size)[..], usize::MAX);
+    let Some([a, b]) = sides(draw, range, at, overturns, differ)? else {
         return Ok(None);
     };
     Ok(Some((format!("fate {kind}"), near(draw, NEAR_FATE, a, b))))
@@ -125,7 +122,7 @@ fn uplift(draw: &mut Draw) -> Result<NamedScene, EngineError> {
     let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
     let skipped = if draw.chance(0.7) { strong } else { 0 };
     samples.extend(then.into_iter().skip(skipped).map(|x| sign * x));
-    scene.forcing = CaseForcing::samples(dt_s, samples);
+    scene.forcing = Forcing::samples(dt_s, samples);
     Ok(("uplift".to_owned(), scene))
 }
 
@@ -134,7 +131,7 @@ fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.05);
     let dt_s = in_p / scene.frequency_rad_s;
-    scene.forcing = CaseForcing::samples(dt_s, Vec::new());
+    scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
     let first: Vec<f64> = if draw.chance(0.5) {
@@ -165,8 +162,8 @@ fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let late = (first.len() + quiet + lifts) as f64 * dt_s;
     let uplifts = |scene: &CaseScene| Ok(run_until(scene, late)?.work.uplifts);
     let turns = |a: &u64, b: &u64| a != b;
-    let search = SceneSearch { at, see: uplifts, turns, first: first.len() };
-    let Some([a, b]) = search.sides(draw, &linear(0.8, 1.2))? else {
+    let range = (&linear(0.8, 1.2)[..], first.len());
+    let Some([a, b]) = sides(draw, range, at, uplifts, turns)? else {
         return Ok(None);
     };
     Ok(Some(("rest".to_owned(), near(draw, NEAR, a, b))))
@@ -179,7 +176,7 @@ fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let p = scene.frequency_rad_s;
     let in_p = draw.log(0.02, 0.1);
     let dt_s = in_p / p;
-    scene.forcing = CaseForcing::samples(dt_s, Vec::new());
+    scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
     let half = std::f64::consts::PI / length as f64;
@@ -194,10 +191,8 @@ fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
         let shaking = shaking.iter().map(|x| x * amplitude);
         scene.with_samples(first.iter().copied().chain(shaking).collect())
     };
-    let search =
-        SceneSearch { at, see: overturns, turns: differ, first: usize::MAX };
-    let range = geometric(threshold, 20.0 * threshold);
-    let Some([a, b]) = search.sides(draw, &range)? else {
+    let range = (&geometric(threshold, 20.0 * threshold)[..], usize::MAX);
+    let Some([a, b]) = sides(draw, range, at, overturns, differ)? else {
         return Ok(None);
     };
     Ok(Some(("late chaos".to_owned(), near(draw, NEAR_FATE, a, b))))
@@ -219,7 +214,7 @@ fn shock(
     let mut whole = scene.clone();
     for _ in 0..tries {
         let all = before.iter().chain(&samples).copied().collect();
-        whole.forcing = CaseForcing::samples(dt_s, all);
+        whole.forcing = Forcing::samples(dt_s, all);
         let response = respond(&whole, &Observe::default())?;
         if !response.outcome.is_overturned() {
             break;

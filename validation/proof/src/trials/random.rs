@@ -7,7 +7,7 @@ use rocking::excitation::{PulseName, PulseParameter as P};
 
 use super::draw::Draw;
 use super::records::RecordKind;
-use crate::scene::{CaseForcing, CaseScene, Model, Overturning};
+use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
 /// Samples of a record, at most, but for the few long ones.
 const COMMON: usize = 2000;
@@ -116,7 +116,7 @@ fn block(draw: &mut Draw, ranges: &Ranges) -> CaseScene {
     let half_pi = draw.chance(0.3);
     let alpha = draw.uniform(ranges.alpha[0], ranges.alpha[1]);
     let p = draw.log(ranges.p[0], ranges.p[1]);
-    CaseScene::new([alpha, p, 1.0], 1.0, CaseForcing::NONE)
+    CaseScene::new([alpha, p, 1.0], 1.0, Forcing::NONE)
         .in_equation(if linear { Model::Linearized } else { Model::Nonlinear })
         .to(if half_pi { Overturning::HalfPi } else { Overturning::Alpha })
 }
@@ -133,7 +133,7 @@ fn record(
     let mut samples = kind.samples(draw, n, dt_s);
     let peak = intensity * scene.threshold_m_s2();
     samples.iter_mut().for_each(|x| *x *= peak);
-    scene.forcing = CaseForcing::samples(dt_s, samples);
+    scene.forcing = Forcing::samples(dt_s, samples);
 }
 
 /// Gives a scene a pulse, or a rotation to be released from.
@@ -191,7 +191,7 @@ fn shaped(
         // Below 1 after any rounding.
         let ratio = ratio.min(1.0 - 1e-14);
         let rotation_rad = scene.slenderness_rad * ratio;
-        scene.forcing = CaseForcing::Free { rotation_rad };
+        scene.forcing = Forcing::Free { rotation_rad };
         return "free".to_owned();
     };
     let Ok(kind) = pulse.kind(|parameter| {
@@ -208,6 +208,6 @@ fn shaped(
             P::Phase => draw.uniform(0.0, TAU),
         })
     });
-    scene.forcing = CaseForcing::Pulse(kind);
+    scene.forcing = Forcing::Pulse(kind);
     pulse.to_string()
 }

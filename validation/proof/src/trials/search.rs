@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::draw::Draw;
-use crate::scene::{CaseForcing, CaseScene, EngineError};
+use crate::scene::{CaseScene, EngineError, Forcing};
 
 /// Parts into which the range of the number is divided to find a change.
 const PARTS: usize = 24;
@@ -28,59 +28,40 @@ pub(super) type SearchSide<'a> = (CaseScene, f64, SceneMaker<'a>);
 /// What makes a scene from a number.
 pub(super) type SceneMaker<'a> = Rc<dyn Fn(f64) -> CaseScene + 'a>;
 
-/// A search for a decision that turns.
-pub(super) struct SceneSearch<A, S, T> {
-    /// The scene of a positive number.
-    pub at: A,
-    /// What is seen of a scene.
-    pub see: S,
-    /// Whether two sights lie on the two sides of the decision.
-    pub turns: T,
-    /// Samples of a record that come before the decision, at most.
-    pub first: usize,
-}
-
-impl<A, S, T> SceneSearch<A, S, T>
-where
-    A: Fn(f64) -> CaseScene,
-{
-    /// Two scenes of neighbouring doubles between which the decision turns,
-    /// somewhere in a rising range; none where it does not.
-    pub fn sides<'a, V>(
-        self,
-        draw: &mut Draw,
-        range: &[f64],
-    ) -> Result<Option<[SearchSide<'a>; 2]>, EngineError>
-    where
-        A: 'a,
-        S: Fn(&CaseScene) -> Result<V, EngineError>,
-        T: Fn(&V, &V) -> bool,
-    {
-        let Self { at, see, turns, first } = self;
-        let seen = range
-            .iter()
-            .map(|x| see(&at(*x)))
-            .collect::<Result<Vec<_>, EngineError>>()?;
-        let places: Vec<usize> = (1..range.len())
-            .filter(|k| turns(&seen[k - 1], &seen[*k]))
-            .collect();
-        if places.is_empty() {
-            return Ok(None);
-        }
-        let place = draw.one_of(&places);
-        let ends = [range[place - 1], range[place]];
-        let at: SceneMaker<'a> = Rc::new(at);
-        let Some(ends) = bisected(ends, &*at, &see, &turns)? else {
-            return Ok(None);
-        };
-        let fine = if draw.chance(0.7) {
-            finer(draw, &at(ends[1]), first, &see, &turns)?
-        } else {
-            None
-        };
-        let (at, ends) = fine.unwrap_or((at, ends));
-        Ok(Some(ends.map(|x| (at(x), x, Rc::clone(&at)))))
+/// Two scenes of neighbouring doubles between which a decision turns,
+/// somewhere in a rising range; none where it does not. `at` makes the scene
+/// of a positive number, `see` looks at it, `turns` says whether two sights
+/// lie on the two sides; `first` samples of a record come before the
+/// decision, at most.
+pub(super) fn sides<'a, V>(
+    draw: &mut Draw,
+    (range, first): (&[f64], usize),
+    at: impl Fn(f64) -> CaseScene + 'a,
+    see: impl Fn(&CaseScene) -> Result<V, EngineError>,
+    turns: impl Fn(&V, &V) -> bool,
+) -> Result<Option<[SearchSide<'a>; 2]>, EngineError> {
+    let seen = range
+        .iter()
+        .map(|x| see(&at(*x)))
+        .collect::<Result<Vec<_>, EngineError>>()?;
+    let places: Vec<usize> =
+        (1..range.len()).filter(|k| turns(&seen[k - 1], &seen[*k])).collect();
+    if places.is_empty() {
+        return Ok(None);
     }
+    let place = draw.one_of(&places);
+    let ends = [range[place - 1], range[place]];
+    let at: SceneMaker<'a> = Rc::new(at);
+    let Some(ends) = bisected(ends, &*at, &see, &turns)? else {
+        return Ok(None);
+    };
+    let fine = if draw.chance(0.7) {
+        finer(draw, &at(ends[1]), first, &see, &turns)?
+    } else {
+        None
+    };
+    let (at, ends) = fine.unwrap_or((at, ends));
+    Ok(Some(ends.map(|x| (at(x), x, Rc::clone(&at)))))
 }
 
 /// Neighbouring doubles between two positive numbers.
@@ -116,8 +97,7 @@ fn finer<'a, V>(
     see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
     turns: &impl Fn(&V, &V) -> bool,
 ) -> Result<Option<(SceneMaker<'a>, [f64; 2])>, EngineError> {
-    let CaseForcing::Samples { acceleration_m_s2: samples, .. } =
-        &scene.forcing
+    let Forcing::Samples { acceleration_m_s2: samples, .. } = &scene.forcing
     else {
         return Ok(None);
     };

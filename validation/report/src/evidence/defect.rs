@@ -3,7 +3,7 @@ use rocking_draw::figures::{
 };
 use rocking_proof::engine::Core;
 use rocking_proof::scene::{
-    CaseForcing, CaseScene, Engine as _, EngineError, Model, Overturning,
+    CaseScene, Engine as _, EngineError, Forcing, Model, Overturning,
     PulseKind,
 };
 
@@ -104,7 +104,7 @@ fn departure(
             ..CaseScene::new(
                 [alpha, p, 1.0],
                 0.92,
-                CaseForcing::Pulse(PulseKind::OneSine {
+                Forcing::Pulse(PulseKind::OneSine {
                     amplitude: amplitude * unit,
                     omega_rad_s: omega * p,
                 }),

@@ -7,7 +7,7 @@ use rocking_proof::edge::edge;
 use rocking_proof::engine::Core;
 use rocking_proof::oracles::overturning;
 use rocking_proof::scene::{
-    CaseForcing, CaseScene, Engine as _, EngineError, Model, Overturning,
+    CaseScene, Engine as _, EngineError, Forcing, Model, Overturning,
     PulseKind,
 };
 
@@ -33,9 +33,9 @@ pub(super) fn fate(
         model: equation,
         overturning: criterion,
         until_s: Some(7.0 / omega + 60.0),
-        ..CaseScene::new([STOCKY_RAD, 1.0, 1.0], ETA, CaseForcing::NONE)
+        ..CaseScene::new([STOCKY_RAD, 1.0, 1.0], ETA, Forcing::NONE)
     };
-    scene.forcing = CaseForcing::Pulse(PulseKind::OneSine {
+    scene.forcing = Forcing::Pulse(PulseKind::OneSine {
         amplitude: amplitude * scene.threshold_m_s2(),
         omega_rad_s: omega,
     });

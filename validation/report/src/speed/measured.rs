@@ -169,6 +169,14 @@ pub struct Total {
     pub ratio: f64,
 }
 
+impl Total {
+    /// Tool, method and setting, whatever the version.
+    pub fn key(&self) -> [&str; 3] {
+        let [tool, _, method, setting] = &self.label;
+        [tool, method, setting]
+    }
+}
+
 /// Totals by tool and setting, in the order of the rows; ratios to the times
 /// of `base` (tool, method, setting).
 pub fn totals(rows: &[TimingRow], base: [&str; 3]) -> Vec<Total> {

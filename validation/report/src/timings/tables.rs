@@ -69,7 +69,7 @@ impl Timings {
                 digits(t.work),
             ]
         };
-        let reference = |t: &&Total| t.label[3] != "order 27";
+        let reference = |t: &&Total| t.key()[2] != "order 27";
         PlainTable::new(
             "speed-tools",
             "Speed and error of single analyses",
@@ -112,9 +112,9 @@ impl Timings {
         let rows = self
             .singles
             .iter()
-            .filter(|t| t.label[0] == "rocking")
+            .filter(|t| t.key()[0] == BASE[0])
             .map(|t| {
-                let setting = t.label[3].as_str();
+                let setting = t.key()[2];
                 let is = |(name, _): &&(&str, &str)| *name == setting;
                 let reference = setting == "order 27";
                 let unless = |x: f64| {

@@ -49,22 +49,16 @@ fn draws_the_same_bytes_twice() {
 #[test]
 fn ratios_are_at_no_larger_error() {
     let mut kept = Timings::kept().expect("tables");
-    let mut peer = kept.throughput_of(STOPPED.work).expect("work").clone();
+    let mut peer = kept.throughput_of(PEER_WORK).expect("work").clone();
     let quick = |kept: &Timings, peer: &Throughput| {
-        kept.fastest(&STOPPED, peer).map(|(setting, _)| setting.to_owned())
+        kept.fastest(peer).map(|(setting, _)| setting.to_owned())
     };
     let setting = quick(&kept, &peer).expect("a setting");
     assert!(kept.plain().contains(&format!("At {setting}, our fastest")));
 
     // Order 4 has the smaller medians, but a larger worst case.
-    let of = |[tool, method, setting]: [&str; 3]| {
-        let mut all = kept.totals_of(tool, method, &[]).into_iter();
-        all.find(|t| t.label[3] == setting).expect("setting").clone()
-    };
-    let (low, theirs) = (
-        of([BASE[0], BASE[1], "order 4"]),
-        of([TOOL, STOPPED.method, TOLERANCE]),
-    );
+    let of = |key| kept.total(key).expect("setting");
+    let (low, theirs) = (of([BASE[0], BASE[1], "order 4"]), of(PEER));
     assert!(low.peak_error_worst > theirs.peak_error_worst);
     assert_ne!(setting, "order 4");
 
@@ -74,7 +68,7 @@ fn ratios_are_at_no_larger_error() {
         .moved;
     peer.moved = moved.map(|n| n - 1);
     assert_ne!(quick(&kept, &peer), Some(setting));
-    let theirs = |t: &&mut Total| t.label[0] == TOOL;
+    let theirs = |t: &&mut Total| t.key()[0] == PEER[0];
     for total in kept.singles.iter_mut().filter(theirs) {
         total.peak_error = 0.0;
     }

@@ -5,10 +5,10 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::of_result::{codes_chart, score_svg};
 use rocking_draw::figures::{Chart, Figure, Heading, Place};
-use rocking_draw::page::head;
+use rocking_draw::page::{head, table};
 use rocking_score::{
-    Code, CodeVerdict, Explanation, Score, Value, codes, own_answers,
-    reference, score,
+    Code, CodeVerdict, Explanation, LevelScore, QuantityScore, Score, Value,
+    codes, own_answers, reference, score,
 };
 
 /// The page of a score: one file, without scripts and network.
@@ -70,8 +70,6 @@ pub const SETTINGS: [&str; 2] = ["default", "best"];
 /// Where our own answers are refused.
 pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
     let own = score(&own_answers().map_err(anyhow::Error::msg)?);
-    let digits =
-        |x: Option<f64>| x.map_or("–".into(), |x| format!("{x:.1}"));
     let [wrong, right] = [
         own.levels.iter().map(|level| level.fates_wrong).sum::<usize>(),
         own.levels.iter().map(|level| level.fates_right).sum(),
@@ -231,49 +229,49 @@ fn explanation(one: &Explanation) -> Markup {
     }
 }
 
+/// A number of digits, where there is one.
+fn digits(x: Option<f64>) -> String {
+    x.map_or("–".into(), |x| format!("{x:.1}"))
+}
+
 fn levels(score: &Score) -> Markup {
-    let number =
-        |x: Option<f64>| x.map_or("–".into(), |x| format!("{x:.1}"));
-    let head = [
-        "Level",
-        "Numbers answered",
-        "Median digits",
-        "Fewest digits",
-        "Share that attains all digits",
-        "Fates right",
-        "Fates wrong",
-        "Fates missing",
-        "Counts right",
-        "Counts wrong",
-    ];
-    html! {
-        div.scroll tabindex="0" {
-            table {
-                thead { tr { @for name in head { th { (name) } } } }
-                tbody {
-                    @for level in &score.levels {
-                        tr {
-                            th { (level.level) ", " (level.kind) }
-                            td { (level.answered) " of " (level.asked) }
-                            td { (number(level.median_digits)) }
-                            td { (number(level.worst_digits)) }
-                            td {
-                                (level.attained_share.map_or(
-                                    "–".into(),
-                                    |share| format!("{:.0} %", 100.0 * share),
-                                ))
-                            }
-                            td { (level.fates_right) }
-                            td { (level.fates_wrong) }
-                            td { (level.fates_missing) }
-                            td { (level.counts_right) }
-                            td { (level.counts_wrong) }
-                        }
-                    }
-                }
-            }
-        }
-    }
+    let percent = |share| format!("{:.0} %", 100.0 * share);
+    let row = |level: &LevelScore| {
+        let mut cells = vec![
+            format!("{}, {}", level.level, level.kind),
+            format!("{} of {}", level.answered, level.asked),
+            digits(level.median_digits),
+            digits(level.worst_digits),
+            level.attained_share.map_or("–".into(), percent),
+        ];
+        let counts = [
+            level.fates_right,
+            level.fates_wrong,
+            level.fates_missing,
+            level.counts_right,
+            level.counts_wrong,
+        ];
+        cells.extend(counts.map(|count| count.to_string()));
+        cells
+    };
+    table::untitled(&PlainTable::new(
+        "levels",
+        "Digits",
+        "Digits, fates and counts, level by level.",
+        &[
+            "Level",
+            "Numbers answered",
+            "Median digits",
+            "Fewest digits",
+            "Share that attains all digits",
+            "Fates right",
+            "Fates wrong",
+            "Fates missing",
+            "Counts right",
+            "Counts wrong",
+        ],
+        score.levels.iter().map(row).collect(),
+    ))
 }
 
 /// Lines of the table of answers that lack digits.
@@ -285,47 +283,37 @@ fn lacking(score: &Score) -> Markup {
         Value::Count(n) => n.to_string(),
         Value::Number(x) => format!("{x:.9}"),
     };
-    let mut rows: Vec<_> =
-        score.quantities.iter().filter(|q| !q.attained).collect();
-    let digits = |x: Option<f64>| x.unwrap_or(0.0);
-    let lacks = |k: usize| {
-        let q = rows[k];
-        digits(q.digits) - q.attainable_digits.unwrap_or(15.0)
+    let lacks = |q: &QuantityScore| {
+        q.digits.unwrap_or(0.0) - q.attainable_digits.unwrap_or(15.0)
     };
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by(|a, b| lacks(*a).total_cmp(&lacks(*b)));
-    let all = rows.len();
-    rows = order.into_iter().take(MOST).map(|k| rows[k]).collect();
-    let head =
-        ["Scene", "Quantity", "Answer", "Certified", "Digits", "Attainable"];
-    html! {
-        @if all == 0 {
+    let mut all: Vec<_> =
+        score.quantities.iter().filter(|q| !q.attained).collect();
+    all.sort_by(|a, b| lacks(a).total_cmp(&lacks(b)));
+    let row = |q: &&QuantityScore| {
+        vec![
+            q.scene.to_string(),
+            q.quantity.to_string(),
+            text(&q.value),
+            text(q.certified),
+            digits(q.digits),
+            digits(q.attainable_digits),
+        ]
+    };
+    if all.is_empty() {
+        return html! {
             p { "None: every answer has all digits that it can have." }
-        } @else {
-            p {
-                (all) " answers; the " (rows.len()) " that lack most:"
-            }
-            div.scroll tabindex="0" {
-                table {
-                    thead { tr { @for name in head { th { (name) } } } }
-                    tbody {
-                        @for q in rows {
-                            tr {
-                                th { (q.scene) }
-                                td { (q.quantity) }
-                                td { (text(&q.value)) }
-                                td { (text(q.certified)) }
-                                td { (q.digits.map_or("–".into(),
-                                    |x| format!("{x:.1}"))) }
-                                td { (q.attainable_digits.map_or("–".into(),
-                                    |x| format!("{x:.1}"))) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        };
     }
+    let shown = all.len().min(MOST);
+    let header =
+        ["Scene", "Quantity", "Answer", "Certified", "Digits", "Attainable"];
+    table::untitled(&PlainTable::new(
+        "lacking",
+        "Answers that lack digits",
+        format!("{} answers; the {shown} that lack most:", all.len()),
+        &header,
+        all[..shown].iter().map(row).collect(),
+    ))
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 
 mod tables;
 
+use anyhow::Context as _;
+
 use crate::speed::measured::{Total, totals};
 use crate::speed::parse;
 use crate::speed::singles::BASE;
@@ -61,7 +63,16 @@ const INTERPRETED: [&str; 2] = ["SciPy", "GNU Octave"];
 
 /// The kept timings.
 pub struct Timings {
+    /// Single analyses by each tool and setting: ours as shipped, the peer's,
+    /// and all.
+    own: Total,
+    theirs: Total,
     singles: Vec<Total>,
+    /// Many analyses: the paper's in lanes, one by one and by the peer, each
+    /// on one thread, and all.
+    paper: Throughput,
+    one_by_one: Throughput,
+    peer: Throughput,
     many: Vec<Throughput>,
     conditions: Vec<(String, String)>,
     /// Header and rows of a trial.
@@ -74,9 +85,24 @@ impl Timings {
     /// # Errors
     /// Where a table has been damaged.
     pub fn kept() -> anyhow::Result<Self> {
+        let singles = totals(&parse(SINGLES)?, BASE);
+        let total = |key: [&str; 3]| {
+            let found = singles.iter().find(|total| total.key() == key);
+            found.cloned().with_context(|| key.join(", "))
+        };
+        let many = parse(MANY)?;
+        let work = |name: &str| {
+            let found = on_one_thread(&many, name);
+            found.cloned().with_context(|| name.to_owned())
+        };
         Ok(Self {
-            singles: totals(&parse(SINGLES)?, BASE),
-            many: parse(MANY)?,
+            own: total(BASE)?,
+            theirs: total(PEER)?,
+            paper: work(PAPER)?,
+            one_by_one: work(ONE_BY_ONE)?,
+            peer: work(PEER_WORK)?,
+            singles,
+            many,
             conditions: parse(CONDITIONS)?,
             window_step: table(WINDOW_STEP)?,
         })
@@ -115,40 +141,25 @@ impl Timings {
     /// Error against time and work.
     pub fn figure(&self) -> Figure {
         let series = |x: fn(&Total) -> f64, y: fn(&Total) -> f64| {
-            let line = |(label, tool, method, without): &(
-                &str,
-                &str,
-                &str,
-                &[&str],
-            )| {
+            let line = |(label, tool, method, without)| {
                 let of = self.totals_of(tool, method, without);
-                let mark = if INTERPRETED.contains(tool) {
-                    Mark::DashedAndPoints
-                } else {
-                    Mark::LineAndPoints
+                let mark = match INTERPRETED.contains(&tool) {
+                    true => Mark::DashedAndPoints,
+                    false => Mark::LineAndPoints,
                 };
-                Series::new(
-                    *label,
-                    mark,
-                    of.iter().map(|t| x(t)).collect(),
-                    of.iter().map(|t| y(t)).collect(),
-                )
+                let (x, y) = of.iter().map(|t| (x(t), y(t))).unzip();
+                Series::new(label, mark, x, y)
             };
-            LINES.iter().map(line).filter(|s| !s.x.is_empty()).collect()
+            LINES.map(line).into_iter().filter(|s| !s.x.is_empty()).collect()
         };
-        let own_ms = self.own().map_or(f64::NAN, |own| 1e3 * own.cpu_s);
+        let own_ms = 1e3 * self.own.cpu_s;
         let time = || {
             let words = "processor time, multiples of ours as shipped";
-            let axis = logarithmic(words);
-            if own_ms > 0.0 {
-                let label = format!(
-                    "processor time (ms), ours in the median {}",
-                    digits(own_ms)
-                );
-                axis.with_second(own_ms, label)
-            } else {
-                axis
-            }
+            let label = format!(
+                "processor time (ms), ours in the median {}",
+                digits(own_ms)
+            );
+            logarithmic(words).with_second(own_ms, label)
         };
         let error = "median error of peak |*θ*|/*α*";
         let share =
@@ -203,19 +214,9 @@ impl Timings {
         drawing.figure(self.reading())
     }
 
-    /// The total of a tool, a method and a setting.
-    fn total(&self, key: [&str; 3]) -> Option<&Total> {
-        self.singles.iter().find(|total| total.key() == key)
-    }
-
-    /// Our own run as shipped.
-    fn own(&self) -> Option<&Total> {
-        self.total(BASE)
-    }
-
     /// Errors against double-double, in a sentence.
     pub fn accuracy(&self) -> String {
-        let Some(own) = self.own() else { return String::new() };
+        let own = &self.own;
         format!(
             "Over {} analyses of the timings the peak of |theta|/alpha is \
              off by {} (median), {} (90 % are below) and {} (largest), with \
@@ -230,103 +231,77 @@ impl Timings {
 
     /// The error of the peak, in a few words.
     pub fn error(&self) -> String {
-        self.own().map_or(String::new(), |own| {
-            format!(
-                "Peak of |theta|/alpha off by {} in the median, by {} at \
-                 most, in {} analyses",
-                digits(own.peak_error),
-                digits(own.peak_error_worst),
-                own.cases
-            )
-        })
+        format!(
+            "Peak of |theta|/alpha off by {} in the median, by {} at most, in \
+             {} analyses",
+            digits(self.own.peak_error),
+            digits(self.own.peak_error_worst),
+            self.own.cases
+        )
     }
 
     /// Whether it is faster than the compiled peer at its best, at no larger
     /// error, and how fast.
     pub fn speed(&self) -> (String, String) {
-        let ratio = |work: &str| {
-            let ours = self.throughput_of(work)?.rate_per_s();
-            Some(ours / self.throughput_of(PEER_WORK)?.rate_per_s())
+        let ratio =
+            |ours: &Throughput| ours.rate_per_s() / self.peer.rate_per_s();
+        let (lanes, one) = (ratio(&self.paper), ratio(&self.one_by_one));
+        let answer = if lanes > 1.0 && self.no_worse().contains(&BASE[2]) {
+            format!(
+                "Yes: {} times as fast as {PEER_NAME}; one by one, {} times.",
+                digits(lanes),
+                digits(one)
+            )
+        } else {
+            format!("No: {} times as fast as {PEER_NAME}.", digits(lanes))
         };
-        let answer = match (ratio(PAPER), ratio(ONE_BY_ONE)) {
-            (Some(lanes), Some(one))
-                if lanes > 1.0 && self.no_worse().contains(&BASE[2]) =>
-            {
-                format!(
-                    "Yes: {} times as fast as {}; one by one, {} times.",
-                    digits(lanes),
-                    PEER_NAME,
-                    digits(one)
-                )
-            }
-            (Some(lanes), _) => {
-                format!(
-                    "No: {} times as fast as {}.",
-                    digits(lanes),
-                    PEER_NAME
-                )
-            }
-            (None, _) => "Open: no timing compares them.".into(),
-        };
-        let many = self.throughput_of(PAPER).zip(self.equal());
+        let equal = self.equal().map_or(String::new(), |(setting, times)| {
+            format!("; {} times at {setting}", digits(times))
+        });
+        let rate = self.paper.rate_per_s();
         let effect =
-            many.map_or(String::new(), |(paper, (setting, times))| {
-                format!(
-                    "{:.0} analyses a second and core as shipped; {} times at \
-                 {setting}",
-                    paper.rate_per_s(),
-                    digits(times)
-                )
-            });
+            format!("{rate:.0} analyses a second and core as shipped{equal}");
         (answer, effect)
     }
 
     /// The fastest of our settings whose errors are no larger than the peer's,
     /// and how many times as fast it is.
     fn equal(&self) -> Option<(&str, f64)> {
-        let theirs = self.throughput_of(PEER_WORK)?;
-        let (setting, ours) = self.fastest(theirs)?;
-        Some((setting, ours.rate_per_s() / theirs.rate_per_s()))
+        let (setting, ours) = self.fastest()?;
+        Some((setting, ours.rate_per_s() / self.peer.rate_per_s()))
     }
 
     /// How fast, in a sentence.
     pub fn plain(&self) -> String {
-        let peer = || {
-            let rate = self.throughput_of(PEER_WORK)?.rate_per_s();
-            let ratio = self.throughput_of(PAPER)?.rate_per_s() / rate;
-            let (setting, times) = self.equal()?;
-            Some(format!(
-                ", {} times as many as {} at 1e-9. At {setting}, our fastest \
-                 setting with no larger error, it is {} times",
-                digits(ratio),
-                PEER_NAME,
-                digits(times)
-            ))
-        };
-        let peer = peer().unwrap_or_default();
-        let many = self.throughput_of(PAPER).map_or(String::new(), |paper| {
+        let rate = self.paper.rate_per_s();
+        let equal = self.equal().map_or(String::new(), |(setting, times)| {
             format!(
-                " The paper's 15 blocks run at {:.0} analyses a second and \
-                 core{peer}.",
-                paper.rate_per_s()
+                " At {setting}, our fastest setting with no larger error, it \
+                 is {} times.",
+                digits(times)
             )
         });
         format!(
-            "A single analysis takes {} ms of one core.{many} {}",
-            self.own().map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
+            "A single analysis takes {} ms of one core. The paper's 15 blocks \
+             run at {rate:.0} analyses a second and core, {} times as many as \
+             {PEER_NAME} at 1e-9.{equal} {}",
+            digits(1e3 * self.own.cpu_s),
+            digits(rate / self.peer.rate_per_s()),
             self.measured_on()
         )
     }
 
-    /// A piece of work on one thread.
-    fn throughput_of(&self, work: &str) -> Option<&Throughput> {
-        self.many.iter().find(|t| t.threads == 1 && t.work == work)
+    /// The paper's work in lanes at one of our settings.
+    fn in_lanes(&self, setting: &str) -> Option<&Throughput> {
+        match setting == BASE[2] {
+            true => Some(&self.paper),
+            false => on_one_thread(&self.many, &format!("{PAPER}, {setting}")),
+        }
     }
 
     /// Our settings that are no worse than the peer in any error, the
     /// largest ones too.
     fn no_worse(&self) -> Vec<&str> {
-        let theirs = self.total(PEER);
         let errors = |t: &Total| {
             [
                 t.peak_error,
@@ -338,7 +313,7 @@ impl Timings {
                 t.other_impacts as f64,
             ]
         };
-        let Some(limits) = theirs.map(errors) else { return Vec::new() };
+        let limits = errors(&self.theirs);
         let [tool, method, _] = BASE;
         self.totals_of(tool, method, &[])
             .into_iter()
@@ -349,13 +324,12 @@ impl Timings {
 
     /// The fastest of those settings that move no more first overturnings
     /// than the peer, and the same work by it.
-    fn fastest(&self, theirs: &Throughput) -> Option<(&str, &Throughput)> {
+    fn fastest(&self) -> Option<(&str, &Throughput)> {
         self.no_worse()
             .into_iter()
             .filter_map(|setting| {
-                let work =
-                    self.throughput_of(&format!("{PAPER}, {setting}"))?;
-                (work.moved? <= theirs.moved?).then_some((setting, work))
+                let work = self.in_lanes(setting)?;
+                (work.moved? <= self.peer.moved?).then_some((setting, work))
             })
             .max_by(|a, b| a.1.rate_per_s().total_cmp(&b.1.rate_per_s()))
     }
@@ -373,7 +347,7 @@ impl Timings {
     }
 
     fn reading(&self) -> String {
-        let own = self.own();
+        let own = &self.own;
         let best = self.most_accurate();
         let by = |interpreted: bool| {
             let is =
@@ -389,21 +363,21 @@ impl Timings {
              line joins the settings of a tool, dashed where an interpreter \
              evaluates the equation. All ran the same {} cases{} under one \
              rest rule, against double-double.",
-            own.map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
-            own.map_or(String::new(), |t| digits(t.peak_error)),
+            digits(1e3 * own.cpu_s),
+            digits(own.peak_error),
             by(false),
             by(true),
             digits(good),
             digits(bad),
-            own.map_or(0, |t| t.cases),
+            own.cases,
             self.fewer(),
         )
     }
 
     /// The tools that ran only some of the cases, in brackets.
     fn fewer(&self) -> String {
-        let all = self.own().map_or(0, |t| t.cases);
-        let fewer = self.most_accurate().into_iter().filter(|t| t.cases < all);
+        let best = self.most_accurate().into_iter();
+        let fewer = best.filter(|t| t.cases < self.own.cases);
         let some: Vec<String> = fewer
             .map(|t| format!("{} {} of them", t.key()[0], t.cases))
             .collect();
@@ -412,6 +386,14 @@ impl Timings {
             some => format!(" ({})", some.join(", ")),
         }
     }
+}
+
+/// A piece of work on one thread.
+fn on_one_thread<'a>(
+    many: &'a [Throughput],
+    work: &str,
+) -> Option<&'a Throughput> {
+    many.iter().find(|t| t.threads == 1 && t.work == work)
 }
 
 /// Header and rows.

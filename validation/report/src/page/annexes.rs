@@ -34,7 +34,23 @@ pub(crate) struct Annex<'a> {
     pub is_filed: bool,
 }
 
-impl Annex<'_> {
+impl<'a> Annex<'a> {
+    fn new(
+        id: &'static str,
+        title: &'static str,
+        tables: Vec<PlainTable>,
+    ) -> Self {
+        Self { id, title, tables, ..Self::default() }
+    }
+
+    fn with(self, figures: Vec<&'a Figure>) -> Self {
+        Self { figures, ..self }
+    }
+
+    fn filed(self) -> Self {
+        Self { is_filed: true, ..self }
+    }
+
     /// What stands under the heading.
     pub fn body(&self) -> Markup {
         html! {
@@ -57,91 +73,66 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
         study.answers.iter().partition(|q| q.id == "suites");
     let on_grid = page.figures.iter();
     let on_grid = on_grid.filter(|f| page.is_on_the_papers_grid(f));
+    let others = others
+        .into_iter()
+        .flat_map(|question| answered(question, basis.recorded()));
+    let compared = compared.into_iter().flat_map(|q| q.tables.clone());
+    let requirements =
+        ledger::table(proof.map(Proof::results), claims, page.figures)?;
     let mut all = vec![
         Annex {
-            id: "blocks",
-            title: "The blocks",
             text: basis
                 .columns()
                 .into_iter()
                 .flat_map(verdicts::work)
                 .collect(),
-            tables: vec![table_1()?],
-            is_filed: true,
-            ..Annex::default()
+            ..Annex::new("blocks", "The blocks", vec![table_1()?]).filed()
         },
-        Annex {
-            id: "checks",
-            title: "Digits, pulses, critical values, similarity",
-            tables: evidence::checks(*proof)?,
-            figures: page.placed(Place::Checks),
-            ..Annex::default()
-        },
-        Annex {
-            id: "inference",
-            title: "Coverage of the intervals",
-            tables: coverage.iter().map(|c| c.table()).collect(),
-            ..Annex::default()
-        },
-        Annex {
-            id: "paper-s-grid",
-            title: "Figures on the paper's grid (arm A)",
-            figures: on_grid.collect(),
-            ..Annex::default()
-        },
-        Annex {
-            id: "beyond",
-            title: "Questions beyond the paper",
-            tables: others
-                .into_iter()
-                .flat_map(|question| answered(question, basis.recorded()))
-                .collect(),
-            figures: page.placed(Place::Beyond),
-            ..Annex::default()
-        },
-        Annex {
-            id: "suites-by-block",
-            title: "Suites: motions, and capacities block by block",
-            tables: compared
-                .into_iter()
-                .flat_map(|q| q.tables.clone())
-                .collect(),
-            figures: page.placed(Place::SuitesByBlock),
-            ..Annex::default()
-        },
-        Annex {
-            id: "comparison",
-            title: "Comparison with printed numbers",
-            tables: vec![credibility::comparison(results, claims)?],
-            is_filed: true,
-            ..Annex::default()
-        },
-        Annex {
-            id: "speed-tried",
-            title: "Speed: other tools, and settings tried",
-            tables: timings.tables(),
-            is_filed: true,
-            ..Annex::default()
-        },
-        Annex {
-            id: "others",
-            title: "How do others do?",
-            tables: vec![scored::codes_table(&scored::SETTINGS)?],
-            figures: page.placed(Place::Others),
-            is_filed: true,
-            ..Annex::default()
-        },
-        Annex {
-            id: "requirements",
-            title: "Requirements",
-            tables: vec![ledger::table(
-                proof.map(Proof::results),
-                claims,
-                page.figures,
-            )?],
-            is_filed: true,
-            ..Annex::default()
-        },
+        Annex::new(
+            "checks",
+            "Digits, pulses, critical values, similarity",
+            evidence::checks(*proof)?,
+        )
+        .with(page.placed(Place::Checks)),
+        Annex::new(
+            "inference",
+            "Coverage of the intervals",
+            coverage.iter().map(|c| c.table()).collect(),
+        ),
+        Annex::new(
+            "paper-s-grid",
+            "Figures on the paper's grid (arm A)",
+            Vec::new(),
+        )
+        .with(on_grid.collect()),
+        Annex::new("beyond", "Questions beyond the paper", others.collect())
+            .with(page.placed(Place::Beyond)),
+        Annex::new(
+            "suites-by-block",
+            "Suites: motions, and capacities block by block",
+            compared.collect(),
+        )
+        .with(page.placed(Place::SuitesByBlock)),
+        Annex::new(
+            "comparison",
+            "Comparison with printed numbers",
+            vec![credibility::comparison(results, claims)?],
+        )
+        .filed(),
+        Annex::new(
+            "speed-tried",
+            "Speed: other tools, and settings tried",
+            timings.tables(),
+        )
+        .filed(),
+        Annex::new(
+            "others",
+            "How do others do?",
+            vec![scored::codes_table(&scored::SETTINGS)?],
+        )
+        .with(page.placed(Place::Others))
+        .filed(),
+        Annex::new("requirements", "Requirements", vec![requirements]).filed(),
     ];
     all.retain(|one| !(one.tables.is_empty() && one.figures.is_empty()));
     Ok(all)

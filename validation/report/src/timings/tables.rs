@@ -1,6 +1,6 @@
 //! The timings as tables.
 
-use super::{PAPER, Timings, digits};
+use super::{Timings, digits};
 use crate::speed::measured::Total;
 use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
@@ -49,10 +49,9 @@ impl Timings {
     }
 
     fn tools(&self) -> PlainTable {
-        let own = self.own();
-        let sums = |t: &Total| {
-            let own = own.filter(|own| own.cases == t.cases);
-            own.map_or(f64::NAN, |own| t.mean_cpu_s / own.mean_cpu_s)
+        let sums = |t: &Total| match t.cases == self.own.cases {
+            true => t.mean_cpu_s / self.own.mean_cpu_s,
+            false => f64::NAN,
         };
         let row = |t: &Total| {
             let [tool, version, method, setting] = &t.label;
@@ -99,16 +98,11 @@ impl Timings {
 
     /// Which of our settings when.
     pub fn settings(&self) -> PlainTable {
-        let shipped = self.throughput_of(PAPER).map(Throughput::rate_per_s);
-        let many = |setting: &str| {
-            if setting == BASE[2] {
-                return self.throughput_of(PAPER);
-            }
-            self.throughput_of(&format!("{PAPER}, {setting}"))
+        let shipped = self.paper.rate_per_s();
+        let moved = |setting| Some(self.in_lanes(setting)?.moved?.to_string());
+        let in_lanes = |setting| {
+            Some(digits(shipped / self.in_lanes(setting)?.rate_per_s()))
         };
-        let moved = |setting| Some(many(setting)?.moved?.to_string());
-        let in_lanes =
-            |setting| Some(digits(shipped? / many(setting)?.rate_per_s()));
         let rows = self
             .singles
             .iter()

@@ -49,30 +49,22 @@ fn draws_the_same_bytes_twice() {
 #[test]
 fn ratios_are_at_no_larger_error() {
     let mut kept = Timings::kept().expect("tables");
-    let mut peer = kept.throughput_of(PEER_WORK).expect("work").clone();
-    let quick = |kept: &Timings, peer: &Throughput| {
-        kept.fastest(peer).map(|(setting, _)| setting.to_owned())
-    };
-    let setting = quick(&kept, &peer).expect("a setting");
+    let quick =
+        |kept: &Timings| kept.fastest().map(|(setting, _)| setting.to_owned());
+    let setting = quick(&kept).expect("a setting");
     assert!(kept.plain().contains(&format!("At {setting}, our fastest")));
 
     // Order 4 has the smaller medians, but a larger worst case.
-    let of = |key| kept.total(key).expect("setting");
-    let (low, theirs) = (of([BASE[0], BASE[1], "order 4"]), of(PEER));
-    assert!(low.peak_error_worst > theirs.peak_error_worst);
+    let is_low = |t: &&Total| t.key() == [BASE[0], BASE[1], "order 4"];
+    let low = kept.singles.iter().find(is_low).expect("order 4");
+    assert!(low.peak_error_worst > kept.theirs.peak_error_worst);
     assert_ne!(setting, "order 4");
 
-    let moved = kept
-        .throughput_of(&format!("{PAPER}, {setting}"))
-        .expect("work")
-        .moved;
-    peer.moved = moved.map(|n| n - 1);
-    assert_ne!(quick(&kept, &peer), Some(setting));
-    let theirs = |t: &&mut Total| t.key()[0] == PEER[0];
-    for total in kept.singles.iter_mut().filter(theirs) {
-        total.peak_error = 0.0;
-    }
-    assert_eq!(quick(&kept, &peer), None);
+    let moved = kept.in_lanes(&setting).expect("work").moved;
+    kept.peer.moved = moved.map(|n| n - 1);
+    assert_ne!(quick(&kept), Some(setting));
+    kept.theirs.peak_error = 0.0;
+    assert_eq!(quick(&kept), None);
 }
 
 #[test]
@@ -86,7 +78,7 @@ fn numbers_are_short() {
 fn a_tool_that_ran_fewer_cases_is_named() {
     let timings = Timings::kept().unwrap();
     let said = timings.reading();
-    let all = timings.own().unwrap().cases;
+    let all = timings.own.cases;
     for total in timings.most_accurate() {
         let Total { label, cases, .. } = total;
         let named = said.contains(&format!("{} {cases} of them", label[0]));

@@ -8,7 +8,7 @@ use rocking_common::findings::{Findings, Suite};
 use rocking_common::words::{percent, rounded};
 use rocking_draw::figures::{DIGITS, Figure, Motions};
 use rocking_study::Study;
-use rocking_study::kept::{self, Kept};
+use rocking_study::kept::{self, KeptResults};
 use serde_json::Value;
 
 /// The paper's figures that draw a history of rotation. From a history the
@@ -27,7 +27,7 @@ pub(crate) struct FindingSets<'a> {
     pub here: &'a Findings,
     /// Whether its suites are the embedded ones.
     pub embedded: bool,
-    kept: Option<Kept>,
+    kept: Option<KeptResults>,
 }
 
 impl<'a> FindingSets<'a> {
@@ -37,7 +37,7 @@ impl<'a> FindingSets<'a> {
     /// For kept results that cannot be read.
     pub fn of(embedded: bool, here: &'a Findings) -> anyhow::Result<Self> {
         let kept = match embedded {
-            true => Kept::of(&here.settings)?,
+            true => KeptResults::of(&here.settings)?,
             false => None,
         };
         Ok(Self { here, embedded, kept })
@@ -45,7 +45,7 @@ impl<'a> FindingSets<'a> {
 
     /// The kept findings of the recorded suites.
     pub fn recorded(&self) -> Option<&Findings> {
-        self.kept.as_ref().map(Kept::findings)
+        self.kept.as_ref().map(KeptResults::findings)
     }
 
     /// The findings that answer.
@@ -201,7 +201,7 @@ fn round(value: &mut Value) {
 #[cfg(test)]
 pub(crate) fn recorded() -> Findings {
     let own = kept::settings().expect("settings");
-    let kept = Kept::of(&own).expect("findings").expect("its settings");
+    let kept = KeptResults::of(&own).expect("findings").expect("its settings");
     kept.findings().clone()
 }
 
@@ -212,7 +212,8 @@ mod tests {
     #[test]
     fn kept_figures_are_those_without_histories() {
         let own = kept::settings().expect("settings");
-        let kept = Kept::of(&own).expect("findings").expect("its settings");
+        let kept =
+            KeptResults::of(&own).expect("findings").expect("its settings");
         let kept: Vec<Figure> =
             serde_json::from_str(kept.figures()).expect("form");
         let numbers = kept.iter().filter_map(|f| f.heading.number);

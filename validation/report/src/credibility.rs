@@ -11,7 +11,7 @@ use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
 use rocking_study::measures::without_closed_form;
-use rocking_study::results::Results;
+use rocking_study::results::StudyResults;
 
 /// Half width of a finding's 90 % interval in standard uncertainties.
 const HALF_WIDTH: f64 = 1.644_853_627;
@@ -85,7 +85,7 @@ fn printed() -> Result<Vec<PaperNumber>, BlockError> {
 }
 
 /// Ratios that the paper says to be 1: the cell that decides.
-fn ratios(results: &Results, claims: &[Claim]) -> Vec<PaperNumber> {
+fn ratios(results: &StudyResults, claims: &[Claim]) -> Vec<PaperNumber> {
     let mut out = Vec::new();
     for claim in claims.iter().filter(|c| RATIOS.contains(&c.id.as_str())) {
         for result in &claim.results {
@@ -117,7 +117,7 @@ fn ratios(results: &Results, claims: &[Claim]) -> Vec<PaperNumber> {
 /// # Errors
 /// [`BlockError`] for a block out of range.
 pub fn comparison(
-    results: &Results,
+    results: &StudyResults,
     claims: &[Claim],
 ) -> Result<PlainTable, BlockError> {
     let suites = results.suites();
@@ -271,7 +271,7 @@ pub struct Credibility(Vec<Factor>);
 
 /// The assessment of a study.
 pub fn assessment(
-    results: &Results,
+    results: &StudyResults,
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
     words: &Words,

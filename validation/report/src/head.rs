@@ -4,7 +4,7 @@
 use rocking::integrator::Overturning;
 use rocking_common::findings::{Findings, Suite};
 use rocking_common::suites::inputs::sha256_hex;
-use rocking_study::results::Results;
+use rocking_study::results::StudyResults;
 
 /// The versions of everything that the program is built from.
 const LOCK: &str = include_str!(env!("ROCKING_LOCK"));
@@ -46,7 +46,7 @@ impl Signatures {
 /// suites, by name; `proved`: whether results of the declared cases were
 /// handed in.
 pub(crate) fn inputs(
-    results: &Results,
+    results: &StudyResults,
     proved: bool,
     signatures: &Signatures,
     recorded: Option<&Findings>,
@@ -60,7 +60,7 @@ pub(crate) fn inputs(
 /// The program, its input and the command. A committed page cannot name the commit that holds
 /// it, so the commit stands on issued copies alone.
 fn program(
-    results: &Results,
+    results: &StudyResults,
     proved: bool,
     signatures: &Signatures,
 ) -> Vec<(String, String)> {
@@ -105,7 +105,7 @@ fn kept(recorded: &Findings) -> impl Iterator<Item = (String, String)> {
 }
 
 /// The settings, and what is to be known of the suites.
-fn provenance(results: &Results) -> Vec<(String, String)> {
+fn provenance(results: &StudyResults) -> Vec<(String, String)> {
     let setup = &results.plan.setup;
     let overturning = match setup.overturning {
         Overturning::Alpha => "|theta| reaches alpha",
@@ -149,7 +149,7 @@ fn revisions() -> String {
 }
 
 /// The command that makes the page again.
-fn command(results: &Results, proved: bool) -> String {
+fn command(results: &StudyResults, proved: bool) -> String {
     let setup = &results.plan.setup;
     let arms: Vec<&str> =
         results.plan.arms.iter().map(|arm| arm.name()).collect();

@@ -20,7 +20,7 @@ use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, Table, number};
 use rocking_draw::figures::Figure;
-use rocking_study::results::Results;
+use rocking_study::results::StudyResults;
 use rocking_study::{Study, questions};
 
 /// Files of a report by name; folders in a name are parted by `/`.
@@ -32,7 +32,7 @@ pub const PAGE: &str = "index.html";
 /// The files that are put into place last: where they are, all others are.
 pub const LAST: [&str; 2] = [PAGE, SUMS];
 
-/// Results of the declared cases, which `rocking validate` writes.
+/// StudyResults of the declared cases, which `rocking validate` writes.
 pub(super) const CASES: [&str; 2] =
     ["data/precision.csv", "data/validation.json"];
 
@@ -45,7 +45,7 @@ pub const FIGURES: &str = "data/figures.json";
 /// What of a folder no study wrote, if it holds such a thing: a report there
 /// would replace it, or stand among it.
 ///
-/// A study's folder is known by its findings and its page. Results of the
+/// A study's folder is known by its findings and its page. StudyResults of the
 /// declared cases alone, which a study shows, are no hindrance; hidden files
 /// are none either.
 pub fn foreign(folder: &Path) -> Option<String> {
@@ -121,7 +121,7 @@ pub fn files(
     if !basis.embedded {
         put(&mut files, "figures.json", basis::kept(study)?)?;
     }
-    for (name, text) in questions::files(&study.answers) {
+    for (name, text) in questions::answer_files(&study.answers) {
         put(&mut files, name, text)?;
     }
     let page = Page {
@@ -223,7 +223,7 @@ fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
 }
 
 /// Every record's histories and curves against those of alpha = 0.10.
-fn single_csv(results: &Results) -> String {
+fn single_csv(results: &StudyResults) -> String {
     let mut table = Table::headed(
         "suite,record,p_rad_s,intensity_pga,alpha_rad,normalized_l2_distance,\
          peak_ratio,mean_abs_ln_im_ratio",

@@ -31,8 +31,8 @@ use rocking_study::Study;
 use rocking_study::analyses::{Plan, SuiteResults};
 use rocking_study::certainty::Certainty;
 use rocking_study::findings::set_aside as findings_of;
-use rocking_study::results::Results;
-use rocking_study::runs::{Setup, Work};
+use rocking_study::results::StudyResults;
+use rocking_study::runs::{ChainWork, Setup};
 
 /// The plan whose settings kept results have.
 fn plan(way: Execution) -> Plan {
@@ -45,13 +45,13 @@ fn plan(way: Execution) -> Plan {
     Plan { setup, arms: vec![Arm::A, Arm::B, Arm::C], full: false }
 }
 
-/// Results of nothing on the embedded suites.
-pub fn on_embedded_suites() -> Results {
+/// StudyResults of nothing on the embedded suites.
+pub fn on_embedded_suites() -> StudyResults {
     empty(&Source::Embedded { streams: "x" })
 }
 
-/// Results of nothing, on two suites from there.
-fn empty(source: &Source) -> Results {
+/// StudyResults of nothing, on two suites from there.
+fn empty(source: &Source) -> StudyResults {
     let suite = |kind| SuiteResults {
         kind,
         source: source.clone(),
@@ -59,7 +59,7 @@ fn empty(source: &Source) -> Results {
         remarks: None,
         set_aside: SetAside::default(),
         sha256: String::new(),
-        work: Work { analyses: 0, certainty: Certainty::default() },
+        work: ChainWork { analyses: 0, certainty: Certainty::default() },
         records: Vec::new(),
         clusters: Clusters::singletons(0),
         list: Vec::new(),
@@ -71,7 +71,7 @@ fn empty(source: &Source) -> Results {
         adjusted: Vec::new(),
         contents: Vec::new(),
     };
-    Results {
+    StudyResults {
         plan: plan(Execution::default()),
         ordinary: suite(SuiteKind::Ordinary),
         pulse: suite(SuiteKind::PulseType),
@@ -80,12 +80,12 @@ fn empty(source: &Source) -> Results {
 }
 
 /// Where the page of a study comes from.
-fn inputs(results: &Results, proved: bool) -> Vec<(String, String)> {
+fn inputs(results: &StudyResults, proved: bool) -> Vec<(String, String)> {
     head::inputs(results, proved, &Signatures::default(), None)
 }
 
 /// The command that makes its page again.
-fn command(results: &Results, proved: bool) -> String {
+fn command(results: &StudyResults, proved: bool) -> String {
     let mut rows = inputs(results, proved).into_iter();
     rows.find(|(name, _)| name == "Command").expect("a command").1
 }
@@ -106,7 +106,7 @@ fn set_aside() -> SetAside {
 #[test]
 fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
     let mut results = on_embedded_suites();
-    let shown = |results: &Results| {
+    let shown = |results: &StudyResults| {
         let mut rows = inputs(results, false);
         rows.retain(|row| row.0.contains("aside"));
         rows

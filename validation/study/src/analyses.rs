@@ -8,7 +8,7 @@ mod suite;
 pub use plan::Plan;
 pub use single::HISTORY_INTERVAL_S;
 pub use suite::{
-    Apart, ShownHistory, SingleRecords, StripeDemands, SuiteResults,
+    Deviation, ShownHistory, SingleRecords, StripeDemands, SuiteResults,
 };
 
 use indicatif::ProgressBar;
@@ -17,7 +17,7 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use crate::contents::{Item, items};
+use crate::contents::{Furnishing, items};
 use crate::distributions::suite_distributions;
 use crate::facts::{Facts, facts};
 use crate::runs::curves_of;
@@ -55,17 +55,25 @@ impl Plan {
         let scaling = Adjust::RecordScaling;
         let (arms, work) = chains(&BLOCKS, &self.arms, scaling)?;
         let shapes: Vec<Block> =
-            items().iter().map(Item::block).collect::<Result<_, _>>()?;
+            items().iter().map(Furnishing::block).collect::<Result<_, _>>()?;
         let (contents, _) = chains(&shapes, &[self.common()], scaling)?;
         let common = curves_of(&arms, self.common())?;
         let chosen = single::shown_alone(common, &facts);
         let single = (0..FREQUENCIES_RAD_S.len())
-            .map(|k| single::single(&self.setup, k, &records, common, chosen))
+            .map(|k| {
+                single::single_records(
+                    &self.setup,
+                    k,
+                    &records,
+                    common,
+                    chosen,
+                )
+            })
             .collect::<Result<_, _>>()?;
         let adjusting = Adjust::SlendernessAdjustment;
         let (adjusted, _) = chains(&references(), &self.drawn(), adjusting)?;
         let stripes =
-            stripes::stripes(&self.setup, &records, &arms, &adjusted)?;
+            stripes::stripe_demands(&self.setup, &records, &arms, &adjusted)?;
         let distributions =
             suite_distributions(suite.kind, &facts, &arms, self.common())?;
         let names = suite.list().into_iter();

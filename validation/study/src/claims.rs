@@ -8,9 +8,11 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use crate::distances::all_distances;
-use crate::inference::{Draws, Judged, MORE, Rule, judge, share};
-use crate::measures::{Criterion, Measure, Prepared, Source};
-use crate::results::Results;
+use crate::inference::{
+    ClaimRule, MORE, Resamples, Ruling, judge, judged_share,
+};
+use crate::measures::{ClaimMeasure, Criterion, MeasureCells, Scope};
+use crate::results::StudyResults;
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Region, Tested,
 };
@@ -38,7 +40,7 @@ pub struct Declaration {
 #[serde(deny_unknown_fields)]
 pub struct ClaimTest {
     /// Registered name of the measure.
-    pub measure: Measure,
+    pub measure: ClaimMeasure,
     /// Intensity that the measure is of; PGA where none is named.
     pub intensity: Option<Intensity>,
     /// Suites that it is tested on.
@@ -140,11 +142,11 @@ impl Declaration {
     }
 
     /// The results by suite and arm; none of a claim that is not tested.
-    /// `more` are the draws for verdicts that the source's cannot settle.
+    /// `more` are the draws for verdicts that the scope's cannot settle.
     fn results(
         &self,
-        source: &Source<'_>,
-        more: &OnceCell<Draws>,
+        scope: &Scope<'_>,
+        more: &OnceCell<Resamples>,
     ) -> anyhow::Result<Vec<ClaimResult>> {
         let (Some(test), Some(quantifier), Some(region)) =
             (&self.test, self.claim.quantifier, self.claim.region)
@@ -152,8 +154,8 @@ impl Declaration {
             return Ok(Vec::new());
         };
         let (unit, range) = test.measure.unit();
-        let rule = Rule { quantifier, region, unit, range };
-        let plan = &source.results.plan;
+        let rule = ClaimRule { quantifier, region, unit, range };
+        let plan = &scope.results.plan;
         let arms = match test.arms {
             Arms::Drawn => plan.drawn(),
             Arms::Common | Arms::None => vec![plan.common()],
@@ -162,12 +164,12 @@ impl Declaration {
         let mut found = Vec::new();
         for &tested in &test.suites {
             for &arm in &arms {
-                let source = Source { tested, arm, intensity, ..*source };
-                let mut judged = test.judged(&rule, &source)?;
+                let scope = Scope { tested, arm, intensity, ..*scope };
+                let mut judged = test.judged(&rule, &scope)?;
                 if judged.more {
-                    let more = more.get_or_init(|| source.results.draws(MORE));
-                    let source = Source { draws: more, ..source };
-                    judged = test.judged(&rule, &source)?;
+                    let more = more.get_or_init(|| scope.results.draws(MORE));
+                    let scope = Scope { draws: more, ..scope };
+                    judged = test.judged(&rule, &scope)?;
                 }
                 found.push(judged.result);
             }
@@ -177,22 +179,23 @@ impl Declaration {
 }
 
 impl ClaimTest {
-    /// The verdict by the draws of a source.
+    /// The verdict by the draws of a scope.
     fn judged(
         &self,
-        rule: &Rule,
-        source: &Source<'_>,
-    ) -> anyhow::Result<Judged> {
-        let prepared = self.measure.prepare(source)?;
-        let arm = (self.arms != Arms::None).then_some(source.arm);
-        let (draws, tested) = (source.draws, source.tested);
-        let Prepared { cells, measured, .. } = &prepared;
+        rule: &ClaimRule,
+        scope: &Scope<'_>,
+    ) -> anyhow::Result<Ruling> {
+        let prepared = self.measure.prepare(scope)?;
+        let arm = (self.arms != Arms::None).then_some(scope.arm);
+        let (draws, tested) = (scope.draws, scope.tested);
+        let MeasureCells { cells, measured, .. } = &prepared;
         let mut judged = judge(draws, tested, arm, rule, cells, measured);
         let result = &mut judged.result;
         if let (Some(region), Some(Criterion { name, measured })) =
             (self.share, prepared.criterion)
         {
-            let (measured, verdict) = share(draws, tested, &measured, region);
+            let (measured, verdict) =
+                judged_share(draws, tested, &measured, region);
             result.by_criterion = Some(verdict);
             result.details.push(Detail { name, measured });
         }
@@ -204,7 +207,7 @@ impl ClaimTest {
 /// The end of the region that a measure is judged by which lies nearest to
 /// infinity; NaN where no claim has that measure of that intensity.
 #[must_use]
-pub fn limit_of(measure: Measure, intensity: Intensity) -> f64 {
+pub fn limit_of(measure: ClaimMeasure, intensity: Intensity) -> f64 {
     let is = |test: &ClaimTest| {
         test.measure == measure && test.intensity == Some(intensity)
     };
@@ -218,10 +221,10 @@ pub fn limit_of(measure: Measure, intensity: Intensity) -> f64 {
 /// # Errors
 /// Where a measure cannot be computed.
 pub fn measured_claims(
-    results: &Results,
-    draws: &Draws,
+    results: &StudyResults,
+    draws: &Resamples,
 ) -> anyhow::Result<Vec<Claim>> {
-    let source = Source {
+    let scope = Scope {
         results,
         draws,
         distances: &all_distances(results, draws)?,
@@ -231,7 +234,7 @@ pub fn measured_claims(
     };
     let more = OnceCell::new();
     let measured = |own: &Declaration| {
-        let results = own.results(&source, &more)?;
+        let results = own.results(&scope, &more)?;
         Ok(Claim { results, ..own.claim.clone() })
     };
     declared().iter().map(measured).collect()
@@ -245,14 +248,14 @@ mod tests {
     fn every_measure_has_a_claim_and_every_claim_its_measure() {
         // A finding without a measure does not load; so what is left is a
         // measure that no claim names.
-        let named: BTreeSet<Measure> = declared()
+        let named: BTreeSet<ClaimMeasure> = declared()
             .iter()
             .filter_map(|d| Some(d.test.as_ref()?.measure))
             .collect();
-        for measure in Measure::ALL {
+        for measure in ClaimMeasure::ALL {
             assert!(named.contains(measure), "{measure:?}: no claim");
         }
-        assert_eq!(named.len(), Measure::ALL.len());
+        assert_eq!(named.len(), ClaimMeasure::ALL.len());
     }
 
     #[test]

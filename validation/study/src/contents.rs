@@ -12,7 +12,7 @@ const INCH_M: f64 = 0.0254;
 /// An item of FEMA P-58 with its overturning fragility.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Item {
+pub struct Furnishing {
     /// Name in FEMA P-58.
     pub id: String,
     /// What it is.
@@ -25,7 +25,7 @@ pub struct Item {
     pub dispersion: f64,
 }
 
-impl Item {
+impl Furnishing {
     /// Depth, the width of the base, in m.
     #[must_use]
     pub fn depth_m(&self) -> f64 {
@@ -59,11 +59,11 @@ impl Item {
 /// # Panics
 /// If the table is not of the expected form: it is compiled in.
 #[must_use]
-pub fn items() -> &'static [Item] {
+pub fn items() -> &'static [Furnishing] {
     const TABLE: &str = rocking_fixtures::text("comparison/fema-p58.csv");
-    static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| {
+    static ITEMS: LazyLock<Vec<Furnishing>> = LazyLock::new(|| {
         let mut reader = csv::Reader::from_reader(TABLE.as_bytes());
-        let rows = reader.deserialize::<Item>();
+        let rows = reader.deserialize::<Furnishing>();
         rows.map(|row| row.unwrap_or_else(|e| panic!("fema-p58: {e}")))
             .collect()
     });

@@ -11,9 +11,9 @@ use rocking_statistics::lilliefors::{Assessment, Table};
 
 use crate::distributions::{BlockSamples, factors, scaled};
 use crate::estimates::mean;
-use crate::inference::{Draw, Draws, Replicated};
+use crate::inference::{Replicates, Resample, Resamples};
 use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
     position,
@@ -32,7 +32,7 @@ const EARLIEST: usize = 3;
 /// What is tested of each block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
-pub(crate) enum Tests {
+pub(crate) enum TestSeries {
     OriginalPga,
     ShiftedPga,
     OriginalPgv,
@@ -40,7 +40,7 @@ pub(crate) enum Tests {
     ShiftedGeometricMean,
 }
 
-impl Tests {
+impl TestSeries {
     const ALL: [Self; 5] = [
         Self::OriginalPga,
         Self::ShiftedPga,
@@ -55,19 +55,19 @@ impl Tests {
 }
 
 /// Place of the excess without the earliest records.
-pub(crate) const WITHOUT_EARLIEST: usize = Tests::ALL.len() * COUNT;
+pub(crate) const WITHOUT_EARLIEST: usize = TestSeries::ALL.len() * COUNT;
 
-/// First place of the accepted shares: `Tests` by block.
+/// First place of the accepted shares: `TestSeries` by block.
 const SHARES: usize = WITHOUT_EARLIEST + 1;
 
 /// What Lilliefors' test says of all blocks of a suite in an arm, over all
 /// draws.
-pub struct Distances {
+pub struct SuiteDistances {
     pub(crate) suite: SuiteKind,
     pub(crate) arm: Arm,
-    /// The excess of D, `Tests` by block, then that without the earliest
-    /// records; then the accepted shares, `Tests` by block.
-    pub(crate) replicated: Replicated,
+    /// The excess of D, `TestSeries` by block, then that without the earliest
+    /// records; then the accepted shares, `TestSeries` by block.
+    pub(crate) replicated: Replicates,
     /// Levels at which every record is finite, of all, by block.
     pub(crate) levels: Vec<(usize, usize)>,
 }
@@ -104,13 +104,13 @@ fn null(n: usize) -> (f64, f64) {
 
 /// One block in one measure: the levels that enter a simulation, and the
 /// factors that the shift is the least of.
-struct Tested15 {
+struct BlockLevels {
     levels: Vec<Vec<f64>>,
     factors: Vec<f64>,
     shifted: bool,
 }
 
-impl Tested15 {
+impl BlockLevels {
     /// D of a draw over the levels, with the null of as many records.
     fn over_levels(
         &self,
@@ -149,14 +149,14 @@ impl Tested15 {
     }
 }
 
-impl Distances {
+impl SuiteDistances {
     /// The distances of a suite in an arm.
     ///
     /// # Errors
     /// If the arm was not run.
     pub fn new(
-        results: &Results,
-        draws: &Draws,
+        results: &StudyResults,
+        draws: &Resamples,
         suite: SuiteKind,
         arm: Arm,
     ) -> anyhow::Result<Self> {
@@ -167,36 +167,36 @@ impl Distances {
         let n = records.len();
         let means: Option<Vec<f64>> =
             records.iter().map(|r| r.mean_over_study).collect();
-        let mut all: Vec<Option<Tested15>> = Vec::new();
+        let mut all: Vec<Option<BlockLevels>> = Vec::new();
         // Values of the claims: they use all levels.
         let mut whole: Vec<OverLevels> = Vec::new();
-        for tests in Tests::ALL {
+        for tests in TestSeries::ALL {
             for at in 0..COUNT {
                 let p = FREQUENCIES_RAD_S[at / SLENDERNESSES_RAD.len()];
                 let (block, factors) = match tests {
-                    Tests::OriginalPga | Tests::ShiftedPga => {
+                    TestSeries::OriginalPga | TestSeries::ShiftedPga => {
                         (&pga.blocks[at], Some(vec![1.0; n]))
                     }
-                    Tests::OriginalPgv | Tests::ShiftedPgv => (
+                    TestSeries::OriginalPgv | TestSeries::ShiftedPgv => (
                         &pgv.blocks[at],
                         Some(factors(records, Intensity::Pgv, p)),
                     ),
-                    Tests::ShiftedGeometricMean => {
+                    TestSeries::ShiftedGeometricMean => {
                         (&pga.blocks[at], means.clone())
                     }
                 };
                 whole.push(value(tests, block, factors.as_deref()));
                 let shifted = tests.is_shifted();
                 let own = every(&pga.blocks[at].samples, BAND_STRIDE);
-                all.push(factors.map(|factors| Tested15 {
+                all.push(factors.map(|factors| BlockLevels {
                     levels: own.map(|level| scaled(level, &factors)).collect(),
                     factors,
                     shifted,
                 }));
             }
         }
-        let slender = place(Tests::ShiftedPga, SLENDER);
-        let of = |draw: Draw<'_>| -> Vec<f64> {
+        let slender = place(TestSeries::ShiftedPga, SLENDER);
+        let of = |draw: Resample<'_>| -> Vec<f64> {
             let counts = draw.of(suite);
             let drawn = counts.iter().filter(|count| **count > 0).count();
             let nulls = null(drawn);
@@ -230,7 +230,7 @@ impl Distances {
     }
 }
 
-/// The numbers of a draw in the order of [`Distances::replicated`].
+/// The numbers of a draw in the order of [`SuiteDistances::replicated`].
 fn row(each: &[OverLevels], without_earliest: f64) -> Vec<f64> {
     let excess = each.iter().map(|one| one.excess).chain([without_earliest]);
     excess.chain(each.iter().map(|one| one.accepted)).collect()
@@ -238,7 +238,7 @@ fn row(each: &[OverLevels], without_earliest: f64) -> Vec<f64> {
 
 /// D of all levels and all records.
 fn value(
-    tests: Tests,
+    tests: TestSeries,
     block: &BlockSamples,
     factors: Option<&[f64]>,
 ) -> OverLevels {
@@ -250,9 +250,11 @@ fn value(
         OverLevels { accepted, ..OverLevels::new(&found, null(n).0, f64::NAN) }
     };
     match tests {
-        Tests::OriginalPga | Tests::OriginalPgv => of(&block.original),
-        Tests::ShiftedPga | Tests::ShiftedPgv => of(&block.shifted),
-        Tests::ShiftedGeometricMean => {
+        TestSeries::OriginalPga | TestSeries::OriginalPgv => {
+            of(&block.original)
+        }
+        TestSeries::ShiftedPga | TestSeries::ShiftedPgv => of(&block.shifted),
+        TestSeries::ShiftedGeometricMean => {
             let factors = factors.unwrap_or_default();
             let least = crate::distributions::least(factors);
             let samples: Vec<Vec<f64>> =
@@ -263,20 +265,20 @@ fn value(
 }
 
 pub(crate) fn place(
-    tests: Tests,
+    tests: TestSeries,
     (frequency, slenderness): (usize, usize),
 ) -> usize {
     tests as usize * COUNT + position(frequency, slenderness)
 }
 
 /// The excess of D by block.
-pub(crate) fn excesses(row: &[f64], tests: Tests) -> &[f64] {
+pub(crate) fn excesses(row: &[f64], tests: TestSeries) -> &[f64] {
     let first = tests as usize * COUNT;
     &row[first..first + COUNT]
 }
 
 /// The accepted share by block.
-pub(crate) fn accepted(row: &[f64], tests: Tests) -> &[f64] {
+pub(crate) fn accepted(row: &[f64], tests: TestSeries) -> &[f64] {
     let first = SHARES + tests as usize * COUNT;
     &row[first..first + COUNT]
 }
@@ -286,14 +288,14 @@ pub(crate) fn accepted(row: &[f64], tests: Tests) -> &[f64] {
 /// # Errors
 /// If an arm was not run.
 pub fn all_distances(
-    results: &Results,
-    draws: &Draws,
-) -> anyhow::Result<Vec<Distances>> {
+    results: &StudyResults,
+    draws: &Resamples,
+) -> anyhow::Result<Vec<SuiteDistances>> {
     let arms = results.plan.drawn();
     let places = SuiteKind::ALL
         .into_iter()
         .flat_map(|suite| arms.iter().map(move |arm| (suite, *arm)));
     places
-        .map(|(suite, arm)| Distances::new(results, draws, suite, arm))
+        .map(|(suite, arm)| SuiteDistances::new(results, draws, suite, arm))
         .collect()
 }

@@ -9,8 +9,8 @@ mod tested;
 
 pub(crate) use ratios::adjusted_boxes;
 
-use crate::inference::Draws;
-use crate::results::Results;
+use crate::inference::Resamples;
+use crate::results::StudyResults;
 use rocking_draw::figures::Figure;
 
 /// Figures 1 to 18, in order; those of the grid's arms once for each arm
@@ -18,7 +18,10 @@ use rocking_draw::figures::Figure;
 ///
 /// # Errors
 /// Where a curve cannot be read.
-pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
+pub fn paper_figures(
+    results: &StudyResults,
+    draws: &Resamples,
+) -> anyhow::Result<Vec<Figure>> {
     let drawn = results.plan.drawn();
     let mut out = vec![single::sketch()];
     let one = results.plan.common();

@@ -6,14 +6,14 @@ use rocking_records::{AsideCount, SetAside};
 use rocking_statistics::Proportion;
 use serde::Deserialize;
 
-use crate::analyses::{Apart, StripeDemands, SuiteResults};
+use crate::analyses::{Deviation, StripeDemands, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
-use crate::questions::{self, Answer};
-use crate::results::Results;
+use crate::questions::{self, StudyAnswer};
+use crate::results::StudyResults;
 use crate::runs::capacities_at;
-use crate::sensitivities::Choice;
+use crate::sensitivities::OtherChoice;
 use crate::stripes::adjusted_split;
 use rocking_common::findings::{
     Aside, Claim, Findings, Measured, Place, Row, SCHEMA, Suite, Table, Topic,
@@ -29,9 +29,9 @@ use rocking_draw::figures::Stripe;
 /// # Errors
 /// Where a number cannot be computed.
 pub fn study_findings(
-    results: &Results,
+    results: &StudyResults,
     claims: Vec<Claim>,
-    answers: &[Answer],
+    answers: &[StudyAnswer],
 ) -> anyhow::Result<Findings> {
     let tables = [
         table(Topic::AcceptedShares, shares(results)),
@@ -124,7 +124,7 @@ fn place_of(
 }
 
 /// How many records uplift each block without being scaled.
-fn uplift(results: &Results) -> Vec<Row> {
+fn uplift(results: &StudyResults) -> Vec<Row> {
     let row = |block| {
         let suites = results.suites();
         let values = suites.map(|suite| count(suite.uplift_unscaled(block)));
@@ -134,7 +134,7 @@ fn uplift(results: &Results) -> Vec<Row> {
 }
 
 /// Shift and accepted shares of each block, suite, arm and measure.
-fn shares(results: &Results) -> Vec<Row> {
+fn shares(results: &StudyResults) -> Vec<Row> {
     let mut rows = Vec::new();
     for (suite, found) in results.all_distributions() {
         rows.extend(found.blocks.iter().map(|block| {
@@ -150,7 +150,7 @@ fn shares(results: &Results) -> Vec<Row> {
 }
 
 /// How many overturned on a stripe, and how many of them stand there again.
-fn resurrections(results: &Results) -> Vec<Row> {
+fn resurrections(results: &StudyResults) -> Vec<Row> {
     let row = |stripes: &StripeDemands| {
         let demands = stripes.demands.iter().flatten().flatten();
         let again = stripes.stands_again.iter().flatten().flatten();
@@ -167,11 +167,11 @@ fn resurrections(results: &Results) -> Vec<Row> {
 
 /// The single-record comparison by suite and frequency parameter: medians
 /// over records and slendernesses.
-fn single(results: &Results) -> Vec<Row> {
+fn single(results: &StudyResults) -> Vec<Row> {
     let mut rows = Vec::new();
     for suite in results.suites() {
         for (single, p_rad_s) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
-            let stands = |a: &&Apart| a.distance.is_finite();
+            let stands = |a: &&Deviation| a.distance.is_finite();
             let usable = single.apart.iter().flatten().filter(stands).count();
             let values = [
                 usable as f64,
@@ -193,9 +193,9 @@ fn single(results: &Results) -> Vec<Row> {
 
 /// Paired overturning capacities by choice and block, the choice over the
 /// study's.
-fn varied(results: &Results) -> anyhow::Result<Vec<Row>> {
+fn varied(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
     let mut rows = Vec::new();
-    for (v, base) in results.varied(&Choice::ALL)? {
+    for (v, base) in results.varied(&OtherChoice::ALL)? {
         let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
         let base = capacities_at(base.iter().map(Some), 1.0)?;
         let ratios = own.iter().zip(&base).map(|(own, base)| own / base);
@@ -217,7 +217,7 @@ fn varied(results: &Results) -> anyhow::Result<Vec<Row>> {
 /// Figure 9, a row a box: usable count with its exact 95 % interval, and
 /// median; the median also apart by whether the adjusted slenderness is within
 /// the paper's.
-fn adjustment(results: &Results) -> anyhow::Result<Vec<Row>> {
+fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
@@ -263,7 +263,7 @@ fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
 
 /// Median overturning intensities, a row a block, suite and measure, in the
 /// arm that figures share, with the order-statistic interval.
-fn overturning(results: &Results) -> Vec<Row> {
+fn overturning(results: &StudyResults) -> Vec<Row> {
     let mut rows = Vec::new();
     for (suite, found) in results.common() {
         rows.extend(found.blocks.iter().map(|block| Row {

@@ -19,15 +19,15 @@ use rocking_common::paper::{Arm, Verdict};
 
 pub use drawn::by_cell;
 pub use draws::{
-    Draw, Draws, LEAST_DECIDING, MORE, REPLICATES, Replicated, SUBSAMPLES,
-    Scheme,
+    LEAST_DECIDING, MORE, REPLICATES, Replicates, Resample, Resamples,
+    SUBSAMPLES, Scheme,
 };
-use known::{Caution, Known, p_of};
-pub use rule::{Cell, Rule};
+use known::{Caution, CellIntervals, p_of};
+pub use rule::{Cell, ClaimRule};
 
 /// A result. Where an end that decides lies within four errors of the draws
 /// from its limit, the verdict is inconclusive.
-pub struct Judged {
+pub struct Ruling {
     /// The result.
     pub result: ClaimResult,
     /// Whether [`MORE`] draws may decide what these do not.
@@ -37,14 +37,14 @@ pub struct Judged {
 /// The result of a claim on a suite and arm.
 #[must_use]
 pub fn judge(
-    draws: &Draws,
+    draws: &Resamples,
     tested: Tested,
     arm: Option<Arm>,
-    rule: &Rule,
+    rule: &ClaimRule,
     cells: &[Cell],
-    measured: &Replicated,
-) -> Judged {
-    let known = Known::new(draws, tested, rule.range, measured);
+    measured: &Replicates,
+) -> Ruling {
+    let known = CellIntervals::new(draws, tested, rule.range, measured);
     let by = |caution| {
         let mut result = ClaimResult {
             suite: tested,
@@ -65,8 +65,10 @@ pub fn judge(
             power: None,
         };
         match rule.quantifier {
-            Quantifier::One => one(rule, cells, &known, caution, &mut result),
-            _ => many::many(rule, cells, &known, caution, &mut result),
+            Quantifier::One => {
+                judge_one(rule, cells, &known, caution, &mut result)
+            }
+            _ => many::judge_many(rule, cells, &known, caution, &mut result),
         }
         if result.interval.is_none() {
             // No interval, no verdict.
@@ -83,18 +85,18 @@ pub fn judge(
     let more = measured.scheme == Scheme::Bootstrap
         && !settled(Caution::FULL)
         && settled(Caution::FULL.with(MORE));
-    Judged { result, more }
+    Ruling { result, more }
 }
 
 /// A share of cells with its interval, and on which side of a region it is.
 #[must_use]
-pub fn share(
-    draws: &Draws,
+pub fn judged_share(
+    draws: &Resamples,
     tested: Tested,
-    measured: &Replicated,
+    measured: &Replicates,
     region: Region,
 ) -> (Measured, Verdict) {
-    let known = Known::new(draws, tested, (0.0, 1.0), measured);
+    let known = CellIntervals::new(draws, tested, (0.0, 1.0), measured);
     let ends = known.drawn(0, LEVEL);
     let verdict = ends.map_or(Verdict::Inconclusive, |ends| {
         ends.verdict(region, Caution::FULL)
@@ -102,10 +104,10 @@ pub fn share(
     (known.shown(0, ends), verdict)
 }
 
-fn one(
-    rule: &Rule,
+fn judge_one(
+    rule: &ClaimRule,
     cells: &[Cell],
-    known: &Known<'_>,
+    known: &CellIntervals<'_>,
     caution: Caution,
     result: &mut ClaimResult,
 ) {
@@ -131,7 +133,7 @@ fn one(
         }
     }
     if !measured.halves.is_empty() {
-        let halves = Replicated::column(&measured.halves, 0);
+        let halves = Replicates::column(&measured.halves, 0);
         let finite: Vec<f64> =
             halves.into_iter().filter(|x| x.is_finite()).collect();
         let sum = finite.iter().fold(0.0, |sum, x| sum + x);

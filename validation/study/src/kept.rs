@@ -1,4 +1,4 @@
-//! Results of recorded suites that an earlier run found and that are kept:
+//! StudyResults of recorded suites that an earlier run found and that are kept:
 //! the recorded motions may not be passed on. A run on the embedded suites
 //! shows them beside its own results if both runs have the same settings.
 
@@ -16,23 +16,23 @@ const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
 
 /// The kept results, for a run that has their settings.
 #[derive(Clone, Debug)]
-pub struct Kept {
+pub struct KeptResults {
     findings: Findings,
 }
 
-impl Kept {
+impl KeptResults {
     /// The kept results, if these are their settings.
     ///
     /// # Errors
     /// What the reader found instead of findings of this schema.
     ///
     /// ```
-    /// use rocking_study::kept::{self, Kept};
+    /// use rocking_study::kept::{self, KeptResults};
     /// # fn main() -> anyhow::Result<()> {
     /// let mut settings = kept::settings()?;
-    /// assert!(Kept::of(&settings)?.is_some());
+    /// assert!(KeptResults::of(&settings)?.is_some());
     /// settings.eta = 0.90;
-    /// assert!(Kept::of(&settings)?.is_none());
+    /// assert!(KeptResults::of(&settings)?.is_none());
     /// # Ok(())
     /// # }
     /// ```
@@ -58,7 +58,7 @@ impl Kept {
 /// The settings of the kept results.
 ///
 /// # Errors
-/// As [`Kept::of`].
+/// As [`KeptResults::of`].
 pub fn settings() -> anyhow::Result<Settings> {
     Ok(findings()?.settings)
 }
@@ -81,7 +81,7 @@ mod tests {
         let is_kept = |change: &dyn Fn(&mut Settings)| {
             let mut other = own.clone();
             change(&mut other);
-            Kept::of(&other).expect("findings").is_some()
+            KeptResults::of(&other).expect("findings").is_some()
         };
         assert!(is_kept(&|_| ()));
         assert!(!is_kept(&|s| s.eta = 0.90));

@@ -8,24 +8,24 @@
 mod capacities;
 mod distances;
 mod fragilities;
+mod scope;
 mod single;
-mod source;
 mod stripes;
 
 use serde::Deserialize;
 
-pub(crate) use fragilities::{At, Thresholds, by_demand, to_ssfl};
-pub use source::{Criterion, Prepared, Source};
+pub(crate) use fragilities::{DemandFits, Thresholds, by_demand, to_ssfl};
+pub use scope::{Criterion, MeasureCells, MeasureResult, Scope};
 pub use stripes::without_closed_form;
 
 use rocking_common::findings::Unit;
 
 /// A measure as it is registered.
-struct Row {
+struct MeasureRow {
     unit: Unit,
     /// Ends that no value can cross.
     range: (f64, f64),
-    prepare: fn(&Source<'_>) -> anyhow::Result<Prepared>,
+    prepare: fn(&Scope<'_>) -> MeasureResult,
 }
 
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -43,17 +43,17 @@ macro_rules! measures {
             Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize,
         )]
         #[serde(rename_all = "kebab-case")]
-        pub enum Measure {
+        pub enum ClaimMeasure {
             $($(#[$doc])+ $name,)+
         }
 
-        impl Measure {
+        impl ClaimMeasure {
             /// All of them, in the order of the paper.
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
-            fn row(self) -> Row {
+            fn row(self) -> MeasureRow {
                 match self {
-                    $(Self::$name => Row {
+                    $(Self::$name => MeasureRow {
                         unit: Unit::$unit,
                         range: $range,
                         prepare: $of,
@@ -180,7 +180,7 @@ measures! {
     QuantileScatter: One, ANY, fragilities::scatter;
 }
 
-impl Measure {
+impl ClaimMeasure {
     /// Unit of a cell, and the ends that no value can cross.
     #[must_use]
     pub fn unit(self) -> (Unit, (f64, f64)) {
@@ -192,7 +192,7 @@ impl Measure {
     ///
     /// # Errors
     /// Where a curve cannot be read, or an arm was not run.
-    pub fn prepare(self, source: &Source<'_>) -> anyhow::Result<Prepared> {
-        (self.row().prepare)(source)
+    pub fn prepare(self, scope: &Scope<'_>) -> MeasureResult {
+        (self.row().prepare)(scope)
     }
 }

@@ -12,17 +12,20 @@ mod recorded;
 mod suites;
 mod trimming;
 
-pub use answer::Answer;
+pub use answer::StudyAnswer;
 
-use crate::inference::Draws;
-use crate::results::Results;
+use crate::inference::Resamples;
+use crate::results::StudyResults;
 use rocking_common::findings::Question;
 
 /// All answers, in a fixed order.
 ///
 /// # Errors
 /// Where a number cannot be computed.
-pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Answer>> {
+pub fn study_answers(
+    results: &StudyResults,
+    draws: &Resamples,
+) -> anyhow::Result<Vec<StudyAnswer>> {
     Ok(vec![
         grid::answer(results)?,
         power::answer(results)?,
@@ -35,8 +38,8 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Answer>> {
 
 /// Questions and answers as findings.
 #[must_use]
-pub fn findings(answers: &[Answer]) -> Vec<Question> {
-    let one = |answer: &Answer| Question {
+pub fn findings(answers: &[StudyAnswer]) -> Vec<Question> {
+    let one = |answer: &StudyAnswer| Question {
         id: answer.id.into(),
         question: answer.question.into(),
         answer: answer.answer.clone(),
@@ -46,7 +49,9 @@ pub fn findings(answers: &[Answer]) -> Vec<Question> {
 }
 
 /// The answers' CSV files, by name.
-pub fn files(answers: &[Answer]) -> impl Iterator<Item = (String, Vec<u8>)> {
+pub fn answer_files(
+    answers: &[StudyAnswer],
+) -> impl Iterator<Item = (String, Vec<u8>)> {
     let files = answers.iter().flat_map(|answer| answer.files.iter().cloned());
     files.map(|(name, csv)| (name, csv.into_bytes()))
 }

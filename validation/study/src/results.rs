@@ -2,14 +2,14 @@
 
 use crate::analyses::{Plan, SuiteResults};
 use crate::distributions::Distributions;
-use crate::inference::Draws;
-use crate::sensitivities::{Choice, Varied};
+use crate::inference::Resamples;
+use crate::sensitivities::{OtherChoice, Variant};
 use rocking::capacity::ResponseCurve;
 use rocking_common::paper::{SuiteKind, position};
 
 /// The analyses of both suites.
 #[derive(Clone, Debug)]
-pub struct Results {
+pub struct StudyResults {
     /// What was run.
     pub plan: Plan,
     /// The ordinary suite.
@@ -17,15 +17,15 @@ pub struct Results {
     /// The pulse-type suite.
     pub pulse: SuiteResults,
     /// Curves under other choices, ordinary suite.
-    pub varied: Vec<Varied>,
+    pub varied: Vec<Variant>,
 }
 
-impl Results {
+impl StudyResults {
     /// The draws of the earthquakes that bands and claims share; `times` as
     /// many as are enough for most claims.
     #[must_use]
-    pub fn draws(&self, times: usize) -> Draws {
-        Draws::new(self.suites().map(|s| s.clusters.clone()), times)
+    pub fn draws(&self, times: usize) -> Resamples {
+        Resamples::new(self.suites().map(|s| s.clusters.clone()), times)
     }
 
     /// Whether the suites are the embedded ones.
@@ -70,10 +70,10 @@ impl Results {
     /// If the arm was not run.
     pub(crate) fn varied(
         &self,
-        choices: &[Choice],
-    ) -> anyhow::Result<Vec<(&Varied, &[ResponseCurve])>> {
+        choices: &[OtherChoice],
+    ) -> anyhow::Result<Vec<(&Variant, &[ResponseCurve])>> {
         let curves = self.ordinary.curves(self.plan.common())?;
-        let of = |v: &Varied| position(v.frequency, v.slenderness);
+        let of = |v: &Variant| position(v.frequency, v.slenderness);
         let found = self.varied.iter().filter(|v| choices.contains(&v.choice));
         Ok(found.map(|v| (v, curves[of(v)].as_slice())).collect())
     }

@@ -31,7 +31,7 @@ pub struct Setup {
 
 /// What the chains of a suite took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Work {
+pub struct ChainWork {
     /// Analyses, bisection included.
     pub analyses: u64,
     /// Levels whose fate double precision cannot tell.
@@ -91,7 +91,7 @@ impl Setup {
         arms: &[Arm],
         adjust: Adjust,
         progress: &ProgressBar,
-    ) -> anyhow::Result<(Vec<ArmCurves>, Work)> {
+    ) -> anyhow::Result<(Vec<ArmCurves>, ChainWork)> {
         let scans = Self::scans(arms);
         let of_scan = |arm: &Arm| {
             let arm = *arm;
@@ -114,7 +114,7 @@ impl Setup {
                 .collect::<Result<_, _>>()?;
             Ok(ArmCurves { arm: *arm, curves })
         };
-        let work = Work {
+        let work = ChainWork {
             analyses: runs.iter().flatten().map(|run| run.analyses).sum(),
             certainty: certainty(&analyses, records, &runs)?,
         };

@@ -16,7 +16,7 @@ use rocking_common::suites::{Motion, StudySuite};
 
 named! {
     /// A choice other than the study's.
-    pub enum Choice: "choice" {
+    pub enum OtherChoice: "choice" {
         /// Restitution 0.85.
         Eta085 = "eta-0.85",
         /// Restitution 0.97.
@@ -30,7 +30,7 @@ named! {
     }
 }
 
-impl Choice {
+impl OtherChoice {
     /// Slendernesses looked at without `--full`: 0.10 and 0.20; for
     /// Housner's restitution also the extremes.
     fn slendernesses(self, full: bool) -> &'static [usize] {
@@ -60,9 +60,9 @@ impl Choice {
 /// Curves of one block under a choice, by record; none for a record without
 /// its other component.
 #[derive(Clone, Debug)]
-pub struct Varied {
+pub struct Variant {
     /// The choice.
-    pub choice: Choice,
+    pub choice: OtherChoice,
     /// Position of the frequency parameter.
     pub frequency: usize,
     /// Position of the slenderness.
@@ -79,13 +79,13 @@ impl Plan {
     pub fn sensitivities(
         &self,
         suite: &StudySuite,
-    ) -> anyhow::Result<Vec<Varied>> {
+    ) -> anyhow::Result<Vec<Variant>> {
         let frequencies: &[usize] = if self.full { &[0, 1, 2] } else { &[1] };
         let progress = ProgressBar::hidden();
         let mut out = Vec::new();
-        for choice in Choice::ALL {
+        for choice in OtherChoice::ALL {
             let component = |motion: &Motion| match choice {
-                Choice::OtherComponent => motion.other.clone(),
+                OtherChoice::OtherComponent => motion.other.clone(),
                 _ => Some(motion.study.clone()),
             };
             let records: Vec<Option<NormalisedRecord>> = suite
@@ -112,7 +112,7 @@ impl Plan {
                         .iter()
                         .map(|r| r.as_ref().and_then(|_| found.next()))
                         .collect();
-                    out.push(Varied {
+                    out.push(Variant {
                         choice,
                         frequency,
                         slenderness,

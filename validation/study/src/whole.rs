@@ -6,8 +6,8 @@ use crate::analyses::Plan;
 use crate::claims;
 use crate::figures;
 use crate::findings::study_findings;
-use crate::questions::{self, Answer};
-use crate::results::Results;
+use crate::questions::{self, StudyAnswer};
+use crate::results::StudyResults;
 use rocking_common::findings::Findings;
 use rocking_common::suites::StudySuite;
 use rocking_draw::figures::Figure;
@@ -15,14 +15,14 @@ use rocking_draw::figures::Figure;
 /// A finished study.
 pub struct Study {
     /// What the analyses gave.
-    pub results: Results,
+    pub results: StudyResults,
     /// The figures, those of the answers at the end.
     pub figures: Vec<Figure>,
     /// What was found.
     pub findings: Findings,
     /// Answers to the questions beyond the paper; their figures are among
     /// the others.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<StudyAnswer>,
 }
 
 impl Study {
@@ -39,10 +39,10 @@ impl Study {
         let ordinary = plan.run_suite(first, progress)?;
         let pulse = plan.run_suite(second, progress)?;
         let varied = plan.sensitivities(first)?;
-        let results = Results { plan, ordinary, pulse, varied };
+        let results = StudyResults { plan, ordinary, pulse, varied };
         let draws = results.draws(1);
-        let mut figures = figures::all(&results, &draws)?;
-        let mut answers = questions::all(&results, &draws)?;
+        let mut figures = figures::paper_figures(&results, &draws)?;
+        let mut answers = questions::study_answers(&results, &draws)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }

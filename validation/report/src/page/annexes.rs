@@ -14,7 +14,7 @@ use rocking_common::findings::Findings;
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::{Figure, Place};
-use rocking_study::questions::Answer;
+use rocking_study::questions::StudyAnswer;
 
 /// Text, figures and tables under a heading.
 #[derive(Default)]
@@ -69,7 +69,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
     let Page { study, basis, proof, timings, .. } = page;
     let (results, claims) = (&study.results, &basis.here.claims);
     let coverage = proof.map(Proof::coverage);
-    let (compared, others): (Vec<&Answer>, Vec<&Answer>) =
+    let (compared, others): (Vec<&StudyAnswer>, Vec<&StudyAnswer>) =
         study.answers.iter().partition(|q| q.id == "suites");
     let on_grid = page.figures.iter();
     let on_grid = on_grid.filter(|f| page.is_on_the_papers_grid(f));
@@ -140,7 +140,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
 
 /// The tables of a question, with what the recorded suites answer.
 fn answered(
-    question: &Answer,
+    question: &StudyAnswer,
     recorded: Option<&Findings>,
 ) -> Vec<PlainTable> {
     let mut tables = question.tables.clone();

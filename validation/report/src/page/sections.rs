@@ -14,7 +14,7 @@ use rocking_common::table::PlainTable;
 use rocking_common::words::capital;
 use rocking_draw::figures::Place;
 use rocking_draw::page::table::{self, joined, scrolled};
-use rocking_study::results::Results;
+use rocking_study::results::StudyResults;
 
 /// A block, at rest and tilted.
 const SKETCH: &str = include_str!("sketch.svg");
@@ -169,7 +169,7 @@ fn limits(page: &Page<'_>) -> Markup {
 }
 
 /// Limits that the records set.
-pub(crate) fn limits_of(results: &Results) -> Vec<&'static str> {
+pub(crate) fn limits_of(results: &StudyResults) -> Vec<&'static str> {
     let mut out = vec![
         "The paper does not list its records; these suites are like its \
          suites, not the same.",

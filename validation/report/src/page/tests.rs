@@ -7,7 +7,7 @@ use crate::words::words;
 use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Heading};
 use rocking_draw::page::STYLE;
-use rocking_study::questions::Answer;
+use rocking_study::questions::StudyAnswer;
 
 fn sketches() -> [Figure; 3] {
     [1, 6, 8].map(|number| {
@@ -40,7 +40,7 @@ fn page_of(names: Names) -> String {
         &["name"],
         vec![vec![names.cell]],
     );
-    let answer = Answer {
+    let answer = StudyAnswer {
         id: "made-up",
         question: "What?",
         answer: String::new(),

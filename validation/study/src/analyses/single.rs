@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
-use super::suite::{Apart, ShownHistory, SingleRecords};
+use super::suite::{Deviation, ShownHistory, SingleRecords};
 use crate::facts::Facts;
 use crate::runs::{Setup, capacities};
 use rocking_common::paper::{
@@ -47,7 +47,7 @@ pub(super) fn shown_alone(
 
 /// Histories of the `chosen` records, and how far the histories and curves
 /// of all records are apart, for one frequency parameter.
-pub(super) fn single(
+pub(super) fn single_records(
     setup: &Setup,
     frequency: usize,
     records: &[NormalisedRecord],
@@ -87,10 +87,10 @@ pub(super) fn single(
                 let curves = (of(s, record), of(REFERENCE, record));
                 apart(a, b, curves)
             })
-            .collect::<Result<Vec<Apart>, _>>()?;
+            .collect::<Result<Vec<Deviation>, _>>()?;
         Ok((histories, apart))
     };
-    let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
+    let all: Vec<(Vec<ShownHistory>, Vec<Deviation>)> = (0..records.len())
         .into_par_iter()
         .map(|record| {
             let (histories, apart) = at_level(record, im)?;
@@ -123,14 +123,14 @@ fn apart(
     compared: &(Vec<f64>, f64),
     reference: &(Vec<f64>, f64),
     curves: (&ResponseCurve, &ResponseCurve),
-) -> anyhow::Result<Apart> {
+) -> anyhow::Result<Deviation> {
     let stand = compared.1.is_finite() && reference.1.is_finite();
     let when_standing = |x: f64| if stand { x } else { f64::NAN };
     // Demands 0.1, 0.2, ... 1.0.
     let levels: Vec<f64> = (1..=10).map(|k| f64::from(k) / 10.0).collect();
     let a = capacities(curves.0, &levels, InversionRule::Median)?;
     let b = capacities(curves.1, &levels, InversionRule::Median)?;
-    Ok(Apart {
+    Ok(Deviation {
         distance: when_standing(distance(&compared.0, &reference.0)),
         peak_ratio: when_standing(compared.1 / reference.1),
         mean_ln_im: mean_log_ratio(&a, &b),

@@ -18,7 +18,7 @@ type OnStripes<T> = Vec<Vec<Vec<T>>>;
 
 /// Demands on the stripes for every arm of `adjusted`, the arms drawn: one
 /// run a block, stripe and record, which an arm's first overturnings cut.
-pub(super) fn stripes(
+pub(super) fn stripe_demands(
     setup: &Setup,
     records: &[NormalisedRecord],
     arms: &[ArmCurves],

@@ -7,7 +7,7 @@ use rocking_statistics::Clusters;
 
 use crate::distributions::{BlockSamples, Distributions};
 use crate::facts::Facts;
-use crate::runs::{ArmCurves, Work, curves_of, not_run};
+use crate::runs::{ArmCurves, ChainWork, curves_of, not_run};
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
 use rocking_common::suites::Source;
@@ -26,7 +26,7 @@ pub struct StripeDemands {
     pub stands_again: Vec<Vec<Vec<bool>>>,
 }
 
-/// Results of one suite.
+/// StudyResults of one suite.
 #[derive(Clone, Debug)]
 pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.
@@ -44,7 +44,7 @@ pub struct SuiteResults {
     /// The records' names and hashes.
     pub list: Vec<RecordName>,
     /// What the chains took.
-    pub work: Work,
+    pub work: ChainWork,
     /// The records.
     pub records: Vec<Facts>,
     /// The earthquakes that they belong to.
@@ -134,14 +134,14 @@ pub struct SingleRecords {
     /// and whether the block overturned.
     pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
-    pub apart: Vec<Vec<Apart>>,
+    pub apart: Vec<Vec<Deviation>>,
     /// The same at each of `LEVELS_IM`, for comparisons of the suites.
-    pub by_level: Vec<(f64, Vec<Vec<Apart>>)>,
+    pub by_level: Vec<(f64, Vec<Vec<Deviation>>)>,
 }
 
 /// A block against the reference slenderness under one record.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Apart {
+pub struct Deviation {
     /// Normalized L2 distance of the histories; NaN where one overturned.
     pub distance: f64,
     /// Ratio of the peaks; NaN where one overturned.
@@ -153,7 +153,7 @@ pub struct Apart {
 
 impl SingleRecords {
     /// Median over records and slendernesses of what is defined.
-    pub(crate) fn median_of(&self, of: impl Fn(&Apart) -> f64) -> f64 {
+    pub(crate) fn median_of(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
         let mut values: Vec<f64> = self
             .apart
             .iter()

@@ -4,7 +4,7 @@ use rocking_statistics::lilliefors::Assessment;
 
 use crate::estimates::three_quantiles;
 use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
 };
@@ -30,7 +30,10 @@ const SHIFTED: Ink = Ink::Series(2);
 const SIZE_PX: (f64, f64) = (440.0, 220.0);
 
 /// Figure 11: p = 1, alpha = 0.20.
-pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
+pub(super) fn inverted(
+    results: &StudyResults,
+    arm: Arm,
+) -> anyhow::Result<Figure> {
     let levels = demands();
     let mut panels = Vec::new();
     let mut onsets = Vec::new();
@@ -196,7 +199,7 @@ const ARMS: [Marker; 3] = [Marker::Dot, Marker::OpenSquare, Marker::Plus];
 
 /// Figure 12 (PGA) or 14 (PGV).
 pub(super) fn shares(
-    results: &Results,
+    results: &StudyResults,
     number: u32,
 ) -> anyhow::Result<Figure> {
     let intensity = if number == 12 { Intensity::Pga } else { Intensity::Pgv };

@@ -10,8 +10,8 @@ use rocking_statistics::ExtendedSample;
 use curves::{KEYS, NUMBERS, along, empirical, exceedance, fitted, most_of};
 
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
-use crate::measures::{At, to_ssfl};
-use crate::results::Results;
+use crate::measures::{DemandFits, to_ssfl};
+use crate::results::StudyResults;
 use rocking_common::paper::{Arm, Intensity, demand_index};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Ink, Pen};
@@ -23,7 +23,7 @@ use rocking_draw::grid::Grid;
 /// Figure 18: demand 0.15, PGA. Its caption has the distances that the claims
 /// on c are about: those to the SSFL.
 pub(super) fn constants(
-    results: &Results,
+    results: &StudyResults,
     arm: Arm,
 ) -> anyhow::Result<Figure> {
     let at = (Intensity::Pga, THRESHOLDS[0]);
@@ -31,7 +31,7 @@ pub(super) fn constants(
     let data = &block.samples[demand_index(at.1)];
     let sample = ExtendedSample::try_new(data)?;
     let fits = Fits::new(&sample, block.shift);
-    let fitted_at = At { sample, shift: block.shift, fits };
+    let fitted_at = DemandFits { sample, shift: block.shift, fits };
     let fits = &fitted_at.fits;
     let benchmark = Pen::new(Ink::Text, 1.3);
     let dashes = [Dash::Dotted, Dash::Dashed, Dash::DashDot, Dash::Long];

@@ -36,7 +36,7 @@ const NUMBERS: [Column; 4] = [
 ];
 
 /// Quantile curves of what is compared at one frequency parameter.
-struct Compared {
+struct QuantilePanel {
     p_rad_s: f64,
     groups: Vec<Series>,
 }
@@ -68,7 +68,11 @@ pub(super) fn slendernesses(
     Ok(figure(heading, &panels, words))
 }
 
-fn figure(heading: Heading, panels: &[Compared], words: String) -> Figure {
+fn figure(
+    heading: Heading,
+    panels: &[QuantilePanel],
+    words: String,
+) -> Figure {
     let columns = panels.len();
     let grid = Grid { right: 40.0, ..Grid::new(columns, columns) };
     let grid = grid.plot(264.0, grid.height);
@@ -119,7 +123,7 @@ fn overturns(group: &Series, quantile: usize) -> Option<f64> {
 
 /// Ends of the intensity axis of a panel: 1, or the lowest level shown, and a
 /// little above the last overturning level.
-fn levels(panel: &Compared) -> (f64, f64) {
+fn levels(panel: &QuantilePanel) -> (f64, f64) {
     let groups = &panel.groups;
     let ends = groups
         .iter()
@@ -154,7 +158,7 @@ fn edge_words(groups: &[Series]) -> Vec<Series> {
 }
 
 /// How far the slendernesses are apart where the median overturns.
-fn spread_in_words(panels: &[Compared]) -> String {
+fn spread_in_words(panels: &[QuantilePanel]) -> String {
     let spreads: Vec<String> = panels
         .iter()
         .map(|panel| {
@@ -201,13 +205,13 @@ pub(super) fn adjusted(
 
 fn panels(
     groups: impl Fn(usize) -> anyhow::Result<Vec<Series>>,
-) -> anyhow::Result<Vec<Compared>> {
+) -> anyhow::Result<Vec<QuantilePanel>> {
     FREQUENCIES_RAD_S
         .into_iter()
         .enumerate()
         .map(|(frequency, p_rad_s)| {
             let groups = groups(frequency)?;
-            Ok(Compared { p_rad_s, groups })
+            Ok(QuantilePanel { p_rad_s, groups })
         })
         .collect()
 }
@@ -258,7 +262,7 @@ fn three(curves: &[ResponseCurve], im: f64) -> anyhow::Result<[f64; 3]> {
     three_quantiles(&demands)
 }
 
-fn overturning_in_words(panels: &[Compared]) -> String {
+fn overturning_in_words(panels: &[QuantilePanel]) -> String {
     let by_panel: Vec<String> = panels
         .iter()
         .map(|panel| {

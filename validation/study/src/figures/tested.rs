@@ -5,7 +5,7 @@ use rocking_statistics::lilliefors::Assessment;
 use rocking_statistics::normal;
 
 use crate::normality::{accepted_share, over_critical};
-use crate::results::Results;
+use crate::results::StudyResults;
 use crate::ties::critical_on_grid;
 use rocking_common::paper::{Arm, Intensity, demand_index, demands};
 use rocking_common::table::number;
@@ -117,7 +117,7 @@ impl Histogram {
 }
 
 /// The original or the shifted sample of a block.
-struct Half {
+struct SampleTests {
     name: &'static str,
     /// What is tested, as an axis label.
     label: &'static str,
@@ -131,7 +131,7 @@ struct Half {
     histogram: Histogram,
 }
 
-impl Half {
+impl SampleTests {
     fn original(tests: &[Assessment]) -> Self {
         Self {
             name: "original",
@@ -222,7 +222,10 @@ impl Half {
 }
 
 /// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA; a row a block.
-pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
+pub(super) fn along(
+    results: &StudyResults,
+    arm: Arm,
+) -> anyhow::Result<Figure> {
     let mut blocks = Vec::new();
     let mut words = Vec::new();
     for slenderness in [0, 3] {
@@ -237,8 +240,8 @@ pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
         let on_grid =
             (arm == Arm::A).then(|| critical_on_grid(block)).flatten();
         let halves = [
-            Half::original(&block.original),
-            Half::shifted(&block.shifted, on_grid),
+            SampleTests::original(&block.original),
+            SampleTests::shifted(&block.shifted, on_grid),
         ];
         blocks.push(((block.alpha_rad, block.p_rad_s), halves));
     }

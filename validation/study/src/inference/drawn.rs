@@ -3,20 +3,20 @@
 
 use rayon::prelude::*;
 
-use super::draws::{Draws, Replicated};
-use super::known::Known;
+use super::draws::{Replicates, Resamples};
+use super::known::CellIntervals;
 use rocking_common::findings::{LEVEL, Measured, Tested};
 
 /// Level of a band that is drawn and decides nothing.
 const BAND: f64 = 0.95;
 
-impl Replicated {
+impl Replicates {
     /// The central share of the replicates of every cell, wider by what few
     /// earthquakes ask; none where a tenth of them or more have no value.
     #[must_use]
     pub fn percentiles(
         &self,
-        draws: &Draws,
+        draws: &Resamples,
         tested: Tested,
     ) -> Vec<Option<(f64, f64)>> {
         let clusters = draws.clusters(tested);
@@ -34,12 +34,12 @@ impl Replicated {
 /// Each cell of a measure with the interval by which a claim on it is judged.
 #[must_use]
 pub fn by_cell(
-    draws: &Draws,
+    draws: &Resamples,
     tested: Tested,
     range: (f64, f64),
-    measured: &Replicated,
+    measured: &Replicates,
 ) -> Vec<Measured> {
-    let known = Known::new(draws, tested, range, measured);
+    let known = CellIntervals::new(draws, tested, range, measured);
     let count = measured.points.len();
     (0..count).map(|k| known.shown(k, known.drawn(k, LEVEL))).collect()
 }

@@ -1,4 +1,4 @@
-//! Draws of the records, and what a measure gives in them.
+//! Resamples of the records, and what a measure gives in them.
 
 use rayon::prelude::*;
 use rocking_statistics::bootstrap::Bootstrap;
@@ -24,9 +24,9 @@ pub const LEAST_DECIDING: usize = 30;
 
 /// How often a replicate holds each record, by suite.
 #[derive(Clone, Copy, Debug)]
-pub struct Draw<'a>([&'a [u32]; 2]);
+pub struct Resample<'a>([&'a [u32]; 2]);
 
-impl<'a> Draw<'a> {
+impl<'a> Resample<'a> {
     /// The multiplicities of a suite's records.
     #[must_use]
     pub fn of(&self, suite: SuiteKind) -> &'a [u32] {
@@ -34,18 +34,18 @@ impl<'a> Draw<'a> {
     }
 }
 
-/// Draws of both suites: by suite, then by replicate, then by record.
+/// Resamples of both suites: by suite, then by replicate, then by record.
 #[derive(Debug)]
 struct DrawSet([Vec<Vec<u32>>; 2]);
 
 impl DrawSet {
-    fn draw(&self, index: usize) -> Draw<'_> {
-        Draw(self.0.each_ref().map(|own| own[index].as_slice()))
+    fn draw(&self, index: usize) -> Resample<'_> {
+        Resample(self.0.each_ref().map(|own| own[index].as_slice()))
     }
 
     fn map(
         &self,
-        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
     ) -> Vec<Vec<f64>> {
         let all = (0..self.0[0].len()).into_par_iter();
         all.map(|index| f(self.draw(index))).collect()
@@ -54,7 +54,7 @@ impl DrawSet {
 
 /// The draws that all claims share.
 #[derive(Debug)]
-pub struct Draws {
+pub struct Resamples {
     clusters: [Clusters; 2],
     whole: DrawSet,
     bootstrap: DrawSet,
@@ -64,7 +64,7 @@ pub struct Draws {
     rules: [Subsampling; 2],
 }
 
-impl Draws {
+impl Resamples {
     /// The draws for suites of these earthquakes, ordinary and pulse-type;
     /// of the bootstrap `times` as many as are enough for most claims.
     ///
@@ -135,7 +135,7 @@ impl Draws {
 
     /// Every record once.
     #[must_use]
-    pub fn whole(&self) -> Draw<'_> {
+    pub fn whole(&self) -> Resample<'_> {
         self.whole.draw(0)
     }
 
@@ -145,19 +145,19 @@ impl Draws {
     pub fn smooth(
         &self,
         tested: Tested,
-        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
-    ) -> Replicated {
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
+    ) -> Replicates {
         let without: &[DrawSet] = match tested {
             Tested::Ordinary => &self.without_one[..1],
             Tested::PulseType => &self.without_one[1..],
             Tested::None | Tested::Both => &[],
         };
-        Replicated {
+        Replicates {
             scheme: Scheme::Bootstrap,
             points: f(self.whole()),
             replicates: self.bootstrap.map(f),
             without_one: without.iter().flat_map(|own| own.map(f)).collect(),
-            ..Replicated::default()
+            ..Replicates::default()
         }
     }
 
@@ -168,13 +168,13 @@ impl Draws {
         &self,
         suite: SuiteKind,
         samples: Vec<Ranked>,
-    ) -> Replicated {
-        let of = |draw: Draw<'_>| -> Vec<f64> {
+    ) -> Replicates {
+        let of = |draw: Resample<'_>| -> Vec<f64> {
             let counts = draw.of(suite);
             samples.iter().map(|s| s.median(counts)).collect()
         };
         let medians = self.smooth(suite.into(), &of);
-        Replicated { samples, ..medians }
+        Replicates { samples, ..medians }
     }
 
     /// Numbers that ties spoil, over subsamples without replacement.
@@ -182,21 +182,21 @@ impl Draws {
     pub fn subsampled(
         &self,
         tested: Tested,
-        f: &(impl Fn(Draw<'_>) -> Vec<f64> + Sync),
-    ) -> Replicated {
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
+    ) -> Replicates {
         let without: &[DrawSet] = match tested {
             Tested::Ordinary => &self.without_one[..1],
             Tested::PulseType => &self.without_one[1..],
             Tested::None => &[],
             Tested::Both => &self.without_one,
         };
-        Replicated {
+        Replicates {
             scheme: Scheme::Subsampling,
             points: f(self.whole()),
             replicates: self.subsamples.map(f),
             without_one: without.iter().flat_map(|own| own.map(f)).collect(),
             halves: self.halves.map(f),
-            ..Replicated::default()
+            ..Replicates::default()
         }
     }
 }
@@ -216,7 +216,7 @@ pub enum Scheme {
 
 /// The cells of a measure: of all records, and of every replicate.
 #[derive(Clone, Debug, Default)]
-pub struct Replicated {
+pub struct Replicates {
     pub(super) scheme: Scheme,
     pub(super) points: Vec<f64>,
     pub(super) replicates: Vec<Vec<f64>>,
@@ -228,7 +228,7 @@ pub struct Replicated {
     pub(super) samples: Vec<Ranked>,
 }
 
-impl Replicated {
+impl Replicates {
     /// Probabilities from counts of records.
     #[must_use]
     pub fn of_counts(counts: Vec<Proportion>) -> Self {

@@ -6,7 +6,9 @@ use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::confidence::Confidence;
 use rocking_statistics::{Clusters, ExtendedSample, power};
 
-use super::draws::{Draws, LEAST_DECIDING, REPLICATES, Replicated, Scheme};
+use super::draws::{
+    LEAST_DECIDING, REPLICATES, Replicates, Resamples, Scheme,
+};
 use rocking_common::findings::{
     ERROR, Interval, LEVEL, Measured, Power, Region, Tested,
 };
@@ -81,8 +83,8 @@ impl Caution {
 }
 
 /// The cells of a measure with what is needed for their intervals.
-pub(super) struct Known<'a> {
-    pub(super) measured: &'a Replicated,
+pub(super) struct CellIntervals<'a> {
+    pub(super) measured: &'a Replicates,
     pub(super) clusters: &'a Clusters,
     rule: &'a Subsampling,
     range: (f64, f64),
@@ -90,20 +92,20 @@ pub(super) struct Known<'a> {
     confidence: Vec<Option<Confidence>>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> CellIntervals<'a> {
     pub(super) fn new(
-        draws: &'a Draws,
+        draws: &'a Resamples,
         tested: Tested,
         range: (f64, f64),
-        measured: &'a Replicated,
+        measured: &'a Replicates,
     ) -> Self {
         let of = |k: usize| {
-            let values = Replicated::column(&measured.replicates, k);
+            let values = Replicates::column(&measured.replicates, k);
             // What no replicate moves is not certain: no error is known.
             if values.iter().all(|x| *x == measured.points[k]) {
                 return None;
             }
-            let others = Replicated::column(&measured.without_one, k);
+            let others = Replicates::column(&measured.without_one, k);
             Confidence::new(measured.points[k], &values, &others)
         };
         let confidence = match measured.scheme {
@@ -136,7 +138,7 @@ impl<'a> Known<'a> {
             }
             Scheme::Subsampling => {
                 let point = self.measured.points[k];
-                let column = |rows| Replicated::column(rows, k);
+                let column = |rows| Replicates::column(rows, k);
                 let values = column(&self.measured.replicates);
                 let others = column(&self.measured.without_one);
                 let of = |others: &[f64]| {
@@ -209,7 +211,7 @@ impl<'a> Known<'a> {
         level: f64,
         region: Region,
     ) -> Option<Power> {
-        let column = Replicated::column(&self.measured.replicates, k);
+        let column = Replicates::column(&self.measured.replicates, k);
         let point = self.measured.points[k];
         if self.measured.scheme == Scheme::Counted {
             let decides = decides(point, region, self.range);

@@ -8,9 +8,11 @@
 
 use super::draws::LEAST_DECIDING;
 use super::draws::Scheme;
-use super::known::{Caution, Ends, Known, clipped, p_of, p_value, power_of};
+use super::known::{
+    Caution, CellIntervals, Ends, clipped, p_of, p_value, power_of,
+};
 use super::refuted::refuted;
-use super::rule::{Cell, Rule};
+use super::rule::{Cell, ClaimRule};
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, ERROR, Interval, LEVEL, Measured,
     Quantifier, Region, Unit,
@@ -19,16 +21,16 @@ use rocking_common::paper::Verdict;
 use rocking_statistics::confidence::Confidence;
 
 /// A cell that decides: its place, and its own interval.
-struct Deciding {
+struct DecidingCell {
     k: usize,
     ends: Ends,
 }
 
 /// Fills in a result over many cells.
-pub(super) fn many(
-    rule: &Rule,
+pub(super) fn judge_many(
+    rule: &ClaimRule,
     cells: &[Cell],
-    known: &Known<'_>,
+    known: &CellIntervals<'_>,
     caution: Caution,
     result: &mut ClaimResult,
 ) {
@@ -67,13 +69,13 @@ pub(super) fn many(
         } else {
             Verdict::Inconclusive
         };
-        let bears = |cell: &&Deciding| match verdict {
+        let bears = |cell: &&DecidingCell| match verdict {
             Verdict::NotConfirmed => refuted.out[cell.k],
             Verdict::Confirmed => true,
             Verdict::Inconclusive => !shown[cell.k],
         };
         let ends_of =
-            |cell: &Deciding| refuted.ends[cell.k].unwrap_or(cell.ends);
+            |cell: &DecidingCell| refuted.ends[cell.k].unwrap_or(cell.ends);
         let Some(worst) =
             worst(deciding.iter().filter(bears), rule.region, &ends_of)
         else {
@@ -113,8 +115,8 @@ pub(super) fn many(
     } else {
         counts.inside = discovered(rule.region, cells, known, &deciding);
         let drawn = drawn(&deciding, cells);
-        share(rule, &drawn, known, caution, result);
-        let ends_of = |cell: &Deciding| cell.ends;
+        judge_share(rule, &drawn, known, caution, result);
+        let ends_of = |cell: &DecidingCell| cell.ends;
         let worst = worst(drawn.into_iter(), rule.region, &ends_of);
         result.deciding_cell = worst.map(|cell| Detail {
             name: named(&cells[cell.k], known),
@@ -131,11 +133,11 @@ pub(super) fn many(
 }
 
 /// Cells with a value and an interval of their own.
-fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
+fn deciding(cells: &[Cell], known: &CellIntervals<'_>) -> Vec<DecidingCell> {
     let of = |(k, cell): (usize, &Cell)| {
         let ends = known.cell(k, cell.records, LEVEL)?;
         let there = known.measured.points[k].is_finite();
-        there.then_some(Deciding { k, ends })
+        there.then_some(DecidingCell { k, ends })
     };
     cells.iter().enumerate().filter_map(of).collect()
 }
@@ -143,13 +145,17 @@ fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
 /// Those whose replicates count. The median of few records wanders in a
 /// bootstrap: cells of few are judged by their exact intervals, and do not
 /// enter a share or a quantile over cells.
-fn drawn<'a>(deciding: &'a [Deciding], cells: &[Cell]) -> Vec<&'a Deciding> {
-    let enough = |cell: &&Deciding| cells[cell.k].records >= LEAST_DECIDING;
+fn drawn<'a>(
+    deciding: &'a [DecidingCell],
+    cells: &[Cell],
+) -> Vec<&'a DecidingCell> {
+    let enough =
+        |cell: &&DecidingCell| cells[cell.k].records >= LEAST_DECIDING;
     deciding.iter().filter(enough).collect()
 }
 
 /// The name of a cell; of few records, whose they are.
-fn named(cell: &Cell, known: &Known<'_>) -> String {
+fn named(cell: &Cell, known: &CellIntervals<'_>) -> String {
     let few = cell.records < LEAST_DECIDING
         && known.measured.scheme != Scheme::Counted;
     match few {
@@ -160,11 +166,11 @@ fn named(cell: &Cell, known: &Known<'_>) -> String {
 
 /// The cell whose interval reaches furthest to the wrong side.
 fn worst<'a>(
-    cells: impl Iterator<Item = &'a Deciding>,
+    cells: impl Iterator<Item = &'a DecidingCell>,
     region: Region,
-    ends_of: &impl Fn(&Deciding) -> Ends,
-) -> Option<&'a Deciding> {
-    let reach = |cell: &Deciding| {
+    ends_of: &impl Fn(&DecidingCell) -> Ends,
+) -> Option<&'a DecidingCell> {
+    let reach = |cell: &DecidingCell| {
         let (a, b) = ends_of(cell).both();
         let (a, b) = (region.badness(a), region.badness(b));
         let reach = if a > b { a } else { b };
@@ -183,14 +189,14 @@ fn worst<'a>(
 fn discovered(
     region: Region,
     cells: &[Cell],
-    known: &Known<'_>,
-    deciding: &[Deciding],
+    known: &CellIntervals<'_>,
+    deciding: &[DecidingCell],
 ) -> usize {
     let total = deciding.len() as f64;
     let mut count = deciding.len();
     loop {
         let level = 1.0 - 2.0 * ERROR * count as f64 / total;
-        let inside = |cell: &&Deciding| {
+        let inside = |cell: &&DecidingCell| {
             let ends = known.cell(cell.k, cells[cell.k].records, level);
             ends.is_some_and(|ends| {
                 let (low, high) = ends.both();
@@ -206,17 +212,17 @@ fn discovered(
 }
 
 /// The share of the cells in the region, with its interval.
-fn share(
-    rule: &Rule,
-    deciding: &[&Deciding],
-    known: &Known<'_>,
+fn judge_share(
+    rule: &ClaimRule,
+    deciding: &[&DecidingCell],
+    known: &CellIntervals<'_>,
     caution: Caution,
     result: &mut ClaimResult,
 ) {
     let total = deciding.len() as f64;
     // A cell without a value in a replicate lies outside.
     let of = |row: &[f64]| {
-        let holds = |cell: &&&Deciding| rule.region.holds(row[cell.k]);
+        let holds = |cell: &&&DecidingCell| rule.region.holds(row[cell.k]);
         deciding.iter().filter(holds).count() as f64 / total
     };
     let value = of(&known.measured.points);
@@ -263,8 +269,8 @@ fn share(
 /// region's middle. Scatter only raises such a distance, in a replicate more
 /// than in the sample: its percentiles are reflected at the value.
 fn details(
-    deciding: &[&Deciding],
-    known: &Known<'_>,
+    deciding: &[&DecidingCell],
+    known: &CellIntervals<'_>,
     middle: f64,
     result: &mut ClaimResult,
 ) {

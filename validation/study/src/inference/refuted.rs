@@ -4,14 +4,14 @@
 use rocking_statistics::normal;
 use rocking_statistics::step_down::StepDown;
 
-use super::draws::{Replicated, Scheme};
+use super::draws::{Replicates, Scheme};
 use super::known::Ends;
-use super::known::{Caution, Known, p_value};
+use super::known::{Caution, CellIntervals, p_value};
 use rocking_common::findings::{ERROR, Interval, LEVEL, Region};
 use rocking_common::paper::Verdict;
 
 /// The cells that are shown to lie outside.
-pub(super) struct Refuted {
+pub(super) struct Refutation {
     /// Whether each cell is.
     pub(super) out: Vec<bool>,
     /// The simultaneous limits of each cell whose value lies outside.
@@ -34,11 +34,11 @@ pub(super) struct Refuted {
 /// inside cannot be refuted and leave the maximum (Romano, Shaikh and Wolf,
 /// Econometrica 82 (2014) 1979).
 pub(super) fn refuted(
-    known: &Known<'_>,
+    known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
     caution: Caution,
-) -> Refuted {
+) -> Refutation {
     match known.measured.scheme {
         Scheme::Bootstrap => by_maximum(known, region, shown, caution),
         _ => by_holm(known, region, shown, caution),
@@ -47,13 +47,13 @@ pub(super) fn refuted(
 
 /// Holm's steps over the cells' own one-sided limits.
 fn by_holm(
-    known: &Known<'_>,
+    known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
     caution: Caution,
-) -> Refuted {
+) -> Refutation {
     let count = shown.len();
-    let mut found = Refuted {
+    let mut found = Refutation {
         out: vec![false; count],
         ends: vec![None; count],
         level: vec![LEVEL; count],
@@ -96,12 +96,12 @@ fn by_holm(
 
 /// The scale on which cells are compared.
 #[derive(Clone, Copy)]
-struct Scale {
+struct CellScale {
     ratio: bool,
     region: Region,
 }
 
-impl Scale {
+impl CellScale {
     fn of(region: Region) -> Self {
         // A region between positive ends is one of ratios.
         let ratio = matches!(region, Region::Within(a, _) if a > 0.0);
@@ -130,15 +130,15 @@ impl Scale {
 }
 
 fn by_maximum(
-    known: &Known<'_>,
+    known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
     caution: Caution,
-) -> Refuted {
-    let scale = Scale::of(region);
-    let Replicated { points, replicates, .. } = known.measured;
+) -> Refutation {
+    let scale = CellScale::of(region);
+    let Replicates { points, replicates, .. } = known.measured;
     let count = points.len();
-    let mut found = Refuted {
+    let mut found = Refutation {
         out: vec![false; count],
         ends: vec![None; count],
         level: vec![LEVEL; count],
@@ -192,7 +192,7 @@ fn by_maximum(
 
 /// Standard deviation of a cell over the replicates; none where no replicate
 /// moves it, which shows no certainty, or one in ten has no value.
-fn spread(measured: &Replicated, k: usize, scale: Scale) -> Option<f64> {
+fn spread(measured: &Replicates, k: usize, scale: CellScale) -> Option<f64> {
     let rows = &measured.replicates;
     let values: Vec<f64> = rows
         .iter()

@@ -4,7 +4,7 @@ use rocking_common::findings::{Quantifier, Region, Unit};
 
 /// What a claim asks of its cells.
 #[derive(Clone, Copy, Debug)]
-pub struct Rule {
+pub struct ClaimRule {
     /// How many of them.
     pub quantifier: Quantifier,
     /// Where they have to lie.

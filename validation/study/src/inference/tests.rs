@@ -6,14 +6,14 @@ use rocking_common::findings::{ERROR, Interval};
 use rocking_common::paper::SuiteKind;
 use rocking_statistics::{Clusters, Proportion};
 
-/// Draws of suites without earthquakes.
-fn drawn(sizes: [usize; 2]) -> Draws {
-    Draws::new(sizes.map(Clusters::singletons), 1)
+/// Resamples of suites without earthquakes.
+fn drawn(sizes: [usize; 2]) -> Resamples {
+    Resamples::new(sizes.map(Clusters::singletons), 1)
 }
 
-fn rule(quantifier: Quantifier, region: Region) -> Rule {
+fn rule(quantifier: Quantifier, region: Region) -> ClaimRule {
     let range = (f64::NEG_INFINITY, f64::INFINITY);
-    Rule { quantifier, region, unit: Unit::One, range }
+    ClaimRule { quantifier, region, unit: Unit::One, range }
 }
 
 /// 80 values about 1 for each cell, and how far each cell is shifted.
@@ -38,7 +38,7 @@ fn cells(shifts: &[f64]) -> (Vec<Cell>, Vec<Ranked>) {
 fn judged(quantifier: Quantifier, shifts: &[f64]) -> ClaimResult {
     let draws = drawn([80, 40]);
     let (cells, ranked) = cells(shifts);
-    let medians = |draw: Draw<'_>| -> Vec<f64> {
+    let medians = |draw: Resample<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
         ranked.iter().map(|r| r.median(counts)).collect()
     };
@@ -83,7 +83,7 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
     let draws = drawn([80, 40]);
     let (mut cells, ranked) = cells(&[0.0, 0.9]);
     cells[1].records = LEAST_DECIDING - 1;
-    let medians = |draw: Draw<'_>| -> Vec<f64> {
+    let medians = |draw: Resample<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
         ranked.iter().map(|r| r.median(counts)).collect()
     };
@@ -98,7 +98,7 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
 #[test]
 fn suites_are_drawn_independently_and_records_jointly() {
     let draws = drawn([30, 30]);
-    let both = |draw: Draw<'_>| {
+    let both = |draw: Resample<'_>| {
         let of = |suite| f64::from(draw.of(suite)[0]);
         vec![of(SuiteKind::Ordinary), of(SuiteKind::PulseType)]
     };
@@ -120,10 +120,10 @@ fn one_record_that_carries_a_share_keeps_it_open() {
     // The measure is 1 with record 0 and 0 without it.
     let draws = drawn([50, 40]);
     let carried =
-        |draw: Draw<'_>| vec![f64::from(draw.of(SuiteKind::Ordinary)[0])];
+        |draw: Resample<'_>| vec![f64::from(draw.of(SuiteKind::Ordinary)[0])];
     let measured = draws.subsampled(Tested::Ordinary, &carried);
     let cells = [Cell { at: "one record".into(), records: 50 }];
-    let rule = Rule {
+    let rule = ClaimRule {
         range: (0.0, 1.0),
         ..rule(Quantifier::One, Region::Above(0.5))
     };
@@ -142,9 +142,11 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
     };
     let cells: Vec<Cell> = counts.iter().enumerate().map(cell).collect();
     let all = counts.iter().map(|(k, n)| Proportion::try_new(*k, *n).unwrap());
-    let measured = Replicated::of_counts(all.collect());
-    let rule =
-        Rule { range: (0.0, 1.0), ..rule(quantifier, Region::Below(0.05)) };
+    let measured = Replicates::of_counts(all.collect());
+    let rule = ClaimRule {
+        range: (0.0, 1.0),
+        ..rule(quantifier, Region::Below(0.05))
+    };
     judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
 }
 
@@ -251,7 +253,7 @@ fn a_replicate_without_a_value_lies_outside() {
     // Two records carry cell 0: a replicate that draws none of them leaves
     // it without a value.
     let draws = drawn([40, 40]);
-    let of = |draw: Draw<'_>| {
+    let of = |draw: Resample<'_>| {
         let counts = draw.of(SuiteKind::Ordinary);
         let carried: u32 = counts[..2].iter().sum();
         let value = if carried > 0 { 1.0 } else { f64::NAN };
@@ -272,8 +274,8 @@ fn a_replicate_without_a_value_lies_outside() {
 fn records_of_an_earthquake_are_drawn_together() {
     let labels = (0..40).map(|record| (record / 10).to_string());
     let clusters = Clusters::from_labels(labels);
-    let draws = Draws::new([clusters, Clusters::singletons(40)], 1);
-    let first = |draw: Draw<'_>| {
+    let draws = Resamples::new([clusters, Clusters::singletons(40)], 1);
+    let first = |draw: Resample<'_>| {
         let counts = draw.of(SuiteKind::Ordinary);
         assert_eq!(counts[..9], counts[1..10]);
         vec![f64::from(counts[0])]
@@ -281,7 +283,7 @@ fn records_of_an_earthquake_are_drawn_together() {
     let found = draws.smooth(Tested::Ordinary, &first);
     assert_eq!(found.replicates.len(), REPLICATES);
     // Each earthquake is left out once.
-    assert_eq!(Replicated::column(&found.without_one, 0), [0., 1., 1., 1.]);
+    assert_eq!(Replicates::column(&found.without_one, 0), [0., 1., 1., 1.]);
     let subsampled = draws.subsampled(Tested::Ordinary, &first);
     assert_eq!(subsampled.replicates.len(), SUBSAMPLES);
 }
@@ -292,7 +294,7 @@ fn a_verdict_that_other_draws_may_change_is_none() {
     let draws = drawn([80, 40]);
     let values: Vec<f64> =
         (0..80).map(|i| libm::sin(f64::from(i) * 1.37)).collect();
-    let mean = |draw: Draw<'_>| {
+    let mean = |draw: Resample<'_>| {
         let counts = draw.of(SuiteKind::Ordinary);
         let pairs = values.iter().zip(counts);
         vec![pairs.fold(0.0, |sum, (x, n)| sum + x * f64::from(*n)) / 80.0]
@@ -303,7 +305,7 @@ fn a_verdict_that_other_draws_may_change_is_none() {
         let rule = rule(Quantifier::One, Region::Below(limit));
         judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
     };
-    let Judged { result, more } = judged(1.0);
+    let Ruling { result, more } = judged(1.0);
     assert!(!more);
     let (high, error) = (result.high, result.monte_carlo_error);
     assert!(error > 0.0 && error < 0.2 * (high - result.value));
@@ -315,7 +317,7 @@ fn a_verdict_that_other_draws_may_change_is_none() {
         (-3.0, false, true),
         (-5.0, false, false),
     ] {
-        let Judged { result, more } = judged(high + away * error);
+        let Ruling { result, more } = judged(high + away * error);
         assert_eq!(more, draws_more, "{away}");
         let decided = result.by_equivalence == Some(Verdict::Confirmed);
         assert_eq!(decided, decides, "{away}");
@@ -370,7 +372,7 @@ fn a_cell_that_no_replicate_moves_is_open() {
     let draws = drawn([80, 40]);
     let (cells, ranked) = cells(&[0.0, 0.2]);
     let constant = Ranked::new(&[1.0; 80]);
-    let medians = |draw: Draw<'_>| -> Vec<f64> {
+    let medians = |draw: Resample<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
         vec![constant.median(counts), ranked[1].median(counts)]
     };

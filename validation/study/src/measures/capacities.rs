@@ -3,16 +3,16 @@
 
 use rocking::capacity::{InversionRule, ResponseCurve};
 
-use super::source::{
-    CellValues, Prepared, Source, block, compared_blocks, geometric_means,
-    ratios, weighted_mean,
+use super::scope::{
+    CellValues, MeasureCells, MeasureResult, Scope, block, compared_blocks,
+    geometric_means, ratios, weighted_mean,
 };
 use crate::distributions::factors;
 use crate::estimates::mean;
 use crate::fits::THRESHOLDS;
-use crate::inference::{Cell, Replicated};
+use crate::inference::{Cell, Replicates};
 use crate::runs::{capacities, capacities_at, curves_of};
-use crate::sensitivities::{Choice, Varied};
+use crate::sensitivities::{OtherChoice, Variant};
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD,
     demand_index, position,
@@ -28,13 +28,13 @@ pub const DEMANDS: [f64; 10] =
 const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
 
 /// A sample whose quantiles are compared with another's.
-struct Pair {
+struct SamplePair {
     at: String,
     own: Ranked,
     reference: Ranked,
 }
 
-impl Pair {
+impl SamplePair {
     fn new(at: String, own: &[f64], reference: &[f64]) -> Self {
         let [own, reference] = [own, reference].map(Ranked::new);
         Self { at, own, reference }
@@ -43,25 +43,25 @@ impl Pair {
 
 /// Quantiles of one sample over those of another, for all pairs of samples;
 /// NaN where one of the two is infinite.
-fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
+fn quantile_ratios(scope: &Scope<'_>, pairs: &[SamplePair]) -> MeasureCells {
     let all = || pairs.iter().flat_map(|pair| QUANTILES.map(|p| (pair, p)));
-    let cell = |(pair, p): (&Pair, f64)| Cell {
+    let cell = |(pair, p): (&SamplePair, f64)| Cell {
         at: format!("{}, {:.0} %", pair.at, 100.0 * p),
         records: pair.own.records().min(pair.reference.records()),
     };
-    let measured = source.smooth(|counts| {
-        let ratio = |(pair, p): (&Pair, f64)| {
+    let measured = scope.smooth(|counts| {
+        let ratio = |(pair, p): (&SamplePair, f64)| {
             let ratio = pair.own.quantile(counts, p)
                 / pair.reference.quantile(counts, p);
             if ratio > 0.0 { ratio } else { f64::NAN }
         };
         all().map(ratio).collect()
     });
-    Prepared::new(all().map(cell).collect(), measured)
+    MeasureCells::new(all().map(cell).collect(), measured)
 }
 
 /// Capacities at a demand under a choice; NaN for a record without a curve.
-fn varied_at(varied: &Varied, demand: f64) -> anyhow::Result<Vec<f64>> {
+fn varied_at(varied: &Variant, demand: f64) -> anyhow::Result<Vec<f64>> {
     capacities_at(varied.curves.iter().map(Option::as_ref), demand)
 }
 
@@ -79,12 +79,12 @@ fn first(curve: Option<&ResponseCurve>) -> f64 {
 
 /// Paired ratios of other choices over the study's, by cell.
 fn varied_ratios(
-    source: &Source<'_>,
-    choices: &[Choice],
+    scope: &Scope<'_>,
+    choices: &[OtherChoice],
     demands: &[f64],
 ) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
     let mut cells = Vec::new();
-    for (varied, base) in source.results.varied(choices)? {
+    for (varied, base) in scope.results.varied(choices)? {
         for demand in demands {
             let own = varied_at(varied, *demand)?;
             let reference = all_at(base, *demand)?;
@@ -101,8 +101,9 @@ fn varied_ratios(
 }
 
 /// First overturning by the other criterion over the study's.
-pub(super) fn criterion(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let all = source.results.varied(&[Choice::OtherCriterion])?.into_iter();
+pub(super) fn criterion(scope: &Scope<'_>) -> MeasureResult {
+    let all =
+        scope.results.varied(&[OtherChoice::OtherCriterion])?.into_iter();
     let cells = all.map(|(varied, base)| {
         let own = varied.curves.iter().map(|c| first(c.as_ref()));
         let reference = base.iter().map(|c| first(Some(c)));
@@ -111,33 +112,31 @@ pub(super) fn criterion(source: &Source<'_>) -> anyhow::Result<Prepared> {
         let at = block(varied.frequency, varied.slenderness);
         (at, ratios(&own, &reference, 1.0))
     });
-    Ok(geometric_means(source, cells.collect()))
+    Ok(geometric_means(scope, cells.collect()))
 }
 
 /// Overturning with another restitution over the study's.
-pub(super) fn restitution(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let choices = [Choice::Eta085, Choice::Eta097];
-    let cells = varied_ratios(source, &choices, &[1.0])?;
-    Ok(geometric_means(source, cells))
+pub(super) fn restitution(scope: &Scope<'_>) -> MeasureResult {
+    let choices = [OtherChoice::Eta085, OtherChoice::Eta097];
+    let cells = varied_ratios(scope, &choices, &[1.0])?;
+    Ok(geometric_means(scope, cells))
 }
 
 /// Capacities of the other component over the study's.
-pub(super) fn component(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let choices = [Choice::OtherComponent];
-    let cells = varied_ratios(source, &choices, &THRESHOLDS)?;
-    Ok(geometric_means(source, cells))
+pub(super) fn component(scope: &Scope<'_>) -> MeasureResult {
+    let choices = [OtherChoice::OtherComponent];
+    let cells = varied_ratios(scope, &choices, &THRESHOLDS)?;
+    Ok(geometric_means(scope, cells))
 }
 
 /// Effect of restitution on overturning beside the effect of size: the mean
 /// |ln| of the paired ratio between eta = 0.85 and 0.97 over the mean between
 /// p = 1 and 4, by slenderness.
-pub(super) fn restitution_beside_size(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    let results = source.results;
+pub(super) fn restitution_beside_size(scope: &Scope<'_>) -> MeasureResult {
+    let results = scope.results;
     let curves = results.ordinary.curves(results.plan.common())?;
-    let low = results.varied(&[Choice::Eta085])?;
-    let high = results.varied(&[Choice::Eta097])?;
+    let low = results.varied(&[OtherChoice::Eta085])?;
+    let high = results.varied(&[OtherChoice::Eta097])?;
     let logs = |a: &[f64], b: &[f64]| -> Vec<f64> {
         ratios(a, b, 1.0).into_iter().map(libm::log).collect()
     };
@@ -156,96 +155,93 @@ pub(super) fn restitution_beside_size(
         });
         pairs.push((own, size));
     }
-    let measured = source.smooth(|counts| {
+    let measured = scope.smooth(|counts| {
         let ratio = |(own, size): &(Vec<f64>, Vec<f64>)| {
             (weighted_mean(own, counts) / weighted_mean(size, counts)).abs()
         };
         pairs.iter().map(ratio).collect()
     });
-    Ok(Prepared::new(cells, measured))
+    Ok(MeasureCells::new(cells, measured))
 }
 
 /// Samples of a block and of the reference block at a demand.
 fn samples<'a>(
-    source: &Source<'a>,
+    scope: &Scope<'a>,
     frequency: usize,
     slenderness: usize,
     demand: f64,
 ) -> anyhow::Result<[&'a [f64]; 2]> {
     let of = |slenderness| -> anyhow::Result<&'a [f64]> {
         let place = (frequency, slenderness);
-        let found = source.suite().block(source.arm, Intensity::Pga, place)?;
+        let found = scope.suite().block(scope.arm, Intensity::Pga, place)?;
         Ok(&found.samples[demand_index(demand)])
     };
     Ok([of(slenderness)?, of(REFERENCE)?])
 }
 
 /// Median paired ratios of intensities at equal demand.
-pub(super) fn demand_ratios(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn demand_ratios(scope: &Scope<'_>) -> MeasureResult {
     let mut cells = Vec::new();
     for (frequency, slenderness) in compared_blocks() {
         for demand in DEMANDS {
             let [own, reference] =
-                samples(source, frequency, slenderness, demand)?;
+                samples(scope, frequency, slenderness, demand)?;
             let name = block(frequency, slenderness);
             let at = format!("{name}, demand {demand}");
             cells.push(CellValues::ratios(at, own, reference));
         }
     }
-    Ok(source.medians(cells))
+    Ok(scope.medians(cells))
 }
 
 /// Figure 8: intensity given demand, and demand given intensity.
-pub(super) fn quantiles(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
+pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
     let mut pairs = Vec::new();
     for (frequency, slenderness) in compared_blocks() {
         let name = block(frequency, slenderness);
         for demand in DEMANDS {
             let [own, reference] =
-                samples(source, frequency, slenderness, demand)?;
+                samples(scope, frequency, slenderness, demand)?;
             let at = format!("{name}, intensity at demand {demand}");
-            pairs.push(Pair::new(at, own, reference));
+            pairs.push(SamplePair::new(at, own, reference));
         }
         let levels = stripes.compared(frequency, Some(slenderness));
         pairs.extend(levels.map(|(im, own, reference)| {
             let at = format!("{name}, demand at intensity {im}");
-            Pair::new(at, own, reference)
+            SamplePair::new(at, own, reference)
         }));
     }
-    Ok(quantile_ratios(source, &pairs))
+    Ok(quantile_ratios(scope, &pairs))
 }
 
 /// Figure 10: both quantiles, slenderness adjusted over records scaled.
-pub(super) fn adjusted_quantiles(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
-    let curves = curves_of(&source.suite().adjusted, source.arm)?;
+pub(super) fn adjusted_quantiles(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
+    let curves = curves_of(&scope.suite().adjusted, scope.arm)?;
     let mut pairs = Vec::new();
     for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
         for demand in DEMANDS {
             let own = all_at(&curves[frequency], demand)?;
-            let [reference, _] =
-                samples(source, frequency, REFERENCE, demand)?;
+            let [reference, _] = samples(scope, frequency, REFERENCE, demand)?;
             let at = format!("p = {p}, intensity at demand {demand}");
-            pairs.push(Pair::new(at, &own, reference));
+            pairs.push(SamplePair::new(at, &own, reference));
         }
         let levels = stripes.compared(frequency, None);
         pairs.extend(levels.map(|(im, own, reference)| {
             let at = format!("p = {p}, demand at intensity {im}");
-            Pair::new(at, own, reference)
+            SamplePair::new(at, own, reference)
         }));
     }
-    Ok(quantile_ratios(source, &pairs))
+    Ok(quantile_ratios(scope, &pairs))
 }
 
 /// Mean capacity by the median point over the mean by the monotone inversion,
 /// mean over blocks and demands.
-pub(super) fn inversion(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn inversion(scope: &Scope<'_>) -> MeasureResult {
     // By cell, by record: median-point and monotone capacity.
     let mut values: Vec<Vec<(f64, f64)>> = Vec::new();
-    for own in source.suite().curves(source.arm)? {
+    for own in scope.suite().curves(scope.arm)? {
         let by = |rule| -> anyhow::Result<Vec<Vec<f64>>> {
             own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
         };
@@ -257,7 +253,7 @@ pub(super) fn inversion(source: &Source<'_>) -> anyhow::Result<Prepared> {
         }
     }
     let at = format!("mean over {} blocks and demands", values.len());
-    Ok(source.value(&at, source.records(), |counts| {
+    Ok(scope.value(&at, scope.records(), |counts| {
         mean(values.iter().map(|pairs| {
             let (mut a, mut b) = (0.0, 0.0);
             for ((x, y), count) in pairs.iter().zip(counts) {
@@ -273,9 +269,9 @@ pub(super) fn inversion(source: &Source<'_>) -> anyhow::Result<Prepared> {
 
 /// Capacities with Housner's restitution over the study's, stocky over
 /// slender, so that the slenderness's own ratio is divided out.
-pub(super) fn housner(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn housner(scope: &Scope<'_>) -> MeasureResult {
     let mut by_slenderness = [const { Vec::new() }; SLENDERNESSES_RAD.len()];
-    let found = source.results.varied(&[Choice::Housner])?.into_iter();
+    let found = scope.results.varied(&[OtherChoice::Housner])?.into_iter();
     for (varied, base) in found.filter(|(v, _)| v.frequency == 1) {
         let (own, base) = (varied_at(varied, 1.0)?, all_at(base, 1.0)?);
         let each = own.iter().zip(&base).map(|(own, base)| own / base);
@@ -284,28 +280,28 @@ pub(super) fn housner(source: &Source<'_>) -> anyhow::Result<Prepared> {
     let [slender, .., stocky] = by_slenderness;
     let ranked = Ranked::new(&ratios(&stocky, &slender, 1.0));
     let at = "p = 3, alpha = 0.25 over 0.05";
-    Ok(source.value(at, ranked.records(), |counts| {
+    Ok(scope.value(at, ranked.records(), |counts| {
         (ranked.median(counts) - 1.0).abs()
     }))
 }
 
 /// Share of records that uplift the stockiest block unscaled.
-pub(super) fn uplift(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn uplift(scope: &Scope<'_>) -> MeasureResult {
     let stockiest = &BLOCKS[SLENDERNESSES_RAD.len() - 1];
-    let (suite, records) = (source.suite(), source.records());
+    let (suite, records) = (scope.suite(), scope.records());
     let share =
         Proportion::try_new(suite.uplift_unscaled(stockiest), records)?;
     let cell = Cell { at: "alpha = 0.25".into(), records };
-    Ok(Prepared::new(vec![cell], Replicated::of_counts(vec![share])))
+    Ok(MeasureCells::new(vec![cell], Replicates::of_counts(vec![share])))
 }
 
 /// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by
 /// definition.
-pub(super) fn onset(source: &Source<'_>) -> Prepared {
-    let records = &source.suite().records;
+pub(super) fn onset(scope: &Scope<'_>) -> MeasureCells {
+    let records = &scope.suite().records;
     let onsets = factors(records, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
     let ranked = Ranked::new(&onsets);
-    source.value("p = 1", onsets.len(), |counts| {
+    scope.value("p = 1", onsets.len(), |counts| {
         ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
     })
 }

@@ -6,11 +6,11 @@ use rocking_procedures::fragility::risk::HazardCurve;
 use rocking_statistics::resampling::{Ranked, Subsampling};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
-use super::source::{Prepared, Source};
+use super::scope::{MeasureCells, MeasureResult, Scope};
 use crate::distributions::factors;
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
-use crate::inference::{Cell, Draw, Replicated};
+use crate::inference::{Cell, Replicates, Resample};
 use rocking_common::paper::demand_index;
 
 /// Dispersion of a lognormal sample over the dispersion without its largest
@@ -19,7 +19,7 @@ use rocking_common::paper::demand_index;
 const LOGNORMAL_INFLATION: f64 = 1.104;
 
 /// One threshold of one intensity measure, in a draw.
-pub(crate) struct At {
+pub(crate) struct DemandFits {
     pub(crate) sample: ExtendedSample,
     pub(crate) shift: f64,
     pub(crate) fits: Fits,
@@ -33,9 +33,9 @@ pub(crate) struct Thresholds {
 }
 
 impl Thresholds {
-    pub(crate) fn new(source: &Source<'_>) -> anyhow::Result<Self> {
-        let (suite, intensity) = (source.suite(), source.intensity);
-        let block = suite.block(source.arm, intensity, BLOCK)?;
+    pub(crate) fn new(scope: &Scope<'_>) -> anyhow::Result<Self> {
+        let (suite, intensity) = (scope.suite(), scope.intensity);
+        let block = suite.block(scope.arm, intensity, BLOCK)?;
         let ranked = THRESHOLDS
             .iter()
             .map(|edp| Ranked::new(&block.samples[demand_index(*edp)]))
@@ -49,15 +49,23 @@ impl Thresholds {
         drawn.fold(f64::INFINITY, |m, (x, _)| if *x < m { *x } else { m })
     }
 
-    pub(crate) fn at(&self, counts: &[u32], place: usize) -> Option<At> {
+    pub(crate) fn at(
+        &self,
+        counts: &[u32],
+        place: usize,
+    ) -> Option<DemandFits> {
         let drawn = self.ranked[place].drawn(counts);
         let sample = ExtendedSample::try_new(&drawn).ok()?;
         let shift = self.shift(counts);
         let fits = Fits::new(&sample, shift);
-        Some(At { sample, shift, fits })
+        Some(DemandFits { sample, shift, fits })
     }
 
-    fn each(&self, counts: &[u32], f: impl Fn(&At) -> f64) -> Vec<f64> {
+    fn each(
+        &self,
+        counts: &[u32],
+        f: impl Fn(&DemandFits) -> f64,
+    ) -> Vec<f64> {
         (0..THRESHOLDS.len())
             .map(|k| self.at(counts, k).as_ref().map_or(f64::NAN, &f))
             .collect()
@@ -72,39 +80,43 @@ fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
 }
 
 /// Largest difference of USFL7 to the SSFL in probability.
-pub(crate) fn to_ssfl(usfl: Option<Lognormal>, at: &At, c: f64) -> f64 {
+pub(crate) fn to_ssfl(
+    usfl: Option<Lognormal>,
+    at: &DemandFits,
+    c: f64,
+) -> f64 {
     apart(usfl7(usfl, at.shift, c), at.fits.ssfl)
 }
 
 /// A number of each threshold, over the replicates.
 pub(crate) fn by_demand(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     thresholds: &Thresholds,
-    f: impl Fn(&At) -> f64 + Sync,
-) -> Replicated {
-    source.smooth(|counts| thresholds.each(counts, &f))
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> Replicates {
+    scope.smooth(|counts| thresholds.each(counts, &f))
 }
 
 /// A number of each threshold as a measure.
 fn each(
-    source: &Source<'_>,
-    f: impl Fn(&At) -> f64 + Sync,
-) -> anyhow::Result<Prepared> {
-    let records = source.records();
+    scope: &Scope<'_>,
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> MeasureResult {
+    let records = scope.records();
     let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
-    let measured = by_demand(source, &Thresholds::new(source)?, f);
-    Ok(Prepared::new(THRESHOLDS.map(cell).into(), measured))
+    let measured = by_demand(scope, &Thresholds::new(scope)?, f);
+    Ok(MeasureCells::new(THRESHOLDS.map(cell).into(), measured))
 }
 
 /// A number of one threshold as a measure.
 fn at_place(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     place: usize,
-    f: impl Fn(&At) -> f64 + Sync,
-) -> anyhow::Result<Prepared> {
-    let thresholds = Thresholds::new(source)?;
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> MeasureResult {
+    let thresholds = Thresholds::new(scope)?;
     let at = format!("demand {:.2}", THRESHOLDS[place]);
-    Ok(source.value(&at, source.records(), |counts| {
+    Ok(scope.value(&at, scope.records(), |counts| {
         thresholds.at(counts, place).as_ref().map_or(f64::NAN, &f)
     }))
 }
@@ -114,31 +126,31 @@ const MEAN: &str = "mean over demands 0.15, 0.35 and 1.00";
 
 /// Mean over the thresholds, over draws with replacement.
 fn mean_of(
-    source: &Source<'_>,
-    f: impl Fn(&At) -> f64 + Sync,
-) -> anyhow::Result<Prepared> {
-    let thresholds = Thresholds::new(source)?;
+    scope: &Scope<'_>,
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> MeasureResult {
+    let thresholds = Thresholds::new(scope)?;
     let of = |counts: &[u32]| mean(thresholds.each(counts, &f));
-    Ok(source.value(MEAN, source.records(), of))
+    Ok(scope.value(MEAN, scope.records(), of))
 }
 
 /// Mean over the thresholds, from subsamples: a draw with replacement would
 /// tie values.
 fn mean_over(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
-) -> anyhow::Result<Prepared> {
-    let thresholds = Thresholds::new(source)?;
-    let kind = source.kind();
-    let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
-    let cell = Cell { at: MEAN.into(), records: source.records() };
-    let measured = source.draws.subsampled(source.tested, &of);
-    Ok(Prepared::new(vec![cell], measured))
+) -> MeasureResult {
+    let thresholds = Thresholds::new(scope)?;
+    let kind = scope.kind();
+    let of = |draw: Resample<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
+    let cell = Cell { at: MEAN.into(), records: scope.records() };
+    let measured = scope.draws.subsampled(scope.tested, &of);
+    Ok(MeasureCells::new(vec![cell], measured))
 }
 
 /// Gain in distance to the sample by shifting.
-pub(super) fn shift_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    mean_over(source, |thresholds, counts| {
+pub(super) fn shift_gain(scope: &Scope<'_>) -> MeasureResult {
+    mean_over(scope, |thresholds, counts| {
         thresholds.each(counts, |at| {
             distance(at.fits.usfl, &at.sample)
                 - distance(at.fits.ssfl, &at.sample)
@@ -147,31 +159,27 @@ pub(super) fn shift_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
 }
 
 /// Distance of trimmed USFL7 to SSFL.
-pub(super) fn trimmed(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    each(source, |at| to_ssfl(at.fits.trimmed, at, 1.0))
+pub(super) fn trimmed(scope: &Scope<'_>) -> MeasureResult {
+    each(scope, |at| to_ssfl(at.fits.trimmed, at, 1.0))
 }
 
 /// Probability that the unshifted fit of the trimmed sample gives to the
 /// demand at uplift, where it is 0.
-pub(super) fn at_uplift(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    each(source, |at| {
-        at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
-    })
+pub(super) fn at_uplift(scope: &Scope<'_>) -> MeasureResult {
+    each(scope, |at| at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift)))
 }
 
 /// Reduction of the distance of USFL7 to the SSFL by trimming.
-pub(super) fn trimming_gain(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    mean_of(source, |at| {
+pub(super) fn trimming_gain(scope: &Scope<'_>) -> MeasureResult {
+    mean_of(scope, |at| {
         to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.trimmed, at, 1.0)
     })
 }
 
 /// Reduction of the distance of the trimmed USFL7 to the SSFL by c = 0.5 to 1
 /// instead of 0.25.
-pub(super) fn high_constant_gain(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    mean_of(source, |at| {
+pub(super) fn high_constant_gain(scope: &Scope<'_>) -> MeasureResult {
+    mean_of(scope, |at| {
         let of = |c| to_ssfl(at.fits.trimmed, at, c);
         of(0.25) - mean([0.5, 0.75, 1.0].map(of))
     })
@@ -183,24 +191,24 @@ const SLOPES: [f64; 5] = [1.5, 2.0, 2.5, 3.0, 4.0];
 
 /// Overturning under each slope of the hazard.
 fn by_slope(
-    source: &Source<'_>,
-    f: impl Fn(f64, &At) -> f64 + Sync,
-) -> anyhow::Result<Prepared> {
-    let thresholds = Thresholds::new(source)?;
-    let records = source.records();
+    scope: &Scope<'_>,
+    f: impl Fn(f64, &DemandFits) -> f64 + Sync,
+) -> MeasureResult {
+    let thresholds = Thresholds::new(scope)?;
+    let records = scope.records();
     let cell = |k| Cell { at: format!("hazard of slope {k}"), records };
-    let measured = source.smooth(|counts| {
+    let measured = scope.smooth(|counts| {
         let at = thresholds.at(counts, THRESHOLDS.len() - 1);
         let of = |k| at.as_ref().map_or(f64::NAN, |at| f(k, at));
         SLOPES.map(of).into()
     });
-    Ok(Prepared::new(SLOPES.map(cell).into(), measured))
+    Ok(MeasureCells::new(SLOPES.map(cell).into(), measured))
 }
 
 /// Annual frequency by a sample's own fragility under H = x^-k, from the
 /// capacities above a limit: the mean of x^-k. A capacity that was never
 /// reached adds nothing.
-fn sample_rate(at: &At, k: f64, above: f64) -> f64 {
+fn sample_rate(at: &DemandFits, k: f64, above: f64) -> f64 {
     let capacities = at.sample.sorted();
     let rates = capacities.iter().filter(|x| **x > above);
     let sum = rates.fold(0.0, |sum, x| sum + libm::exp(-k * log(*x)));
@@ -209,8 +217,8 @@ fn sample_rate(at: &At, k: f64, above: f64) -> f64 {
 
 /// Share of the annual frequency of overturning that comes from the
 /// capacities above the 84 % quantile.
-pub(super) fn tail_rate(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    by_slope(source, |k, at| {
+pub(super) fn tail_rate(scope: &Scope<'_>) -> MeasureResult {
+    by_slope(scope, |k, at| {
         let quantile = QuantileType::default().of_extended(&at.sample, 0.84);
         let quantile = quantile.unwrap_or(f64::NAN);
         sample_rate(at, k, quantile) / sample_rate(at, k, 0.0)
@@ -218,7 +226,7 @@ pub(super) fn tail_rate(source: &Source<'_>) -> anyhow::Result<Prepared> {
 }
 
 /// Annual frequency of overturning by a fit over that of the sample.
-fn rate_of(fit: Option<Lognormal>, k: f64, at: &At) -> f64 {
+fn rate_of(fit: Option<Lognormal>, k: f64, at: &DemandFits) -> f64 {
     // One segment, so wide that nothing lies outside.
     let end = |x: f64| (x, libm::exp(-k * log(x)));
     let hazard = HazardCurve::try_new(&[end(1e-3), end(1e3)]);
@@ -227,36 +235,32 @@ fn rate_of(fit: Option<Lognormal>, k: f64, at: &At) -> f64 {
 }
 
 /// Annual frequency by the SSFL over the sample's.
-pub(super) fn shifted_rate(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    by_slope(source, |k, at| rate_of(at.fits.ssfl, k, at))
+pub(super) fn shifted_rate(scope: &Scope<'_>) -> MeasureResult {
+    by_slope(scope, |k, at| rate_of(at.fits.ssfl, k, at))
 }
 
 /// Annual frequency by trimmed USFL7 over the sample's.
-pub(super) fn transformed_rate(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    by_slope(source, |k, at| {
+pub(super) fn transformed_rate(scope: &Scope<'_>) -> MeasureResult {
+    by_slope(scope, |k, at| {
         rate_of(usfl7(at.fits.trimmed, at.shift, 1.0), k, at)
     })
 }
 
 /// Distance of untrimmed USFL7 to SSFL.
-pub(super) fn untrimmed(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    each(source, |at| to_ssfl(at.fits.usfl, at, 1.0))
+pub(super) fn untrimmed(scope: &Scope<'_>) -> MeasureResult {
+    each(scope, |at| to_ssfl(at.fits.usfl, at, 1.0))
 }
 
 /// Gain in the distance of untrimmed USFL7 to SSFL from c = 1 to c = 0.25.
-pub(super) fn low_constant(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    at_place(source, 0, |at| {
+pub(super) fn low_constant(scope: &Scope<'_>) -> MeasureResult {
+    at_place(scope, 0, |at| {
         to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
     })
 }
 
 /// Distance of trimmed USFL7 for c = 0.25 to USFL7 for c = 1.
-pub(super) fn constant_spread(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    at_place(source, 0, |at| {
+pub(super) fn constant_spread(scope: &Scope<'_>) -> MeasureResult {
+    at_place(scope, 0, |at| {
         let of = |c| usfl7(at.fits.trimmed, at.shift, c);
         apart(of(0.25), of(1.0))
     })
@@ -264,8 +268,8 @@ pub(super) fn constant_spread(
 
 /// Dispersion of the whole sample over the dispersion of the trimmed one, over
 /// the ratio of a lognormal.
-pub(super) fn tail_inflation(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    at_place(source, THRESHOLDS.len() - 1, |at| {
+pub(super) fn tail_inflation(scope: &Scope<'_>) -> MeasureResult {
+    at_place(scope, THRESHOLDS.len() - 1, |at| {
         let of =
             |fit: Option<Lognormal>| fit.map_or(f64::NAN, |f| f.dispersion());
         of(at.fits.usfl) / of(at.fits.trimmed) / LOGNORMAL_INFLATION
@@ -275,9 +279,9 @@ pub(super) fn tail_inflation(source: &Source<'_>) -> anyhow::Result<Prepared> {
 /// Scatter of the dispersion by the 16 and 84 % quantiles over that by the
 /// standard deviation of the logarithms: root of the ratio of their variances
 /// over halves of the drawn records, mean over the demands.
-pub(super) fn scatter(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
     const HALVES: u64 = 200;
-    mean_over(source, |thresholds, counts| {
+    mean_over(scope, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =
             (0..HALVES).map(|index| half(counts, index)).collect();
         let ratio = |ranked: &Ranked| {

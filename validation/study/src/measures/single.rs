@@ -1,7 +1,9 @@
 //! Section 4, Figures 2 to 5: measures of records one by one.
 
-use super::source::{CellValues, Prepared, Source, mean_of_medians};
-use crate::analyses::{Apart, SuiteResults};
+use super::scope::{
+    CellValues, MeasureCells, MeasureResult, Scope, mean_of_medians,
+};
+use crate::analyses::{Deviation, SuiteResults};
 use crate::estimates::mean;
 use crate::inference::LEAST_DECIDING;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
@@ -11,7 +13,7 @@ use rocking_statistics::resampling::Ranked;
 /// histories or peaks, mean over the slendernesses.
 fn at_levels(
     suite: &SuiteResults,
-    of: impl Fn(&Apart) -> f64,
+    of: impl Fn(&Deviation) -> f64,
 ) -> Vec<CellValues> {
     let mut cells = Vec::new();
     for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
@@ -34,17 +36,17 @@ fn decides(cell: &CellValues) -> bool {
 /// Median distance of histories, ordinary over pulse-type, at equal
 /// intensities; geometric mean over frequency parameters and intensities at
 /// which enough records stand in both suites.
-pub(super) fn histories(source: &Source<'_>) -> Prepared {
+pub(super) fn histories(scope: &Scope<'_>) -> MeasureCells {
     let [ordinary, pulse] =
-        source.results.suites().map(|suite| at_levels(suite, |a| a.distance));
+        scope.results.suites().map(|suite| at_levels(suite, |a| a.distance));
     let pairs: Vec<(CellValues, CellValues)> = ordinary
         .into_iter()
         .zip(pulse)
         .filter(|(a, b)| decides(a) && decides(b))
         .collect();
-    let records = source.results.pulse.records.len();
+    let records = scope.results.pulse.records.len();
     let at = format!("mean over {} pairs of p and intensity", pairs.len());
-    source.contrast(&at, records, |ordinary, pulse| {
+    scope.contrast(&at, records, |ordinary, pulse| {
         let ratio = |(a, b): &(CellValues, CellValues)| {
             libm::log(a.values.median(ordinary) / b.values.median(pulse))
         };
@@ -54,17 +56,16 @@ pub(super) fn histories(source: &Source<'_>) -> Prepared {
 
 /// Median distance of histories of one suite; mean over frequency parameters
 /// and intensities at which enough records stand.
-pub(super) fn history_distance(source: &Source<'_>) -> Prepared {
-    let mut cells = at_levels(source.suite(), |a| a.distance);
+pub(super) fn history_distance(scope: &Scope<'_>) -> MeasureCells {
+    let mut cells = at_levels(scope.suite(), |a| a.distance);
     cells.retain(decides);
     let at = format!("mean over {} pairs of p and intensity", cells.len());
-    source
-        .value(&at, source.records(), |counts| mean_of_medians(&cells, counts))
+    scope.value(&at, scope.records(), |counts| mean_of_medians(&cells, counts))
 }
 
 /// Share of the histories that are further than 5 % from the reference's.
-pub(super) fn histories_apart(source: &Source<'_>) -> Prepared {
-    let suite = source.suite();
+pub(super) fn histories_apart(scope: &Scope<'_>) -> MeasureCells {
+    let suite = scope.suite();
     let n = suite.records.len();
     let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for (_, by_record) in suite.single.iter().flat_map(|s| &s.by_level) {
@@ -76,13 +77,13 @@ pub(super) fn histories_apart(source: &Source<'_>) -> Prepared {
         }
     }
     let at = format!("{} histories", all.iter().sum::<u32>());
-    source.share(&at, &far, &all)
+    scope.share(&at, &far, &all)
 }
 
 /// Median difference of the peaks, cell by cell.
-pub(super) fn peaks(source: &Source<'_>) -> Prepared {
-    let away = |a: &Apart| (a.peak_ratio - 1.0).abs();
-    source.medians(at_levels(source.suite(), away))
+pub(super) fn peaks(scope: &Scope<'_>) -> MeasureCells {
+    let away = |a: &Deviation| (a.peak_ratio - 1.0).abs();
+    scope.medians(at_levels(scope.suite(), away))
 }
 
 /// Mean |ln| of the ratio of intensities at equal demand, by record.
@@ -95,25 +96,25 @@ fn apart_by_record(suite: &SuiteResults) -> Ranked {
 }
 
 /// Distance of single curves, median over the records.
-pub(super) fn curves(source: &Source<'_>) -> Prepared {
-    let ranked = apart_by_record(source.suite());
+pub(super) fn curves(scope: &Scope<'_>) -> MeasureCells {
+    let ranked = apart_by_record(scope.suite());
     let median = |counts: &[u32]| ranked.median(counts);
-    source.value("all blocks", ranked.records(), median)
+    scope.value("all blocks", ranked.records(), median)
 }
 
 /// Median distance of single curves, ordinary over pulse-type motions.
-pub(super) fn curve_contrast(source: &Source<'_>) -> Prepared {
-    let [a, b] = source.results.suites().map(apart_by_record);
-    source.contrast("all blocks", b.records(), |ordinary, pulse| {
+pub(super) fn curve_contrast(scope: &Scope<'_>) -> MeasureCells {
+    let [a, b] = scope.results.suites().map(apart_by_record);
+    scope.contrast("all blocks", b.records(), |ordinary, pulse| {
         a.median(ordinary) / b.median(pulse)
     })
 }
 
 /// Share of the stripes of a record and a frequency parameter at which some
 /// of the five blocks have overturned and some have not.
-pub(super) fn fates(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
-    let n = source.records();
+pub(super) fn fates(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
+    let n = scope.records();
     let (mut mixed, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         let first = position(frequency, 0);
@@ -130,5 +131,5 @@ pub(super) fn fates(source: &Source<'_>) -> anyhow::Result<Prepared> {
             }
         }
     }
-    Ok(source.share("of all records, p and stripes", &mixed, &all))
+    Ok(scope.share("of all records, p and stripes", &mixed, &all))
 }

@@ -3,14 +3,14 @@
 
 use libm::log;
 
-use super::source::{
-    self, CellValues, Criterion, Prepared, Source, block, blocks,
-    compared_blocks, weighted_count,
+use super::scope::{
+    self, CellValues, Criterion, MeasureCells, MeasureResult, Scope, block,
+    blocks, compared_blocks, weighted_count,
 };
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::facts::Facts;
-use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
-use crate::results::Results;
+use crate::inference::{Cell, LEAST_DECIDING, Replicates, Resample};
+use crate::results::StudyResults;
 use crate::stripes::{adjusted_slenderness, is_within};
 use rocking_common::findings::Tested;
 use rocking_common::paper::{
@@ -47,7 +47,7 @@ fn block_ratios(
         };
         let name = block(frequency, slenderness);
         for (im, a, b) in stripes.compared(frequency, Some(slenderness)) {
-            let values = Ranked::new(&source::ratios(a, b, scale));
+            let values = Ranked::new(&scope::ratios(a, b, scale));
             let at = format!("{name}, intensity {im}");
             cells.push(CellValues { at, values });
         }
@@ -87,30 +87,30 @@ fn adjusted_without_closed_form(
 }
 
 /// Medians of cells over all draws, with the share of notches that cover 1.
-fn medians(source: &Source<'_>, cells: Vec<CellValues>) -> Prepared {
+fn medians(scope: &Scope<'_>, cells: Vec<CellValues>) -> MeasureCells {
     let name = "share of the cells whose notch covers 1";
-    let criterion = notches(source, &cells, name, |_| true);
-    Prepared { criterion: Some(criterion), ..source.medians(cells) }
+    let criterion = notches(scope, &cells, name, |_| true);
+    MeasureCells { criterion: Some(criterion), ..scope.medians(cells) }
 }
 
 /// The share of the deciding cells whose notch covers 1 where it has to, and
 /// leaves 1 out where not.
 fn notches(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     cells: &[CellValues],
     name: &str,
     covers: impl Fn(&CellValues) -> bool + Sync,
 ) -> Criterion {
-    let kind = source.kind();
+    let kind = scope.kind();
     let enough = |r: &&CellValues| r.values.records() >= LEAST_DECIDING;
-    let of = |draw: Draw<'_>| {
+    let of = |draw: Resample<'_>| {
         let counts = draw.of(kind);
         let deciding = || cells.iter().filter(enough);
         let as_said = deciding()
             .filter(|r| notch_covers_1(&r.values, counts) == covers(r));
         vec![as_said.count() as f64 / deciding().count() as f64]
     };
-    let measured = source.draws.subsampled(source.tested, &of);
+    let measured = scope.draws.subsampled(scope.tested, &of);
     Criterion { name: name.into(), measured }
 }
 
@@ -118,7 +118,7 @@ fn notches(
 /// small-rotation limit of Eq. 1 is divided out.
 #[must_use]
 pub fn without_closed_form(
-    results: &Results,
+    results: &StudyResults,
     tested: Tested,
     arm: Arm,
 ) -> Vec<(String, f64)> {
@@ -144,38 +144,36 @@ fn exception() -> String {
 
 /// Medians of Figures 6 and 7, without the paper's exception.
 pub(super) fn ratios(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     frequencies: &[usize],
-) -> anyhow::Result<Prepared> {
+) -> MeasureResult {
     let exception = exception();
-    let mut cells = block_ratios(source.stripes()?, frequencies, false);
+    let mut cells = block_ratios(scope.stripes()?, frequencies, false);
     cells.retain(|r| r.at != exception);
-    Ok(medians(source, cells))
+    Ok(medians(scope, cells))
 }
 
 /// The median of the paper's exception. By the paper's criterion it is the
 /// only one: its notch leaves 1 out, and every other of p = 1 covers 1.
-pub(super) fn only_exception(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn only_exception(scope: &Scope<'_>) -> MeasureResult {
     let exception = exception();
-    let mut cells = block_ratios(source.stripes()?, &[0], false);
+    let mut cells = block_ratios(scope.stripes()?, &[0], false);
     let name = "share of the cells that come out as this sentence says";
-    let criterion = notches(source, &cells, name, |r| r.at != exception);
+    let criterion = notches(scope, &cells, name, |r| r.at != exception);
     cells.retain(|r| r.at == exception);
-    Ok(Prepared { criterion: Some(criterion), ..source.medians(cells) })
+    Ok(MeasureCells { criterion: Some(criterion), ..scope.medians(cells) })
 }
 
 /// How much more the records of smaller demands deviate than the others,
 /// where the paper sees its exception: the median distance of the ratio from
 /// 1 of the half with smaller demands over the median of the other half.
-pub(super) fn small_amplitudes(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
+pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
     let stocky = SLENDERNESSES_RAD.len() - 1;
-    let lowest = source.stripes()?.compared(0, Some(stocky)).next();
+    let lowest = scope.stripes()?.compared(0, Some(stocky)).next();
     let (_, own, reference) = lowest.unwrap_or_default();
     let middle = Ranked::new(reference).median(&vec![1; reference.len()]);
     let half = |small: bool| {
-        let ratios = source::ratios(own, reference, 1.0);
+        let ratios = scope::ratios(own, reference, 1.0);
         let away = ratios.iter().zip(reference).map(|(ratio, demand)| {
             match (*demand < middle) == small {
                 true => (ratio - 1.0).abs(),
@@ -186,70 +184,66 @@ pub(super) fn small_amplitudes(
     };
     let (small, large) = (half(true), half(false));
     let records = small.records() + large.records();
-    Ok(source.value(&exception(), records, |counts| {
+    Ok(scope.value(&exception(), records, |counts| {
         small.median(counts) / large.median(counts)
     }))
 }
 
 /// Medians of Figures 6 and 7, the closed form divided out.
-pub(super) fn corrected(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let cells = block_ratios(source.stripes()?, &[0, 1, 2], true);
-    Ok(medians(source, cells))
+pub(super) fn corrected(scope: &Scope<'_>) -> MeasureResult {
+    let cells = block_ratios(scope.stripes()?, &[0, 1, 2], true);
+    Ok(medians(scope, cells))
 }
 
 /// Medians of Figure 9, the closed form divided out record by record.
-pub(super) fn adjusted_corrected(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
-    let cells = adjusted_without_closed_form(source.suite(), stripes);
-    Ok(medians(source, cells))
+pub(super) fn adjusted_corrected(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
+    let cells = adjusted_without_closed_form(scope.suite(), stripes);
+    Ok(medians(scope, cells))
 }
 
 /// Medians of Figure 9: all records, or those whose adjusted slenderness is
 /// `within` the paper's largest, or those above it.
 pub(super) fn adjusted(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     within: Option<bool>,
-) -> anyhow::Result<Prepared> {
+) -> MeasureResult {
     let part = |x, record: &Facts, im| match within {
         Some(within) if within != is_within(record, im) => f64::NAN,
         _ => x,
     };
-    let stripes = source.stripes()?;
-    Ok(medians(source, adjusted_cells(source.suite(), stripes, part)))
+    let stripes = scope.stripes()?;
+    Ok(medians(scope, adjusted_cells(scope.suite(), stripes, part)))
 }
 
 /// Share of resurrections, large minus small blocks.
-pub(super) fn again_by_size(source: &Source<'_>) -> anyhow::Result<Prepared> {
+pub(super) fn again_by_size(scope: &Scope<'_>) -> MeasureResult {
     let large = |f: usize, _: usize| Some(f == 0);
-    again_apart(source, "p = 1 minus p = 3 and 4", large)
+    again_apart(scope, "p = 1 minus p = 3 and 4", large)
 }
 
 /// Share of resurrections, stocky minus slender blocks.
-pub(super) fn again_by_slenderness(
-    source: &Source<'_>,
-) -> anyhow::Result<Prepared> {
+pub(super) fn again_by_slenderness(scope: &Scope<'_>) -> MeasureResult {
     let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
-    again_apart(source, at, |_, s| (s != 2).then_some(s > 2))
+    again_apart(scope, at, |_, s| (s != 2).then_some(s > 2))
 }
 
 /// Share of the ratios of all cells that lie more than 10 % from 1.
-pub(super) fn outliers(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let cells = block_ratios(source.stripes()?, &[0, 1, 2], false);
-    let n = source.records();
+pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
+    let cells = block_ratios(scope.stripes()?, &[0, 1, 2], false);
+    let n = scope.records();
     let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for (x, record) in cells.iter().flat_map(|r| r.values.each()) {
         all[record] += 1;
         far[record] += u32::from((x - 1.0).abs() > 0.10);
     }
-    Ok(source.share("ratios further than 10 % from 1", &far, &all))
+    Ok(scope.share("ratios further than 10 % from 1", &far, &all))
 }
 
 /// By block and stripe, the share of the records that overturned at or below
 /// and stand there again.
-pub(super) fn probabilities(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
+pub(super) fn probabilities(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
     let (mut cells, mut counts) = (Vec::new(), Vec::new());
     for (frequency, slenderness) in blocks() {
         let own = &stripes.stands_again[position(frequency, slenderness)];
@@ -262,14 +256,14 @@ pub(super) fn probabilities(source: &Source<'_>) -> anyhow::Result<Prepared> {
                 .push(Cell { at: format!("{name}, intensity {im}"), records });
         }
     }
-    Ok(Prepared::new(cells, Replicated::of_counts(counts)))
+    Ok(MeasureCells::new(cells, Replicates::of_counts(counts)))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
 /// resurrections over without; by interpolation in the logarithm of the
 /// intensity between stripes.
-pub(super) fn median_again(source: &Source<'_>) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
+pub(super) fn median_again(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
     let cells = blocks().map(|(f, s)| {
         let own = stripes.stands_again[position(f, s)].first();
         Cell { at: block(f, s), records: own.map_or(0, Vec::len) }
@@ -292,7 +286,7 @@ pub(super) fn median_again(source: &Source<'_>) -> anyhow::Result<Prepared> {
         }
         f64::NAN
     };
-    let measured = source.smooth(|counts| {
+    let measured = scope.smooth(|counts| {
         let ratio = |at: usize| {
             let demands = &stripes.demands[at];
             let again = &stripes.stands_again[at];
@@ -307,18 +301,18 @@ pub(super) fn median_again(source: &Source<'_>) -> anyhow::Result<Prepared> {
         };
         (0..BLOCKS.len()).map(ratio).collect()
     });
-    Ok(Prepared::new(cells.collect(), measured))
+    Ok(MeasureCells::new(cells.collect(), measured))
 }
 
 /// Share of the overturned that stand again: its value over the blocks that
 /// are `first`, minus its value over those that are not.
 fn again_apart(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     at: &str,
     first: impl Fn(usize, usize) -> Option<bool>,
-) -> anyhow::Result<Prepared> {
-    let stripes = source.stripes()?;
-    let n = source.records();
+) -> MeasureResult {
+    let stripes = scope.stripes()?;
+    let n = scope.records();
     // By part, by record: overturned, and standing again.
     let mut sums = [[(); 2]; 2].map(|part| part.map(|()| vec![0_u32; n]));
     for (frequency, slenderness) in blocks() {
@@ -333,7 +327,7 @@ fn again_apart(
             }
         }
     }
-    Ok(source.value(at, n, |counts| {
+    Ok(scope.value(at, n, |counts| {
         let share = |[overturned, standing]: &[Vec<u32>; 2]| {
             weighted_count(standing, counts)
                 / weighted_count(overturned, counts)

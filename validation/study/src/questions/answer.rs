@@ -5,7 +5,7 @@ use rocking_draw::figures::Figure;
 
 /// A question with its answer and the numbers behind it.
 #[derive(Default)]
-pub struct Answer {
+pub struct StudyAnswer {
     /// Short name, also of the first file: `grid`.
     pub id: &'static str,
     /// The question.
@@ -31,12 +31,16 @@ pub struct Rows {
 
 impl Rows {
     /// A row of the CSV and of the page.
-    pub fn row(&mut self, cells: Vec<(&'static str, Cell)>) {
+    pub fn row(&mut self, cells: Vec<(&'static str, TableCell)>) {
         self.row_if(true, cells);
     }
 
     /// A row of the CSV, and of the page if it is `shown` there.
-    pub fn row_if(&mut self, shown: bool, cells: Vec<(&'static str, Cell)>) {
+    pub fn row_if(
+        &mut self,
+        shown: bool,
+        cells: Vec<(&'static str, TableCell)>,
+    ) {
         let names: Vec<&str> = cells.iter().map(|(name, _)| *name).collect();
         let csv = self.csv.get_or_insert_with(|| Table::new(&names));
         csv.row(cells.iter().map(|(_, cell)| cell.full()));
@@ -60,10 +64,10 @@ impl Rows {
         answer: String,
         title: &str,
         reading: &str,
-    ) -> Answer {
+    ) -> StudyAnswer {
         let reading = format!("{answer}\n{reading}");
         let part = self.part(id, answer, title, &reading);
-        Answer { question, ..part }
+        StudyAnswer { question, ..part }
     }
 
     /// A part of an answer, with these rows under a title.
@@ -73,14 +77,14 @@ impl Rows {
         answer: String,
         title: &str,
         reading: &str,
-    ) -> Answer {
+    ) -> StudyAnswer {
         let reading = format!("{reading} All rows: {id}.csv.");
-        Answer {
+        StudyAnswer {
             id,
             answer,
             tables: vec![self.table(format!("table-{id}"), title, reading)],
             files: vec![(format!("{id}.csv"), self.csv())],
-            ..Answer::default()
+            ..StudyAnswer::default()
         }
     }
 
@@ -102,14 +106,14 @@ impl Rows {
 }
 
 /// One cell.
-pub enum Cell {
+pub enum TableCell {
     Word(String),
     Count(usize),
     /// A number with so many decimals on the page.
     Number(f64, usize),
 }
 
-impl Cell {
+impl TableCell {
     fn full(&self) -> String {
         match self {
             Self::Word(text) => text.clone(),
@@ -133,14 +137,14 @@ impl Cell {
     }
 }
 
-pub fn word(text: impl Into<String>) -> Cell {
-    Cell::Word(text.into())
+pub fn word(text: impl Into<String>) -> TableCell {
+    TableCell::Word(text.into())
 }
 
-pub fn count(of: usize) -> Cell {
-    Cell::Count(of)
+pub fn count(of: usize) -> TableCell {
+    TableCell::Count(of)
 }
 
-pub fn number(x: f64, decimals: usize) -> Cell {
-    Cell::Number(x, decimals)
+pub fn number(x: f64, decimals: usize) -> TableCell {
+    TableCell::Number(x, decimals)
 }

@@ -4,13 +4,13 @@
 use libm::{exp, log};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::answer::{Answer, Rows, number, word};
+use super::answer::{Rows, StudyAnswer, number, word};
 use crate::analyses::SuiteResults;
-use crate::contents::{Item, items};
+use crate::contents::{Furnishing, items};
 use crate::estimates::mean;
 use crate::fits::of_intervals;
-use crate::inference::{Draw, Draws, Replicated};
-use crate::results::Results;
+use crate::inference::{Replicates, Resample, Resamples};
+use crate::results::StudyResults;
 use crate::runs::overturning;
 use rocking_common::paper::SuiteKind;
 use rocking_common::words::{capital, range};
@@ -26,14 +26,14 @@ const BOOKCASES: usize = 5;
 
 /// Median PGV in m/s at first overturning, and its dispersion: cells are
 /// items, the median first.
-struct Ours {
+struct ItemFits {
     suite: SuiteKind,
-    measured: Replicated,
+    measured: Replicates,
     intervals: Vec<(f64, f64)>,
 }
 
-impl Ours {
-    fn of(suite: &SuiteResults, draws: &Draws) -> anyhow::Result<Self> {
+impl ItemFits {
+    fn of(suite: &SuiteResults, draws: &Resamples) -> anyhow::Result<Self> {
         let mut known: Vec<Vec<(f64, f64)>> = Vec::new();
         for (item, curves) in items().iter().zip(&suite.contents) {
             let threshold = libm::tan(item.block()?.slenderness_rad());
@@ -47,7 +47,7 @@ impl Ours {
             known.push(curves.iter().zip(&suite.records).map(of).collect());
         }
         let kind = suite.kind;
-        let of = |draw: Draw<'_>| -> Vec<f64> {
+        let of = |draw: Resample<'_>| -> Vec<f64> {
             let counts = draw.of(kind);
             let fitted = |known: &Vec<(f64, f64)>| {
                 of_intervals(known, counts, 0.0)
@@ -83,17 +83,17 @@ impl Ours {
 }
 
 /// A median velocity over g depth/height: seconds.
-fn scaled_s(item: &Item, median_m_s: f64) -> f64 {
+fn scaled_s(item: &Furnishing, median_m_s: f64) -> f64 {
     let ratio = item.depth_m() / item.height_m();
     median_m_s / (STANDARD_GRAVITY_M_S2 * ratio)
 }
 
 pub(super) fn answer(
-    results: &Results,
-    draws: &Draws,
-) -> anyhow::Result<Answer> {
+    results: &StudyResults,
+    draws: &Resamples,
+) -> anyhow::Result<StudyAnswer> {
     let [ordinary, pulse] = results.suites();
-    let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
+    let ours = [ItemFits::of(ordinary, draws)?, ItemFits::of(pulse, draws)?];
     let mut table = Rows::default();
     for (k, item) in items().iter().enumerate() {
         let block = item.block()?;
@@ -130,10 +130,10 @@ pub(super) fn answer(
          lognormals of PGV at first overturning; intervals are the central \
          95 % of 2000 draws of the records.",
     );
-    Ok(Answer { figures: vec![figure(&ours)], ..answer })
+    Ok(StudyAnswer { figures: vec![figure(&ours)], ..answer })
 }
 
-fn words(ours: &[Ours; 2]) -> String {
+fn words(ours: &[ItemFits; 2]) -> String {
     let compared = ours.each_ref().map(|one| {
         let ratios = one.ratios();
         let (least, most) = range(ratios.iter().copied());
@@ -165,25 +165,25 @@ fn words(ours: &[Ours; 2]) -> String {
     format!(
         "{}. FEMA P-58's five bookcases have medians of {a:.3} to {b:.3} s \
          times g depth/height, whatever their size, its four cabinets {c:.3} \
-         to {d:.3} s. Ours go from the lowest bookcase to the highest from \
+         to {d:.3} s. ItemFits go from the lowest bookcase to the highest from \
          {}.",
         compared.join(". "),
         grown.join(", and from "),
     )
 }
 
-fn figure(ours: &[Ours; 2]) -> Figure {
+fn figure(ours: &[ItemFits; 2]) -> Figure {
     let all: Vec<usize> = (0..items().len()).collect();
     let shelves: Vec<usize> = (0..BOOKCASES).collect();
     let panel = |title: &str,
                  of: &[usize],
-                 x: (ChartAxis, fn(&Item) -> f64),
-                 y: (ChartAxis, fn(&Item, f64) -> f64)| {
+                 x: (ChartAxis, fn(&Furnishing) -> f64),
+                 y: (ChartAxis, fn(&Furnishing, f64) -> f64)| {
         let places: Vec<f64> = of.iter().map(|k| x.1(&items()[*k])).collect();
         let mark = Mark::Points;
         let mut series = Vec::new();
         for (label, kind) in [("bookcases", true), ("cabinets", false)] {
-            let own: Vec<&Item> = of
+            let own: Vec<&Furnishing> = of
                 .iter()
                 .filter(|k| (**k < BOOKCASES) == kind)
                 .map(|k| &items()[*k])
@@ -217,13 +217,16 @@ fn figure(ours: &[Ours; 2]) -> Figure {
         panel(
             "Bookcases of 0.32 m depth",
             &shelves,
-            (axis("height (m)", (0.5, 2.3)), Item::height_m),
+            (axis("height (m)", (0.5, 2.3)), Furnishing::height_m),
             (axis("median *PGV* (m/s)", (0.0, 1.2)), |_, v| v),
         ),
         panel(
             "All nine items",
             &all,
-            (axis("half diagonal (m)", (0.3, 1.1)), Item::half_diagonal_m),
+            (
+                axis("half diagonal (m)", (0.3, 1.1)),
+                Furnishing::half_diagonal_m,
+            ),
             (axis(scaled, (0.0, 0.4)), scaled_s),
         ),
     ];

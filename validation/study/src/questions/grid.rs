@@ -4,10 +4,10 @@ use rocking::capacity::ResponseCurve;
 use rocking_statistics::ExtendedSample;
 use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 
-use super::answer::{Answer, Rows, count, number, word};
+use super::answer::{Rows, StudyAnswer, count, number, word};
 use crate::analyses::SuiteResults;
 use crate::fits::{Fits, of_intervals};
-use crate::results::Results;
+use crate::results::StudyResults;
 use crate::ties::grid_alone;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
@@ -18,7 +18,7 @@ use rocking_draw::figures::{
 };
 
 /// One block of a suite.
-struct Row {
+struct GridRow {
     /// Rejected share of the levels, shifted, by arm; NaN for an arm that
     /// was not run.
     rejected: [f64; 3],
@@ -37,7 +37,7 @@ struct Row {
 
 const ARMS: [Arm; 3] = [Arm::A, Arm::B, Arm::C];
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut by_suite = Vec::new();
@@ -101,15 +101,18 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
          overturning: the interval likelihood of the grid's brackets is the \
          alternative to bisecting them.",
     );
-    Ok(Answer { figures: vec![figure(&by_suite)], ..answer })
+    Ok(StudyAnswer { figures: vec![figure(&by_suite)], ..answer })
 }
 
-fn rows(results: &Results, suite: &SuiteResults) -> anyhow::Result<Vec<Row>> {
+fn rows(
+    results: &StudyResults,
+    suite: &SuiteResults,
+) -> anyhow::Result<Vec<GridRow>> {
     let of = |arm| suite.distributions(arm, Intensity::Pga);
     let finest = of(results.plan.common())?;
     (0..finest.blocks.len())
         .map(|i| {
-            let mut row = Row {
+            let mut row = GridRow {
                 rejected: [f64::NAN; 3],
                 distinct: [0; 3],
                 tied: [0; 3],
@@ -166,7 +169,7 @@ fn distinct(values: &[f64]) -> usize {
 }
 
 /// A row of panels a suite.
-fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
+fn figure(suites: &[(&str, Vec<GridRow>)]) -> Figure {
     let panels = suites
         .iter()
         .flat_map(|(kind, rows)| {
@@ -196,8 +199,8 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
 }
 
 /// One frequency parameter: the first rows are its blocks.
-fn panel(title: String, rows: &[Row]) -> ChartPanel {
-    let line = |label: &str, mark, of: &dyn Fn(&Row) -> f64| {
+fn panel(title: String, rows: &[GridRow]) -> ChartPanel {
+    let line = |label: &str, mark, of: &dyn Fn(&GridRow) -> f64| {
         Series::new(
             label,
             mark,

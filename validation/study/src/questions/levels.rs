@@ -6,18 +6,18 @@ use rocking_statistics::lilliefors::{Assessment, Inapplicable};
 use rocking_statistics::multiple::{benjamini_hochberg, holm};
 use rocking_statistics::normality::Battery;
 
-use super::answer::{Answer, Cell, Rows, count, number, word};
+use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
-pub(super) fn part(results: &Results) -> Answer {
+pub(super) fn levels_part(results: &StudyResults) -> StudyAnswer {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let batteries = results.suites().map(|suite| {
@@ -32,8 +32,11 @@ pub(super) fn part(results: &Results) -> Answer {
             let samples =
                 [("original", &block.original), ("shifted", &block.shifted)];
             for (shifted, (kind, tests)) in samples.into_iter().enumerate() {
-                let row =
-                    Row::new(tests, block.bands[shifted].as_ref(), battery);
+                let row = LevelsRow::new(
+                    tests,
+                    block.bands[shifted].as_ref(),
+                    battery,
+                );
                 low[shifted] += usize::from(row.p_of_share < LEVEL);
                 if shifted == 1 {
                     let all = shares.iter_mut().zip(row.shares);
@@ -80,13 +83,13 @@ pub(super) fn part(results: &Results) -> Answer {
 
 /// One sample of a block: its cells, the p-value of its accepted share, and
 /// that share by Lilliefors' test and by the others.
-struct Row {
-    cells: Vec<(&'static str, Cell)>,
+struct LevelsRow {
+    cells: Vec<(&'static str, TableCell)>,
     p_of_share: f64,
     shares: [f64; 4],
 }
 
-impl Row {
+impl LevelsRow {
     fn new(
         tests: &[Assessment],
         band: Option<&NullBand>,

@@ -2,12 +2,12 @@
 
 use rocking_statistics::lilliefors::{ShiftedNull, Table};
 
-use super::answer::{Answer, Rows, count, number, word};
+use super::answer::{Rows, StudyAnswer, count, number, word};
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
 use crate::facts::Facts;
 use crate::normality::{LEVEL, over_critical};
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::{Intensity, demand_index, demands};
 use rocking_common::words::{capital, range};
 
@@ -20,7 +20,7 @@ const PLACES: [f64; 12] =
 const REPLICATES: u64 = 2000;
 
 /// One block under both nulls.
-struct Row {
+struct NullRow {
     /// Critical value with the shift estimated anew over the table's, at
     /// [`PLACES`]; NaN where the joint model does not hold.
     ratios: Vec<f64>,
@@ -30,7 +30,7 @@ struct Row {
     redrawn: f64,
 }
 
-pub(super) fn part(results: &Results) -> Answer {
+pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let all = results.common();
@@ -81,7 +81,7 @@ pub(super) fn part(results: &Results) -> Answer {
     )
 }
 
-fn of_block(records: &[Facts], block: &BlockSamples) -> Row {
+fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
     let onsets = factors(records, Intensity::Pgv, block.p_rad_s);
     let tabulated = Table::embedded().critical_value(onsets.len(), LEVEL);
     let mut redrawn: f64 = 0.0;
@@ -105,7 +105,7 @@ fn of_block(records: &[Facts], block: &BlockSamples) -> Row {
         tested += usize::from(over.is_finite());
         accepted += usize::from(over <= 1.0);
     }
-    Row { ratios, anew: accepted as f64 / tested as f64, redrawn }
+    NullRow { ratios, anew: accepted as f64 / tested as f64, redrawn }
 }
 
 /// Linear interpolation over [`PLACES`].

@@ -12,18 +12,18 @@ use rocking_procedures::fragility::options::{Centre, Recipe};
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 
-use super::answer::{Answer, Cell, Rows, count, number, word};
+use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
 use crate::fits::{BLOCK, MLE, THRESHOLDS, trimmed};
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
 use rocking_common::table::digits;
 use rocking_common::words::range;
 
-/// Draws of the bootstrap, by default and with all blocks and choices.
+/// Resamples of the bootstrap, by default and with all blocks and choices.
 const REPLICATES: [usize; 2] = [100, 1000];
 
 /// One recipe for one block, measure and threshold.
@@ -38,7 +38,7 @@ struct RecipeFit<'a> {
     distances: [f64; 2],
     /// Their intervals.
     intervals: [(f64, f64); 2],
-    /// Draws of the bootstrap in which the recipe is defined.
+    /// Resamples of the bootstrap in which the recipe is defined.
     used: usize,
 }
 
@@ -55,7 +55,7 @@ struct RecipeSummary {
     area: f64,
 }
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let full = results.plan.full;
     let arm = results.plan.common();
     let kind = results.ordinary.kind;
@@ -122,7 +122,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     Ok(answer)
 }
 
-fn reported(recipe: &Recipe) -> Cell {
+fn reported(recipe: &Recipe) -> TableCell {
     let parameters = recipe.parameters().map(|n| n.to_string());
     word(parameters.unwrap_or_else(|| "sample".into()))
 }
@@ -142,7 +142,7 @@ fn entries<'a>(
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
     let recipes = Recipe::all(QuantileType::default());
-    // Distances of fragilities made from a draw to the benchmark, which is
+    // SuiteDistances of fragilities made from a draw to the benchmark, which is
     // the empirical fragility of the records themselves.
     let mut drawn: Vec<[Vec<f64>; 2]> =
         recipes.iter().map(|_| [Vec::new(), Vec::new()]).collect();
@@ -281,7 +281,7 @@ fn by_block(entries: &[RecipeFit<'_>]) -> String {
 }
 
 /// Six digits: more than 86 records say.
-fn six(x: f64) -> Cell {
+fn six(x: f64) -> TableCell {
     word(digits(x, 6))
 }
 

@@ -9,10 +9,10 @@ use rocking_statistics::normality::{
 };
 use rocking_statistics::streams::{Streams, standard_normal};
 
-use super::answer::{Answer, Rows, count, number};
+use super::answer::{Rows, StudyAnswer, count, number};
 use super::{levels, nulls, trimming};
 use crate::normality::LEVEL;
-use crate::results::Results;
+use crate::results::StudyResults;
 
 /// Excess medians of the truth, in units of the shift.
 const EXCESSES: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
@@ -23,7 +23,7 @@ const DISPERSION: f64 = 0.6;
 /// Samples for each.
 const TRIALS: u64 = 1000;
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let sizes = results.suites().map(|suite| suite.records.len());
     let mut table = Rows::default();
     // At an excess median of 1, in percent.
@@ -55,9 +55,9 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         at[0][0], sizes[0], at[1][0], sizes[1], at[0][3], at[1][3],
     );
     let parts = [
-        nulls::part(results),
-        levels::part(results),
-        trimming::part(results)?,
+        nulls::nulls_part(results),
+        levels::levels_part(results),
+        trimming::trimming_part(results)?,
     ];
     let words = parts.iter().map(|part| part.answer.clone());
     let words: Vec<String> = std::iter::once(own).chain(words).collect();

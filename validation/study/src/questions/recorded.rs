@@ -9,8 +9,8 @@ use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking_records::intensity::{Measures, Settings};
 use rocking_records::{Processing, ReadOptions, Suite, SuiteError};
 
-use super::answer::{Answer, Rows, number, word};
-use crate::results::Results;
+use super::answer::{Rows, StudyAnswer, number, word};
+use crate::results::StudyResults;
 use rocking_common::suites::inputs;
 
 /// Corners of the high-pass: what the choice of one does.
@@ -38,7 +38,7 @@ pub fn ridgecrest() -> anyhow::Result<Suite> {
     Ok(survey.into_suite()?)
 }
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let setup = &results.plan.setup;
     let suite = ridgecrest()?;
     let settings = Settings::default();

@@ -6,12 +6,14 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{Group, Interval, MOTIONS, Row, Shown, of_group, of_motion};
+use row::{
+    Agreement, Interval, MOTIONS, QuantityRow, RowGroup, of_group, of_motion,
+};
 
-use super::answer::{Answer, Cell, Rows, count, number, word};
+use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
-use crate::kept::Kept;
-use crate::results::Results;
+use crate::kept::KeptResults;
+use crate::results::StudyResults;
 use rocking_common::findings::Settings;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
@@ -28,13 +30,13 @@ const QUESTION: &str = "What can the embedded suites show, and what not?";
 /// the smallest effect of interest, as for the claims.
 const LIMIT: f64 = 0.1;
 
-pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let own = results.embedded();
     let rows = if own {
         kept(&results.plan.settings())?
     } else {
         // Through the file's digits: the same numbers as from the file.
-        row::from_csv(&row::to_csv(&compare::rows(results)?))
+        row::from_csv(&row::to_csv(&compare::comparison_rows(results)?))
     };
     let kinds = SuiteKind::ALL.map(SuiteKind::name);
     let answer = words(&rows, kinds);
@@ -55,27 +57,29 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     }
     let files = vec![("suites.csv".into(), row::to_csv(&rows))];
     let (id, question) = ("suites", QUESTION);
-    Ok(Answer { id, question, answer, tables, figures, files })
+    Ok(StudyAnswer { id, question, answer, tables, figures, files })
 }
 
 /// The committed comparison: with other settings than its own only what no
 /// setting changes, the motions.
-fn kept(settings: &Settings) -> anyhow::Result<Vec<Row>> {
+fn kept(settings: &Settings) -> anyhow::Result<Vec<QuantityRow>> {
     let mut rows = row::from_csv(COMMITTED);
-    if Kept::of(settings)?.is_none() {
-        rows.retain(|r| matches!(r.group, Group::Source | Group::Motion));
+    if KeptResults::of(settings)?.is_none() {
+        rows.retain(|r| {
+            matches!(r.group, RowGroup::Source | RowGroup::Motion)
+        });
     }
     Ok(rows)
 }
 
-fn has_capacities(rows: &[Row]) -> bool {
-    rows.iter().any(|r| r.group == Group::Capacity)
+fn has_capacities(rows: &[QuantityRow]) -> bool {
+    rows.iter().any(|r| r.group == RowGroup::Capacity)
 }
 
-fn words(rows: &[Row], kinds: [&str; 2]) -> String {
+fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
     let mut out = Vec::new();
     for kind in kinds {
-        let found: Vec<(&Row, &str)> = MOTIONS
+        let found: Vec<(&QuantityRow, &str)> = MOTIONS
             .iter()
             .filter_map(|(name, label)| {
                 Some((of_motion(rows, kind, name)?, *label))
@@ -83,7 +87,7 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             .collect();
         let apart: Vec<String> = found
             .iter()
-            .filter(|(row, _)| row.medians(LIMIT) == Shown::Apart)
+            .filter(|(row, _)| row.medians(LIMIT) == Agreement::Apart)
             .map(|(row, label)| {
                 let label = markup::plain(label);
                 format!("{label} {:.2}", row.ratio.value)
@@ -104,7 +108,8 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             false => &[],
         };
         for &intensity in measures {
-            let own = of_group(rows, Group::Capacity, kind, intensity.name());
+            let own =
+                of_group(rows, RowGroup::Capacity, kind, intensity.name());
             let (low, high) = range(own.iter().map(|r| r.ratio.value));
             out.push(format!(
                 "Capacities in {}: medians {low:.2} to {high:.2} times \
@@ -127,13 +132,13 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
 
 /// In how many comparisons what is shown, without what is shown in none: `all
 /// 45 open`, or `of 45 5 shown to differ, 40 open`.
-fn counted(all: impl Iterator<Item = Shown>) -> String {
-    let all: Vec<Shown> = all.collect();
+fn counted(all: impl Iterator<Item = Agreement>) -> String {
+    let all: Vec<Agreement> = all.collect();
     let agree = format!("agree within {:.0} %", 100.0 * LIMIT);
     let said = [
-        (Shown::Apart, "shown to differ"),
-        (Shown::Alike, agree.as_str()),
-        (Shown::Open, "open"),
+        (Agreement::Apart, "shown to differ"),
+        (Agreement::Alike, agree.as_str()),
+        (Agreement::Open, "open"),
     ];
     let found: Vec<(usize, &str)> = said
         .into_iter()
@@ -153,7 +158,10 @@ fn counted(all: impl Iterator<Item = Shown>) -> String {
 }
 
 /// Medians and dispersions of both, with what is between them.
-fn compared(r: &Row, decimals: usize) -> Vec<(&'static str, Cell)> {
+fn compared(
+    r: &QuantityRow,
+    decimals: usize,
+) -> Vec<(&'static str, TableCell)> {
     let ends = |i: &Interval| word(format!("{:.2} to {:.2}", i.low, i.high));
     vec![
         ("embedded median", number(r.embedded.middle, decimals)),
@@ -166,9 +174,9 @@ fn compared(r: &Row, decimals: usize) -> Vec<(&'static str, Cell)> {
     ]
 }
 
-fn motions(rows: &[Row], answer: &str, origin: &str) -> PlainTable {
+fn motions(rows: &[QuantityRow], answer: &str, origin: &str) -> PlainTable {
     let mut table = Rows::default();
-    for r in rows.iter().filter(|r| r.group == Group::Motion) {
+    for r in rows.iter().filter(|r| r.group == RowGroup::Motion) {
         let mut cells = vec![
             ("suite", word(&r.suite)),
             ("measure", word(r.quantity.replace('_', " "))),
@@ -195,12 +203,12 @@ fn motions(rows: &[Row], answer: &str, origin: &str) -> PlainTable {
     )
 }
 
-fn capacities(rows: &[Row], kinds: [&str; 2]) -> PlainTable {
+fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> PlainTable {
     let mut table = Rows::default();
     for kind in kinds {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let name = intensity.name();
-            let all = of_group(rows, Group::Capacity, kind, name);
+            let all = of_group(rows, RowGroup::Capacity, kind, name);
             for r in all.into_iter().filter(|r| r.edp == 1.0) {
                 let mut cells = vec![
                     ("suite", word(kind)),
@@ -221,22 +229,22 @@ fn capacities(rows: &[Row], kinds: [&str; 2]) -> PlainTable {
     )
 }
 
-fn accepted(rows: &[Row]) -> PlainTable {
+fn accepted(rows: &[QuantityRow]) -> PlainTable {
     let mut names: Vec<(&str, &str)> = Vec::new();
-    for r in rows.iter().filter(|r| r.group == Group::Accepted) {
+    for r in rows.iter().filter(|r| r.group == RowGroup::Accepted) {
         if !names.contains(&(&r.suite, &r.quantity)) {
             names.push((&r.suite, &r.quantity));
         }
     }
     let mut table = Rows::default();
     for (kind, quantity) in names {
-        let own = of_group(rows, Group::Accepted, kind, quantity);
-        let of = |value: fn(&Row) -> f64| {
+        let own = of_group(rows, RowGroup::Accepted, kind, quantity);
+        let of = |value: fn(&QuantityRow) -> f64| {
             let all: Vec<f64> = own.iter().map(|r| value(r)).collect();
             median(&all)
         };
-        let below = |side: fn(&Row) -> row::Side| {
-            let side = |r: &&&Row| side(r).middle < side(r).low;
+        let below = |side: fn(&QuantityRow) -> row::Quantiles| {
+            let side = |r: &&&QuantityRow| side(r).middle < side(r).low;
             count(own.iter().filter(side).count())
         };
         let apart = of(|r| r.embedded.middle - r.recorded.middle);
@@ -267,7 +275,7 @@ fn accepted(rows: &[Row]) -> PlainTable {
 
 #[cfg(test)]
 mod tests {
-    use super::row::Side;
+    use super::row::Quantiles;
     use super::*;
     use crate::facts::{Facts, facts};
     use rocking_common::suites::StudySuite;
@@ -276,21 +284,21 @@ mod tests {
 
     /// A row of capacities with intervals of the ratio of medians and of
     /// the difference of dispersions, about a recorded dispersion of 0.5.
-    fn capacity(ratio: (f64, f64), spread: (f64, f64)) -> Row {
+    fn capacity(ratio: (f64, f64), spread: (f64, f64)) -> QuantityRow {
         let interval = |(low, high): (f64, f64)| Interval {
             value: 0.5 * (low + high),
             low,
             high,
         };
-        let side = Side {
+        let side = Quantiles {
             records: 86,
             low: libm::exp(-0.5),
             middle: 1.0,
             high: libm::exp(0.5),
         };
-        Row {
+        QuantityRow {
             suite: "ordinary".into(),
-            group: Group::Capacity,
+            group: RowGroup::Capacity,
             quantity: "pga".into(),
             p_rad_s: 1.0,
             alpha_rad: 0.1,
@@ -323,8 +331,8 @@ mod tests {
         let medians = "of 6 1 shown to differ, 2 agree within 10 %, 3 open";
         assert!(said.contains(&format!("times recorded, {medians};")));
         assert!(said.contains(&format!("dispersions, {medians}.")), "{said}");
-        let motion = Row {
-            group: Group::Motion,
+        let motion = QuantityRow {
+            group: RowGroup::Motion,
             quantity: "pga_g".into(),
             ..capacity((0.6, 1.6), (-0.4, 0.4))
         };
@@ -341,9 +349,10 @@ mod tests {
         assert_eq!(kept(&settings).expect("rows").len(), all);
         settings.eta = 0.90;
         let rows = kept(&settings).expect("rows");
-        assert!(rows.iter().any(|r| r.group == Group::Motion));
-        let of_settings =
-            |r: &&Row| matches!(r.group, Group::Capacity | Group::Accepted);
+        assert!(rows.iter().any(|r| r.group == RowGroup::Motion));
+        let of_settings = |r: &&QuantityRow| {
+            matches!(r.group, RowGroup::Capacity | RowGroup::Accepted)
+        };
         assert_eq!(rows.iter().find(of_settings), None);
     }
 

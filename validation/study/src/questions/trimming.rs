@@ -5,11 +5,11 @@ use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{ExtendedSample, Lognormal};
 
-use super::answer::{self, Answer, Cell, Rows, number, word};
+use super::answer::{self, Rows, StudyAnswer, TableCell, number, word};
 use crate::estimates::mean;
 use crate::fits::{MLE, trimmed};
 use crate::normality::every;
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 
@@ -22,16 +22,18 @@ const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
 /// Samples of a truth that is shifted lognormal.
 const DRAWS: u64 = 1000;
 
-/// Trimmed against untrimmed: samples by [`Outcome`].
+/// Trimmed against untrimmed: samples by [`TrimmingOutcome`].
 #[derive(Clone, Copy, Default)]
-struct Count([usize; 4]);
+struct OutcomeCounts([usize; 4]);
 
-pub(super) fn part(results: &Results) -> anyhow::Result<Answer> {
+pub(super) fn trimming_part(
+    results: &StudyResults,
+) -> anyhow::Result<StudyAnswer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     for (suite, found) in results.common() {
         let intensity = found.intensity;
-        let rows: Vec<(usize, [Outcome; 4])> = found
+        let rows: Vec<(usize, [TrimmingOutcome; 4])> = found
             .blocks
             .par_iter()
             .flat_map_iter(|block| {
@@ -94,14 +96,14 @@ pub(super) fn part(results: &Results) -> anyhow::Result<Answer> {
 }
 
 #[derive(Clone, Copy)]
-enum Outcome {
+enum TrimmingOutcome {
     Helps,
     Harms,
     OnlyTrimmed,
     Neither,
 }
 
-impl Count {
+impl OutcomeCounts {
     fn samples(&self) -> usize {
         self.0.iter().sum()
     }
@@ -118,7 +120,7 @@ impl Count {
         im: &str,
         skewness: &str,
         c: f64,
-    ) -> Vec<(&'static str, Cell)> {
+    ) -> Vec<(&'static str, TableCell)> {
         let [helps, _, only, neither] = self.0.map(answer::count);
         vec![
             ("suite", word(suite)),
@@ -134,8 +136,8 @@ impl Count {
     }
 }
 
-fn count(rows: &[(usize, [Outcome; 4])]) -> [[Count; 4]; 4] {
-    let mut counts = [[Count::default(); 4]; 4];
+fn count(rows: &[(usize, [TrimmingOutcome; 4])]) -> [[OutcomeCounts; 4]; 4] {
+    let mut counts = [[OutcomeCounts::default(); 4]; 4];
     for (class, outcomes) in rows {
         for (count, outcome) in counts[*class].iter_mut().zip(outcomes) {
             count.0[*outcome as usize] += 1;
@@ -150,7 +152,7 @@ fn outcomes(
     sample: &ExtendedSample,
     shift: f64,
     truth: Option<&Lognormal>,
-) -> [Outcome; 4] {
+) -> [TrimmingOutcome; 4] {
     CONSTANTS.map(|c| {
         let centre = Centre::FittedMedian;
         let distance = |method| {
@@ -162,19 +164,19 @@ fn outcomes(
             }
         };
         match (distance(trimmed()), distance(MLE)) {
-            (Some(a), Some(b)) if a < b => Outcome::Helps,
-            (Some(_), Some(_)) => Outcome::Harms,
-            (Some(_), None) => Outcome::OnlyTrimmed,
-            _ => Outcome::Neither,
+            (Some(a), Some(b)) if a < b => TrimmingOutcome::Helps,
+            (Some(_), Some(_)) => TrimmingOutcome::Harms,
+            (Some(_), None) => TrimmingOutcome::OnlyTrimmed,
+            _ => TrimmingOutcome::Neither,
         }
     })
 }
 
 /// Samples of a shifted lognormal, judged by the truth itself.
-fn simulated(n: usize) -> anyhow::Result<[Count; 4]> {
+fn simulated(n: usize) -> anyhow::Result<[OutcomeCounts; 4]> {
     let streams = Streams::new("study/trimming", 0);
     let truth = Lognormal::try_new(1.0, 0.0, 0.6)?;
-    let rows: Vec<(usize, [Outcome; 4])> = (0..DRAWS)
+    let rows: Vec<(usize, [TrimmingOutcome; 4])> = (0..DRAWS)
         .into_par_iter()
         .filter_map(|index| {
             let mut stream = streams.stream(index);
@@ -240,6 +242,9 @@ mod tests {
             .collect();
         let sample = ExtendedSample::try_new(&values).expect("sample");
         let found = outcomes(&sample, 1.0, None)[3];
-        assert!(matches!(found, Outcome::Helps | Outcome::OnlyTrimmed));
+        assert!(matches!(
+            found,
+            TrimmingOutcome::Helps | TrimmingOutcome::OnlyTrimmed
+        ));
     }
 }

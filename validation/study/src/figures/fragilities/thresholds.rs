@@ -7,9 +7,11 @@ use super::curves::{
 };
 use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
-use crate::inference::{Draw, Draws, Replicated, by_cell};
-use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
-use crate::results::Results;
+use crate::inference::{Replicates, Resample, Resamples, by_cell};
+use crate::measures::{
+    ClaimMeasure, DemandFits, Scope, Thresholds, by_demand, to_ssfl,
+};
+use crate::results::StudyResults;
 use anyhow::Context as _;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
@@ -29,7 +31,7 @@ const POINTS: u32 = 80;
 
 /// Which fits a figure compares.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Pair {
+enum FitPair {
     /// Figure 15: USFL and SSFL.
     Shifted,
     /// Figure 16: the trimmed USFL and its USFL7.
@@ -38,7 +40,7 @@ enum Pair {
     Untrimmed,
 }
 
-impl Pair {
+impl FitPair {
     fn of(number: u32) -> Self {
         match number {
             15 => Self::Shifted,
@@ -55,14 +57,14 @@ impl Pair {
         }
     }
 
-    fn first(self, at: &At) -> Option<Lognormal> {
+    fn first(self, at: &DemandFits) -> Option<Lognormal> {
         match self {
             Self::Trimmed => at.fits.trimmed,
             _ => at.fits.usfl,
         }
     }
 
-    fn second(self, at: &At) -> Option<Lognormal> {
+    fn second(self, at: &DemandFits) -> Option<Lognormal> {
         match self {
             Self::Shifted => at.fits.ssfl,
             _ => usfl7(self.first(at), at.shift, 1.0),
@@ -88,27 +90,27 @@ impl Pair {
     }
 
     /// The measure of the claims on it.
-    fn measure(self) -> Measure {
+    fn measure(self) -> ClaimMeasure {
         match self {
-            Self::Shifted => Measure::ShiftGain,
-            Self::Trimmed => Measure::TrimmedToSsfl,
-            Self::Untrimmed => Measure::UntrimmedToSsfl,
+            Self::Shifted => ClaimMeasure::ShiftGain,
+            Self::Trimmed => ClaimMeasure::TrimmedToSsfl,
+            Self::Untrimmed => ClaimMeasure::UntrimmedToSsfl,
         }
     }
 }
 
 /// Figures 15, 16 and 17.
 pub(in super::super) fn thresholds(
-    results: &Results,
-    draws: &Draws,
+    results: &StudyResults,
+    draws: &Resamples,
     arm: Arm,
     number: u32,
 ) -> anyhow::Result<Figure> {
-    let pair = Pair::of(number);
+    let pair = FitPair::of(number);
     let mut panels = Vec::new();
     let mut words = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let source = Source {
+        let scope = Scope {
             results,
             draws,
             distances: &[],
@@ -118,32 +120,32 @@ pub(in super::super) fn thresholds(
         };
         let measure = pair.measure();
         let limit = limit_of(measure, intensity);
-        let read = Thresholds::new(&source)?;
+        let read = Thresholds::new(&scope)?;
         let (_, range) = measure.unit();
-        let judged = |measured: &Replicated| {
-            by_cell(draws, source.tested, range, measured)
+        let judged = |measured: &Replicates| {
+            by_cell(draws, scope.tested, range, measured)
         };
-        let decide = if pair == Pair::Shifted {
-            judged(&measure.prepare(&source)?.measured)
+        let decide = if pair == FitPair::Shifted {
+            judged(&measure.prepare(&scope)?.measured)
         } else {
-            let apart = |at: &At| to_ssfl(pair.first(at), at, 1.0);
-            judged(&by_demand(&source, &read, apart))
+            let apart = |at: &DemandFits| to_ssfl(pair.first(at), at, 1.0);
+            judged(&by_demand(&scope, &read, apart))
         };
         let name = intensity.name().to_uppercase();
-        words.push(if pair == Pair::Shifted {
+        words.push(if pair == FitPair::Shifted {
             gain_in_words(&name, decide.first(), limit)
         } else {
             distances_in_words(&name, &decide, limit)
         });
         for (place, edp) in THRESHOLDS.into_iter().enumerate() {
-            let cell = decide.get(place).filter(|_| pair != Pair::Shifted);
-            let of = Panel { edp, place, limit, cell };
-            panels.push(panel(&source, &read, pair, &of)?);
+            let cell = decide.get(place).filter(|_| pair != FitPair::Shifted);
+            let of = ThresholdPanel { edp, place, limit, cell };
+            panels.push(panel(&scope, &read, pair, &of)?);
         }
     }
     words.push(
         match pair {
-            Pair::Shifted => {
+            FitPair::Shifted => {
                 "Bands hold 95 % of the fits to resampled suites; brackets \
                  are 90 % intervals."
             }
@@ -178,7 +180,7 @@ fn band(pen: Pen) -> Fill {
 }
 
 /// What a panel shows.
-struct Panel<'a> {
+struct ThresholdPanel<'a> {
     edp: f64,
     place: usize,
     limit: f64,
@@ -187,13 +189,13 @@ struct Panel<'a> {
 }
 
 fn panel(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     read: &Thresholds,
-    pair: Pair,
-    of: &Panel<'_>,
+    pair: FitPair,
+    of: &ThresholdPanel<'_>,
 ) -> anyhow::Result<ChartPanel> {
-    let kind = source.results.ordinary.kind;
-    let whole = source.draws.whole();
+    let kind = scope.results.ordinary.kind;
+    let whole = scope.draws.whole();
     let at = read.at(whole.of(kind), of.place).context("no capacities")?;
     let (first, second) = (pair.first(&at), pair.second(&at));
     let sample = at.sample.sorted();
@@ -201,12 +203,12 @@ fn panel(
     let grid = along(axis, POINTS);
     // Of USFL7 the difference to SSFL, which moves with the records less
     // than either.
-    let over = |draw: Draw<'_>| {
+    let over = |draw: Resample<'_>| {
         let Some(at) = read.at(draw.of(kind), of.place) else {
             return vec![f64::NAN; 2 * grid.len()];
         };
         let (a, b) = (pair.first(&at), pair.second(&at));
-        let less = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
+        let less = at.fits.ssfl.filter(|_| pair != FitPair::Shifted);
         let all = |fit: Option<Lognormal>, less: Option<Lognormal>| {
             grid.iter().map(move |x| {
                 let p = fit.map_or(f64::NAN, |f| f.cdf(*x));
@@ -215,10 +217,10 @@ fn panel(
         };
         all(a, None).chain(all(b, less)).collect()
     };
-    let bands = source.draws.smooth(source.tested, &over);
-    let bands = bands.percentiles(source.draws, source.tested);
+    let bands = scope.draws.smooth(scope.tested, &over);
+    let bands = bands.percentiles(scope.draws, scope.tested);
     let (of_first, of_second) = bands.split_at(grid.len());
-    let place = (source.intensity, of.edp);
+    let place = (scope.intensity, of.edp);
     // Ends of a band on a curve, or of the curve itself.
     let laid = |name: &str, fill, on: Option<Lognormal>, ends: &[_]| {
         let found = grid.iter().zip(ends).filter_map(|(x, ends)| {
@@ -232,7 +234,7 @@ fn panel(
         let band = Series::of(Look::band(fill), x, y).labelled(name);
         band.with(ends).keyed(keys)
     };
-    let on = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
+    let on = at.fits.ssfl.filter(|_| pair != FitPair::Shifted);
     let (name, pen) = pair.other();
     let mut series = Vec::new();
     if on.is_some() {
@@ -240,7 +242,7 @@ fn panel(
         let words = format!("limit: SSFL ± {}", of.limit);
         series.push(laid(&words, LIMIT, on, &around));
     }
-    if pair == Pair::Shifted {
+    if pair == FitPair::Shifted {
         let fill = band(USFL.1);
         series.push(laid("95 % band of USFL", fill, None, of_first));
     }
@@ -270,10 +272,10 @@ fn panel(
     }
     let note = |words| Series::note(Mark::Corner, words, (0.0, 0.0));
     series.extend(notes.into_iter().map(note));
-    let name = source.intensity.name().to_uppercase();
+    let name = scope.intensity.name().to_uppercase();
     Ok(ChartPanel::new(
         format!("{name}, *θ̃* = {:.2}", of.edp),
-        Axis::linear(axis.0, axis.1, 5).label(source.intensity.label()),
+        Axis::linear(axis.0, axis.1, 5).label(scope.intensity.label()),
         exceedance(),
         series,
     ))
@@ -322,7 +324,7 @@ fn gain_in_words(name: &str, gain: Option<&Measured>, limit: f64) -> String {
     )
 }
 
-/// At which demands USFL7 is near enough, in a sentence.
+/// DemandFits which demands USFL7 is near enough, in a sentence.
 fn distances_in_words(name: &str, cells: &[Measured], limit: f64) -> String {
     let ends = |cell: &Measured| cell.interval.unwrap_or((0.0, 1.0));
     let listed = |is: &dyn Fn((f64, f64)) -> bool| {
@@ -357,8 +359,8 @@ mod tests {
 
     #[test]
     fn a_band_that_is_laid_on_another_curve_is_named_so() {
-        assert_eq!(Pair::Shifted.band_words(), "95 % band of SSFL");
-        for pair in [Pair::Trimmed, Pair::Untrimmed] {
+        assert_eq!(FitPair::Shifted.band_words(), "95 % band of SSFL");
+        for pair in [FitPair::Trimmed, FitPair::Untrimmed] {
             let words = pair.band_words();
             assert!(words.starts_with("SSFL + ") && words.ends_with("SSFL"));
         }

@@ -8,23 +8,25 @@ use rocking_statistics::ExtendedSample;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 
-use super::row::{Group, Interval, Row, Side};
+use super::row::{Interval, Quantiles, QuantityRow, RowGroup};
 use crate::analyses::normalised;
 use crate::distributions::{BlockSamples, Distributions, suite_distributions};
 use crate::estimates::three_quantiles;
 use crate::facts::{Facts, SPECTRUM_PERIODS_S, facts};
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
-use crate::results::Results;
+use crate::results::StudyResults;
 use rocking_common::paper::{BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 
-/// Draws of the bootstrap.
+/// Resamples of the bootstrap.
 const REPLICATES: usize = 2000;
 
 /// All rows: both suites of the study against the embedded ones of the same
 /// kind.
-pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
+pub(super) fn comparison_rows(
+    results: &StudyResults,
+) -> anyhow::Result<Vec<QuantityRow>> {
     let arm = results.plan.common();
     let mut out = Vec::new();
     for embedded in StudySuite::embedded()? {
@@ -43,7 +45,7 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
             let name = format!("study/suites/{side}/{kind}");
             Bootstrap::of(&name, 0, clusters, REPLICATES).map(<[_]>::to_vec)
         };
-        let pair = Pair {
+        let pair = SuitePair {
             kind: kind.name(),
             draws: [
                 draws("embedded", &embedded.clusters),
@@ -52,7 +54,7 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
             clusters: recorded.clusters.clone(),
             records: [facts.len(), recorded.records.len()],
         };
-        out.push(pair.row(Group::Source, recorded.sha256.clone()));
+        out.push(pair.row(RowGroup::Source, recorded.sha256.clone()));
         out.extend(pair.motions(&facts, &recorded.records)?);
         for own in suite_distributions(kind, &facts, &curves, arm)? {
             let other = recorded.distributions(arm, own.intensity)?;
@@ -64,7 +66,7 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
 }
 
 /// Both suites of one kind.
-struct Pair {
+struct SuitePair {
     kind: &'static str,
     /// Records drawn once for all quantities: embedded, recorded.
     draws: [Vec<Vec<usize>>; 2],
@@ -74,15 +76,15 @@ struct Pair {
     records: [usize; 2],
 }
 
-impl Pair {
-    fn row(&self, group: Group, quantity: String) -> Row {
-        let side = |k: usize| Side {
+impl SuitePair {
+    fn row(&self, group: RowGroup, quantity: String) -> QuantityRow {
+        let side = |k: usize| Quantiles {
             records: self.records[k],
             low: f64::NAN,
             middle: f64::NAN,
             high: f64::NAN,
         };
-        Row {
+        QuantityRow {
             suite: self.kind.into(),
             group,
             quantity,
@@ -102,7 +104,7 @@ impl Pair {
         &self,
         embedded: &[Facts],
         recorded: &[Facts],
-    ) -> anyhow::Result<Vec<Row>> {
+    ) -> anyhow::Result<Vec<QuantityRow>> {
         let names = measures(&embedded[0]);
         (0..names.len())
             .into_par_iter()
@@ -110,7 +112,7 @@ impl Pair {
                 let of = |facts: &[Facts]| -> Vec<f64> {
                     facts.iter().map(|f| measures(f)[k].1).collect()
                 };
-                let row = self.row(Group::Motion, names[k].0.clone());
+                let row = self.row(RowGroup::Motion, names[k].0.clone());
                 self.filled(row, &of(embedded), &of(recorded))
             })
             .collect()
@@ -120,7 +122,7 @@ impl Pair {
         &self,
         embedded: &Distributions,
         recorded: &Distributions,
-    ) -> anyhow::Result<Vec<Row>> {
+    ) -> anyhow::Result<Vec<QuantityRow>> {
         let both = embedded.blocks.iter().zip(&recorded.blocks);
         let cells: Vec<_> = both
             .flat_map(|(e, r)| THRESHOLDS.map(|edp| (e, r, edp)))
@@ -130,7 +132,7 @@ impl Pair {
             .map(|(e, r, edp)| {
                 let level = demand_index(edp);
                 let name = embedded.intensity.name();
-                let mut row = self.row(Group::Capacity, name.to_owned());
+                let mut row = self.row(RowGroup::Capacity, name.to_owned());
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
                 row.edp = edp;
@@ -143,12 +145,12 @@ impl Pair {
         &self,
         embedded: &Distributions,
         recorded: &Distributions,
-    ) -> Vec<Row> {
+    ) -> Vec<QuantityRow> {
         let mut out = Vec::new();
         for (k, kind) in ["original", "shifted"].into_iter().enumerate() {
             for (e, r) in embedded.blocks.iter().zip(&recorded.blocks) {
                 let quantity = format!("{kind}_{}", embedded.intensity.name());
-                let mut row = self.row(Group::Accepted, quantity);
+                let mut row = self.row(RowGroup::Accepted, quantity);
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
                 share(&mut row.embedded, e, k);
@@ -162,10 +164,10 @@ impl Pair {
     /// The row with what two samples say.
     fn filled(
         &self,
-        mut row: Row,
+        mut row: QuantityRow,
         embedded: &[f64],
         recorded: &[f64],
-    ) -> anyhow::Result<Row> {
+    ) -> anyhow::Result<QuantityRow> {
         let points = [three_quantiles(embedded)?, three_quantiles(recorded)?];
         for (side, [low, middle, high]) in
             [&mut row.embedded, &mut row.recorded].into_iter().zip(points)
@@ -208,7 +210,7 @@ impl Pair {
     }
 }
 
-fn share(side: &mut Side, block: &BlockSamples, k: usize) {
+fn share(side: &mut Quantiles, block: &BlockSamples, k: usize) {
     let (original, shifted) = block.shares();
     side.middle = [original, shifted][k];
     if let Some((low, high)) = block.bands[k].as_ref().and_then(ends) {

@@ -1,6 +1,8 @@
 //! Figures of the comparison.
 
-use super::row::{Group, Interval, MOTIONS, Row, of_group, of_motion};
+use super::row::{
+    Interval, MOTIONS, QuantityRow, RowGroup, of_group, of_motion,
+};
 use crate::facts::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
@@ -16,7 +18,7 @@ fn one(range: (f64, f64)) -> Series {
 }
 
 /// Ratios of the motions' measures, and spectra of both.
-pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
+pub(super) fn motions(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
     let mut panels: Vec<ChartPanel> =
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
@@ -41,7 +43,7 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
     )
 }
 
-fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
+fn ratios(rows: &[QuantityRow], kind: &str) -> ChartPanel {
     let found = MOTIONS.map(|(quantity, _)| {
         of_motion(rows, kind, quantity).map_or(Interval::NONE, |r| r.ratio)
     });
@@ -65,8 +67,8 @@ fn ratio_series(
     Series::new(label, Mark::Points, x, y).with(ends.collect())
 }
 
-fn spectra(rows: &[Row], kind: &str) -> ChartPanel {
-    let found: Vec<(f64, &Row)> = SPECTRUM_PERIODS_S
+fn spectra(rows: &[QuantityRow], kind: &str) -> ChartPanel {
+    let found: Vec<(f64, &QuantityRow)> = SPECTRUM_PERIODS_S
         .iter()
         .filter_map(|t| {
             Some((*t, of_motion(rows, kind, &format!("sa_{t}_g"))?))
@@ -93,7 +95,7 @@ fn spectra(rows: &[Row], kind: &str) -> ChartPanel {
 }
 
 /// Ratios of the capacities' medians, block by block.
-pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
+pub(super) fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
     let mut panels = Vec::new();
     for kind in kinds {
         for edp in SHOWN {
@@ -124,14 +126,15 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
 }
 
 fn blocks(
-    rows: &[Row],
+    rows: &[QuantityRow],
     kind: &str,
     edp: f64,
     intensity: Intensity,
 ) -> ChartPanel {
     let mut series = vec![one((0.02, 0.28))];
     for (k, p) in FREQUENCIES_RAD_S.iter().enumerate() {
-        let mut own = of_group(rows, Group::Capacity, kind, intensity.name());
+        let mut own =
+            of_group(rows, RowGroup::Capacity, kind, intensity.name());
         own.retain(|r| r.p_rad_s == *p && r.edp == edp);
         // Beside each other, not on each other.
         let shift = 0.006 * (k as f64 - 1.0);

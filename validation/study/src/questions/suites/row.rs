@@ -5,7 +5,7 @@ use rocking_common::table::{Table, digits};
 
 named! {
     /// What kind of quantity a row holds.
-    pub(super) enum Group: "group" {
+    pub(super) enum RowGroup: "group" {
         /// Hash of the recorded suite, as the quantity's name.
         Source = "source",
         /// A measure of the motions.
@@ -20,14 +20,14 @@ named! {
 
 /// One side: 16, 50 and 84 %; or low end of the null band, share, high end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Side {
+pub(super) struct Quantiles {
     pub(super) records: usize,
     pub(super) low: f64,
     pub(super) middle: f64,
     pub(super) high: f64,
 }
 
-impl Side {
+impl Quantiles {
     /// Log-dispersion: half the logarithm of the 84 % over the 16 %
     /// quantile.
     pub(super) fn dispersion(&self) -> f64 {
@@ -49,14 +49,14 @@ impl Interval {
 
     /// What the interval shows of two numbers that are equal where the value
     /// is `equal`, and alike where it is at most `limit` from there.
-    pub(super) fn shows(&self, equal: f64, limit: f64) -> Shown {
+    pub(super) fn shows(&self, equal: f64, limit: f64) -> Agreement {
         let (low, high) = (self.low - equal, self.high - equal);
         if low >= -limit && high <= limit {
-            Shown::Alike
+            Agreement::Alike
         } else if low > 0.0 || high < 0.0 {
-            Shown::Apart
+            Agreement::Apart
         } else {
-            Shown::Open
+            Agreement::Open
         }
     }
 }
@@ -64,7 +64,7 @@ impl Interval {
 /// What an interval shows of two numbers. One that holds equality shows no
 /// agreement: it may be wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shown {
+pub(super) enum Agreement {
     /// They differ, and perhaps by more than the limit.
     Apart,
     /// They differ by less than the limit.
@@ -75,15 +75,15 @@ pub(super) enum Shown {
 
 /// One quantity on both sides.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct QuantityRow {
     pub(super) suite: String,
-    pub(super) group: Group,
+    pub(super) group: RowGroup,
     pub(super) quantity: String,
     pub(super) p_rad_s: f64,
     pub(super) alpha_rad: f64,
     pub(super) edp: f64,
-    pub(super) embedded: Side,
-    pub(super) recorded: Side,
+    pub(super) embedded: Quantiles,
+    pub(super) recorded: Quantiles,
     /// Embedded median over recorded.
     pub(super) ratio: Interval,
     /// Embedded dispersion less recorded.
@@ -93,16 +93,16 @@ pub(super) struct Row {
     pub(super) p_value: f64,
 }
 
-impl Row {
+impl QuantityRow {
     /// What is shown of the medians, alike within `limit` of the recorded
     /// one.
-    pub(super) fn medians(&self, limit: f64) -> Shown {
+    pub(super) fn medians(&self, limit: f64) -> Agreement {
         self.ratio.shows(1.0, limit)
     }
 
     /// What is shown of the dispersions, alike within `limit` of the
     /// recorded one.
-    pub(super) fn dispersions(&self, limit: f64) -> Shown {
+    pub(super) fn dispersions(&self, limit: f64) -> Agreement {
         self.spread.shows(0.0, limit * self.recorded.dispersion())
     }
 }
@@ -114,16 +114,16 @@ fn short(x: f64) -> String {
     if x.is_finite() { digits(x, 4) } else { String::new() }
 }
 
-pub(super) fn to_csv(rows: &[Row]) -> String {
+pub(super) fn to_csv(rows: &[QuantityRow]) -> String {
     let mut table = Table::headed(HEADER);
     for row in rows {
         let dispersions = match row.group {
-            Group::Motion | Group::Capacity => {
+            RowGroup::Motion | RowGroup::Capacity => {
                 [row.embedded, row.recorded].map(|side| side.dispersion())
             }
-            Group::Source | Group::Accepted => [f64::NAN; 2],
+            RowGroup::Source | RowGroup::Accepted => [f64::NAN; 2],
         };
-        let side = |s: &Side| {
+        let side = |s: &Quantiles| {
             let ends = [s.low, s.middle, s.high].map(short);
             std::iter::once(s.records.to_string()).chain(ends)
         };
@@ -143,13 +143,13 @@ pub(super) fn to_csv(rows: &[Row]) -> String {
 }
 
 /// Rows of a CSV that [`to_csv`] wrote; lines that are none are left out.
-pub(super) fn from_csv(text: &str) -> Vec<Row> {
+pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
     let line = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
         let number = |k: usize| -> f64 {
             cells.get(k).and_then(|c| c.parse().ok()).unwrap_or(f64::NAN)
         };
-        let side = |k: usize| Side {
+        let side = |k: usize| Quantiles {
             records: number(k) as usize,
             low: number(k + 1),
             middle: number(k + 2),
@@ -160,9 +160,9 @@ pub(super) fn from_csv(text: &str) -> Vec<Row> {
             low: number(k + 1),
             high: number(k + 2),
         };
-        Some(Row {
+        Some(QuantityRow {
             suite: (*cells.first()?).to_owned(),
-            group: Group::ALL
+            group: RowGroup::ALL
                 .into_iter()
                 .find(|g| Some(&g.name()) == cells.get(1))?,
             quantity: (*cells.get(2)?).to_owned(),
@@ -195,22 +195,24 @@ pub(super) const MOTIONS: [(&str, &str); 8] = [
 
 /// The row of a measure of the motions.
 pub(super) fn of_motion<'a>(
-    rows: &'a [Row],
+    rows: &'a [QuantityRow],
     kind: &str,
     quantity: &str,
-) -> Option<&'a Row> {
+) -> Option<&'a QuantityRow> {
     rows.iter().find(|r| {
-        r.group == Group::Motion && r.suite == kind && r.quantity == quantity
+        r.group == RowGroup::Motion
+            && r.suite == kind
+            && r.quantity == quantity
     })
 }
 
 /// The rows of a group, a suite and a quantity.
 pub fn of_group<'a>(
-    rows: &'a [Row],
-    group: Group,
+    rows: &'a [QuantityRow],
+    group: RowGroup,
     kind: &str,
     quantity: &str,
-) -> Vec<&'a Row> {
+) -> Vec<&'a QuantityRow> {
     rows.iter()
         .filter(|r| {
             r.group == group && r.suite == kind && r.quantity == quantity

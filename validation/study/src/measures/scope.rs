@@ -3,24 +3,24 @@
 use rocking_statistics::resampling::Ranked;
 
 use crate::analyses::{StripeDemands, SuiteResults};
-use crate::distances::Distances;
+use crate::distances::SuiteDistances;
 use crate::estimates::mean;
-use crate::inference::{Cell, Draw, Draws, Replicated};
-use crate::results::Results;
+use crate::inference::{Cell, Replicates, Resample, Resamples};
+use crate::results::StudyResults;
 use rocking_common::findings::{Detail, Tested};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
 
-/// What a measure reads.
+/// What a measure reads: results, draws, suite, arm and intensity measure.
 #[derive(Clone, Copy)]
-pub struct Source<'a> {
+pub struct Scope<'a> {
     /// The analyses.
-    pub results: &'a Results,
+    pub results: &'a StudyResults,
     /// The draws that all claims share.
-    pub draws: &'a Draws,
-    /// Distances from a lognormal of all draws, by suite and arm.
-    pub distances: &'a [Distances],
+    pub draws: &'a Resamples,
+    /// SuiteDistances from a lognormal of all draws, by suite and arm.
+    pub distances: &'a [SuiteDistances],
     /// The suite, or both.
     pub tested: Tested,
     /// The arm.
@@ -30,33 +30,37 @@ pub struct Source<'a> {
 }
 
 /// The cells of a measure and their replicates.
-pub struct Prepared {
+pub struct MeasureCells {
     /// Where the cells are.
     pub cells: Vec<Cell>,
     /// Their values.
-    pub measured: Replicated,
+    pub measured: Replicates,
     /// The share that meets the paper's own criterion, where it has one.
     pub criterion: Option<Criterion>,
     /// Further numbers for the reader.
     pub details: Vec<Detail>,
 }
 
+/// The cells of a measure; an error where a curve cannot be read, or an arm
+/// was not run.
+pub type MeasureResult = anyhow::Result<MeasureCells>;
+
 /// The share that meets the paper's own criterion.
 pub struct Criterion {
     /// Its name.
     pub name: String,
     /// The share.
-    pub measured: Replicated,
+    pub measured: Replicates,
 }
 
-impl Prepared {
+impl MeasureCells {
     /// Cells without a criterion and without details.
-    pub(super) fn new(cells: Vec<Cell>, measured: Replicated) -> Self {
+    pub(super) fn new(cells: Vec<Cell>, measured: Replicates) -> Self {
         Self { cells, measured, criterion: None, details: Vec::new() }
     }
 }
 
-impl<'a> Source<'a> {
+impl<'a> Scope<'a> {
     /// The kind of the suite; the ordinary one of a comparison of both.
     pub(crate) fn kind(&self) -> SuiteKind {
         match self.tested {
@@ -84,9 +88,9 @@ impl<'a> Source<'a> {
     pub(crate) fn smooth(
         &self,
         f: impl Fn(&[u32]) -> Vec<f64> + Sync,
-    ) -> Replicated {
+    ) -> Replicates {
         let kind = self.kind();
-        let of = |draw: Draw<'_>| f(draw.of(kind));
+        let of = |draw: Resample<'_>| f(draw.of(kind));
         self.draws.smooth(self.tested, &of)
     }
 
@@ -96,9 +100,9 @@ impl<'a> Source<'a> {
         at: &str,
         records: usize,
         f: impl Fn(&[u32]) -> f64 + Sync,
-    ) -> Prepared {
+    ) -> MeasureCells {
         let cell = Cell { at: at.into(), records };
-        Prepared::new(vec![cell], self.smooth(|counts| vec![f(counts)]))
+        MeasureCells::new(vec![cell], self.smooth(|counts| vec![f(counts)]))
     }
 
     /// One value, smooth in the ordinary and in the pulse-type records.
@@ -107,13 +111,13 @@ impl<'a> Source<'a> {
         at: &str,
         records: usize,
         f: impl Fn(&[u32], &[u32]) -> f64 + Sync,
-    ) -> Prepared {
+    ) -> MeasureCells {
         let cell = Cell { at: at.into(), records };
-        let of = |draw: Draw<'_>| {
+        let of = |draw: Resample<'_>| {
             let [ordinary, pulse] = SuiteKind::ALL.map(|kind| draw.of(kind));
             vec![f(ordinary, pulse)]
         };
-        Prepared::new(vec![cell], self.draws.smooth(self.tested, &of))
+        MeasureCells::new(vec![cell], self.draws.smooth(self.tested, &of))
     }
 
     /// A share of all records' counts: `found` of `all`, by record.
@@ -122,18 +126,18 @@ impl<'a> Source<'a> {
         at: &str,
         found: &[u32],
         all: &[u32],
-    ) -> Prepared {
+    ) -> MeasureCells {
         self.value(at, all.len(), |counts| {
             weighted_count(found, counts) / weighted_count(all, counts)
         })
     }
 
     /// Medians of the cells.
-    pub(super) fn medians(&self, cells: Vec<CellValues>) -> Prepared {
+    pub(super) fn medians(&self, cells: Vec<CellValues>) -> MeasureCells {
         let (cells, values) =
             cells.into_iter().map(|own| (own.cell(), own.values)).unzip();
         let measured = self.draws.medians(self.kind(), values);
-        Prepared::new(cells, measured)
+        MeasureCells::new(cells, measured)
     }
 }
 
@@ -178,19 +182,19 @@ pub(super) fn block(frequency: usize, slenderness: usize) -> String {
 /// are close, so that the mean of the logarithm of their ratio has little
 /// scatter. A ratio that is not finite does not count.
 pub(super) fn geometric_means(
-    source: &Source<'_>,
+    scope: &Scope<'_>,
     cells: Vec<(String, Vec<f64>)>,
-) -> Prepared {
+) -> MeasureCells {
     let logs = cells.into_iter().map(|(at, ratios)| {
         let logs: Vec<f64> = ratios.into_iter().map(libm::log).collect();
         let records = logs.iter().filter(|x| x.is_finite()).count();
         (Cell { at, records }, logs)
     });
     let (cells, logs): (Vec<Cell>, Vec<Vec<f64>>) = logs.unzip();
-    let measured = source.smooth(|counts| {
+    let measured = scope.smooth(|counts| {
         logs.iter().map(|x| libm::exp(weighted_mean(x, counts))).collect()
     });
-    Prepared::new(cells, measured)
+    MeasureCells::new(cells, measured)
 }
 
 /// Mean of the finite values of the records, each drawn so often.

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{NamedTempFile, SpooledTempFile};
 
-pub use folder::{Folder, is_interrupted};
+pub use folder::{OutputFolder, is_interrupted};
 pub use standard::standard_output;
-pub use sums::{Mixed, SUMS, is_whole, sums};
+pub use sums::{FolderError, SUMS, is_whole, sums};
 pub use unfinished::WriteError;
 use unfinished::{builder, folder_of, remove_left_behind, said};
 
@@ -31,11 +31,11 @@ const HELD_BYTES: usize = 64 << 20;
 #[derive(Debug)]
 pub struct Output {
     path: PathBuf,
-    sink: Sink,
+    sink: OutputSink,
 }
 
 #[derive(Debug)]
-enum Sink {
+enum OutputSink {
     Standard(SpooledTempFile),
     /// A device or a named pipe.
     Stream(PathBuf, SpooledTempFile),
@@ -62,23 +62,23 @@ enum Sink {
 pub struct Outputs {
     inputs: Vec<PathBuf>,
     /// Where those opened so far go.
-    taken: Vec<Place>,
+    taken: Vec<Destination>,
 }
 
 /// Where an output goes that nothing else may go to: a device or a pipe
 /// keeps nothing that could be lost.
 #[derive(Debug, PartialEq, Eq)]
-enum Place {
+enum Destination {
     Standard,
     File(PathBuf),
 }
 
-impl Place {
-    fn of(sink: &Sink) -> io::Result<Option<Self>> {
+impl Destination {
+    fn of(sink: &OutputSink) -> io::Result<Option<Self>> {
         Ok(match sink {
-            Sink::Standard(_) => Some(Self::Standard),
-            Sink::Stream(..) => None,
-            Sink::File { target, .. } => {
+            OutputSink::Standard(_) => Some(Self::Standard),
+            OutputSink::Stream(..) => None,
+            OutputSink::File { target, .. } => {
                 let folder = fs::canonicalize(folder_of(target))?;
                 let name = target.file_name().unwrap_or_default();
                 Some(Self::File(folder.join(name)))
@@ -126,12 +126,12 @@ impl Outputs {
     /// is printed.
     #[must_use]
     pub fn take_standard_output(&self) -> bool {
-        self.taken.contains(&Place::Standard)
+        self.taken.contains(&Destination::Standard)
     }
 
-    fn sink(&mut self, path: &Path) -> io::Result<Sink> {
-        let sink = Sink::open(path, &self.inputs)?;
-        if let Some(place) = Place::of(&sink)? {
+    fn sink(&mut self, path: &Path) -> io::Result<OutputSink> {
+        let sink = OutputSink::open(path, &self.inputs)?;
+        if let Some(place) = Destination::of(&sink)? {
             if self.taken.iter().any(|other| place.is(other)) {
                 return Err(io::Error::other(
                     "another output goes there: expected a file of its own",
@@ -176,8 +176,12 @@ impl Output {
 impl Write for Output {
     fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
         match &mut self.sink {
-            Sink::Standard(part) | Sink::Stream(_, part) => part.write(piece),
-            Sink::File { part, .. } => system::add(part.as_file(), piece),
+            OutputSink::Standard(part) | OutputSink::Stream(_, part) => {
+                part.write(piece)
+            }
+            OutputSink::File { part, .. } => {
+                system::add(part.as_file(), piece)
+            }
         }
     }
 
@@ -186,7 +190,7 @@ impl Write for Output {
     }
 }
 
-impl Sink {
+impl OutputSink {
     fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
         let held = SpooledTempFile::new(HELD_BYTES);
         if path == Path::new("-") {

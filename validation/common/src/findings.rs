@@ -17,14 +17,14 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
-use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
+use crate::paper::{Arm, ClaimVerdict, Intensity, SuiteKind};
 
 pub use effect::Effect;
 pub use measured::{Measured, Unit};
 
 pub use claims::{
-    CellCounts, Claim, ClaimResult, Detail, ERROR, Interval, Kind, LEVEL,
-    Power, Quantifier, Region, Tested, Theme,
+    CellCounts, Claim, ClaimResult, DecisionPower, Detail, ERROR, Interval,
+    Kind, LEVEL, Quantifier, Region, SuiteSet, Theme,
 };
 
 /// Version of the file's shape. It rises with every change of a field or of
@@ -40,13 +40,13 @@ pub struct Findings {
     /// Version of that program.
     pub version: String,
     /// What the study was asked to do.
-    pub settings: Settings,
+    pub settings: StudySettings,
     /// The suites, and the work on them.
-    pub suites: Vec<Suite>,
+    pub suites: Vec<SuiteSummary>,
     /// The paper's claims and what was found about them.
     pub claims: Vec<Claim>,
     /// The numbers that claims and figures rest on.
-    pub tables: Vec<Table>,
+    pub tables: Vec<FindingsTable>,
     /// Questions beyond the paper.
     pub questions: Vec<Question>,
 }
@@ -54,7 +54,7 @@ pub struct Findings {
 /// What the study was asked to do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Settings {
+pub struct StudySettings {
     /// Arms of the intensity grid.
     pub arms: Vec<Arm>,
     /// Coefficient of restitution.
@@ -70,7 +70,7 @@ pub struct Settings {
     pub full: bool,
 }
 
-impl Settings {
+impl StudySettings {
     /// Names and values.
     #[must_use]
     pub fn named(&self) -> [(&'static str, String); 5] {
@@ -88,7 +88,7 @@ impl Settings {
 /// A suite, and the work on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Suite {
+pub struct SuiteSummary {
     /// Which of the two.
     pub kind: SuiteKind,
     /// Where the records come from.
@@ -111,13 +111,13 @@ pub struct Suite {
     pub remarks: Option<String>,
     /// What was set aside when the suite was read, for each reason.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub set_aside: Vec<Aside>,
+    pub set_aside: Vec<AsideFiles>,
     /// Analyses made.
     pub analyses: u64,
     /// Analyses whose peak or fate double precision does not resolve.
     pub unresolved: usize,
     /// First overturnings among the unresolved analyses.
-    pub first_overturnings_reevaluated: Reevaluated,
+    pub first_overturnings_reevaluated: Reevaluation,
     /// Largest shift of an overturning quantile if all open fates flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
@@ -126,7 +126,7 @@ pub struct Suite {
 /// Files that were set aside for one reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Aside {
+pub struct AsideFiles {
     /// The reason.
     pub code: String,
     /// Number of files.
@@ -149,7 +149,7 @@ pub struct RecordName {
 /// arithmetic that resolved them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Reevaluated {
+pub struct Reevaluation {
     /// All of them.
     pub all: usize,
     /// Resolved by double precision.
@@ -220,25 +220,25 @@ impl Topic {
 /// Rows of the same quantities at different places.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, try_from = "Columns")]
-pub struct Table {
+pub struct FindingsTable {
     /// What it is about.
     pub topic: Topic,
     /// The quantities, one for each value of a row.
     pub quantities: Vec<Quantity>,
     /// The rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<TableRow>,
 }
 
-/// A [`Table`] as it is read.
+/// A [`FindingsTable`] as it is read.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Columns {
     topic: Topic,
     quantities: Vec<Quantity>,
-    rows: Vec<Row>,
+    rows: Vec<TableRow>,
 }
 
-impl TryFrom<Columns> for Table {
+impl TryFrom<Columns> for FindingsTable {
     type Error = String;
 
     fn try_from(columns: Columns) -> Result<Self, String> {
@@ -273,9 +273,9 @@ pub struct Quantity {
 /// One place, and what was measured there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Row {
+pub struct TableRow {
     /// The place.
-    pub at: Place,
+    pub at: RowPlace,
     /// A value for each quantity of the table.
     pub values: Vec<Measured>,
 }
@@ -283,7 +283,7 @@ pub struct Row {
 /// What distinguishes a row of a table from the others.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Place {
+pub struct RowPlace {
     /// Suite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suite: Option<SuiteKind>,
@@ -310,7 +310,7 @@ pub struct Place {
     pub edp: Option<f64>,
 }
 
-impl Place {
+impl RowPlace {
     /// The place of a block.
     #[must_use]
     pub fn of(block: &Block) -> Self {
@@ -324,7 +324,7 @@ impl Place {
 
 /// The place within its suite and intensity measure:
 /// `p = 3, alpha = 0.20, arm C`.
-impl fmt::Display for Place {
+impl fmt::Display for RowPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number =
             |name: &str, x: Option<f64>| x.map(|x| format!("{name} {x}"));
@@ -357,7 +357,7 @@ pub struct Question {
 
 /// Decisions that a false discovery rate withdraws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Withdrawn {
+pub struct Withdrawals {
     /// Decisions made.
     pub decided: usize,
     /// Withdrawn by Benjamini and Hochberg, for positively dependent results.
@@ -441,11 +441,11 @@ impl Findings {
     /// How many decisions do not hold at a false discovery rate, over all
     /// results with a verdict.
     #[must_use]
-    pub fn withdrawn(&self, rate: f64) -> Withdrawn {
+    pub fn withdrawn(&self, rate: f64) -> Withdrawals {
         let results = self.claims.iter().flat_map(|claim| &claim.results);
         let judged: Vec<(f64, bool)> = results
             .filter_map(|r| {
-                let decided = r.by_equivalence? != Verdict::Inconclusive;
+                let decided = r.by_equivalence? != ClaimVerdict::Inconclusive;
                 Some((if r.p <= 1.0 { r.p } else { 1.0 }, decided))
             })
             .collect();
@@ -454,7 +454,7 @@ impl Findings {
             let all = adjusted.iter().zip(&judged);
             all.filter(|(q, (_, decided))| *decided && **q > rate).count()
         };
-        Withdrawn {
+        Withdrawals {
             decided: judged.iter().filter(|(_, decided)| *decided).count(),
             positive: beyond(benjamini_hochberg(&p)),
             any: beyond(benjamini_yekutieli(&p)),
@@ -463,7 +463,7 @@ impl Findings {
 
     /// The table of a topic, if there is one.
     #[must_use]
-    pub fn table(&self, topic: Topic) -> Option<&Table> {
+    pub fn table(&self, topic: Topic) -> Option<&FindingsTable> {
         self.tables.iter().find(|table| table.topic == topic)
     }
 }
@@ -512,7 +512,7 @@ mod tests {
         let text = r#"{"topic":"overturning",
             "quantities":[{"name":"a","words":"b","unit":"1"}],
             "rows":[{"at":{"p_rad_s":1.0},"values":[]}]}"#;
-        let error = serde_json::from_str::<Table>(text).unwrap_err();
+        let error = serde_json::from_str::<FindingsTable>(text).unwrap_err();
         assert!(error.to_string().contains("row 1: 0 values, expected 1"));
     }
 

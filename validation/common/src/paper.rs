@@ -114,17 +114,17 @@ impl Arm {
 /// that show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Section {
+pub struct PaperSection {
     /// The section.
     pub number: u8,
     /// What shows it.
-    pub shown: Shown,
+    pub shown: Exhibit,
 }
 
 /// What of the paper shows a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Shown {
+pub enum Exhibit {
     /// The text alone.
     Text,
     /// A table.
@@ -137,10 +137,10 @@ pub enum Shown {
     Figures(u8, u8),
 }
 
-impl Section {
+impl PaperSection {
     /// Section `number`, shown there.
     #[must_use]
-    pub const fn new(number: u8, shown: Shown) -> Self {
+    pub const fn new(number: u8, shown: Exhibit) -> Self {
         Self { number, shown }
     }
 
@@ -148,29 +148,33 @@ impl Section {
     #[must_use]
     pub fn figures(&self) -> Vec<u8> {
         match self.shown {
-            Shown::Text | Shown::Table(_) => Vec::new(),
-            Shown::Figure(one) | Shown::Panel(one, _) => vec![one],
-            Shown::Figures(one, other) => vec![one, other],
+            Exhibit::Text | Exhibit::Table(_) => Vec::new(),
+            Exhibit::Figure(one) | Exhibit::Panel(one, _) => vec![one],
+            Exhibit::Figures(one, other) => vec![one, other],
         }
     }
 }
 
-impl fmt::Display for Section {
+impl fmt::Display for PaperSection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number = self.number;
         match self.shown {
-            Shown::Text => write!(f, "{number}"),
-            Shown::Table(n) => write!(f, "{number}, Table {n}"),
-            Shown::Figure(n) => write!(f, "{number}, Figure {n}"),
-            Shown::Panel(n, panel) => write!(f, "{number}, Figure {n}{panel}"),
-            Shown::Figures(a, b) => write!(f, "{number}, Figures {a} and {b}"),
+            Exhibit::Text => write!(f, "{number}"),
+            Exhibit::Table(n) => write!(f, "{number}, Table {n}"),
+            Exhibit::Figure(n) => write!(f, "{number}, Figure {n}"),
+            Exhibit::Panel(n, panel) => {
+                write!(f, "{number}, Figure {n}{panel}")
+            }
+            Exhibit::Figures(a, b) => {
+                write!(f, "{number}, Figures {a} and {b}")
+            }
         }
     }
 }
 
 named! {
     /// What a measure says about a claim.
-    pub enum Verdict: "verdict" {
+    pub enum ClaimVerdict: "verdict" {
         /// The whole interval lies where the claim says.
         Confirmed = "confirmed",
         /// The whole interval lies where the claim does not.

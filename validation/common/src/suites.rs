@@ -20,7 +20,7 @@ use remarks::Remarks;
 
 /// Where the records of a suite come from.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Source {
+pub enum SuiteSource {
     /// The synthetic suite of these streams, embedded.
     Embedded {
         /// Seed of the streams.
@@ -35,7 +35,7 @@ pub enum Source {
     },
 }
 
-impl Source {
+impl SuiteSource {
     /// Whether the suite is an embedded one.
     #[must_use]
     pub fn is_embedded(&self) -> bool {
@@ -43,7 +43,7 @@ impl Source {
     }
 }
 
-impl fmt::Display for Source {
+impl fmt::Display for SuiteSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Embedded { streams } => {
@@ -61,7 +61,7 @@ impl fmt::Display for Source {
 
 /// The component a study uses, and the other of its pair.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct StudyMotion {
     /// The component applied.
     pub study: Accelerogram,
     /// The other component, if the suite has it.
@@ -74,7 +74,7 @@ pub struct StudySuite {
     /// `ordinary` or `pulse-type`.
     pub kind: SuiteKind,
     /// Where the records come from.
-    pub source: Source,
+    pub source: SuiteSource,
     /// Who chose the study component, in words.
     pub component_rule: String,
     /// What is suspicious about the records; nothing for an embedded suite.
@@ -82,7 +82,7 @@ pub struct StudySuite {
     /// What the folder or archive holds beside the records.
     pub set_aside: SetAside,
     /// The motions, in the suite's order.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<StudyMotion>,
     /// The earthquakes that the motions belong to.
     pub clusters: Clusters,
 }
@@ -95,7 +95,7 @@ impl StudySuite {
     pub fn embedded() -> anyhow::Result<[Self; 2]> {
         let of = |kind, streams, pairs: Vec<Pair>| Self {
             kind,
-            source: Source::Embedded { streams },
+            source: SuiteSource::Embedded { streams },
             component_rule: "the first component of each pair".into(),
             remarks: Remarks::default(),
             set_aside: SetAside::default(),
@@ -104,7 +104,7 @@ impl StudySuite {
             ),
             motions: pairs
                 .into_iter()
-                .map(|Pair { components: [study, other], .. }| Motion {
+                .map(|Pair { components: [study, other], .. }| StudyMotion {
                     study,
                     other: Some(other),
                 })
@@ -139,7 +139,7 @@ impl StudySuite {
         let remarks = Remarks::on(&suite);
         let motions = suite
             .study_components()
-            .map(|study| Motion {
+            .map(|study| StudyMotion {
                 study: study.accelerogram.clone(),
                 other: study.pair.as_ref().and_then(|pair| {
                     suite
@@ -151,7 +151,7 @@ impl StudySuite {
             .collect();
         Ok(Self {
             kind,
-            source: Source::Files {
+            source: SuiteSource::Files {
                 name: suite.name().to_owned(),
                 processing: *processing,
             },
@@ -166,7 +166,7 @@ impl StudySuite {
     /// The study components: names, and SHA-256 over interval and samples.
     #[must_use]
     pub fn list(&self) -> Vec<(String, String)> {
-        let one = |motion: &Motion| {
+        let one = |motion: &StudyMotion| {
             let sum = hash(&motion.study, Sha256::new()).finalize();
             (motion.study.name().to_owned(), hex(&sum))
         };
@@ -178,7 +178,7 @@ impl StudySuite {
     #[must_use]
     pub fn sha256(&self) -> String {
         let mut sum = Sha256::new();
-        for Motion { study, .. } in &self.motions {
+        for StudyMotion { study, .. } in &self.motions {
             sum.update(study.name().as_bytes());
             sum.update([0]);
             sum = hash(study, sum);

@@ -9,8 +9,10 @@ use crate::evidence::Proof;
 use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
 use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score, turned};
-use rocking_common::findings::{Claim, ClaimResult, Findings, Region, Tested};
-use rocking_common::paper::{Arm, Verdict};
+use rocking_common::findings::{
+    Claim, ClaimResult, Findings, Region, SuiteSet,
+};
+use rocking_common::paper::{Arm, ClaimVerdict};
 use rocking_draw::figures::Figure;
 
 /// The questions that claims answer; the file says what its fields are.
@@ -65,7 +67,7 @@ fn asked() -> anyhow::Result<Vec<ReaderQuestion>> {
 /// What came out about a part.
 struct PartResult {
     /// The verdicts, each once and for the part, the worst one first.
-    verdicts: Vec<Verdict>,
+    verdicts: Vec<ClaimVerdict>,
     /// None without data.
     words: Option<PartWords>,
 }
@@ -82,10 +84,14 @@ struct PartWords {
 impl QuestionPart {
     /// The verdict on the part by one on its claim; a value without an
     /// interval decides nothing.
-    fn verdict(&self, result: &ClaimResult) -> Verdict {
-        match result.by_equivalence.unwrap_or(Verdict::Inconclusive) {
-            Verdict::Confirmed if self.against => Verdict::NotConfirmed,
-            Verdict::NotConfirmed if self.against => Verdict::Confirmed,
+    fn verdict(&self, result: &ClaimResult) -> ClaimVerdict {
+        match result.by_equivalence.unwrap_or(ClaimVerdict::Inconclusive) {
+            ClaimVerdict::Confirmed if self.against => {
+                ClaimVerdict::NotConfirmed
+            }
+            ClaimVerdict::NotConfirmed if self.against => {
+                ClaimVerdict::Confirmed
+            }
             own => own,
         }
     }
@@ -112,7 +118,7 @@ impl QuestionPart {
                 .cmp(&rank(self.verdict(r)))
                 .then(bad(d, s).total_cmp(&bad(c, r)))
         });
-        let mut verdicts: Vec<Verdict> =
+        let mut verdicts: Vec<ClaimVerdict> =
             all.iter().map(|(_, r)| self.verdict(r)).collect();
         verdicts.dedup();
         let several = verdicts.len() > 1;
@@ -149,7 +155,7 @@ impl QuestionPart {
             _ => String::new(),
         };
         let suite = match result.suite {
-            Tested::None | Tested::Both => "",
+            SuiteSet::None | SuiteSet::Both => "",
             own => own.name(),
         };
         let mut fact =
@@ -178,12 +184,12 @@ impl ReaderQuestion {
     /// Which of the first words the verdicts give; none without data.
     fn lead(&self, claims: &[Claim], first: Arm) -> Option<usize> {
         let found = self.parts.iter().map(|p| p.found(claims, first));
-        let all: Vec<Verdict> = found.flat_map(|f| f.verdicts).collect();
-        let (yes, no) = (Verdict::Confirmed, Verdict::NotConfirmed);
+        let all: Vec<ClaimVerdict> = found.flat_map(|f| f.verdicts).collect();
+        let (yes, no) = (ClaimVerdict::Confirmed, ClaimVerdict::NotConfirmed);
         Some(match (all.contains(&yes), all.contains(&no)) {
             _ if all.is_empty() => return None,
             (true, true) => 2,
-            (true, false) if all.contains(&Verdict::Inconclusive) => 1,
+            (true, false) if all.contains(&ClaimVerdict::Inconclusive) => 1,
             (true, false) => 0,
             (false, true) => 3,
             (false, false) => 4,
@@ -198,7 +204,7 @@ impl ReaderQuestion {
         };
         let found: Vec<(&QuestionPart, PartResult)> =
             self.parts.iter().map(|p| (p, p.found(claims, first))).collect();
-        let facts = |verdict: Option<Verdict>| -> String {
+        let facts = |verdict: Option<ClaimVerdict>| -> String {
             let own = found
                 .iter()
                 .filter(|(_, f)| f.verdicts.first() == verdict.as_ref());
@@ -211,9 +217,9 @@ impl ReaderQuestion {
         let mut out = format!("{}: ", self.leads[lead]);
         let start = out.len();
         for (verdict, joint) in [
-            (Some(Verdict::Confirmed), ""),
-            (Some(Verdict::NotConfirmed), ", but "),
-            (Some(Verdict::Inconclusive), "; not certain: "),
+            (Some(ClaimVerdict::Confirmed), ""),
+            (Some(ClaimVerdict::NotConfirmed), ", but "),
+            (Some(ClaimVerdict::Inconclusive), "; not certain: "),
             (None, "; no data on "),
         ] {
             let facts = facts(verdict);
@@ -225,7 +231,7 @@ impl ReaderQuestion {
         out += ".";
         let aside = self.aside.as_ref().map(|p| p.found(claims, first));
         if let Some(PartResult { verdicts, words: Some(words) }) = aside
-            && verdicts[0] != Verdict::Inconclusive
+            && verdicts[0] != ClaimVerdict::Inconclusive
         {
             out += &format!(" {}.", words.fact);
         }
@@ -450,9 +456,9 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
          a paper by Lachanas, Vamvatsikos and Dimitrakopoulos. Of its {all} \
          sentences that one can test, {} hold, {} fail and {} stay open.",
         motions.join(" and "),
-        count(Verdict::Confirmed),
-        count(Verdict::NotConfirmed),
-        count(Verdict::Inconclusive)
+        count(ClaimVerdict::Confirmed),
+        count(ClaimVerdict::NotConfirmed),
+        count(ClaimVerdict::Inconclusive)
     )
 }
 

@@ -4,7 +4,7 @@
 
 use anyhow::Context as _;
 
-use rocking_common::findings::{Findings, Suite};
+use rocking_common::findings::{Findings, SuiteSummary};
 use rocking_common::words::{percent, rounded};
 use rocking_draw::figures::{DIGITS, Figure, Motions};
 use rocking_study::Study;
@@ -89,7 +89,7 @@ impl<'a> FindingSets<'a> {
     }
 
     /// A word on the suites of each side.
-    fn each(&self, of: impl Fn(&[Suite]) -> String) -> String {
+    fn each(&self, of: impl Fn(&[SuiteSummary]) -> String) -> String {
         let side = |(name, findings): FindingColumn<'_>| {
             format!("{} ({name})", of(&findings.suites))
         };

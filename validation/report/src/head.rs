@@ -2,7 +2,7 @@
 //! it.
 
 use rocking::integrator::Overturning;
-use rocking_common::findings::{Findings, Suite};
+use rocking_common::findings::{Findings, SuiteSummary};
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_study::results::StudyResults;
 
@@ -94,7 +94,7 @@ fn program(
 
 /// Where the numbers of the recorded suites come from.
 fn kept(recorded: &Findings) -> impl Iterator<Item = (String, String)> {
-    let row = |suite: &Suite| {
+    let row = |suite: &SuiteSummary| {
         let words = format!(
             "{} records, sha256 {}; kept results, not run here",
             suite.records, suite.sha256

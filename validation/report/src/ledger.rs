@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use serde::Deserialize;
 
 use rocking_common::findings::Claim;
-use rocking_common::paper::Verdict;
+use rocking_common::paper::ClaimVerdict;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot;
@@ -300,11 +300,11 @@ fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     }
     if !r.findings.is_empty() {
         let own = claims.iter().filter(|c| r.findings.contains(&c.id));
-        let verdicts: Vec<Verdict> = own
+        let verdicts: Vec<ClaimVerdict> = own
             .flat_map(|claim| &claim.results)
             .filter_map(|result| result.by_equivalence)
             .collect();
-        let counted = Verdict::ALL.into_iter().filter_map(|verdict| {
+        let counted = ClaimVerdict::ALL.into_iter().filter_map(|verdict| {
             let n = verdicts.iter().filter(|v| **v == verdict).count();
             (n > 0).then(|| format!("{n} {}", verdict.name()))
         });

@@ -1,7 +1,7 @@
 //! Values of findings as people read them, each in the unit of its limit.
 
 use rocking_common::findings::{
-    Claim, ClaimResult, Measured, Power, Quantifier, Region, Unit,
+    Claim, ClaimResult, DecisionPower, Measured, Quantifier, Region, Unit,
 };
 use rocking_common::words::{rounded, rounded_text};
 
@@ -157,7 +157,7 @@ pub fn rule_text(claim: &Claim) -> String {
 }
 
 /// What a suite like this one is able to decide.
-fn power_text(power: Power) -> String {
+fn power_text(power: DecisionPower) -> String {
     let share = number(100.0 * power.probability);
     let times = if power.times.is_finite() {
         format!("{} times as many motions decide", number(power.times))

@@ -22,10 +22,10 @@ use crate::quantity::measured_text;
 use crate::words::words;
 use rocking_common::curves::Execution;
 use rocking_common::files::SUMS;
-use rocking_common::findings::{Findings, Kind, Tested, Topic};
+use rocking_common::findings::{Findings, Kind, SuiteSet, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
-use rocking_common::suites::{Source, StudySuite};
+use rocking_common::suites::{StudySuite, SuiteSource};
 use rocking_proof::cases::load_all;
 use rocking_study::Study;
 use rocking_study::analyses::{Plan, SuiteResults};
@@ -47,11 +47,11 @@ fn plan(way: Execution) -> Plan {
 
 /// StudyResults of nothing on the embedded suites.
 pub fn on_embedded_suites() -> StudyResults {
-    empty(&Source::Embedded { streams: "x" })
+    empty(&SuiteSource::Embedded { streams: "x" })
 }
 
 /// StudyResults of nothing, on two suites from there.
-fn empty(source: &Source) -> StudyResults {
+fn empty(source: &SuiteSource) -> StudyResults {
     let suite = |kind| SuiteResults {
         kind,
         source: source.clone(),
@@ -180,7 +180,7 @@ fn answer_alike(page: &str, terminal: &str) {
 }
 
 /// Everything that is said of where the records come from.
-fn said_of(source: &Source) -> String {
+fn said_of(source: &SuiteSource) -> String {
     let results = empty(source);
     let limits = limits_of(&results).concat();
     let words = words().expect("words");
@@ -198,7 +198,7 @@ fn said_of(source: &Source) -> String {
 
 #[test]
 fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
-    let named = |name: &str| Source::Files {
+    let named = |name: &str| SuiteSource::Files {
         name: name.into(),
         processing: Processing::default(),
     };
@@ -207,7 +207,7 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
     assert!(!own.contains("ynthetic"), "{own}");
     // The words in which the embedded suites are named.
     assert_eq!(own, said_of(&named("embedded synthetic suite, streams x")));
-    let embedded = said_of(&Source::Embedded { streams: "x" });
+    let embedded = said_of(&SuiteSource::Embedded { streams: "x" });
     assert!(
         embedded.contains("Synthetic suites from published"),
         "{embedded}"
@@ -300,7 +300,7 @@ fn figure_18_is_about_its_claim(found: &Findings, page: &str) {
         .expect("a claim")
         .results
         .iter()
-        .find(|r| r.suite == Tested::Ordinary && r.arm == Some(Arm::C));
+        .find(|r| r.suite == SuiteSet::Ordinary && r.arm == Some(Arm::C));
     let start = "to the SSFL in probability for c = 0.25, 0.5, 0.75, 1: \
                  untrimmed ";
     // Kept captions are renewed with the kept results.

@@ -4,8 +4,10 @@
 use std::collections::BTreeMap;
 
 use crate::basis::{FindingColumn, FindingSets};
-use rocking_common::findings::{Claim, ClaimResult, Findings, Suite, Theme};
-use rocking_common::paper::{Arm, Verdict};
+use rocking_common::findings::{
+    Claim, ClaimResult, Findings, SuiteSummary, Theme,
+};
+use rocking_common::paper::{Arm, ClaimVerdict};
 use rocking_common::words::{capital, rounded_text};
 
 /// The arm that stands among the findings.
@@ -26,7 +28,7 @@ pub(super) fn work(
     findings.suites.iter().map(move |suite| of_suite(&name, suite))
 }
 
-fn of_suite(name: &str, suite: &Suite) -> String {
+fn of_suite(name: &str, suite: &SuiteSummary) -> String {
     let work = format!(
         "{name}: {} {} records, {} analyses",
         suite.records, suite.kind, suite.analyses
@@ -83,7 +85,7 @@ pub(super) fn trust(basis: &FindingSets<'_>) -> String {
 /// and where another suite says something else.
 pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
-    let own = |findings: &Findings| -> Vec<(String, Verdict)> {
+    let own = |findings: &Findings| -> Vec<(String, ClaimVerdict)> {
         let first = first_arm(findings);
         let claims = findings.claims.iter().filter(|c| c.theme == theme);
         claims
@@ -91,13 +93,13 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
             .collect()
     };
     let found = own(lead);
-    let listed = |verdict: Verdict| -> String {
+    let listed = |verdict: ClaimVerdict| -> String {
         let names = found.iter().filter(|(_, v)| *v == verdict);
         let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
         names.join("; ")
     };
     let sentences = sentences(lead, |claim| claim.theme == theme);
-    let hold = sentences.iter().filter(|v| **v == Verdict::Confirmed);
+    let hold = sentences.iter().filter(|v| **v == ClaimVerdict::Confirmed);
     let mut words =
         format!("{} of {} sentences hold", hold.count(), sentences.len());
     let against = lead
@@ -111,11 +113,11 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
              paper's own criterion"
         );
     }
-    let refuted = listed(Verdict::NotConfirmed);
+    let refuted = listed(ClaimVerdict::NotConfirmed);
     if !refuted.is_empty() {
         words += &format!(". Not confirmed: {refuted}");
     }
-    let open = found.iter().filter(|(_, v)| *v == Verdict::Inconclusive);
+    let open = found.iter().filter(|(_, v)| *v == ClaimVerdict::Inconclusive);
     match open.count() {
         0 => {}
         1 => words += ". One claim is inconclusive",
@@ -139,7 +141,7 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
 /// How many claims come out otherwise in other findings, of how many that
 /// both judge.
 pub(super) fn turned(a: &Findings, b: &Findings) -> (usize, usize) {
-    let own = |findings: &Findings| -> BTreeMap<String, Verdict> {
+    let own = |findings: &Findings| -> BTreeMap<String, ClaimVerdict> {
         let first = first_arm(findings);
         let claims = findings.claims.iter();
         claims.filter_map(|c| Some((c.id.clone(), whole(c, first)?))).collect()
@@ -155,9 +157,9 @@ pub(super) fn turned(a: &Findings, b: &Findings) -> (usize, usize) {
 fn sentences(
     findings: &Findings,
     of: impl Fn(&Claim) -> bool,
-) -> Vec<Verdict> {
+) -> Vec<ClaimVerdict> {
     let first = first_arm(findings);
-    let mut found: Vec<(&str, Verdict)> = Vec::new();
+    let mut found: Vec<(&str, ClaimVerdict)> = Vec::new();
     for claim in findings.claims.iter().filter(|c| of(c)) {
         let Some(verdict) = whole(claim, first) else { continue };
         match found.iter_mut().find(|(quote, _)| *quote == claim.quote) {
@@ -169,33 +171,33 @@ fn sentences(
 }
 
 /// The worse a verdict is, the higher.
-pub(super) fn rank(verdict: Verdict) -> u8 {
+pub(super) fn rank(verdict: ClaimVerdict) -> u8 {
     match verdict {
-        Verdict::Confirmed => 0,
-        Verdict::Inconclusive => 1,
-        Verdict::NotConfirmed => 2,
+        ClaimVerdict::Confirmed => 0,
+        ClaimVerdict::Inconclusive => 1,
+        ClaimVerdict::NotConfirmed => 2,
     }
 }
 
 /// The worse of two verdicts.
-fn worse(a: Verdict, b: Verdict) -> Verdict {
+fn worse(a: ClaimVerdict, b: ClaimVerdict) -> ClaimVerdict {
     if rank(b) > rank(a) { b } else { a }
 }
 
 /// How many sentences of the paper have which verdict, in the order of
-/// [`Verdict::ALL`]; what goes beyond the paper is none of them.
-pub fn score(findings: &Findings) -> Vec<(Verdict, usize)> {
+/// [`ClaimVerdict::ALL`]; what goes beyond the paper is none of them.
+pub fn score(findings: &Findings) -> Vec<(ClaimVerdict, usize)> {
     let all = sentences(findings, |claim| claim.theme != Theme::Beyond);
-    let count = |v: Verdict| all.iter().filter(|own| **own == v).count();
-    Verdict::ALL.into_iter().map(|v| (v, count(v))).collect()
+    let count = |v: ClaimVerdict| all.iter().filter(|own| **own == v).count();
+    ClaimVerdict::ALL.into_iter().map(|v| (v, count(v))).collect()
 }
 
 /// Whether a claim holds by the limits here and nowhere by the paper's own
 /// criterion.
 fn by_criterion_fails(claim: &Claim) -> bool {
     let fails = |r: &&ClaimResult| {
-        r.by_equivalence == Some(Verdict::Confirmed)
-            && r.by_criterion == Some(Verdict::NotConfirmed)
+        r.by_equivalence == Some(ClaimVerdict::Confirmed)
+            && r.by_criterion == Some(ClaimVerdict::NotConfirmed)
     };
     let all = claim.results.iter().filter(|r| r.by_equivalence.is_some());
     let failing = claim.results.iter().filter(fails).count();
@@ -204,7 +206,7 @@ fn by_criterion_fails(claim: &Claim) -> bool {
 
 /// The verdict on a claim over its suites: confirmed where each of them
 /// confirms it, not confirmed where one refutes it.
-fn whole(claim: &Claim, first: Arm) -> Option<Verdict> {
+fn whole(claim: &Claim, first: Arm) -> Option<ClaimVerdict> {
     let shown = |r: &&ClaimResult| r.arm.is_none_or(|arm| arm == first);
     let all = claim.results.iter().filter(shown);
     all.filter_map(|r| r.by_equivalence).reduce(worse)

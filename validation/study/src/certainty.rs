@@ -8,7 +8,7 @@ use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
 use rocking::integrator::{
     Arithmetic, CertifiedFate, Certify, Scene, certify,
 };
-use rocking_common::findings::Reevaluated;
+use rocking_common::findings::Reevaluation;
 
 /// What is known of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Certainty {
     /// Levels and refined ends that double precision does not resolve.
     pub unresolved: usize,
     /// First overturnings, scanned and refined, among them.
-    pub reevaluated: Reevaluated,
+    pub reevaluated: Reevaluation,
     /// Largest relative change of a 16, 50 or 84 % overturning intensity of
     /// a block if every first overturning that was wrong in double
     /// precision, or is resolved by no arithmetic, moves to the next level
@@ -24,7 +24,7 @@ pub struct Certainty {
     pub largest_shift: f64,
 }
 
-fn count(out: &mut Reevaluated, fate: &CertifiedFate) {
+fn count(out: &mut Reevaluation, fate: &CertifiedFate) {
     out.all += 1;
     out.wrong_in_double += usize::from(fate.wrong_in_double());
     let by = match fate.by {

@@ -14,7 +14,7 @@ use crate::inference::{
 use crate::measures::{ClaimMeasure, Criterion, MeasureCells, Scope};
 use crate::results::StudyResults;
 use rocking_common::findings::{
-    Claim, ClaimResult, Detail, Kind, Region, Tested,
+    Claim, ClaimResult, Detail, Kind, Region, SuiteSet,
 };
 use rocking_common::paper::Intensity;
 
@@ -44,7 +44,7 @@ pub struct ClaimTest {
     /// Intensity that the measure is of; PGA where none is named.
     pub intensity: Option<Intensity>,
     /// Suites that it is tested on.
-    pub suites: Vec<Tested>,
+    pub suites: Vec<SuiteSet>,
     /// Arms that it is tested on.
     pub arms: Arms,
     /// By the paper's own criterion, where the share that meets it has to
@@ -228,7 +228,7 @@ pub fn measured_claims(
         results,
         draws,
         distances: &all_distances(results, draws)?,
-        tested: Tested::None,
+        tested: SuiteSet::None,
         arm: results.plan.common(),
         intensity: Intensity::Pga,
     };

@@ -1,7 +1,7 @@
 //! Names and intensity measures of the records.
 
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_common::suites::Motion;
+use rocking_common::suites::StudyMotion;
 use rocking_records::intensity::{Measures, Settings};
 
 /// Periods of the response spectra, in s.
@@ -29,7 +29,7 @@ pub struct Facts {
 ///
 /// # Errors
 /// Where nothing moves.
-pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
+pub fn facts(motion: &StudyMotion) -> anyhow::Result<Facts> {
     let study = &motion.study;
     let pga_g = study.pga_g();
     let periods_s = SPECTRUM_PERIODS_S.to_vec();

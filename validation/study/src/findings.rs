@@ -16,7 +16,8 @@ use crate::runs::capacities_at;
 use crate::sensitivities::OtherChoice;
 use crate::stripes::adjusted_split;
 use rocking_common::findings::{
-    Aside, Claim, Findings, Measured, Place, Row, SCHEMA, Suite, Table, Topic,
+    AsideFiles, Claim, Findings, FindingsTable, Measured, RowPlace, SCHEMA,
+    SuiteSummary, TableRow, Topic,
 };
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,
@@ -55,10 +56,10 @@ pub fn study_findings(
 
 /// The table of a topic with these rows; its quantities are declared in
 /// `tables.toml`.
-fn table(topic: Topic, rows: Vec<Row>) -> Table {
+fn table(topic: Topic, rows: Vec<TableRow>) -> FindingsTable {
     #[derive(Deserialize)]
     struct TableFile {
-        table: Vec<Table>,
+        table: Vec<FindingsTable>,
     }
     static FILE: LazyLock<TableFile> = LazyLock::new(|| {
         let file = toml::from_str(include_str!("tables.toml"));
@@ -66,14 +67,14 @@ fn table(topic: Topic, rows: Vec<Row>) -> Table {
     });
     let declared = FILE.table.iter().find(|table| table.topic == topic);
     let quantities = declared.map_or(Vec::new(), |t| t.quantities.clone());
-    Table { topic, quantities, rows }
+    FindingsTable { topic, quantities, rows }
 }
 
 /// A suite of a study, and the work on it.
-fn suite(suite: &SuiteResults) -> Suite {
+fn suite(suite: &SuiteResults) -> SuiteSummary {
     let certainty = &suite.work.certainty;
     let name = |record: &usize| suite.records[*record].name.clone();
-    Suite {
+    SuiteSummary {
         kind: suite.kind,
         source: suite.source.to_string(),
         component_rule: suite.component_rule.clone(),
@@ -93,8 +94,8 @@ fn suite(suite: &SuiteResults) -> Suite {
 
 /// What a suite set aside, by reason.
 #[must_use]
-pub fn set_aside(found: &SetAside) -> Vec<Aside> {
-    let reason = |count: AsideCount<'_>| Aside {
+pub fn set_aside(found: &SetAside) -> Vec<AsideFiles> {
+    let reason = |count: AsideCount<'_>| AsideFiles {
         code: count.reason.code().into(),
         files: count.files,
         first: count.first.into(),
@@ -112,35 +113,35 @@ fn place_of(
     kind: SuiteKind,
     found: &Distributions,
     block: &BlockSamples,
-) -> Place {
-    Place {
+) -> RowPlace {
+    RowPlace {
         suite: Some(kind),
         arm: Some(found.arm),
         intensity: Some(found.intensity),
         p_rad_s: Some(block.p_rad_s),
         alpha_rad: Some(block.alpha_rad),
-        ..Place::default()
+        ..RowPlace::default()
     }
 }
 
 /// How many records uplift each block without being scaled.
-fn uplift(results: &StudyResults) -> Vec<Row> {
+fn uplift(results: &StudyResults) -> Vec<TableRow> {
     let row = |block| {
         let suites = results.suites();
         let values = suites.map(|suite| count(suite.uplift_unscaled(block)));
-        Row { at: Place::of(block), values: values.into() }
+        TableRow { at: RowPlace::of(block), values: values.into() }
     };
     BLOCKS.iter().map(row).collect()
 }
 
 /// Shift and accepted shares of each block, suite, arm and measure.
-fn shares(results: &StudyResults) -> Vec<Row> {
+fn shares(results: &StudyResults) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for (suite, found) in results.all_distributions() {
         rows.extend(found.blocks.iter().map(|block| {
             let (original, shifted) = block.shares();
             let values = [block.shift, original, shifted];
-            Row {
+            TableRow {
                 at: place_of(suite.kind, found, block),
                 values: values.map(Measured::exact).into(),
             }
@@ -150,12 +151,12 @@ fn shares(results: &StudyResults) -> Vec<Row> {
 }
 
 /// How many overturned on a stripe, and how many of them stand there again.
-fn resurrections(results: &StudyResults) -> Vec<Row> {
+fn resurrections(results: &StudyResults) -> Vec<TableRow> {
     let row = |stripes: &StripeDemands| {
         let demands = stripes.demands.iter().flatten().flatten();
         let again = stripes.stands_again.iter().flatten().flatten();
-        Row {
-            at: Place { arm: Some(stripes.arm), ..Place::default() },
+        TableRow {
+            at: RowPlace { arm: Some(stripes.arm), ..RowPlace::default() },
             values: vec![
                 count(demands.filter(|d| d.is_infinite()).count()),
                 count(again.filter(|again| **again).count()),
@@ -167,7 +168,7 @@ fn resurrections(results: &StudyResults) -> Vec<Row> {
 
 /// The single-record comparison by suite and frequency parameter: medians
 /// over records and slendernesses.
-fn single(results: &StudyResults) -> Vec<Row> {
+fn single(results: &StudyResults) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for suite in results.suites() {
         for (single, p_rad_s) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
@@ -180,12 +181,15 @@ fn single(results: &StudyResults) -> Vec<Row> {
                 single.median_of(|a| a.peak_ratio),
                 single.median_of(|a| a.mean_ln_im),
             ];
-            let at = Place {
+            let at = RowPlace {
                 suite: Some(suite.kind),
                 p_rad_s: Some(p_rad_s),
-                ..Place::default()
+                ..RowPlace::default()
             };
-            rows.push(Row { at, values: values.map(Measured::exact).into() });
+            rows.push(TableRow {
+                at,
+                values: values.map(Measured::exact).into(),
+            });
         }
     }
     rows
@@ -193,7 +197,7 @@ fn single(results: &StudyResults) -> Vec<Row> {
 
 /// Paired overturning capacities by choice and block, the choice over the
 /// study's.
-fn varied(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
+fn varied(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
     let mut rows = Vec::new();
     for (v, base) in results.varied(&OtherChoice::ALL)? {
         let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
@@ -201,15 +205,15 @@ fn varied(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
         let ratios = own.iter().zip(&base).map(|(own, base)| own / base);
         let ratios: Vec<f64> =
             ratios.filter(|x| x.is_finite() && *x > 0.0).collect();
-        let at = Place {
+        let at = RowPlace {
             choice: Some(v.choice.name().into()),
             p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
             alpha_rad: Some(SLENDERNESSES_RAD[v.slenderness]),
             edp: Some(1.0),
-            ..Place::default()
+            ..RowPlace::default()
         };
         let values = vec![count(ratios.len()), estimates::median(&ratios)];
-        rows.push(Row { at, values });
+        rows.push(TableRow { at, values });
     }
     Ok(rows)
 }
@@ -217,7 +221,7 @@ fn varied(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
 /// Figure 9, a row a box: usable count with its exact 95 % interval, and
 /// median; the median also apart by whether the adjusted slenderness is within
 /// the paper's.
-fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
+fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
@@ -229,11 +233,11 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
                 let median = stripe.summary.as_ref().map(|b| b.median);
                 let part =
                     |of: &[f64]| Measured::exact(estimates::median(of).value);
-                let at = Place {
+                let at = RowPlace {
                     arm: Some(arm),
                     p_rad_s: Some(p_rad_s),
                     im_pga: Some(split.im),
-                    ..Place::default()
+                    ..RowPlace::default()
                 };
                 let values = vec![
                     count(stripe.records),
@@ -243,7 +247,7 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<Row>> {
                     part(&split.above),
                     count(split.above.len()),
                 ];
-                rows.push(Row { at, values });
+                rows.push(TableRow { at, values });
             }
         }
     }
@@ -263,10 +267,10 @@ fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
 
 /// Median overturning intensities, a row a block, suite and measure, in the
 /// arm that figures share, with the order-statistic interval.
-fn overturning(results: &StudyResults) -> Vec<Row> {
+fn overturning(results: &StudyResults) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for (suite, found) in results.common() {
-        rows.extend(found.blocks.iter().map(|block| Row {
+        rows.extend(found.blocks.iter().map(|block| TableRow {
             at: place_of(suite.kind, found, block),
             values: vec![estimates::median(block.overturning())],
         }));

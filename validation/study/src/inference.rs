@@ -13,9 +13,9 @@ mod refuted;
 mod rule;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, LEVEL, Measured, Quantifier, Region, Tested,
+    ClaimResult, Detail, LEVEL, Measured, Quantifier, Region, SuiteSet,
 };
-use rocking_common::paper::{Arm, Verdict};
+use rocking_common::paper::{Arm, ClaimVerdict};
 
 pub use drawn::by_cell;
 pub use draws::{
@@ -38,7 +38,7 @@ pub struct Ruling {
 #[must_use]
 pub fn judge(
     draws: &Resamples,
-    tested: Tested,
+    tested: SuiteSet,
     arm: Option<Arm>,
     rule: &ClaimRule,
     cells: &[Cell],
@@ -55,7 +55,7 @@ pub fn judge(
             monte_carlo_error: f64::NAN,
             unit: rule.unit,
             by_criterion: None,
-            by_equivalence: Some(Verdict::Inconclusive),
+            by_equivalence: Some(ClaimVerdict::Inconclusive),
             p: f64::NAN,
             at: String::new(),
             interval: None,
@@ -92,13 +92,13 @@ pub fn judge(
 #[must_use]
 pub fn judged_share(
     draws: &Resamples,
-    tested: Tested,
+    tested: SuiteSet,
     measured: &Replicates,
     region: Region,
-) -> (Measured, Verdict) {
+) -> (Measured, ClaimVerdict) {
     let known = CellIntervals::new(draws, tested, (0.0, 1.0), measured);
     let ends = known.drawn(0, LEVEL);
-    let verdict = ends.map_or(Verdict::Inconclusive, |ends| {
+    let verdict = ends.map_or(ClaimVerdict::Inconclusive, |ends| {
         ends.verdict(region, Caution::FULL)
     });
     (known.shown(0, ends), verdict)
@@ -127,7 +127,7 @@ fn judge_one(
         result.by_equivalence = Some(verdict);
         if caution == Caution::FULL {
             result.p = p_of(of, rule.region, verdict);
-            if verdict == Verdict::Inconclusive {
+            if verdict == ClaimVerdict::Inconclusive {
                 result.power = known.power(0, &ends, LEVEL, rule.region);
             }
         }

@@ -3,7 +3,7 @@
 //! shows them beside its own results if both runs have the same settings.
 
 use anyhow::Context as _;
-use rocking_common::findings::{Findings, Settings};
+use rocking_common::findings::{Findings, StudySettings};
 
 /// Findings of the recorded suites: values, intervals, verdicts, record names
 /// and hashes, and no sample of a record. The file's own words say how it is
@@ -36,7 +36,7 @@ impl KeptResults {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn of(settings: &Settings) -> anyhow::Result<Option<Self>> {
+    pub fn of(settings: &StudySettings) -> anyhow::Result<Option<Self>> {
         let findings = findings()?;
         let same = findings.settings == *settings;
         Ok(same.then_some(Self { findings }))
@@ -59,7 +59,7 @@ impl KeptResults {
 ///
 /// # Errors
 /// As [`KeptResults::of`].
-pub fn settings() -> anyhow::Result<Settings> {
+pub fn settings() -> anyhow::Result<StudySettings> {
     Ok(findings()?.settings)
 }
 
@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn any_other_setting_leaves_the_kept_results_out() {
         let own = settings().expect("settings");
-        let is_kept = |change: &dyn Fn(&mut Settings)| {
+        let is_kept = |change: &dyn Fn(&mut StudySettings)| {
             let mut other = own.clone();
             change(&mut other);
             KeptResults::of(&other).expect("findings").is_some()

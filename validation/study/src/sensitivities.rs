@@ -12,7 +12,7 @@ use rocking::names::named;
 use crate::analyses::Plan;
 use crate::runs::Setup;
 use rocking_common::paper::{BLOCKS, position};
-use rocking_common::suites::{Motion, StudySuite};
+use rocking_common::suites::{StudyMotion, StudySuite};
 
 named! {
     /// A choice other than the study's.
@@ -84,7 +84,7 @@ impl Plan {
         let progress = ProgressBar::hidden();
         let mut out = Vec::new();
         for choice in OtherChoice::ALL {
-            let component = |motion: &Motion| match choice {
+            let component = |motion: &StudyMotion| match choice {
                 OtherChoice::OtherComponent => motion.other.clone(),
                 _ => Some(motion.study.clone()),
             };

@@ -23,7 +23,7 @@ use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
-use rocking_common::files::{Folder, SUMS, sums};
+use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::{StudySuite, inputs::sha256_hex};
 
@@ -108,7 +108,7 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
     let suite = args.suite()?;
-    let folder = Folder::open_new(&args.out)?;
+    let folder = OutputFolder::open_new(&args.out)?;
     let found = args.found(&objects, &suite, &hazard)?;
     let about = args.about(&suite)?;
     let mut files = rocking_assessment::files(&found, &about)?;

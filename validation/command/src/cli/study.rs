@@ -14,7 +14,7 @@ use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::terminal::{COMMIT, logged, note, print, say};
-use rocking_common::files::{Folder, Mixed, is_interrupted};
+use rocking_common::files::{FolderError, OutputFolder, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 use rocking_report::evidence::{NOT_RUN, Proof};
@@ -162,12 +162,12 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         let place = format_args!("no folder of a report at {place}");
         std::fs::read_dir(&args.out).at(place)?;
         if is_interrupted(&args.out) {
-            return Err(Mixed::Interrupted).at(args.out.display());
+            return Err(FolderError::Interrupted).at(args.out.display());
         }
     }
     let folder = match args.check {
         true => None,
-        false => Some(Folder::open(&args.out)?),
+        false => Some(OutputFolder::open(&args.out)?),
     };
     let proof = match &args.proof {
         Some(folder) => Some(Proof::read(folder)?),

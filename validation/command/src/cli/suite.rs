@@ -12,7 +12,7 @@ use super::show::text;
 use crate::failure::{Failure, bail};
 use crate::terminal::say;
 use crate::threads::with_threads;
-use rocking_common::files::Folder;
+use rocking_common::files::OutputFolder;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
@@ -68,7 +68,7 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let SuiteAction::Export(args) = &args.action;
     let mut files = Vec::new();
     let mut shown = SuiteSummary { suites: Vec::new(), set_aside: None };
-    let mut add = |name: &str, rows: Vec<export::Row<'_>>| {
+    let mut add = |name: &str, rows: Vec<export::ExportRow<'_>>| {
         shown.suites.push(SuiteFiles {
             suite: name.to_owned(),
             records: rows.len(),
@@ -105,7 +105,7 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
             add("pulse", export::pairs(&pulse))?;
         }
     }
-    let folder = Folder::open_new(&args.out)?;
+    let folder = OutputFolder::open_new(&args.out)?;
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
     folder.write(&files.into_iter().collect(), &[&last])?;
     say(&text(&shown)?)

@@ -24,7 +24,7 @@ use super::unfinished::{
 /// replaces the files, and removes those of earlier runs that it does not
 /// write, as far as a manifest or a mark lists them and nobody changed them.
 #[derive(Debug)]
-pub struct Folder {
+pub struct OutputFolder {
     path: PathBuf,
     /// The unfinished folder and its lock, as long as there is one.
     part: Option<(PathBuf, File)>,
@@ -36,7 +36,7 @@ pub struct Folder {
     moving: bool,
 }
 
-impl Drop for Folder {
+impl Drop for OutputFolder {
     /// Leaves nothing unfinished but what is marked, and no folder that was
     /// made for nothing.
     fn drop(&mut self) {
@@ -59,7 +59,7 @@ impl Drop for Folder {
     }
 }
 
-impl Folder {
+impl OutputFolder {
     /// Opens the folder `path`, and makes it where there is none.
     ///
     /// # Errors
@@ -69,11 +69,11 @@ impl Folder {
         Self::opened(path, false).map_err(WriteError::at(path))
     }
 
-    /// As [`Folder::open`], for a folder that is not there or is empty but
+    /// As [`OutputFolder::open`], for a folder that is not there or is empty but
     /// for what an earlier run left unfinished.
     ///
     /// # Errors
-    /// As [`Folder::open`], and for a folder that holds anything.
+    /// As [`OutputFolder::open`], and for a folder that holds anything.
     pub fn open_new(path: &Path) -> Result<Self, WriteError> {
         Self::opened(path, true).map_err(WriteError::at(path))
     }

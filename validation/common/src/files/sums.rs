@@ -29,7 +29,7 @@ pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
 /// Why the files of a folder are not those of one run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum Mixed {
+pub enum FolderError {
     /// A run ended while it put files into place.
     #[error(
         "files of two runs: expected a folder that was written to its end; \
@@ -64,11 +64,11 @@ pub enum Mixed {
 /// where there is no manifest.
 ///
 /// # Errors
-/// [`Mixed`] for a folder that a run left unfinished, for a file that is not
+/// [`FolderError`] for a folder that a run left unfinished, for a file that is not
 /// as the manifest says, and for a manifest that cannot be read.
-pub fn is_whole(folder: &Path) -> Result<bool, Mixed> {
+pub fn is_whole(folder: &Path) -> Result<bool, FolderError> {
     if moving(folder).next().is_some() {
-        return Err(Mixed::Interrupted);
+        return Err(FolderError::Interrupted);
     }
     let text = match fs::read_to_string(folder.join(SUMS)) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -78,14 +78,17 @@ pub fn is_whole(folder: &Path) -> Result<bool, Mixed> {
     };
     for (k, line) in text.lines().enumerate() {
         let Some((expected, name)) = parsed(line) else {
-            return Err(Mixed::Line { line: k + 1, found: line.to_owned() });
+            return Err(FolderError::Line {
+                line: k + 1,
+                found: line.to_owned(),
+            });
         };
         let found = match fs::read(folder.join(name)) {
             Err(error) => error.to_string(),
             Ok(content) if sha256_hex(&content) == expected => continue,
             Ok(content) => format!("SHA-256 {}", sha256_hex(&content)),
         };
-        return Err(Mixed::File { name: name.to_owned(), found });
+        return Err(FolderError::File { name: name.to_owned(), found });
     }
     Ok(true)
 }

@@ -154,7 +154,7 @@ pub(super) mod faults {
 
     /// Which calls fail, and how.
     #[derive(Clone, Copy, Debug)]
-    pub struct Fault {
+    pub struct CallFault {
         /// Their name; none for all calls.
         pub call: Option<&'static str>,
         /// How many such calls are made before.
@@ -166,13 +166,13 @@ pub(super) mod faults {
     }
 
     thread_local! {
-        static FAULT: Cell<Option<Fault>> = const { Cell::new(None) };
+        static FAULT: Cell<Option<CallFault>> = const { Cell::new(None) };
         static CALLS: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
     }
 
     /// Does `work` with a fault; also gives the calls that were made.
     pub fn with<T>(
-        fault: Option<Fault>,
+        fault: Option<CallFault>,
         work: impl FnOnce() -> T,
     ) -> (T, Vec<String>) {
         FAULT.set(fault);
@@ -189,7 +189,7 @@ pub(super) mod faults {
             return Ok(());
         }
         if fault.after > 0 {
-            FAULT.set(Some(Fault { after: fault.after - 1, ..fault }));
+            FAULT.set(Some(CallFault { after: fault.after - 1, ..fault }));
             return Ok(());
         }
         if !fault.ongoing {

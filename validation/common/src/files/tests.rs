@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use tempfile::TempDir;
 
-use super::system::faults::{self, Fault};
+use super::system::faults::{self, CallFault};
 use super::unfinished::{LOCK, MOVING};
 use super::*;
 
@@ -151,9 +151,9 @@ fn files(text: &str) -> BTreeMap<String, Vec<u8>> {
 fn a_folder_gets_all_files_and_keeps_others() {
     let root = folder();
     let out = root.path().join("report");
-    Folder::open(&out).unwrap().write(&files("x"), &LAST).unwrap();
+    OutputFolder::open(&out).unwrap().write(&files("x"), &LAST).unwrap();
     fs::write(out.join("data/mine.csv"), "z").unwrap();
-    Folder::open(&out).unwrap().write(&files("y"), &LAST).unwrap();
+    OutputFolder::open(&out).unwrap().write(&files("y"), &LAST).unwrap();
     let there = |name: &str| fs::read(out.join(name)).unwrap();
     assert_eq!(there("data/a.csv"), b"y");
     assert_eq!(there("index.html"), b"y");
@@ -161,16 +161,16 @@ fn a_folder_gets_all_files_and_keeps_others() {
     assert_eq!(names(root.path()), ["report"]);
     assert_eq!(names(&out), [SUMS, "data", "index.html"]);
     assert!(is_whole(&out).unwrap());
-    assert!(Folder::open_new(&out).is_err());
+    assert!(OutputFolder::open_new(&out).is_err());
     assert_eq!(there("data/b.csv"), b"y");
-    assert!(Folder::open_new(&root.path().join("new")).is_ok());
+    assert!(OutputFolder::open_new(&root.path().join("new")).is_ok());
     let nothing = root.path().join("nothing");
-    drop(Folder::open(&nothing).unwrap());
+    drop(OutputFolder::open(&nothing).unwrap());
     assert!(!nothing.exists());
     // A file in the way is refused, and stays.
     let blocked = root.path().join("blocked");
     fs::write(&blocked, "mine").unwrap();
-    assert!(Folder::open(&blocked).is_err());
+    assert!(OutputFolder::open(&blocked).is_err());
     assert_eq!(fs::read(&blocked).unwrap(), b"mine");
 }
 
@@ -212,7 +212,8 @@ const ENOSPC: i32 = 28;
 #[test]
 fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
     let write = |out: &Path, text: &str, new: bool| {
-        let open = if new { Folder::open_new } else { Folder::open };
+        let open =
+            if new { OutputFolder::open_new } else { OutputFolder::open };
         open(out)?.write(&files(text), &LAST)
     };
     let mut marked = 0;
@@ -234,7 +235,8 @@ fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
         for (after, call) in calls.iter().enumerate() {
             for ongoing in [false, true] {
                 let (root, out) = prepared();
-                let fault = Fault { call: None, after, ongoing, code: ENOSPC };
+                let fault =
+                    CallFault { call: None, after, ongoing, code: ENOSPC };
                 let (done, _) =
                     faults::with(Some(fault), || write(&out, "new", new));
                 let at = format!("{call}, call {after}, new: {new}");
@@ -243,7 +245,7 @@ fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
                     !names(&out).iter().any(own)
                 };
                 match is_whole(&out) {
-                    Err(Mixed::Interrupted) => marked += 1,
+                    Err(FolderError::Interrupted) => marked += 1,
                     Ok(true) if done.is_ok() => {
                         assert!(holds(&out, "new"), "{at}");
                     }
@@ -265,7 +267,7 @@ fn an_error_at_any_call_leaves_a_whole_folder_or_a_refused_one() {
                 assert!(holds(&out, "next") && is_whole(&out).unwrap());
                 // A part that was never locked stays for ten seconds.
                 aged(&out);
-                drop(Folder::open(&out));
+                drop(OutputFolder::open(&out));
                 assert!(is_clean(&out), "{at}: {:?}", names(&out));
                 assert!(is_clean(root.path()));
             }
@@ -286,7 +288,8 @@ fn an_error_at_any_call_leaves_the_old_file() {
         let root = folder();
         let path = root.path().join("a.csv");
         fs::write(&path, "old").unwrap();
-        let fault = Fault { call: None, after, ongoing: false, code: ENOSPC };
+        let fault =
+            CallFault { call: None, after, ongoing: false, code: ENOSPC };
         let (done, _) =
             faults::with(Some(fault), || write_atomically(&path, "new"));
         let error = done.unwrap_err().to_string();
@@ -338,14 +341,18 @@ fn no_call_escapes_the_faults() {
 #[test]
 fn without_locks_files_and_folders_are_written_all_the_same() {
     for code in [38, 95, 37] {
-        let none =
-            Some(Fault { call: Some("lock"), after: 0, ongoing: true, code });
+        let none = Some(CallFault {
+            call: Some("lock"),
+            after: 0,
+            ongoing: true,
+            code,
+        });
         let root = folder();
         let (path, out) = (root.path().join("a.csv"), root.path().join("o"));
         let (done, calls) = faults::with(none, || {
             write_atomically(&path, "new")?;
-            Folder::open(&out)?.write(&files("one"), &LAST)?;
-            Folder::open(&out)?.write(&files("new"), &LAST)
+            OutputFolder::open(&out)?.write(&files("one"), &LAST)?;
+            OutputFolder::open(&out)?.write(&files("new"), &LAST)
         });
         done.unwrap();
         assert!(calls.contains(&"lock".to_owned()));
@@ -353,32 +360,40 @@ fn without_locks_files_and_folders_are_written_all_the_same() {
         assert!(holds(&out, "new") && is_whole(&out).unwrap());
         // What may be somebody's stays, and is named.
         let part = killed(&out, "killed");
-        let (done, _) = faults::with(none, || Folder::open(&out));
+        let (done, _) = faults::with(none, || OutputFolder::open(&out));
         let error = done.unwrap_err().to_string();
         assert!(error.contains(&*part.to_string_lossy()), "{error}");
         assert!(part.exists());
         assert!(error.contains("/lock"), "{error}");
         fs::remove_file(part.join(LOCK)).unwrap();
         // A run that fails tells so itself.
-        let rename =
-            Fault { call: Some("rename"), after: 2, ongoing: false, code: 5 };
+        let rename = CallFault {
+            call: Some("rename"),
+            after: 2,
+            ongoing: false,
+            code: 5,
+        };
         let (done, _) = faults::with(Some(rename), || {
-            Folder::open(&out)?.write(&files("failed"), &LAST)
+            OutputFolder::open(&out)?.write(&files("failed"), &LAST)
         });
         let error = done.unwrap_err().to_string();
         assert!(error.contains("is unfinished: the same"), "{error}");
         assert!(is_interrupted(&out));
         let (done, _) = faults::with(none, || {
-            Folder::open(&out)?.write(&files("next"), &LAST)
+            OutputFolder::open(&out)?.write(&files("next"), &LAST)
         });
         done.unwrap();
         assert!(holds(&out, "next") && is_whole(&out).unwrap());
     }
     // Another error of a lock is one.
-    let broken =
-        Some(Fault { call: Some("lock"), after: 0, ongoing: true, code: 5 });
+    let broken = Some(CallFault {
+        call: Some("lock"),
+        after: 0,
+        ongoing: true,
+        code: 5,
+    });
     let root = folder();
-    let (done, _) = faults::with(broken, || Folder::open(root.path()));
+    let (done, _) = faults::with(broken, || OutputFolder::open(root.path()));
     assert!(done.is_err());
 }
 
@@ -409,16 +424,20 @@ fn a_killed_run_is_no_hindrance() {
     for new in [false, true] {
         let root = folder();
         let out = root.path();
-        let open = if new { Folder::open_new } else { Folder::open };
+        let open =
+            if new { OutputFolder::open_new } else { OutputFolder::open };
         if !new {
-            Folder::open(out).unwrap().write(&files("old"), &LAST).unwrap();
+            OutputFolder::open(out)
+                .unwrap()
+                .write(&files("old"), &LAST)
+                .unwrap();
         }
         // One that was killed at its work, before any file, and one later.
         let early = out.join(".rocking-early.part");
         fs::create_dir_all(&early).unwrap();
         fs::write(early.join(LOCK), "locked\n").unwrap();
         killed(out, "killed");
-        assert!(matches!(is_whole(out), Err(Mixed::Interrupted)));
+        assert!(matches!(is_whole(out), Err(FolderError::Interrupted)));
         let run = open(out).unwrap();
         assert!(!early.exists());
         assert!(is_interrupted(out), "until the next run is done");
@@ -432,10 +451,10 @@ fn a_killed_run_is_no_hindrance() {
     let root = folder();
     let fresh = root.path().join(".rocking-fresh.part");
     fs::create_dir(&fresh).unwrap();
-    drop(Folder::open_new(root.path()).unwrap());
+    drop(OutputFolder::open_new(root.path()).unwrap());
     assert!(fresh.exists(), "somebody may just have made it");
     aged(root.path());
-    drop(Folder::open_new(root.path()).unwrap());
+    drop(OutputFolder::open_new(root.path()).unwrap());
     assert!(!fresh.exists());
 }
 
@@ -443,14 +462,14 @@ fn a_killed_run_is_no_hindrance() {
 fn two_runs_do_not_write_into_one_folder_at_once() {
     let root = folder();
     let out = root.path();
-    let first = Folder::open_new(out).unwrap();
-    let error = Folder::open_new(out).unwrap_err().to_string();
+    let first = OutputFolder::open_new(out).unwrap();
+    let error = OutputFolder::open_new(out).unwrap_err().to_string();
     assert!(error.contains("another run"), "{error}");
     // One that may replace files waits with its files until it puts them.
-    let second = Folder::open(out).unwrap();
+    let second = OutputFolder::open(out).unwrap();
     let part = names(out).remove(0);
     fs::write(out.join(&part).join(MOVING), "").unwrap();
-    assert!(Folder::open(out).is_err());
+    assert!(OutputFolder::open(out).is_err());
     fs::remove_file(out.join(&part).join(MOVING)).unwrap();
     second.write(&files("second"), &LAST).unwrap();
     let error = first.write(&files("first"), &LAST).unwrap_err().to_string();
@@ -463,7 +482,7 @@ fn a_manifest_names_what_is_not_as_it_says() {
     let root = folder();
     let out = root.path();
     assert!(!is_whole(out).unwrap());
-    Folder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
+    OutputFolder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
     // As coreutils read it.
     let sha256sum = std::process::Command::new("sha256sum")
         .args(["--check", "--strict", "--quiet", SUMS])
@@ -492,9 +511,9 @@ fn a_manifest_names_what_is_not_as_it_says() {
         said(&format!("{SUMS}:1: found {line:?}"));
     }
     // A file that a user changed is nobody's to remove.
-    Folder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
+    OutputFolder::open(out).unwrap().write(&files("x"), &LAST).unwrap();
     fs::write(out.join("data/of-x.csv"), "mine").unwrap();
-    Folder::open(out).unwrap().write(&files("y"), &LAST).unwrap();
+    OutputFolder::open(out).unwrap().write(&files("y"), &LAST).unwrap();
     assert_eq!(fs::read(out.join("data/of-x.csv")).unwrap(), b"mine");
     fs::remove_file(out.join("data/of-x.csv")).unwrap();
     assert!(holds(out, "y"));

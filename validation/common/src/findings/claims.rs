@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::measured::{Measured, Unit};
 use crate::json::nine;
-use crate::paper::{Arm, Section, SuiteKind, Verdict};
+use crate::paper::{Arm, ClaimVerdict, PaperSection, SuiteKind};
 use rocking::names::named;
 
 /// One statement of the paper, and what was found about it.
@@ -21,7 +21,7 @@ pub struct Claim {
     /// What it is about.
     pub theme: Theme,
     /// Section of the paper, with the table or the figures.
-    pub section: Section,
+    pub section: PaperSection,
     /// The paper's words, a whole sentence with its qualifiers.
     pub quote: String,
     /// The statement in plain words: what the verdicts speak of; empty
@@ -167,30 +167,30 @@ impl Region {
     ///
     /// ```
     /// use rocking_common::findings::Region;
-    /// use rocking_common::paper::Verdict;
+    /// use rocking_common::paper::ClaimVerdict;
     /// let same = Region::Within(0.95, 1.05);
-    /// assert_eq!(same.verdict(0.97, 1.03), Verdict::Confirmed);
-    /// assert_eq!(same.verdict(0.93, 1.03), Verdict::Inconclusive);
-    /// assert_eq!(same.verdict(1.06, 1.09), Verdict::NotConfirmed);
+    /// assert_eq!(same.verdict(0.97, 1.03), ClaimVerdict::Confirmed);
+    /// assert_eq!(same.verdict(0.93, 1.03), ClaimVerdict::Inconclusive);
+    /// assert_eq!(same.verdict(1.06, 1.09), ClaimVerdict::NotConfirmed);
     /// ```
     #[must_use]
-    pub fn verdict(self, low: f64, high: f64) -> Verdict {
+    pub fn verdict(self, low: f64, high: f64) -> ClaimVerdict {
         let (inside, outside) = match self {
             Self::Within(a, b) => (low >= a && high <= b, high < a || low > b),
             Self::Below(limit) => (high < limit, low >= limit),
             Self::Above(limit) => (low > limit, high <= limit),
         };
         match (inside, outside) {
-            (true, _) => Verdict::Confirmed,
-            (_, true) => Verdict::NotConfirmed,
-            _ => Verdict::Inconclusive,
+            (true, _) => ClaimVerdict::Confirmed,
+            (_, true) => ClaimVerdict::NotConfirmed,
+            _ => ClaimVerdict::Inconclusive,
         }
     }
 
     /// Whether a value lies in the region; NaN does not.
     #[must_use]
     pub fn holds(self, value: f64) -> bool {
-        self.verdict(value, value) == Verdict::Confirmed
+        self.verdict(value, value) == ClaimVerdict::Confirmed
     }
 
     /// How far a value lies from the region's middle or, with one end, how
@@ -228,7 +228,7 @@ impl fmt::Display for Region {
 
 named! {
     /// On what a statement was tested.
-    pub enum Tested: "tested on" {
+    pub enum SuiteSet: "tested on" {
         /// No records are needed.
         None = "none",
         /// The ordinary suite.
@@ -240,7 +240,7 @@ named! {
     }
 }
 
-impl From<SuiteKind> for Tested {
+impl From<SuiteKind> for SuiteSet {
     fn from(kind: SuiteKind) -> Self {
         match kind {
             SuiteKind::Ordinary => Self::Ordinary,
@@ -254,7 +254,7 @@ impl From<SuiteKind> for Tested {
 #[serde(deny_unknown_fields)]
 pub struct ClaimResult {
     /// The suite.
-    pub suite: Tested,
+    pub suite: SuiteSet,
     /// Arm of the grid, where there is one.
     pub arm: Option<Arm>,
     /// The value that decides: of one value itself, of "all" the deciding
@@ -275,9 +275,9 @@ pub struct ClaimResult {
     /// Unit of the three.
     pub unit: Unit,
     /// Verdict by the paper's own criterion, where it states one.
-    pub by_criterion: Option<Verdict>,
+    pub by_criterion: Option<ClaimVerdict>,
     /// Verdict by practical equivalence; none for an identity.
-    pub by_equivalence: Option<Verdict>,
+    pub by_equivalence: Option<ClaimVerdict>,
     /// The one-sided p-value of that verdict: the least error at which the
     /// interval lies on one side of the limit. At most [`ERROR`] where
     /// something is decided. Where nothing is, the smaller of both sides,
@@ -296,13 +296,13 @@ pub struct ClaimResult {
     pub details: Vec<Detail>,
     /// Of an inconclusive result, what such a suite is able to decide.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub power: Option<Power>,
+    pub power: Option<DecisionPower>,
 }
 
 /// What a suite like this one is able to decide, were the truth as estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Power {
+pub struct DecisionPower {
     /// Probability that its interval decides as the estimate says.
     #[serde(with = "nine")]
     pub probability: f64,
@@ -403,7 +403,7 @@ mod tests {
 
     #[test]
     fn verdicts_need_the_whole_interval() {
-        use Verdict::{Confirmed, Inconclusive, NotConfirmed};
+        use ClaimVerdict::{Confirmed, Inconclusive, NotConfirmed};
         let same = Region::Within(0.95, 1.05);
         assert_eq!(same.verdict(0.95, 1.05), Confirmed);
         assert_eq!(same.verdict(0.90, 1.03), Inconclusive);
@@ -420,8 +420,8 @@ mod tests {
         for region in
             [Region::Within(0.0, 1.0), Region::Above(0.0), Region::Below(0.0)]
         {
-            assert_eq!(region.verdict(nan, nan), Verdict::Inconclusive);
-            assert_eq!(region.verdict(-inf, inf), Verdict::Inconclusive);
+            assert_eq!(region.verdict(nan, nan), ClaimVerdict::Inconclusive);
+            assert_eq!(region.verdict(-inf, inf), ClaimVerdict::Inconclusive);
             assert!(!region.holds(nan));
         }
     }

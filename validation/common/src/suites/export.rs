@@ -14,7 +14,7 @@ use super::inputs::sha256_hex;
 use crate::table::Table;
 
 /// One record of a suite to be written.
-pub struct Row<'a> {
+pub struct ExportRow<'a> {
     /// The component.
     pub motion: &'a Accelerogram,
     /// Name of its pair, if it has a partner.
@@ -27,7 +27,10 @@ pub struct Row<'a> {
 
 /// The members of a suite, and what was done to them, in words.
 #[must_use]
-pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
+pub fn members<'a>(
+    suite: &'a Suite,
+    done: Option<&str>,
+) -> Vec<ExportRow<'a>> {
     let row = |member: &'a SuiteMember| {
         let mut row = member_of(&member.accelerogram, member);
         let done = done.map(|words| ("processing", words.to_owned()));
@@ -42,11 +45,11 @@ pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
 pub fn member_of<'a, M>(
     motion: &'a Accelerogram,
     member: &'a SuiteMember<M>,
-) -> Row<'a> {
+) -> ExportRow<'a> {
     let cells = member.attributes.iter();
     let cells = cells.map(|(name, cell)| (&**name, cell.clone()));
     let event = member.event.clone().map(|event| ("event", event));
-    Row {
+    ExportRow {
         motion,
         pair: member.pair.as_deref(),
         study_component: member.study_component,
@@ -56,12 +59,12 @@ pub fn member_of<'a, M>(
 
 /// The components of embedded pairs, with earthquake and site.
 #[must_use]
-pub fn pairs(pairs: &[Pair]) -> Vec<Row<'_>> {
+pub fn pairs(pairs: &[Pair]) -> Vec<ExportRow<'_>> {
     let mut rows = Vec::with_capacity(2 * pairs.len());
     for Pair { components, scenario, .. } in pairs {
         for (k, motion) in components.iter().enumerate() {
             let name = motion.name();
-            rows.push(Row {
+            rows.push(ExportRow {
                 motion,
                 pair: name.rsplit_once('-').map(|(pair, _)| pair),
                 study_component: k == 0,
@@ -93,7 +96,7 @@ const COLUMNS: [&str; 10] = [
 /// For a record whose name no file can have.
 pub fn files(
     name: &str,
-    rows: &[Row<'_>],
+    rows: &[ExportRow<'_>],
 ) -> anyhow::Result<Vec<(PathBuf, Vec<u8>)>> {
     let extra = rows.iter().flat_map(|row| row.attributes.iter());
     let mut packing = Packing::new(name, extra.map(|(name, _)| *name));
@@ -129,7 +132,10 @@ impl<'a> Packing<'a> {
     ///
     /// # Errors
     /// For a record whose name no file can have.
-    pub fn add(&mut self, row: &Row<'_>) -> anyhow::Result<(PathBuf, String)> {
+    pub fn add(
+        &mut self,
+        row: &ExportRow<'_>,
+    ) -> anyhow::Result<(PathBuf, String)> {
         let motion = row.motion;
         if !is_file_name(motion.name()) {
             bail!(
@@ -245,7 +251,7 @@ mod tests {
     #[test]
     fn names_that_no_file_has_are_refused() {
         let motion = Accelerogram::try_new("a/b", 0.1, vec![0.0; 2]).unwrap();
-        let row = Row {
+        let row = ExportRow {
             motion: &motion,
             pair: None,
             study_component: true,

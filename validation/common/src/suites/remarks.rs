@@ -137,7 +137,7 @@ impl Remarks {
 impl Serialize for Remarks {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
-        struct Code<'a> {
+        struct CodeCount<'a> {
             code: &'a str,
             records: usize,
             first: &'a str,
@@ -147,11 +147,11 @@ impl Serialize for Remarks {
         struct All<'a> {
             records: usize,
             of: usize,
-            codes: Vec<Code<'a>>,
+            codes: Vec<CodeCount<'a>>,
         }
         let code = |(code, records, first, remark): (_, _, _, &Remark)| {
             let message = remark.to_string();
-            Code { code, records, first, message }
+            CodeCount { code, records, first, message }
         };
         All {
             records: self.found.len(),

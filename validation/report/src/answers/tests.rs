@@ -7,17 +7,17 @@ use crate::verdicts::work;
 /// What may come out about a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    All(Verdict),
+    All(ClaimVerdict),
     /// Suites disagree.
-    Split(Verdict, Verdict),
+    Split(ClaimVerdict, ClaimVerdict),
     /// Numbers without intervals.
     Bare,
     NoData,
 }
 
 const STATES: [State; 7] = {
+    use ClaimVerdict::{Confirmed, Inconclusive, NotConfirmed};
     use State::{All, Bare, NoData, Split};
-    use Verdict::{Confirmed, Inconclusive, NotConfirmed};
     [
         All(Confirmed),
         All(NotConfirmed),
@@ -38,8 +38,12 @@ fn claims(
     let mut out = Vec::new();
     for (part, state) in asked.all().zip(states) {
         let turned = |v| match v {
-            Verdict::Confirmed if part.against => Verdict::NotConfirmed,
-            Verdict::NotConfirmed if part.against => Verdict::Confirmed,
+            ClaimVerdict::Confirmed if part.against => {
+                ClaimVerdict::NotConfirmed
+            }
+            ClaimVerdict::NotConfirmed if part.against => {
+                ClaimVerdict::Confirmed
+            }
             own => own,
         };
         for id in &part.claims {
@@ -48,7 +52,9 @@ fn claims(
             for result in &mut claim.results {
                 result.by_equivalence = match state {
                     State::All(v) => Some(turned(*v)),
-                    State::Split(a, _) if result.suite == Tested::Ordinary => {
+                    State::Split(a, _)
+                        if result.suite == SuiteSet::Ordinary =>
+                    {
                         Some(turned(*a))
                     }
                     State::Split(_, b) => Some(turned(*b)),
@@ -82,14 +88,16 @@ fn expected<'a>(
     let (mut yes, mut no, mut open) = (false, false, false);
     for state in &states[..asked.parts.len()] {
         match state {
-            State::All(Verdict::Confirmed) => yes = true,
-            State::All(Verdict::NotConfirmed) => no = true,
-            State::All(Verdict::Inconclusive) | State::Bare => open = true,
+            State::All(ClaimVerdict::Confirmed) => yes = true,
+            State::All(ClaimVerdict::NotConfirmed) => no = true,
+            State::All(ClaimVerdict::Inconclusive) | State::Bare => {
+                open = true
+            }
             State::Split(a, b) => {
                 for v in [a, b] {
-                    yes |= *v == Verdict::Confirmed;
-                    no |= *v == Verdict::NotConfirmed;
-                    open |= *v == Verdict::Inconclusive;
+                    yes |= *v == ClaimVerdict::Confirmed;
+                    no |= *v == ClaimVerdict::NotConfirmed;
+                    open |= *v == ClaimVerdict::Inconclusive;
                 }
             }
             State::NoData => {}
@@ -145,20 +153,22 @@ fn every_combination_of_verdicts_gives_a_true_and_readable_sentence() {
             let rest = rest.unwrap_or_else(|| panic!("{lead}: {context}"));
             // What fails stands behind "but" where something holds, what is
             // open is marked where something is decided.
-            let worst = |v: Verdict| {
+            let worst = |v: ClaimVerdict| {
                 let is = |s: &State| match s {
                     State::All(own) => *own == v,
                     State::Split(a, b) => {
                         (if rank(*a) > rank(*b) { *a } else { *b }) == v
                     }
-                    State::Bare => v == Verdict::Inconclusive,
+                    State::Bare => v == ClaimVerdict::Inconclusive,
                     State::NoData => false,
                 };
                 states[..asked.parts.len()].iter().any(is)
             };
-            let (yes, no) =
-                (worst(Verdict::Confirmed), worst(Verdict::NotConfirmed));
-            let open = worst(Verdict::Inconclusive);
+            let (yes, no) = (
+                worst(ClaimVerdict::Confirmed),
+                worst(ClaimVerdict::NotConfirmed),
+            );
+            let open = worst(ClaimVerdict::Inconclusive);
             assert_eq!(rest.contains(", but "), yes && no, "{context}");
             let marked = rest.contains("; not certain: ");
             assert_eq!(marked, open && (yes || no), "{context}");
@@ -184,16 +194,17 @@ fn a_fact_has_the_number_of_the_worst_verdict() {
     let first = first_arm(&recorded);
     let asked = &asked().unwrap()[3];
     let states = [
-        State::All(Verdict::Confirmed),
-        State::All(Verdict::Confirmed),
-        State::All(Verdict::NotConfirmed),
+        State::All(ClaimVerdict::Confirmed),
+        State::All(ClaimVerdict::Confirmed),
+        State::All(ClaimVerdict::NotConfirmed),
     ];
     let mut own = claims(asked, &states, &recorded.claims);
     // The one result that fails has the smaller number.
     let results = own[0].results.iter_mut().filter(|r| r.arm == Some(first));
-    for (result, (value, verdict)) in results
-        .zip([(0.06, Verdict::NotConfirmed), (0.08, Verdict::Inconclusive)])
-    {
+    for (result, (value, verdict)) in results.zip([
+        (0.06, ClaimVerdict::NotConfirmed),
+        (0.08, ClaimVerdict::Inconclusive),
+    ]) {
         result.value = value;
         result.by_equivalence = Some(verdict);
     }

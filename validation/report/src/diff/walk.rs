@@ -9,11 +9,11 @@ use super::input::{bounded, text};
 use super::number::NumberPair;
 use super::{Change, Difference, Subject};
 use rocking_common::findings::{
-    ClaimResult, Effect, Measured, Place, Quantifier, Quantity, Region, Row,
-    Tested, Topic, Unit,
+    ClaimResult, Effect, Measured, Quantifier, Quantity, Region, RowPlace,
+    SuiteSet, TableRow, Topic, Unit,
 };
 use rocking_common::json::Extended;
-use rocking_common::paper::{Arm, LEAST_USABLE, Verdict};
+use rocking_common::paper::{Arm, ClaimVerdict, LEAST_USABLE};
 use rocking_proof::verdict::snapshot::QuantityResult;
 
 /// Old and new.
@@ -154,8 +154,8 @@ impl Walk<'_> {
             self.roots.map(|root| &root["tables"][topic]["quantities"]);
         let [old, new] = both::<Vec<Quantity>>(quantities)?;
         let topic = topic_of(topic).filter(|_| old == new)?;
-        let [a, b] = both::<Row>(rows)?;
-        let Place { suite, intensity, .. } = b.at;
+        let [a, b] = both::<TableRow>(rows)?;
+        let RowPlace { suite, intensity, .. } = b.at;
         for (k, Quantity { name, words, unit }) in new.iter().enumerate() {
             let n = [(&a, self.roots[0]), (&b, self.roots[1])];
             let number = NumberPair {
@@ -168,7 +168,8 @@ impl Walk<'_> {
                 }),
             };
             if topic == Topic::Overturning {
-                let group = Place { suite, intensity, ..Place::default() };
+                let group =
+                    RowPlace { suite, intensity, ..RowPlace::default() };
                 let medians = &mut self.out.effect.medians;
                 let own = medians.entry(placed(&group)).or_default();
                 own.push(number.change());
@@ -195,7 +196,7 @@ impl Walk<'_> {
         // Of "every cell", the value is that of the cell that decides.
         let is_same = !all || a.at == b.at;
         let moved = number.moved().filter(|_| is_same);
-        let is_decided = |v: Verdict| v != Verdict::Inconclusive;
+        let is_decided = |v: ClaimVerdict| v != ClaimVerdict::Inconclusive;
         for (by, [old, new], moved) in [
             ("", [a.by_equivalence, b.by_equivalence], moved),
             (
@@ -285,7 +286,7 @@ fn topic_of(name: &str) -> Option<Topic> {
 }
 
 /// A place of a table in words, with its intensity measure and suite.
-fn placed(at: &Place) -> String {
+fn placed(at: &RowPlace) -> String {
     let intensity = at.intensity.map(|im| im.words().to_owned());
     let suite = at.suite.map(|suite| suite.to_string());
     let rest = Some(at.to_string()).filter(|rest| !rest.is_empty());
@@ -297,7 +298,7 @@ fn placed(at: &Place) -> String {
 fn records(root: &Value, tested: &str) -> Option<usize> {
     let suites = root["suites"].as_object()?;
     let own = suites.iter().filter(|(kind, _)| {
-        [Tested::Both.name(), kind.as_str()].contains(&tested)
+        [SuiteSet::Both.name(), kind.as_str()].contains(&tested)
     });
     let n: u64 = own.filter_map(|(_, s)| s["records"].as_u64()).sum();
     usize::try_from(n).ok().filter(|n| *n > 0)
@@ -305,7 +306,7 @@ fn records(root: &Value, tested: &str) -> Option<usize> {
 
 /// How many ratios or histories of a row a number stands on, where the row
 /// counts them.
-fn behind(all: &[Quantity], row: &Row, name: &str) -> Option<usize> {
+fn behind(all: &[Quantity], row: &TableRow, name: &str) -> Option<usize> {
     let count = |name: &str| {
         let at = all.iter().position(|quantity| quantity.name == name)?;
         Some(row.values[at].value as usize)
@@ -324,7 +325,7 @@ pub(super) fn part(
     part: &Value,
     other: &Value,
 ) -> (String, Option<String>) {
-    let at = Place::deserialize(&part["at"]).unwrap_or_default();
+    let at = RowPlace::deserialize(&part["at"]).unwrap_or_default();
     let arm = Option::deserialize(&part["arm"]).unwrap_or_default();
     let arms = Vec::<Arm>::deserialize(&other["settings"]["arms"]);
     if let (Some(arm), Ok(arms)) = (at.arm.or(arm), arms)

@@ -157,8 +157,8 @@ fn a_claim_that_does_not_hold_is_not_shown_as_passed() {
     assert!(standing.is_met());
     claim.results.truncate(1);
     for (verdict, words) in [
-        (Verdict::NotConfirmed, "measured: 1 not confirmed"),
-        (Verdict::Confirmed, "measured: 1 confirmed"),
+        (ClaimVerdict::NotConfirmed, "measured: 1 not confirmed"),
+        (ClaimVerdict::Confirmed, "measured: 1 confirmed"),
     ] {
         claim.results[0].by_equivalence = Some(verdict);
         let said = state(&requirement, &standing, &[claim.clone()]);

@@ -8,8 +8,8 @@ use crate::basis::FindingColumn;
 use crate::findings::identities;
 use crate::quantity::{remarks, rule_text, value_text};
 use crate::verdicts::{by_theme, first_arm, score};
-use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
-use rocking_common::paper::{Arm, Verdict};
+use rocking_common::findings::{Claim, ClaimResult, Kind, SuiteSet, Theme};
+use rocking_common::paper::{Arm, ClaimVerdict};
 use rocking_common::words::capital;
 use rocking_draw::figures::Place;
 use rocking_draw::page::table::{self, joined, scrolled};
@@ -72,7 +72,7 @@ fn counts((name, findings): FindingColumn<'_>) -> Markup {
     }
 }
 
-fn mark(verdict: Verdict) -> Markup {
+fn mark(verdict: ClaimVerdict) -> Markup {
     let (class, sign) = looks(verdict);
     html! {
         span class=(class) {
@@ -83,7 +83,7 @@ fn mark(verdict: Verdict) -> Markup {
 }
 
 /// The verdict as a sign, its name for those who do not see it.
-fn short(verdict: Verdict) -> Markup {
+fn short(verdict: ClaimVerdict) -> Markup {
     let (class, sign) = looks(verdict);
     html! {
         span class=(class) title=(verdict.name()) {
@@ -94,11 +94,11 @@ fn short(verdict: Verdict) -> Markup {
 }
 
 /// Class, and a sign that stands without colour.
-fn looks(verdict: Verdict) -> (&'static str, &'static str) {
+fn looks(verdict: ClaimVerdict) -> (&'static str, &'static str) {
     match verdict {
-        Verdict::Confirmed => ("verdict yes", "✓"),
-        Verdict::NotConfirmed => ("verdict no", "✗"),
-        Verdict::Inconclusive => ("verdict open", "?"),
+        ClaimVerdict::Confirmed => ("verdict yes", "✓"),
+        ClaimVerdict::NotConfirmed => ("verdict no", "✗"),
+        ClaimVerdict::Inconclusive => ("verdict open", "?"),
     }
 }
 
@@ -137,7 +137,7 @@ fn results<'a>(
 }
 
 /// Suites of the columns of a table of findings.
-const SUITES: [Tested; 2] = [Tested::Ordinary, Tested::PulseType];
+const SUITES: [SuiteSet; 2] = [SuiteSet::Ordinary, SuiteSet::PulseType];
 
 fn findings(page: &Page<'_>, theme: Theme) -> Markup {
     let claims = claims(page, theme);
@@ -209,10 +209,10 @@ fn finding(page: &Page<'_>, claim: &Claim) -> Markup {
             @let outcomes =
                 |suite| outcomes(claim, column, first, suite, k == 0);
             @let both = results(claim, column)
-                .any(|(_, r)| r.suite == Tested::Both);
+                .any(|(_, r)| r.suite == SuiteSet::Both);
             @if both {
                 td data-label=(column.0) colspan=(SUITES.len()) {
-                    (outcomes(Tested::Both))
+                    (outcomes(SuiteSet::Both))
                 }
             } @else {
                 @for suite in SUITES {
@@ -231,7 +231,7 @@ fn outcomes(
     claim: &Claim,
     column: FindingColumn<'_>,
     first: Arm,
-    suite: Tested,
+    suite: SuiteSet,
     value: bool,
 ) -> Markup {
     let shown = |r: &ClaimResult| {

@@ -1,7 +1,7 @@
 //! What a study runs.
 
 use crate::runs::Setup;
-use rocking_common::findings::Settings;
+use rocking_common::findings::StudySettings;
 use rocking_common::paper::Arm;
 
 /// What a study runs.
@@ -18,8 +18,8 @@ pub struct Plan {
 impl Plan {
     /// The settings, as findings have them.
     #[must_use]
-    pub fn settings(&self) -> Settings {
-        Settings {
+    pub fn settings(&self) -> StudySettings {
+        StudySettings {
             arms: self.arms.clone(),
             eta: self.setup.restitution.velocity_ratio(),
             overturning: self.setup.overturning,

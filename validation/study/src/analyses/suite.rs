@@ -10,7 +10,7 @@ use crate::facts::Facts;
 use crate::runs::{ArmCurves, ChainWork, curves_of, not_run};
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
-use rocking_common::suites::Source;
+use rocking_common::suites::SuiteSource;
 
 /// Demands on the stripes for one arm's first overturnings.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.
     pub kind: SuiteKind,
     /// Where the records come from.
-    pub source: Source,
+    pub source: SuiteSource,
     /// Who chose the study component, in words.
     pub component_rule: String,
     /// What is suspicious about the records.

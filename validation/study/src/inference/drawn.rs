@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::draws::{Replicates, Resamples};
 use super::known::CellIntervals;
-use rocking_common::findings::{LEVEL, Measured, Tested};
+use rocking_common::findings::{LEVEL, Measured, SuiteSet};
 
 /// Level of a band that is drawn and decides nothing.
 const BAND: f64 = 0.95;
@@ -17,7 +17,7 @@ impl Replicates {
     pub fn percentiles(
         &self,
         draws: &Resamples,
-        tested: Tested,
+        tested: SuiteSet,
     ) -> Vec<Option<(f64, f64)>> {
         let clusters = draws.clusters(tested);
         (0..self.points.len())
@@ -35,7 +35,7 @@ impl Replicates {
 #[must_use]
 pub fn by_cell(
     draws: &Resamples,
-    tested: Tested,
+    tested: SuiteSet,
     range: (f64, f64),
     measured: &Replicates,
 ) -> Vec<Measured> {

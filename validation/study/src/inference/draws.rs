@@ -5,7 +5,7 @@ use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::resampling::{Ranked, Subsampling};
 use rocking_statistics::{Clusters, Proportion};
 
-use rocking_common::findings::Tested;
+use rocking_common::findings::SuiteSet;
 use rocking_common::paper::SuiteKind;
 
 /// Replicates of the bootstrap.
@@ -120,17 +120,17 @@ impl Resamples {
 
     /// The earthquakes that bound what is known of a suite; of a comparison
     /// those of the suite with fewer.
-    pub(super) fn clusters(&self, tested: Tested) -> &Clusters {
+    pub(super) fn clusters(&self, tested: SuiteSet) -> &Clusters {
         let [ordinary, pulse] = &self.clusters;
         match tested {
-            Tested::PulseType => pulse,
-            Tested::Both if pulse.count() < ordinary.count() => pulse,
+            SuiteSet::PulseType => pulse,
+            SuiteSet::Both if pulse.count() < ordinary.count() => pulse,
             _ => ordinary,
         }
     }
 
-    pub(super) fn rule(&self, tested: Tested) -> &Subsampling {
-        &self.rules[usize::from(tested == Tested::PulseType)]
+    pub(super) fn rule(&self, tested: SuiteSet) -> &Subsampling {
+        &self.rules[usize::from(tested == SuiteSet::PulseType)]
     }
 
     /// Every record once.
@@ -144,13 +144,13 @@ impl Resamples {
     #[must_use]
     pub fn smooth(
         &self,
-        tested: Tested,
+        tested: SuiteSet,
         f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
     ) -> Replicates {
         let without: &[DrawSet] = match tested {
-            Tested::Ordinary => &self.without_one[..1],
-            Tested::PulseType => &self.without_one[1..],
-            Tested::None | Tested::Both => &[],
+            SuiteSet::Ordinary => &self.without_one[..1],
+            SuiteSet::PulseType => &self.without_one[1..],
+            SuiteSet::None | SuiteSet::Both => &[],
         };
         Replicates {
             scheme: Scheme::Bootstrap,
@@ -181,14 +181,14 @@ impl Resamples {
     #[must_use]
     pub fn subsampled(
         &self,
-        tested: Tested,
+        tested: SuiteSet,
         f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
     ) -> Replicates {
         let without: &[DrawSet] = match tested {
-            Tested::Ordinary => &self.without_one[..1],
-            Tested::PulseType => &self.without_one[1..],
-            Tested::None => &[],
-            Tested::Both => &self.without_one,
+            SuiteSet::Ordinary => &self.without_one[..1],
+            SuiteSet::PulseType => &self.without_one[1..],
+            SuiteSet::None => &[],
+            SuiteSet::Both => &self.without_one,
         };
         Replicates {
             scheme: Scheme::Subsampling,

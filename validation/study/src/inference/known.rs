@@ -10,9 +10,9 @@ use super::draws::{
     LEAST_DECIDING, REPLICATES, Replicates, Resamples, Scheme,
 };
 use rocking_common::findings::{
-    ERROR, Interval, LEVEL, Measured, Power, Region, Tested,
+    DecisionPower, ERROR, Interval, LEVEL, Measured, Region, SuiteSet,
 };
-use rocking_common::paper::Verdict;
+use rocking_common::paper::ClaimVerdict;
 use rocking_statistics::resampling::Subsampling;
 
 /// An interval; the standard error of each end over sets of draws; the ends
@@ -42,7 +42,11 @@ impl Ends {
 
     /// On which side of a region the interval lies, wherever other draws put
     /// its ends, or would put them in all likelihood.
-    pub(super) fn verdict(&self, region: Region, caution: Caution) -> Verdict {
+    pub(super) fn verdict(
+        &self,
+        region: Region,
+        caution: Caution,
+    ) -> ClaimVerdict {
         let (low, high) = self.moved(caution.errors());
         region.verdict(low, high)
     }
@@ -95,7 +99,7 @@ pub(super) struct CellIntervals<'a> {
 impl<'a> CellIntervals<'a> {
     pub(super) fn new(
         draws: &'a Resamples,
-        tested: Tested,
+        tested: SuiteSet,
         range: (f64, f64),
         measured: &'a Replicates,
     ) -> Self {
@@ -210,7 +214,7 @@ impl<'a> CellIntervals<'a> {
         ends: &Ends,
         level: f64,
         region: Region,
-    ) -> Option<Power> {
+    ) -> Option<DecisionPower> {
         let column = Replicates::column(&self.measured.replicates, k);
         let point = self.measured.points[k];
         if self.measured.scheme == Scheme::Counted {
@@ -248,7 +252,7 @@ pub(super) fn power_of(
     student: f64,
     deviations: &[f64],
     region: Region,
-) -> Option<Power> {
+) -> Option<DecisionPower> {
     let decides = decides(point, region, ends.range);
     let Ends { low, high, .. } = *ends;
     let found =
@@ -268,8 +272,8 @@ fn decides(
     }
 }
 
-fn stored(found: &power::Power) -> Power {
-    Power { probability: found.probability, times: found.times }
+fn stored(found: &power::Power) -> DecisionPower {
+    DecisionPower { probability: found.probability, times: found.times }
 }
 
 /// The p-value of a verdict by the interval of one value, given at any level:
@@ -278,14 +282,14 @@ fn stored(found: &power::Power) -> Power {
 pub(super) fn p_of(
     ends: impl Fn(f64) -> Option<Ends>,
     region: Region,
-    verdict: Verdict,
+    verdict: ClaimVerdict,
 ) -> f64 {
     let side =
         |wanted, caution| p_value(&ends, region, wanted, ERROR, caution);
     match verdict {
-        Verdict::Inconclusive => {
-            let inside = side(Verdict::Confirmed, Caution::FULL);
-            let outside = side(Verdict::NotConfirmed, Caution::FULL);
+        ClaimVerdict::Inconclusive => {
+            let inside = side(ClaimVerdict::Confirmed, Caution::FULL);
+            let outside = side(ClaimVerdict::NotConfirmed, Caution::FULL);
             if inside < outside { inside } else { outside }
         }
         decided => side(decided, Caution::NONE),
@@ -298,7 +302,7 @@ pub(super) fn p_of(
 pub(super) fn p_value(
     ends: impl Fn(f64) -> Option<Ends>,
     region: Region,
-    wanted: Verdict,
+    wanted: ClaimVerdict,
     error: f64,
     caution: Caution,
 ) -> f64 {

@@ -17,7 +17,7 @@ use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, ERROR, Interval, LEVEL, Measured,
     Quantifier, Region, Unit,
 };
-use rocking_common::paper::Verdict;
+use rocking_common::paper::ClaimVerdict;
 use rocking_statistics::confidence::Confidence;
 
 /// A cell that decides: its place, and its own interval.
@@ -48,7 +48,7 @@ pub(super) fn judge_many(
     let mut shown = vec![false; cells.len()];
     for cell in &deciding {
         shown[cell.k] =
-            cell.ends.verdict(rule.region, caution) == Verdict::Confirmed;
+            cell.ends.verdict(rule.region, caution) == ClaimVerdict::Confirmed;
     }
     let among = |k: usize| deciding.iter().any(|cell| cell.k == k);
     let left_out: Vec<bool> =
@@ -63,16 +63,16 @@ pub(super) fn judge_many(
     };
     if rule.quantifier == Quantifier::All {
         let verdict = if outside > 0 {
-            Verdict::NotConfirmed
+            ClaimVerdict::NotConfirmed
         } else if counts.inside == deciding.len() {
-            Verdict::Confirmed
+            ClaimVerdict::Confirmed
         } else {
-            Verdict::Inconclusive
+            ClaimVerdict::Inconclusive
         };
         let bears = |cell: &&DecidingCell| match verdict {
-            Verdict::NotConfirmed => refuted.out[cell.k],
-            Verdict::Confirmed => true,
-            Verdict::Inconclusive => !shown[cell.k],
+            ClaimVerdict::NotConfirmed => refuted.out[cell.k],
+            ClaimVerdict::Confirmed => true,
+            ClaimVerdict::Inconclusive => !shown[cell.k],
         };
         let ends_of =
             |cell: &DecidingCell| refuted.ends[cell.k].unwrap_or(cell.ends);
@@ -94,20 +94,20 @@ pub(super) fn judge_many(
                 let each = deciding.iter().map(|cell| {
                     let records = cells[cell.k].records;
                     let ends = |level| known.cell(cell.k, records, level);
-                    let wanted = Verdict::Confirmed;
+                    let wanted = ClaimVerdict::Confirmed;
                     p_value(ends, rule.region, wanted, ERROR, caution)
                 });
                 each.fold(0.0, |most, p| if p > most { p } else { most })
             };
             result.p = match verdict {
-                Verdict::Confirmed => inside(Caution::NONE),
-                Verdict::NotConfirmed => refuted.p,
-                Verdict::Inconclusive => {
+                ClaimVerdict::Confirmed => inside(Caution::NONE),
+                ClaimVerdict::NotConfirmed => refuted.p,
+                ClaimVerdict::Inconclusive => {
                     let p = inside(Caution::FULL);
                     if p < refuted.p { p } else { refuted.p }
                 }
             };
-            if verdict == Verdict::Inconclusive {
+            if verdict == ClaimVerdict::Inconclusive {
                 let level = refuted.level[worst.k];
                 result.power = known.power(worst.k, &ends, level, rule.region);
             }
@@ -200,7 +200,7 @@ fn discovered(
             let ends = known.cell(cell.k, cells[cell.k].records, level);
             ends.is_some_and(|ends| {
                 let (low, high) = ends.both();
-                region.verdict(low, high) == Verdict::Confirmed
+                region.verdict(low, high) == ClaimVerdict::Confirmed
             })
         };
         let found = deciding.iter().filter(inside).count();
@@ -257,7 +257,7 @@ fn judge_share(
     result.by_equivalence = Some(verdict);
     if caution == Caution::FULL {
         result.p = p_of(ends, region, verdict);
-        if verdict == Verdict::Inconclusive {
+        if verdict == ClaimVerdict::Inconclusive {
             let deviations = known.clusters.deviations(value, &values);
             let student = known.clusters.student_over_normal(LEVEL);
             result.power = power_of(value, &own, student, &deviations, region);

@@ -8,7 +8,7 @@ use super::draws::{Replicates, Scheme};
 use super::known::Ends;
 use super::known::{Caution, CellIntervals, p_value};
 use rocking_common::findings::{ERROR, Interval, LEVEL, Region};
-use rocking_common::paper::Verdict;
+use rocking_common::paper::ClaimVerdict;
 
 /// The cells that are shown to lie outside.
 pub(super) struct Refutation {
@@ -59,7 +59,7 @@ fn by_holm(
         level: vec![LEVEL; count],
         p: 1.0,
     };
-    let wanted = Verdict::NotConfirmed;
+    let wanted = ClaimVerdict::NotConfirmed;
     let first = ERROR / count as f64;
     let p_of = |k: usize, caution| {
         let ends = |level| known.drawn(k, level);

@@ -42,14 +42,14 @@ fn judged(quantifier: Quantifier, shifts: &[f64]) -> ClaimResult {
         let counts = draw.of(SuiteKind::Ordinary);
         ranked.iter().map(|r| r.median(counts)).collect()
     };
-    let measured = draws.smooth(Tested::Ordinary, &medians);
+    let measured = draws.smooth(SuiteSet::Ordinary, &medians);
     let rule = rule(quantifier, Region::Within(0.8, 1.2));
-    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
+    judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured).result
 }
 
 #[test]
 fn the_quantifier_decides_how_many_cells_must_hold() {
-    use Verdict::{Confirmed, Inconclusive, NotConfirmed};
+    use ClaimVerdict::{Confirmed, Inconclusive, NotConfirmed};
     let near = [0.0, 0.02, -0.02, 0.01];
     let one_off = [0.0, 0.5, -0.02, 0.01];
     let most_off = [0.0, 0.5, 0.6, 0.7];
@@ -87,11 +87,12 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
         let counts = draw.of(SuiteKind::Ordinary);
         ranked.iter().map(|r| r.median(counts)).collect()
     };
-    let measured = draws.smooth(Tested::Ordinary, &medians);
+    let measured = draws.smooth(SuiteSet::Ordinary, &medians);
     let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result;
-    assert_eq!(found.by_equivalence, Some(Verdict::Confirmed));
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
+            .result;
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Confirmed));
     assert_eq!(found.cells.map(|c| c.too_few), Some(1));
 }
 
@@ -102,7 +103,7 @@ fn suites_are_drawn_independently_and_records_jointly() {
         let of = |suite| f64::from(draw.of(suite)[0]);
         vec![of(SuiteKind::Ordinary), of(SuiteKind::PulseType)]
     };
-    let found = draws.smooth(Tested::Both, &both);
+    let found = draws.smooth(SuiteSet::Both, &both);
     let (mut equal, mut all) = (0, 0);
     for row in &found.replicates {
         all += 1;
@@ -121,16 +122,17 @@ fn one_record_that_carries_a_share_keeps_it_open() {
     let draws = drawn([50, 40]);
     let carried =
         |draw: Resample<'_>| vec![f64::from(draw.of(SuiteKind::Ordinary)[0])];
-    let measured = draws.subsampled(Tested::Ordinary, &carried);
+    let measured = draws.subsampled(SuiteSet::Ordinary, &carried);
     let cells = [Cell { at: "one record".into(), records: 50 }];
     let rule = ClaimRule {
         range: (0.0, 1.0),
         ..rule(Quantifier::One, Region::Above(0.5))
     };
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result;
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
+            .result;
     assert_eq!((found.value, found.low), (1.0, 0.0));
-    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
 }
 
 /// Counts of records, judged in every cell at once.
@@ -147,7 +149,7 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
         range: (0.0, 1.0),
         ..rule(quantifier, Region::Below(0.05))
     };
-    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
+    judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured).result
 }
 
 #[test]
@@ -156,20 +158,20 @@ fn none_of_a_few_records_is_not_shown_to_be_below_a_limit() {
     let found = counted(&[(0, 44)], Quantifier::One);
     assert_eq!(found.interval, Some(Interval::Exact));
     assert!(found.low == 0.0 && (found.high - 0.0658).abs() < 1e-4);
-    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
     let power = found.power.unwrap();
     assert_eq!(power.probability, 0.0);
     assert!((power.times - 59.0 / 44.0).abs() < 0.02, "{power:?}");
     // One of many cells, each with the same limit.
     let many = counted(&[(0, 44); 180], Quantifier::All);
     assert!((many.high - 0.0658).abs() < 1e-4, "{many:?}");
-    assert_eq!(many.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(many.by_equivalence, Some(ClaimVerdict::Inconclusive));
     assert_eq!(many.cells.map(|c| (c.inside, c.outside)), Some((0, 0)));
     // 0 of 86 is below 5 %, alone and in every one of many cells.
     let alone = counted(&[(0, 86)], Quantifier::One);
-    assert_eq!(alone.by_equivalence, Some(Verdict::Confirmed));
+    assert_eq!(alone.by_equivalence, Some(ClaimVerdict::Confirmed));
     let many = counted(&[(0, 86); 240], Quantifier::All);
-    assert_eq!(many.by_equivalence, Some(Verdict::Confirmed));
+    assert_eq!(many.by_equivalence, Some(ClaimVerdict::Confirmed));
 }
 
 #[test]
@@ -178,7 +180,7 @@ fn a_count_far_above_a_limit_is_seen_among_many_cells() {
         let mut counts = vec![(0, 86); 239];
         counts.push((above, 86));
         let found = counted(&counts, Quantifier::All);
-        assert_eq!(found.by_equivalence, Some(Verdict::NotConfirmed));
+        assert_eq!(found.by_equivalence, Some(ClaimVerdict::NotConfirmed));
         assert_eq!(found.interval, Some(Interval::ExactSimultaneous));
         assert_eq!(found.at, "cell 239");
         assert!(found.low > 0.05, "{}", found.low);
@@ -193,7 +195,7 @@ fn a_count_far_above_a_limit_is_seen_among_many_cells() {
     let mut counts = vec![(0, 86); 179];
     counts.push((7, 44));
     let found = counted(&counts, Quantifier::All);
-    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
 }
 
 /// Medians of a few values each, judged as cells of a suite of 86.
@@ -209,7 +211,7 @@ fn few(samples: &[Vec<f64>], region: Region) -> ClaimResult {
     }
     let measured = draws.medians(SuiteKind::Ordinary, all);
     let rule = rule(Quantifier::All, region);
-    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
+    judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured).result
 }
 
 #[test]
@@ -219,7 +221,7 @@ fn few_records_have_the_exact_interval_of_their_median() {
     // 90 %: the second of eleven to the last but one would be 98.8 %, the
     // third 93.5 %.
     let found = few(&[values(11)], region);
-    assert_eq!(found.by_equivalence, Some(Verdict::Confirmed));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Confirmed));
     assert_eq!(found.interval, Some(Interval::Exact));
     assert_eq!((found.low, found.high), (1.002, 1.008));
     assert_eq!(found.at, "cell 0, of the 11 survivors");
@@ -238,13 +240,13 @@ fn a_share_of_cells_is_judged_by_its_own_interval() {
     assert_eq!(found.interval, Some(Interval::ShareOfCells));
     assert!((found.value - 80.0 / 90.0).abs() < 1e-12);
     assert_eq!((found.low, found.high), (found.value, found.value));
-    assert_eq!(found.by_equivalence, Some(Verdict::NotConfirmed));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::NotConfirmed));
     assert_eq!(found.cells.map(|c| (c.inside, c.outside)), Some((80, 10)));
     // Ten on the edge: the share may be 100 %.
     let near = |k: usize| if k < 80 { 0.002 * (k % 7) as f64 } else { 0.2 };
     let shifts: Vec<f64> = (0..90).map(near).collect();
     let found = judged(Quantifier::AlmostAll, &shifts);
-    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
     assert!(found.low < 0.95 && found.high > 0.95, "{found:?}");
 }
 
@@ -259,12 +261,13 @@ fn a_replicate_without_a_value_lies_outside() {
         let value = if carried > 0 { 1.0 } else { f64::NAN };
         vec![value, 1.0 + 1e-3 * f64::from(counts[39])]
     };
-    let measured = draws.smooth(Tested::Ordinary, &of);
+    let measured = draws.smooth(SuiteSet::Ordinary, &of);
     let cell = |k| Cell { at: format!("cell {k}"), records: 40 };
     let rule = rule(Quantifier::AlmostAll, Region::Within(0.9, 1.1));
     let cells = [cell(0), cell(1)];
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result;
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
+            .result;
     // (38/40)^40 = 13 % of the replicates: one of two cells is inside.
     assert_eq!((found.value, found.low, found.high), (1.0, 0.5, 1.0));
     assert_eq!(found.cells.map(|c| c.inside), Some(1));
@@ -280,11 +283,11 @@ fn records_of_an_earthquake_are_drawn_together() {
         assert_eq!(counts[..9], counts[1..10]);
         vec![f64::from(counts[0])]
     };
-    let found = draws.smooth(Tested::Ordinary, &first);
+    let found = draws.smooth(SuiteSet::Ordinary, &first);
     assert_eq!(found.replicates.len(), REPLICATES);
     // Each earthquake is left out once.
     assert_eq!(Replicates::column(&found.without_one, 0), [0., 1., 1., 1.]);
-    let subsampled = draws.subsampled(Tested::Ordinary, &first);
+    let subsampled = draws.subsampled(SuiteSet::Ordinary, &first);
     assert_eq!(subsampled.replicates.len(), SUBSAMPLES);
 }
 
@@ -299,11 +302,11 @@ fn a_verdict_that_other_draws_may_change_is_none() {
         let pairs = values.iter().zip(counts);
         vec![pairs.fold(0.0, |sum, (x, n)| sum + x * f64::from(*n)) / 80.0]
     };
-    let measured = draws.smooth(Tested::Ordinary, &mean);
+    let measured = draws.smooth(SuiteSet::Ordinary, &mean);
     let cells = [Cell { at: "mean".into(), records: 80 }];
     let judged = |limit| {
         let rule = rule(Quantifier::One, Region::Below(limit));
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
     };
     let Ruling { result, more } = judged(1.0);
     assert!(!more);
@@ -319,7 +322,7 @@ fn a_verdict_that_other_draws_may_change_is_none() {
     ] {
         let Ruling { result, more } = judged(high + away * error);
         assert_eq!(more, draws_more, "{away}");
-        let decided = result.by_equivalence == Some(Verdict::Confirmed);
+        let decided = result.by_equivalence == Some(ClaimVerdict::Confirmed);
         assert_eq!(decided, decides, "{away}");
     }
     // The p-value belongs to the one-sided test at the limit: four errors
@@ -338,7 +341,7 @@ fn a_verdict_and_its_p_value_agree() {
             let shift = 0.1 + 0.004 * f64::from(step);
             let found = judged(quantifier, &[shift, 0.01, -0.02]);
             let verdict = found.by_equivalence.unwrap();
-            let decided = verdict != Verdict::Inconclusive;
+            let decided = verdict != ClaimVerdict::Inconclusive;
             assert_eq!(decided, found.p <= ERROR, "{shift}: {found:?}");
             assert_eq!(found.power.is_none(), decided);
             open += usize::from(!decided);
@@ -376,12 +379,13 @@ fn a_cell_that_no_replicate_moves_is_open() {
         let counts = draw.of(SuiteKind::Ordinary);
         vec![constant.median(counts), ranked[1].median(counts)]
     };
-    let measured = draws.smooth(Tested::Ordinary, &medians);
+    let measured = draws.smooth(SuiteSet::Ordinary, &medians);
     let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result;
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
+            .result;
     assert_eq!(found.cells.map(|c| c.inside), Some(0));
-    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
     // The cell that is shown has an interval.
     assert_eq!(found.at, "cell 1");
     assert!(found.low.is_finite() && found.high.is_finite());

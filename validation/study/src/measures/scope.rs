@@ -7,7 +7,7 @@ use crate::distances::SuiteDistances;
 use crate::estimates::mean;
 use crate::inference::{Cell, Replicates, Resample, Resamples};
 use crate::results::StudyResults;
-use rocking_common::findings::{Detail, Tested};
+use rocking_common::findings::{Detail, SuiteSet};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
@@ -22,7 +22,7 @@ pub struct Scope<'a> {
     /// SuiteDistances from a lognormal of all draws, by suite and arm.
     pub distances: &'a [SuiteDistances],
     /// The suite, or both.
-    pub tested: Tested,
+    pub tested: SuiteSet,
     /// The arm.
     pub arm: Arm,
     /// The intensity measure: PGA where the claim names none.
@@ -64,7 +64,7 @@ impl<'a> Scope<'a> {
     /// The kind of the suite; the ordinary one of a comparison of both.
     pub(crate) fn kind(&self) -> SuiteKind {
         match self.tested {
-            Tested::PulseType => SuiteKind::PulseType,
+            SuiteSet::PulseType => SuiteKind::PulseType,
             _ => SuiteKind::Ordinary,
         }
     }

@@ -12,7 +12,7 @@ use crate::facts::Facts;
 use crate::inference::{Cell, LEAST_DECIDING, Replicates, Resample};
 use crate::results::StudyResults;
 use crate::stripes::{adjusted_slenderness, is_within};
-use rocking_common::findings::Tested;
+use rocking_common::findings::SuiteSet;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, STRIPES, SuiteKind,
     closed_form, position,
@@ -119,13 +119,13 @@ fn notches(
 #[must_use]
 pub fn without_closed_form(
     results: &StudyResults,
-    tested: Tested,
+    tested: SuiteSet,
     arm: Arm,
 ) -> Vec<(String, f64)> {
     let kind = match tested {
-        Tested::Ordinary => SuiteKind::Ordinary,
-        Tested::PulseType => SuiteKind::PulseType,
-        Tested::None | Tested::Both => return Vec::new(),
+        SuiteSet::Ordinary => SuiteKind::Ordinary,
+        SuiteSet::PulseType => SuiteKind::PulseType,
+        SuiteSet::None | SuiteSet::Both => return Vec::new(),
     };
     let suite = results.suite(kind);
     let Ok(stripes) = suite.stripes(arm) else { return Vec::new() };

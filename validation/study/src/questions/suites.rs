@@ -14,7 +14,7 @@ use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
 use crate::kept::KeptResults;
 use crate::results::StudyResults;
-use rocking_common::findings::Settings;
+use rocking_common::findings::StudySettings;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
 use rocking_common::words::{capital, range};
@@ -62,7 +62,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
 
 /// The committed comparison: with other settings than its own only what no
 /// setting changes, the motions.
-fn kept(settings: &Settings) -> anyhow::Result<Vec<QuantityRow>> {
+fn kept(settings: &StudySettings) -> anyhow::Result<Vec<QuantityRow>> {
     let mut rows = row::from_csv(COMMITTED);
     if KeptResults::of(settings)?.is_none() {
         rows.retain(|r| {

@@ -13,7 +13,7 @@ use crate::measures::{
 };
 use crate::results::StudyResults;
 use anyhow::Context as _;
-use rocking_common::findings::{Measured, Tested};
+use rocking_common::findings::{Measured, SuiteSet};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
@@ -114,7 +114,7 @@ pub(in super::super) fn thresholds(
             results,
             draws,
             distances: &[],
-            tested: Tested::from(results.ordinary.kind),
+            tested: SuiteSet::from(results.ordinary.kind),
             arm,
             intensity,
         };

@@ -17,7 +17,9 @@ mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
-pub use measure::{AtUplift, Intensity, IntensityMeasure, ScalarMeasure};
+pub use measure::{
+    AtUplift, Intensity, IntensityMeasure, IntensityRow, ScalarMeasure,
+};
 pub(crate) use settings::LEAST_PERIOD_S;
 pub use settings::{DEFAULT_PERIODS_S, Settings};
 
@@ -61,37 +63,97 @@ pub enum IntensityError {
     },
 }
 
-/// The measures of one component, or one number for each from a pair.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Measures {
+/// Makes [`Measures`] of its scalars: each with its factor under a gravity, and
+/// how one pass over the samples gives it in g and s; it gives none where
+/// nothing moves.
+macro_rules! measures {
+    ($(
+        $(#[$about:meta])+ $scalar:ident: $factor:expr, $direct:expr;
+    )+) => {
+        /// The measures of one component, or one number for each from a pair.
+        #[derive(Clone, Debug, PartialEq)]
+        #[non_exhaustive]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        pub struct Measures {
+            $($(#[$about])+ pub $scalar: f64,)+
+            /// Mean period T_m = sum(C^2/f)/sum(C^2) over the Fourier
+            /// amplitudes C at 0.25 Hz <= f <= 20 Hz (Rathje, Abrahamson and
+            /// Bray 1998), of the samples followed by zeros to a power of two
+            /// and at least 20 s, so that frequencies are at most 0.05 Hz
+            /// apart (Rathje, Faraj, Russell and Bray 2004). `None` where no
+            /// frequency lies in the band.
+            pub mean_period_s: Option<f64>,
+            /// Pseudo-spectral acceleration (2 pi/T)^2 max|x| in multiples of
+            /// gravity at the periods of the [`Settings`], in their order: the
+            /// oscillator answers exactly, its peak is sought between samples
+            /// and after the record's end.
+            pub spectral_acceleration_g: Vec<f64>,
+        }
+
+        impl Measures {
+            /// The measures whose scalars `number` makes of those of one or
+            /// more directions.
+            fn of_direct(
+                gravity_m_s2: f64,
+                number: impl Fn(fn(&Direct) -> Option<f64>) -> Option<f64>,
+                mean_period_s: Option<f64>,
+                spectral_acceleration_g: Vec<f64>,
+            ) -> Result<Self, IntensityError> {
+                $(
+                    let factor: fn(f64) -> f64 = $factor;
+                    let $scalar =
+                        number($direct).ok_or(IntensityError::Silent)?;
+                    let $scalar = factor(gravity_m_s2) * $scalar;
+                )+
+                Ok(Self {
+                    $($scalar,)+
+                    mean_period_s,
+                    spectral_acceleration_g,
+                })
+            }
+
+            /// Each measure of two components by `mean`.
+            fn with(&self, other: &Self, mean: fn(f64, f64) -> f64) -> Self {
+                let periods_s = self.mean_period_s.zip(other.mean_period_s);
+                let own = self.spectral_acceleration_g.iter();
+                let spectra = own.zip(&other.spectral_acceleration_g);
+                Self {
+                    $($scalar: mean(self.$scalar, other.$scalar),)+
+                    mean_period_s: periods_s.map(|(a, b)| mean(a, b)),
+                    spectral_acceleration_g: spectra
+                        .map(|(a, b)| mean(*a, *b))
+                        .collect(),
+                }
+            }
+
+            /// The scalar of this name, that of its field.
+            #[must_use]
+            pub fn scalar(&self, name: &str) -> Option<f64> {
+                match name {
+                    $(stringify!($scalar) => Some(self.$scalar),)+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+measures! {
     /// Peak ground acceleration in multiples of gravity.
-    pub pga_g: f64,
+    pga_g: |_| 1.0, |d| Some(d.pga);
     /// Peak ground velocity: largest |v| at a sample, v(0) = 0.
-    pub pgv_m_s: f64,
+    pgv_m_s: |g| g, |d| Some(d.pgv);
     /// Peak ground displacement: largest |d| at a sample, d(0) = v(0) = 0,
     /// exact for the acceleration between samples.
-    pub pgd_m: f64,
+    pgd_m: |g| g, |d| Some(d.pgd);
     /// Arias intensity, pi/(2 g) times the integral of a^2 (Arias 1970).
-    pub arias_intensity_m_s: f64,
+    arias_intensity_m_s: |g| g, |d| Some(d.arias);
     /// Cumulative absolute velocity, the integral of |a| (EPRI 1988).
-    pub cav_m_s: f64,
+    cav_m_s: |g| g, |d| Some(d.cav);
     /// Time from 5 to 75 % of the Arias intensity (Trifunac and Brady 1975).
-    pub significant_duration_5_75_s: f64,
+    significant_duration_5_75_s: |_| 1.0, |d| d.durations_s.map(|s| s[0]);
     /// Time from 5 to 95 % of the Arias intensity.
-    pub significant_duration_5_95_s: f64,
-    /// Mean period T_m = sum(C^2/f)/sum(C^2) over the Fourier amplitudes C at
-    /// 0.25 Hz <= f <= 20 Hz (Rathje, Abrahamson and Bray 1998), of the
-    /// samples followed by zeros to a power of two and at least 20 s, so that
-    /// frequencies are at most 0.05 Hz apart (Rathje, Faraj, Russell and Bray
-    /// 2004). `None` where no frequency lies in the band.
-    pub mean_period_s: Option<f64>,
-    /// Pseudo-spectral acceleration (2 pi/T)^2 max|x| in multiples of
-    /// gravity at the periods of the [`Settings`], in their order: the
-    /// oscillator answers exactly, its peak is sought between samples and
-    /// after the record's end.
-    pub spectral_acceleration_g: Vec<f64>,
+    significant_duration_5_95_s: |_| 1.0, |d| d.durations_s.map(|s| s[1]);
 }
 
 /// The largest PGD (m) of processed records of earthquakes, permanent
@@ -127,56 +189,17 @@ impl Measures {
     ) -> Result<Self, IntensityError> {
         let (samples, dt_s) = (record.samples_g(), record.dt_s());
         let direct = Direct::of(samples, dt_s);
-        let [d5_75, d5_95] =
-            direct.durations_s.ok_or(IntensityError::Silent)?;
         let period = Spectrum::of(samples, dt_s).mean_period_s();
         let oscillators = settings.oscillators(dt_s);
         let spectrum = oscillators.iter().map(|o| o.peak(samples)).collect();
-        let g = settings.gravity_m_s2();
-        Ok(Self {
-            pga_g: direct.pga,
-            pgv_m_s: g * direct.pgv,
-            pgd_m: g * direct.pgd,
-            arias_intensity_m_s: g * direct.arias,
-            cav_m_s: g * direct.cav,
-            significant_duration_5_75_s: d5_75,
-            significant_duration_5_95_s: d5_95,
-            mean_period_s: period,
-            spectral_acceleration_g: spectrum,
-        })
+        let number = |scalar: fn(&Direct) -> Option<f64>| scalar(&direct);
+        Self::of_direct(settings.gravity_m_s2(), number, period, spectrum)
     }
 
     /// The geometric mean of each measure of two components.
     #[must_use]
     pub fn geometric_mean(&self, other: &Self) -> Self {
-        let of = |a: f64, b: f64| (a * b).sqrt();
-        let spectrum = self.spectral_acceleration_g.iter();
-        let spectrum = spectrum.zip(&other.spectral_acceleration_g);
-        Self {
-            pga_g: of(self.pga_g, other.pga_g),
-            pgv_m_s: of(self.pgv_m_s, other.pgv_m_s),
-            pgd_m: of(self.pgd_m, other.pgd_m),
-            arias_intensity_m_s: of(
-                self.arias_intensity_m_s,
-                other.arias_intensity_m_s,
-            ),
-            cav_m_s: of(self.cav_m_s, other.cav_m_s),
-            significant_duration_5_75_s: of(
-                self.significant_duration_5_75_s,
-                other.significant_duration_5_75_s,
-            ),
-            significant_duration_5_95_s: of(
-                self.significant_duration_5_95_s,
-                other.significant_duration_5_95_s,
-            ),
-            mean_period_s: self
-                .mean_period_s
-                .zip(other.mean_period_s)
-                .map(|(a, b)| of(a, b)),
-            spectral_acceleration_g: spectrum
-                .map(|(a, b)| of(*a, *b))
-                .collect(),
-        }
+        self.with(other, |a, b| (a * b).sqrt())
     }
 }
 

@@ -44,7 +44,7 @@ pub(crate) fn in_years(answer: &Answer) -> Option<String> {
 /// The intensity measure.
 pub(crate) fn measure(found: &Assessment) -> String {
     match &found.im {
-        IntensityMeasure::Axis(intensity) => intensity.symbol().to_owned(),
+        IntensityMeasure::Axis(intensity) => intensity.row().symbol.to_owned(),
         other => {
             let words = other.words();
             words.split(" (").next().unwrap_or_default().to_owned()

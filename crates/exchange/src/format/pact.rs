@@ -50,8 +50,8 @@ impl Pact {
     #[must_use]
     pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
         (fragility.shift() == 0.0).then(|| Self {
-            demand: intensity.symbol(),
-            unit: intensity.unit(),
+            demand: intensity.row().symbol,
+            unit: intensity.row().unit,
             median: fragility.median(),
             dispersion: fragility.dispersion(),
         })

@@ -22,21 +22,24 @@ named! {
 }
 
 /// The row of a dimensionless measure.
-struct IntensityRow {
-    /// The measure of the motion.
-    symbol: &'static str,
-    /// Unit of the measure of the motion.
-    unit: &'static str,
-    /// The dimensionless measure in plain text.
-    words: &'static str,
+#[non_exhaustive]
+pub struct IntensityRow {
+    /// The measure of the motion, as `PGA`.
+    pub symbol: &'static str,
+    /// Unit of the measure of the motion, for PGA in g and PGV in m/s.
+    pub unit: &'static str,
+    /// The dimensionless measure as the paper writes it.
+    pub words: &'static str,
     /// The dimensionless measure in the markup of the figures.
-    label: &'static str,
+    pub label: &'static str,
     /// The measure by PGA and PGV. It grows in proportion to both.
     of: fn(f64, f64) -> f64,
 }
 
 impl Intensity {
-    const fn row(self) -> IntensityRow {
+    /// The row of the measure.
+    #[must_use]
+    pub const fn row(self) -> IntensityRow {
         match self {
             Self::Pga => IntensityRow {
                 symbol: "PGA",
@@ -55,28 +58,10 @@ impl Intensity {
         }
     }
 
-    /// The measure of the motion, as `PGA`.
-    #[must_use]
-    pub fn symbol(self) -> &'static str {
-        self.row().symbol
-    }
-
-    /// Unit of the measure of the motion, for PGA in g and PGV in m/s.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        self.row().unit
-    }
-
     /// The dimensionless measure as the paper writes it.
     #[must_use]
     pub fn words(self) -> &'static str {
         self.row().words
-    }
-
-    /// The dimensionless measure in the markup of the figures.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        self.row().label
     }
 
     /// The measure by PGA and PGV, with or without units.
@@ -368,7 +353,7 @@ impl IntensityMeasure {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Axis(intensity) => intensity.unit(),
+            Self::Axis(intensity) => intensity.row().unit,
             Self::Scalar(scalar) => scalar.row().unit,
             Self::Sa(_) | Self::AverageSa(_) => "g",
             Self::Column(_) => "",

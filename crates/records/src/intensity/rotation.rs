@@ -34,14 +34,9 @@ pub(super) fn rotd50(
         .iter()
         .map(|turn| Direct::of(&mix(&a, &b, *turn), dt_s))
         .collect();
-    let of = |value: fn(&Direct) -> f64| {
-        median(direct.iter().map(value).collect())
-            .ok_or(IntensityError::Silent)
-    };
-    let duration = |which: usize| {
-        // A direction in which nothing moves has none.
-        let all = direct.iter().filter_map(|d| d.durations_s);
-        median(all.map(|d| d[which]).collect()).ok_or(IntensityError::Silent)
+    // A direction in which nothing moves has no durations.
+    let number = |scalar: fn(&Direct) -> Option<f64>| {
+        median(direct.iter().filter_map(scalar).collect())
     };
     let spectra = (Spectrum::of(&a, dt_s), Spectrum::of(&b, dt_s));
     let periods = turned.iter().filter_map(|(cos, sin)| {
@@ -62,18 +57,9 @@ pub(super) fn rotd50(
         });
         spectrum.push(median(peaks.collect()).ok_or(IntensityError::Silent)?);
     }
-    let g = settings.gravity_m_s2();
-    Ok(Measures {
-        pga_g: of(|d| d.pga)?,
-        pgv_m_s: g * of(|d| d.pgv)?,
-        pgd_m: g * of(|d| d.pgd)?,
-        arias_intensity_m_s: g * of(|d| d.arias)?,
-        cav_m_s: g * of(|d| d.cav)?,
-        significant_duration_5_75_s: duration(0)?,
-        significant_duration_5_95_s: duration(1)?,
-        mean_period_s: median(periods.collect()),
-        spectral_acceleration_g: spectrum,
-    })
+    let period = median(periods.collect());
+    let gravity_m_s2 = settings.gravity_m_s2();
+    Measures::of_direct(gravity_m_s2, number, period, spectrum)
 }
 
 /// Median, of an even count the mean of the middle two; none of nothing.

@@ -309,7 +309,7 @@ fn svg(
         common::frequency(rounded(analysis.block.frequency_rad_s(), 4)),
         uplift_threshold(&analysis.block, analysis.model)
     );
-    let axis = Intensity::Pga.label();
+    let axis = Intensity::Pga.row().label;
     Ok(ida_svg(curves, &stripes, (axis, &block)))
 }
 

@@ -81,7 +81,7 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     let (table, curves) = input::ida(&args.ida, args.im)?;
     let curves = curves.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
-    let axis = args.im.label();
+    let axis = args.im.row().label;
     if let Some(out) = plot {
         out.write(stripes_svg(&curves, &stripes, axis))?;
     }

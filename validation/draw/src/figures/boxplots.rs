@@ -172,7 +172,7 @@ pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
     let (mut scene, grid) = common::scene(heading, grid, &legend);
-    let level = Intensity::Pga.label();
+    let level = Intensity::Pga.row().label;
     for (i, shown) in figure.panels.iter().enumerate() {
         let levels = shown.stripes.iter().map(|s| common::short(s.level));
         let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);

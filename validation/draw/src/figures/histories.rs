@@ -100,7 +100,7 @@ fn panel(shown: &HistoryPanel) -> ChartPanel {
     let title = format!(
         "{}, {} = {:.2}\n{}",
         common::frequency(shown.p_rad_s),
-        Intensity::Pga.label(),
+        Intensity::Pga.row().label,
         shown.im,
         common::record(&shown.record, WIDTH_PX)
     );

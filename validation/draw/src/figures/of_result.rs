@@ -274,7 +274,7 @@ pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
 fn short(measure: &IntensityMeasure) -> String {
     use IntensityMeasure as M;
     match measure {
-        M::Axis(intensity) => intensity.symbol().to_owned(),
+        M::Axis(intensity) => intensity.row().symbol.to_owned(),
         M::Scalar(scalar) => scalar.short().to_owned(),
         M::Sa(period_s) => format!("SA({period_s})"),
         M::AverageSa(periods_s) => {

@@ -204,7 +204,7 @@ fn intensity(hazard: &Hazard) -> String {
     match &hazard.im {
         HazardMeasure::Own => "intensity, unit of the fragility".to_owned(),
         HazardMeasure::Of(M::Axis(im)) => {
-            format!("{} ({})", im.symbol(), hazard.unit())
+            format!("{} ({})", im.row().symbol, hazard.unit())
         }
         HazardMeasure::Of(other) => markup::escape(&other.words()),
         HazardMeasure::AverageSa => format!("AvgSA ({})", hazard.unit()),

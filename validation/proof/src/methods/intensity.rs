@@ -157,20 +157,14 @@ fn value(
     wrong: Option<WrongModel>,
 ) -> Option<f64> {
     Some(match name {
-        "pga_g" => m.pga_g,
-        "pgv_m_s" => m.pgv_m_s,
-        "pgd_m" => m.pgd_m,
-        "arias_intensity_m_s" => match wrong {
-            // The integral of a^2 over g.
-            Some(WrongModel::AriasWithoutItsFactor) => {
-                m.arias_intensity_m_s * std::f64::consts::FRAC_2_PI
-            }
-            _ => m.arias_intensity_m_s,
-        },
-        "cav_m_s" => m.cav_m_s,
-        "significant_duration_5_75_s" => m.significant_duration_5_75_s,
-        "significant_duration_5_95_s" => m.significant_duration_5_95_s,
+        // The integral of a^2 over g.
+        "arias_intensity_m_s"
+            if wrong == Some(WrongModel::AriasWithoutItsFactor) =>
+        {
+            m.arias_intensity_m_s * std::f64::consts::FRAC_2_PI
+        }
         "mean_period_s" => m.mean_period_s?,
+        scalar if m.scalar(scalar).is_some() => m.scalar(scalar)?,
         _ => *m.spectral_acceleration_g.get(period?)?,
     })
 }

@@ -92,7 +92,7 @@ pub(super) fn inverted(
                 let at = (0.0, block.shift);
                 series.push(Series::note(Mark::Across(SHIFT), "", at));
             }
-            let label = intensity.label();
+            let label = intensity.row().label;
             let minus = if less == 0.0 { "" } else { " − IM_{R}" };
             panels.push(ChartPanel::new(
                 format!(

@@ -41,8 +41,9 @@ pub(super) fn constants(
         f.shift() + libm::exp(spread)
     });
     let most = most_of(data).into_iter().fold(1.0, f64::max);
-    let x =
-        || Axis::around(0.0, (1.02 * most).max(bulk), 7).label(at.0.label());
+    let x = || {
+        Axis::around(0.0, (1.02 * most).max(bulk), 7).label(at.0.row().label)
+    };
     let grid = along(x().range(), 300);
     let mut words = Vec::new();
     let mut panels = Vec::new();

@@ -96,7 +96,7 @@ fn figure(
         ChartPanel::new(
             common::frequency(one.p_rad_s),
             demand(),
-            Axis::linear(low, high, 6).label(Intensity::Pga.label()),
+            Axis::linear(low, high, 6).label(Intensity::Pga.row().label),
             groups.chain(edge_words(&one.groups)).collect(),
         )
     });

@@ -142,7 +142,7 @@ pub(super) fn curves(
             panels.push(ChartPanel::new(
                 format!("{p}\n{}", common::record(name, WIDTH_PX)),
                 demand(),
-                Axis::linear(bottom, top, 5).label(Intensity::Pga.label()),
+                Axis::linear(bottom, top, 5).label(Intensity::Pga.row().label),
                 curves,
             ));
         }

@@ -260,7 +260,7 @@ pub(super) fn along(
                 "{}, {}\nIM = {}",
                 common::frequency(block.1),
                 common::slenderness(block.0),
-                Intensity::Pga.label()
+                Intensity::Pga.row().label
             ),
             Axis::linear(0.0, 1.0, 5).label(common::DEMAND),
             Axis::around(0.0, (1.05 * high).clamp(1.4, 12.0), 6)

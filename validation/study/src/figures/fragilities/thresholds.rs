@@ -275,7 +275,7 @@ fn panel(
     let name = scope.intensity.name().to_uppercase();
     Ok(ChartPanel::new(
         format!("{name}, *θ̃* = {:.2}", of.edp),
-        Axis::linear(axis.0, axis.1, 5).label(scope.intensity.label()),
+        Axis::linear(axis.0, axis.1, 5).label(scope.intensity.row().label),
         exceedance(),
         series,
     ))

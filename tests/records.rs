@@ -83,7 +83,7 @@ fn real_files_that_lost_something_are_refused() {
             if cells[1] != "column" && !lost.is_ascii_whitespace() {
                 let refused = rocking_records::read("x", &cut, &options);
                 let error = refused.expect_err(cells[0]);
-                assert!(error.line().is_some() && error.column().is_some());
+                assert!(error.line.is_some() && error.column.is_some());
             }
             let start =
                 at + bytes[at..].iter().position(|b| *b == b'\n').unwrap();

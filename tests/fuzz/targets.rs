@@ -78,7 +78,7 @@ fn hold(
 ) -> Result<(), String> {
     let records = found.map_err(|error| {
         let lines = bytes.split(|b| *b == b'\n' || *b == b'\r').count();
-        assert!(error.line().is_none_or(|line| line <= lines));
+        assert!(error.line.is_none_or(|line| line <= lines));
         error.to_string()
     })?;
     let mut samples = 0;

@@ -27,12 +27,17 @@ use rocking::units::AccelerationUnit;
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 #[error("{file}{place}: {fault}", file = EscapedName(file), place = Place(*line, *column))]
 pub struct RecordError {
-    pub(super) file: String,
-    pub(super) line: Option<usize>,
-    pub(super) column: Option<usize>,
-    pub(super) fault: Fault,
+    /// Name of the file, as it was given.
+    pub file: String,
+    /// Line of the fault, counted from 1.
+    pub line: Option<usize>,
+    /// Character of the line, counted from 1.
+    pub column: Option<usize>,
+    /// What is wrong.
+    pub fault: Fault,
 }
 
 impl RecordError {
@@ -46,30 +51,6 @@ impl RecordError {
     #[must_use]
     pub fn outside(file: &str) -> Self {
         Fault::Outside.whole(file)
-    }
-
-    /// Name of the file, as it was given.
-    #[must_use]
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// Line of the fault, counted from 1.
-    #[must_use]
-    pub fn line(&self) -> Option<usize> {
-        self.line
-    }
-
-    /// Character of the line, counted from 1.
-    #[must_use]
-    pub fn column(&self) -> Option<usize> {
-        self.column
-    }
-
-    /// What is wrong.
-    #[must_use]
-    pub fn fault(&self) -> &Fault {
-        &self.fault
     }
 }
 

@@ -316,6 +316,21 @@ fn describe(form: Form) -> String {
     }
 }
 
+/// Reads one number a line, and their forms.
+pub(super) fn column<'a>(
+    text: &Text<'_>,
+    lines: impl Iterator<Item = (usize, &'a str)>,
+) -> Result<(Vec<f64>, Forms), RecordError> {
+    let mut samples = Vec::with_capacity(text.len());
+    let mut forms = Forms::default();
+    for (index, line) in lines {
+        let (sample, form) = one_number(text, index, line)?;
+        forms.push(sample, form);
+        samples.push(sample);
+    }
+    Ok((samples, forms))
+}
+
 /// The number that a line or a field of it is, and its form.
 pub(super) fn one_number(
     text: &Text<'_>,

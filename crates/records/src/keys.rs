@@ -1,6 +1,6 @@
 //! Headers of lines `key value` or `key : value`.
 
-use super::number::{self, Reading};
+use super::number;
 use super::text::Text;
 use crate::error::{Fault, RecordError};
 
@@ -37,10 +37,8 @@ pub(super) fn number(
 ) -> Result<(usize, f64), RecordError> {
     let (index, found) = value(text, key)?;
     let digits = found.strip_suffix(suffix).unwrap_or(found).trim_end();
-    match number::read(digits) {
-        Reading::Finite(x, _) => Ok((index, x)),
-        _ => Err(text.header(index, "a number")),
-    }
+    let number = number::finite(digits).map(|x| (index, x));
+    number.ok_or_else(|| text.header(index, "a number"))
 }
 
 /// The positive number at `key`, before `suffix`.

@@ -112,6 +112,14 @@ pub(super) fn read(text: &str) -> Reading {
     }
 }
 
+/// The finite number that a text is from end to end.
+pub(super) fn finite(text: &str) -> Option<f64> {
+    match read(text) {
+        Reading::Finite(value, _) => Some(value),
+        _ => None,
+    }
+}
+
 /// Whether a text is meant as a number, finite or not.
 pub(super) fn is_number(text: &str) -> bool {
     !matches!(read(text), Reading::Other)

@@ -21,7 +21,7 @@ use crate::format::Format;
 use crate::given::Given;
 use crate::processing::{Processing, ProcessingError};
 use crate::quality::{Motion, Profile, Remark, Remarked};
-use crate::record::ReadOptions;
+use crate::record::{ReadOptions, Record};
 use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
@@ -89,6 +89,23 @@ impl<M> SuiteMember<M> {
 }
 
 impl SuiteMember {
+    /// A record of `file`, without a pair.
+    pub(crate) fn of(record: Record, file: String) -> Self {
+        Self {
+            accelerogram: record.accelerogram,
+            file,
+            format: record.format,
+            unit: record.unit,
+            site: record.site,
+            remarks: record.remarks,
+            pair: None,
+            study_component: false,
+            event: None,
+            given: record.given,
+            attributes: Vec::new(),
+        }
+    }
+
     /// The member without its samples.
     #[must_use]
     pub fn into_profile(self) -> SuiteMember<Profile> {

@@ -347,8 +347,8 @@ fn what_is_no_record_is_refused() {
     let latin1 = b"0.1\n\xe9\n";
     let error = read("test", latin1, &in_g(Some(0.1))).unwrap_err();
     assert_eq!(error.to_string(), "test:2: \"\u{e9}\": expected a number");
-    assert_eq!(error.line(), Some(2));
-    assert_eq!(error.column(), None);
+    assert_eq!(error.line, Some(2));
+    assert_eq!(error.column, None);
 }
 
 /// Windows programs save text in UTF-16 too.
@@ -398,7 +398,7 @@ fn an_interval_that_no_record_has_is_refused() {
         let column = "0.1\n-0.2\n0.3\n".as_bytes();
         let given = in_g(Some(dt.parse().unwrap()));
         let error = read("test", column, &given).unwrap_err();
-        assert_eq!(error.fault().code(), "interval-range");
+        assert_eq!(error.fault.code(), "interval-range");
     }
     for dt in ["10", "1e-6"] {
         assert!(read_text(&at2(&format!("NPTS= 7, DT= {dt} SEC"))).is_ok());

@@ -16,7 +16,7 @@ use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields::one_number;
 use crate::keys;
-use crate::number::{self, Form, Reading};
+use crate::number::{self, Form};
 use crate::text::{Text, excerpt};
 use rocking::units::AccelerationUnit;
 
@@ -82,15 +82,12 @@ fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
             word.strip_prefix('(').and_then(|w| w.strip_suffix(')'))
                 == Some(column)
         });
-        match words.next().map(number::read) {
-            Some(Reading::Finite(value, _)) if named => *peak = value,
-            _ => {
-                let expected = "peaks such as (N-S) 1.2 (E-W) 1.3 (U-D) 0.9";
-                let found = excerpt(found);
-                let fault = Fault::Header { found, expected };
-                return Err(text.on_line(index, fault));
-            }
-        }
+        let value = words.next().and_then(number::finite);
+        *peak = value.filter(|_| named).ok_or_else(|| {
+            let expected = "peaks such as (N-S) 1.2 (E-W) 1.3 (U-D) 0.9";
+            let found = excerpt(found);
+            text.on_line(index, Fault::Header { found, expected })
+        })?;
     }
     Ok(peaks)
 }

@@ -9,7 +9,7 @@ use super::csv::bracketed;
 use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
 use crate::fields;
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::{self, Text, excerpt};
 use rocking::units::AccelerationUnit;
 
@@ -194,10 +194,9 @@ fn read_count(rest: &str) -> Option<usize> {
 fn read_interval(rest: &str) -> Result<f64, Fault> {
     let end = number::token_at(rest.as_bytes(), 0)
         .map_or(rest.len(), |token| token.end);
-    let seconds = match number::read(&rest[..end]) {
-        Reading::Finite(value, _) if value > 0.0 => value,
-        _ => return Err(Fault::Interval(excerpt(rest))),
-    };
+    let refuse = || Fault::Interval(excerpt(rest));
+    let seconds = number::finite(&rest[..end]).filter(|x| *x > 0.0);
+    let seconds = seconds.ok_or_else(refuse)?;
     let unit: String = rest[end..]
         .trim_start()
         .chars()
@@ -209,5 +208,5 @@ fn read_interval(rest: &str) -> Result<f64, Fault> {
     if plain || unit.bytes().all(|b| b.is_ascii_digit()) {
         return Ok(seconds);
     }
-    Err(Fault::Interval(excerpt(rest)))
+    Err(refuse())
 }

@@ -9,7 +9,7 @@ use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
@@ -95,9 +95,8 @@ fn channel(
     let line = text.line(index).unwrap_or("");
     let label = line.get(..10).unwrap_or(line).trim();
     let peak = line.get(10..20).unwrap_or("").trim();
-    let (Reading::Finite(peak, _), false) =
-        (number::read(peak), label.is_empty() || label.contains('.'))
-    else {
+    let named = !label.is_empty() && !label.contains('.');
+    let Some(peak) = number::finite(peak).filter(|_| named) else {
         let expected = "a channel's name and peak in 10 characters each";
         return Err(text.header(index, expected));
     };

@@ -8,7 +8,7 @@
 use super::{Channel, Format, Header};
 use super::{counted, csv};
 use crate::error::RecordError;
-use crate::fields::{Forms, one_number};
+use crate::fields::{self, Forms};
 use crate::number;
 use crate::text::Text;
 
@@ -36,16 +36,9 @@ fn recognises(text: &Text<'_>) -> bool {
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let mut samples = Vec::with_capacity(text.len());
-    let mut forms = Forms::default();
-    for (index, line) in text.lines().enumerate() {
-        if line.starts_with('#') {
-            continue;
-        }
-        let (sample, form) = one_number(text, index, line)?;
-        forms.push(sample, form);
-        samples.push(sample);
-    }
+    let lines = text.lines().enumerate();
+    let lines = lines.filter(|(_, line)| !line.starts_with('#'));
+    let (samples, forms) = fields::column(text, lines)?;
     check_first(text, &samples, &forms)?;
     let remarks = forms.check_ended(text)?;
     let unit = csv::comments(text)?.acceleration;

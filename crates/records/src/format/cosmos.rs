@@ -20,7 +20,7 @@ use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::{self, Text, excerpt};
 use stated::{Header, Series};
 
@@ -214,12 +214,20 @@ fn announced<'a>(
         return Ok(Block { count, quantity, unit, layout, dt_s: None });
     }
     if is_raw(line) {
-        return raw(
-            text,
-            index,
-            Block { count, quantity: "accel", unit: "", layout, dt_s: None },
-            rest,
-        );
+        let after = |part: &str| {
+            let from =
+                lower.find(part).map_or(rest.len(), |at| at + part.len());
+            rest[from..].split_ascii_whitespace().next().unwrap_or("")
+        };
+        let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
+        let rate = number::finite(after(RAW_RATE)).filter(|rate| *rate > 0.0);
+        let dt_s = rate.map(|rate| 1.0 / rate);
+        if dt_s.is_none() {
+            let (found, expected) = (excerpt(rest), "a rate in points/s");
+            let fault = Fault::Header { found, expected };
+            return Err(text.on_line(index, fault));
+        }
+        return Ok(Block { count, quantity: "accel", unit, layout, dt_s });
     }
     let spaced = "equally spaced at";
     let at = lower.find(spaced).unwrap_or(0);
@@ -227,44 +235,19 @@ fn announced<'a>(
     let after = rest[at + spaced.len()..].trim_start();
     let end = after.find([' ', '\t', ',']).unwrap_or(after.len());
     let seconds = after[end..].trim_start().to_ascii_lowercase();
-    let dt_s = match number::read(&after[..end]) {
-        Reading::Finite(x, _) if x > 0.0 && seconds.starts_with("sec") => x,
-        _ => {
-            let fault = Fault::Interval(excerpt(after));
-            return Err(text.on_line(index, fault));
-        }
-    };
+    let dt_s = number::finite(&after[..end]);
+    let dt_s = dt_s.filter(|x| *x > 0.0 && seconds.starts_with("sec"));
+    if dt_s.is_none() {
+        let fault = Fault::Interval(excerpt(after));
+        return Err(text.on_line(index, fault));
+    }
     let unit = [" in units ", " in ", "units:"].iter().find_map(|word| {
         let from = seconds.find(word)? + word.len();
         let rest = &after[after.len() - seconds.len() + from..];
         rest.split(['(', ')', ',', ' ']).find(|part| !part.is_empty())
     });
     let unit = unit.unwrap_or("").trim_end_matches('.');
-    Ok(Block { count, quantity, unit, layout, dt_s: Some(dt_s) })
-}
-
-/// The block of a raw file, whose line states a rate.
-fn raw<'a>(
-    text: &Text<'a>,
-    index: usize,
-    block: Block<'a>,
-    rest: &'a str,
-) -> Result<Block<'a>, RecordError> {
-    let lower = rest.to_ascii_lowercase();
-    let after = |part: &str| {
-        let from = lower.find(part).map_or(rest.len(), |at| at + part.len());
-        rest[from..].split_ascii_whitespace().next().unwrap_or("")
-    };
-    let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
-    match number::read(after(RAW_RATE)) {
-        Reading::Finite(rate, _) if rate > 0.0 => {
-            Ok(Block { unit, dt_s: Some(1.0 / rate), ..block })
-        }
-        _ => {
-            let (found, expected) = (excerpt(rest), "a rate in points/s");
-            Err(text.on_line(index, Fault::Header { found, expected }))
-        }
-    }
+    Ok(Block { count, quantity, unit, layout, dt_s })
 }
 
 /// The Fortran format of one kind of number in a line: `(8F10.3)`,

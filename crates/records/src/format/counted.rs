@@ -12,7 +12,7 @@
 use super::csv::bracketed;
 use super::{Channel, Format, Header};
 use crate::error::RecordError;
-use crate::fields::{self, Forms, one_number};
+use crate::fields;
 use crate::number::{self, Reading};
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
@@ -162,14 +162,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let layout = fields::infer(text, first, end, 0);
         fields::read(text, first, end, layout)?
     } else {
-        let mut forms = Forms::default();
-        let mut samples = Vec::with_capacity(end - first);
-        let lines = text.lines_from(first).take(end - first);
-        for (line, index) in lines.zip(first..) {
-            let (sample, form) = one_number(text, index, line)?;
-            forms.push(sample, form);
-            samples.push(sample);
-        }
+        let lines = text.lines().enumerate().take(end).skip(first);
+        let (samples, forms) = fields::column(text, lines)?;
         if end == text.len() {
             remarks = forms.check_ended(text)?;
         }

@@ -3,9 +3,8 @@
 
 use super::{Channel, Format};
 use crate::error::RecordError;
-use crate::fields::{Forms, one_number};
-use crate::keys;
 use crate::text::{self, Text};
+use crate::{fields, keys};
 use rocking::units::AccelerationUnit;
 
 /// The format.
@@ -44,13 +43,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             && !key.contains(' ')
     };
     let header = text.lines().take_while(|l| is_key(l)).count();
-    let mut samples = Vec::with_capacity(text.len() - header);
-    let mut forms = Forms::default();
-    for (index, line) in text.lines().enumerate().skip(header) {
-        let (sample, form) = one_number(text, index, line)?;
-        forms.push(sample, form);
-        samples.push(sample);
-    }
+    let lines = text.lines().enumerate().skip(header);
+    let (samples, forms) = fields::column(text, lines)?;
     let remarks = forms.check_ended(text)?;
     text.check_count(samples.len(), count)?;
     let peak = "PGA_CM/S^2";

@@ -19,7 +19,7 @@ use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::fields::{self, Layout};
 use crate::keys;
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -101,10 +101,7 @@ impl Header<'_, '_> {
         let end = text::after_word(line, word)?;
         let rest = line[end..].trim_start();
         let number = rest.split_ascii_whitespace().next()?;
-        match number::read(number) {
-            Reading::Finite(value, _) => Some((value, &rest[number.len()..])),
-            _ => None,
-        }
+        Some((number::finite(number)?, &rest[number.len()..]))
     }
 }
 

@@ -8,7 +8,7 @@
 use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::Text;
 use crate::{fields, keys};
 use rocking::accelerogram::mean;
@@ -99,10 +99,7 @@ fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
 /// Gal per count: `7845(gal)/8223790`.
 fn scale(text: &Text<'_>) -> Result<f64, RecordError> {
     let (index, found) = keys::value(text, "Scale Factor")?;
-    let number = |part: &str| match number::read(part.trim()) {
-        Reading::Finite(x, _) if x > 0.0 => Some(x),
-        _ => None,
-    };
+    let number = |part: &str| number::finite(part.trim()).filter(|x| *x > 0.0);
     let parts = found.split_once("(gal)/");
     let ratio = parts.and_then(|(a, b)| Some(number(a)? / number(b)?));
     let expected = "a scale factor such as 3920(gal)/6182761";

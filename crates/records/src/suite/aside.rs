@@ -96,7 +96,7 @@ impl Aside {
         file: &str,
         error: RecordError,
     ) -> Result<Self, RecordError> {
-        match AsideReason::of(error.fault()) {
+        match AsideReason::of(&error.fault) {
             Some(reason) => Ok(Self { file: file.to_owned(), reason, error }),
             None => Err(error),
         }

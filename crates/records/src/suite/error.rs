@@ -110,7 +110,7 @@ impl SuiteError {
     #[must_use]
     pub fn file(&self) -> &str {
         match self {
-            Self::Record(error) => error.file(),
+            Self::Record(error) => &error.file,
             Self::Mismatch { file, .. } => file,
             Self::Unreadable { path, .. }
             | Self::Empty { path, .. }
@@ -125,7 +125,7 @@ impl SuiteError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Record(error) => error.fault().code(),
+            Self::Record(error) => error.fault.code(),
             Self::Unreadable { .. } => "unreadable",
             Self::Empty { .. } => "empty",
             Self::Index { .. } => "index",
@@ -140,7 +140,7 @@ impl SuiteError {
     #[must_use]
     pub fn line(&self) -> Option<usize> {
         match self {
-            Self::Record(error) => error.line(),
+            Self::Record(error) => error.line,
             Self::Index { line, .. } => Some(*line),
             _ => None,
         }

@@ -141,6 +141,17 @@ impl Index {
     }
 }
 
+/// The refusal of a line, counted from 1.
+fn refusal(
+    path: &str,
+    line: usize,
+    found: &str,
+    expected: &str,
+) -> SuiteError {
+    let (found, expected) = (excerpt(found), expected.to_owned());
+    SuiteError::Index { path: path.to_owned(), line, found, expected }
+}
+
 /// Lines under a head of column names.
 struct Table<'a> {
     path: Rc<str>,
@@ -151,12 +162,7 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
-        SuiteError::Index {
-            path: self.path.to_string(),
-            line: line + 1,
-            found: excerpt(found),
-            expected: expected.to_owned(),
-        }
+        refusal(&self.path, line + 1, found, expected)
     }
 
     fn head(&self, line: usize) -> Result<Vec<String>, SuiteError> {
@@ -299,12 +305,7 @@ impl Row {
     }
 
     fn refuse(&self, found: &str, expected: &str) -> SuiteError {
-        SuiteError::Index {
-            path: self.path.to_string(),
-            line: self.line,
-            found: excerpt(found),
-            expected: expected.to_owned(),
-        }
+        refusal(&self.path, self.line, found, expected)
     }
 
     fn mismatch(
@@ -374,28 +375,15 @@ impl Row {
             .filter(|(name, _)| !COLUMNS.contains(&&***name))
             .map(|(name, cell)| (Arc::clone(name), cell.clone()))
             .collect();
-        Ok(SuiteMember {
-            accelerogram: match self.cell("name") {
-                Some(name) => record
-                    .accelerogram
-                    .named(name)
-                    .map_err(|_| self.refuse(name, EXPECTED))?,
-                None => record.accelerogram,
-            },
-            file: self.file.clone(),
-            site: record.site,
-            remarks: record.remarks,
-            format: record.format,
-            unit: record.unit,
-            pair: match &self.pair {
-                Some(pair) => Some(pair.clone()),
-                None => self.cell("pair").map(str::to_owned),
-            },
-            study_component,
-            event: self.event()?,
-            given: record.given,
-            attributes,
-        })
+        let mut member = SuiteMember::of(record, self.file.clone());
+        if let Some(name) = self.cell("name") {
+            let named = member.accelerogram.named(name);
+            member.accelerogram =
+                named.map_err(|_| self.refuse(name, EXPECTED))?;
+        }
+        let pair = self.pair.as_deref().or_else(|| self.cell("pair"));
+        let (pair, event) = (pair.map(str::to_owned), self.event()?);
+        Ok(SuiteMember { pair, study_component, event, attributes, ..member })
     }
 
     fn check_sum(&self, content: &[u8]) -> Result<(), SuiteError> {

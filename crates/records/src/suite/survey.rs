@@ -320,31 +320,19 @@ fn horizontal(
     if record.borehole {
         return Err(Fault::Borehole(name()).whole(shown));
     }
-    let mut remarks = record.remarks;
-    if record.direction == Direction::Unknown {
-        remarks.push(Remark::Direction);
-    }
     result_name(file).map_err(|error| Fault::Name(error).whole(shown))?;
-    let mut accelerogram = record.accelerogram;
-    if let Some(within) = within {
-        let name = format!("{within}/{}", accelerogram.name());
-        accelerogram = accelerogram
-            .named(name)
-            .map_err(|error| Fault::from(error).whole(shown))?;
+    let direction = record.direction;
+    let mut member = SuiteMember::of(record, file.to_owned());
+    if direction == Direction::Unknown {
+        member.remarks.push(Remark::Direction);
     }
-    Ok(SuiteMember {
-        accelerogram,
-        file: file.to_owned(),
-        format: record.format,
-        unit: record.unit,
-        site: record.site,
-        remarks,
-        pair: None,
-        study_component: false,
-        event: None,
-        given: record.given,
-        attributes: Vec::new(),
-    })
+    if let Some(within) = within {
+        let name = format!("{within}/{}", member.accelerogram.name());
+        let named = member.accelerogram.named(name);
+        member.accelerogram =
+            named.map_err(|error| Fault::from(error).whole(shown))?;
+    }
+    Ok(member)
 }
 
 /// Adds the files of the folder `within` of `root` by their names from there,

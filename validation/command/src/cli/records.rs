@@ -255,9 +255,9 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
 impl From<&RecordError> for RecordFinding {
     fn from(error: &RecordError) -> Self {
         Self {
-            file: error.file().to_owned(),
-            code: error.fault().code(),
-            line: error.line(),
+            file: error.file.clone(),
+            code: error.fault.code(),
+            line: error.line,
             message: error.to_string(),
         }
     }
@@ -324,7 +324,7 @@ impl RecordsListing {
             Ok(records) => return Ok(records),
             Err(error) => error,
         };
-        let options = match error.fault() {
+        let options = match &error.fault {
             Fault::IntervalConflict { .. } => {
                 ReadOptions { dt_s: None, ..options }
             }
@@ -343,13 +343,13 @@ impl RecordsListing {
             self.records.iter().any(|listed| taken(listed.given))
         };
         let (dt, unit) = (given(|g| g.dt), given(|g| g.unit));
-        let unused = |error: &&RecordError| match error.fault() {
+        let unused = |error: &&RecordError| match &error.fault {
             Fault::IntervalConflict { .. } => !dt,
             _ => !unit,
         };
         let unused = self.contradicted.iter().filter(unused);
         let unused: Vec<&RecordError> = unused.collect();
-        let files: BTreeSet<&str> = unused.iter().map(|e| e.file()).collect();
+        let files: BTreeSet<&str> = unused.iter().map(|e| &*e.file).collect();
         // A file of several components has them behind colons.
         self.records.retain(|listed| {
             let file = listed.file.as_str();
@@ -362,9 +362,9 @@ impl RecordsListing {
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
         let refused = |error: &rocking_records::SuiteError| RecordFinding {
-            file: error.file().to_owned(),
+            file: error.file.clone(),
             code: error.code(),
-            line: error.line(),
+            line: error.line,
             message: error.to_string(),
         };
         let survey = match inputs::visit(path, options, Ok) {

@@ -3,7 +3,7 @@
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::keys;
-use crate::number::{self, Reading};
+use crate::number;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -106,9 +106,7 @@ impl<'a> Header<'_, 'a> {
     fn peak(&self) -> Option<(f64, Option<AccelerationUnit>)> {
         let (_, rest, _) = self.after("peak acceleration")?;
         let mut words = rest.split_ascii_whitespace();
-        let Reading::Finite(peak, _) = number::read(words.next()?) else {
-            return None;
-        };
+        let peak = number::finite(words.next()?)?;
         Some((peak, words.next().and_then(AccelerationUnit::parse)))
     }
 
@@ -121,17 +119,15 @@ impl<'a> Header<'_, 'a> {
         let stated = "equally-spaced intervals of";
         if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
             let word = rest.split_ascii_whitespace().next().unwrap_or("");
-            let same = matches!(number::read(word), Reading::Finite(x, _)
-                if (x - dt_s).abs() <= 1e-6 * dt_s);
-            if !same {
+            let same = |x: f64| (x - dt_s).abs() <= 1e-6 * dt_s;
+            if !number::finite(word).is_some_and(same) {
                 return Err(self.differs(at, SAME_INTERVAL));
             }
         }
-        match self.peak() {
-            Some((peak, unit)) if unit == series.unit => {
-                self.check_peak(series, peak)?;
-            }
-            _ => {}
+        if let Some((peak, unit)) = self.peak()
+            && unit == series.unit
+        {
+            self.check_peak(series, peak)?;
         }
         Ok(dt_s)
     }

@@ -75,7 +75,7 @@ pub fn read_record<'py>(
         work::alone(py, read)?.map_err(|e| refuse_at(&path, e))?;
     let mut attributes = BTreeMap::from([
         ("file".to_owned(), path.display().to_string()),
-        ("format".to_owned(), read.format.to_string()),
+        ("format".to_owned(), read.format.name.to_owned()),
         ("units".to_owned(), read.unit.to_string()),
     ]);
     attributes.extend(read.channel.map(|text| ("channel".to_owned(), text)));
@@ -120,7 +120,7 @@ pub fn read_suite<'py>(
             attributes.insert("file".to_owned(), member.file.clone());
             let event = member.event.clone();
             attributes.extend(event.map(|own| ("event".to_owned(), own)));
-            attributes.insert("format".to_owned(), member.format.to_string());
+            attributes.insert("format".to_owned(), member.format.name.to_owned());
             attributes.insert("units".to_owned(), member.unit.to_string());
             let named = [("site", &member.site), ("pair", &member.pair)];
             for (key, text) in named {

@@ -9,9 +9,9 @@ use std::str::FromStr;
 
 use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
+use rocking::names::as_text;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::Lognormal;
-use serde::{Deserialize, Serialize};
 
 /// Most characters of a name that OpenQuake takes.
 const LONGEST: usize = 75;
@@ -26,29 +26,14 @@ const LONGEST: usize = 75;
 /// assert!("BLOCK-p300-a015".parse::<Id>().is_err());
 /// assert!("BLOCK/p3.0/a0.15".parse::<Id>().is_err());
 /// ```
-#[derive(
-    Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
-)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Id(String);
 
-impl TryFrom<String> for Id {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
+as_text!(Id);
 
 impl AsRef<str> for Id {
     fn as_ref(&self) -> &str {
         &self.0
-    }
-}
-
-impl From<Id> for String {
-    fn from(id: Id) -> Self {
-        id.0
     }
 }
 

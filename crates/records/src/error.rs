@@ -1,8 +1,6 @@
 //! Why a file was refused: which file, where in it, what was found, what
 //! was expected.
 
-use std::fmt;
-
 use thiserror::Error;
 
 use super::codes::coded;
@@ -28,7 +26,7 @@ use rocking::units::AccelerationUnit;
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-#[error("{file}{place}: {fault}", file = EscapedName(file), place = Place(*line, *column))]
+#[error("{file}{place}: {fault}", file = EscapedName(file), place = place(*line, *column))]
 pub struct RecordError {
     /// Name of the file, as it was given.
     pub file: String,
@@ -54,14 +52,10 @@ impl RecordError {
     }
 }
 
-struct Place(Option<usize>, Option<usize>);
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(line) = self.0 else { return Ok(()) };
-        write!(f, ":{line}")?;
-        self.1.map_or(Ok(()), |column| write!(f, ":{column}"))
-    }
+/// Line and column, each after a colon.
+fn place(line: Option<usize>, column: Option<usize>) -> String {
+    let known = line.into_iter().chain(column);
+    known.map(|number| format!(":{number}")).collect()
 }
 
 coded! {

@@ -92,24 +92,6 @@ impl Floor {
         Ok(Self { period_s, damping_ratio, height_ratio })
     }
 
-    /// Period of the mode in s.
-    #[must_use]
-    pub fn period_s(&self) -> f64 {
-        self.period_s
-    }
-
-    /// Damping ratio of the mode.
-    #[must_use]
-    pub fn damping_ratio(&self) -> f64 {
-        self.damping_ratio
-    }
-
-    /// Participation factor of the mode times its shape at the floor.
-    #[must_use]
-    pub fn height_ratio(&self) -> f64 {
-        self.height_ratio
-    }
-
     /// Absolute acceleration of the floor under a motion of the ground, at
     /// its sampling interval dt and under its name.
     ///

@@ -14,8 +14,6 @@ mod knet;
 mod resorce;
 mod smc;
 
-use std::fmt;
-
 use rocking::units::AccelerationUnit;
 
 use crate::direction::Direction;
@@ -125,12 +123,6 @@ impl Format {
 impl PartialEq for Format {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
-    }
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name)
     }
 }
 

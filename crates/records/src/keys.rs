@@ -21,6 +21,11 @@ pub(super) fn find<'a>(
     })
 }
 
+/// Whether the header has lines that begin with each of these keys.
+pub(super) fn has(text: &Text<'_>, keys: [&str; 2]) -> bool {
+    keys.iter().all(|key| find(text, key).is_some())
+}
+
 /// The value of `key`.
 pub(super) fn value<'a>(
     text: &Text<'a>,

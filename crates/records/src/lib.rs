@@ -23,7 +23,6 @@ mod error;
 mod fields;
 pub mod floor;
 mod format;
-mod given;
 pub mod intensity;
 mod keys;
 mod number;
@@ -38,13 +37,12 @@ mod text;
 pub use direction::Direction;
 pub use error::{Fault, RecordError};
 pub use format::{Format, Header};
-pub use given::Given;
 pub use processing::{Processing, ProcessingError};
 pub use quality::{
     Motion, Profile, Remark, Remarked, duplicates, remarks, remarks_together,
 };
 pub use read::{file_bytes, read, read_all, read_as, read_file};
-pub use record::{ReadOptions, Record, sha256_hex};
+pub use record::{Given, ReadOptions, Record, sha256_hex};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
     Suite, SuiteError, SuiteMember, Survey, is_index,

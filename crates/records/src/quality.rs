@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::codes::coded;
-use crate::given::Given;
+use crate::record::Given;
 use rocking::accelerogram::Accelerogram;
 use rocking::accelerogram::mean;
 use rocking::stop;

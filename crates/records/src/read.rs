@@ -8,9 +8,8 @@ use rocking::accelerogram::{Accelerogram, result_name};
 use crate::direction::{self, Direction};
 use crate::error::{Fault, RecordError};
 use crate::format::{Channel, Format};
-use crate::given::Given;
 use crate::quality::Remark;
-use crate::record::{INTERVALS_S, ReadOptions, Record, Settled};
+use crate::record::{Given, INTERVALS_S, ReadOptions, Record, Settled};
 use crate::text::{self, Text, excerpt};
 
 /// Reads the one component of a file with content `bytes`; `file` names it
@@ -49,7 +48,7 @@ pub(crate) fn settle_one(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Settled, RecordError> {
-    let mut records = settle(file, bytes, options)?;
+    let mut records = settle(file, bytes, options, None)?;
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
         Some(_) => Err(Fault::SeveralChannels(records.len() + 1).whole(file)),
@@ -66,20 +65,8 @@ pub fn read_all(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
-    let settled = settle(file, bytes, options)?;
+    let settled = settle(file, bytes, options, None)?;
     settled.into_iter().map(Settled::agreed).collect()
-}
-
-/// Reads all components of a file; what the caller gives is taken if the file
-/// states none.
-pub(crate) fn settle(
-    file: &str,
-    bytes: &[u8],
-    options: &ReadOptions,
-) -> Result<Vec<Settled>, RecordError> {
-    read_text(file, bytes, options, |text| {
-        Format::of(text).ok_or_else(|| unknown(text))
-    })
 }
 
 /// Reads all components of a file whose format is known, whatever its
@@ -109,15 +96,17 @@ pub fn read_as(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
-    let settled = read_text(file, bytes, options, |_| Ok(format))?;
+    let settled = settle(file, bytes, options, Some(format))?;
     settled.into_iter().map(Settled::agreed).collect()
 }
 
-fn read_text(
+/// Reads all components of a file, in this format or in that of its content;
+/// what the caller gives is taken if the file states none.
+pub(crate) fn settle(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
-    format: impl Fn(&Text<'_>) -> Result<&'static Format, RecordError>,
+    format: Option<&'static Format>,
 ) -> Result<Vec<Settled>, RecordError> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
@@ -130,7 +119,8 @@ fn read_text(
     }
     let content = text::decode(file, bytes)?;
     let text = Text::new(file, &content)?;
-    let format = format(&text)?;
+    let format = format.or_else(|| Format::of(&text));
+    let format = format.ok_or_else(|| unknown(&text))?;
     let channels = (format.read)(&text)?;
     let several = channels.len() > 1;
     channels
@@ -202,7 +192,7 @@ fn unknown(text: &Text<'_>) -> RecordError {
     let (found, all) = (excerpt(line), Format::by_name());
     let words = all.iter().map(|format| match format.content {
         "" => format.name.to_owned(),
-        content => format!("{format} ({content})"),
+        content => format!("{} ({content})", format.name),
     });
     let expected = words.collect::<Vec<_>>().join(", ");
     text.on_line(index, Fault::UnknownFormat { found, expected })

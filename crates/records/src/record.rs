@@ -7,7 +7,6 @@ use sha2::{Digest as _, Sha256};
 use crate::direction::Direction;
 use crate::error::RecordError;
 use crate::format::Format;
-use crate::given::Given;
 use crate::quality::Remark;
 
 /// Least and largest sampling interval (s) of a record: a recorder's lies far
@@ -50,6 +49,15 @@ impl Default for ReadOptions {
         let gravity_m_s2 = units::STANDARD_GRAVITY_M_S2;
         Self { dt_s: None, unit: None, gravity_m_s2, recursive: false }
     }
+}
+
+/// What the caller gave because the file states none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Given {
+    /// Sampling interval.
+    pub dt: bool,
+    /// Unit of the samples.
+    pub unit: bool,
 }
 
 /// One component as it was read.

@@ -6,8 +6,6 @@
 //! allow. If there is none, the file is refused at the first time that
 //! contradicts those before it.
 
-use std::fmt;
-
 use thiserror::Error;
 
 /// The step of times, and how far the times lie from it.
@@ -46,7 +44,7 @@ pub enum Uneven {
     /// A time that contradicts a constant step.
     #[error(
         "time {found_s} s: expected {}, a constant step from the times before",
-        Shown(*found_s, *expected_s)
+        times(*found_s, *expected_s)
     )]
     Step {
         /// Index of the time, from 0.
@@ -60,7 +58,7 @@ pub enum Uneven {
     /// missing.
     #[error(
         "time {found_s} s: expected {}, a constant step from the times before, or times with more digits",
-        Shown(*found_s, *expected_s)
+        times(*found_s, *expected_s)
     )]
     Coarse {
         /// Index of the time, from 0.
@@ -95,23 +93,17 @@ impl Uneven {
     }
 }
 
-/// What was expected instead of a time, with the digits that distinguish
-/// them.
-struct Shown(f64, (f64, f64));
-
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(found, (least, most)) = *self;
-        let apart = f64::max(least - found, found - most);
-        let mut scale = 1.0;
-        while !(scale * apart >= 10.0) && scale < 1e17 {
-            scale *= 10.0;
-        }
-        let round = |time: f64| (time * scale).round() / scale;
-        match (round(least), round(most)) {
-            (least, most) if least == most => write!(f, "{least} s"),
-            (least, most) => write!(f, "{least} to {most} s"),
-        }
+/// The least and the largest time that were expected instead of a time, with
+/// the digits that distinguish them.
+fn times(found: f64, (least, most): (f64, f64)) -> String {
+    let apart = f64::max(least - found, found - most);
+    let mut scale = 1.0;
+    while !(scale * apart >= 10.0) && scale < 1e17 {
+        scale *= 10.0;
+    }
+    match [least, most].map(|time| (time * scale).round() / scale) {
+        [least, most] if least == most => format!("{least} s"),
+        [least, most] => format!("{least} to {most} s"),
     }
 }
 

@@ -14,14 +14,14 @@ mod survey;
 
 pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
+pub use index::is_index;
 pub use survey::Survey;
 
 use crate::error::RecordError;
 use crate::format::Format;
-use crate::given::Given;
 use crate::processing::{Processing, ProcessingError};
 use crate::quality::{Motion, Profile, Remark, Remarked};
-use crate::record::{ReadOptions, Record};
+use crate::record::{Given, ReadOptions, Record};
 use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
@@ -264,12 +264,6 @@ impl<M: Motion> Suite<M> {
             })
             .collect()
     }
-}
-
-/// Whether the content is an index: its first line has a column `file`.
-#[must_use]
-pub fn is_index(bytes: &[u8]) -> bool {
-    index::is_index(bytes)
 }
 
 impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {

@@ -219,6 +219,16 @@ impl<'a> Text<'a> {
         expected: &'static str,
     ) -> RecordError {
         let found = excerpt(self.line(index).unwrap_or(""));
+        self.differs(index, found, expected)
+    }
+
+    /// Something in a header that is not what its place asks for.
+    pub(super) fn differs(
+        &self,
+        index: usize,
+        found: String,
+        expected: &'static str,
+    ) -> RecordError {
         self.on_line(index, Fault::Header { found, expected })
     }
 

@@ -77,7 +77,7 @@ fn free_motion_ends_after_so_many_periods_at_most() {
 fn lines_between_samples_miss_the_floor_by_the_error_that_is_stated() {
     for periods in [5.0, 10.0, 20.0, 50.0] {
         let own = floor(0.01 * periods, 0.05, 1.0);
-        let ground = resonant(own.period_s());
+        let ground = resonant(own.period_s);
         let mut fine = vec![ground.samples_g()[0]];
         for pair in ground.samples_g().windows(2) {
             let at = |k: u32| {

@@ -33,15 +33,10 @@ pub(super) static FORMAT: Format = Format {
     name: "afad",
     files: "AFAD until 2018",
     source: "Türkiye",
-    recognises,
+    recognises: |text| keys::has(text, [INTERVAL, COUNT]),
     read,
     ..Format::BASE
 };
-
-/// Whether the header has the format's keys.
-fn recognises(text: &Text<'_>) -> bool {
-    keys::find(text, INTERVAL).is_some() && keys::find(text, COUNT).is_some()
-}
 
 /// Reads the three components.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
@@ -85,8 +80,7 @@ fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
         let value = words.next().and_then(number::finite);
         *peak = value.filter(|_| named).ok_or_else(|| {
             let expected = "peaks such as (N-S) 1.2 (E-W) 1.3 (U-D) 0.9";
-            let found = excerpt(found);
-            text.on_line(index, Fault::Header { found, expected })
+            text.differs(index, excerpt(found), expected)
         })?;
     }
     Ok(peaks)

@@ -145,9 +145,6 @@ fn counts(
     index: usize,
 ) -> Result<(usize, Option<f64>), RecordError> {
     let line = text.line(index).unwrap_or("");
-    let header = |found: &str, expected| {
-        text.on_line(index, Fault::Header { found: excerpt(found), expected })
-    };
     let after = |word| {
         text::after_word(line, word).map(|end| {
             line[end..].trim_start_matches([' ', '\t', '=', ':', ','])
@@ -158,28 +155,20 @@ fn counts(
     };
     let npts = after("NPTS").unwrap_or("");
     let dt = after("DT");
-    if starts_number(npts) {
-        let count = read_count(npts)
-            .ok_or_else(|| header(npts, "a number of samples"))?;
-        return match dt {
-            None => Ok((count, None)),
-            Some(dt) => read_interval(dt)
-                .map(|dt| (count, Some(dt)))
-                .map_err(|fault| text.on_line(index, fault)),
-        };
-    }
-    // The oldest generation: values before their names.
     let mut values = line.split([' ', '\t', ',']).filter(|p| !p.is_empty());
-    let (first, second) = (values.next(), values.next());
-    let count = first
-        .and_then(read_count)
-        .ok_or_else(|| header(line, COUNTING_LINE))?;
-    if dt.is_none() {
-        return Ok((count, None));
-    }
-    read_interval(second.unwrap_or(""))
-        .map(|dt| (count, Some(dt)))
-        .map_err(|fault| text.on_line(index, fault))
+    let (found, count, interval, expected) = match starts_number(npts) {
+        true => (npts, read_count(npts), dt, "a number of samples"),
+        // The oldest generation: values before their names.
+        false => {
+            let count = values.next().and_then(read_count);
+            let interval = dt.map(|_| values.next().unwrap_or(""));
+            (line, count, interval, COUNTING_LINE)
+        }
+    };
+    let refuse = || text.differs(index, excerpt(found), expected);
+    let count = count.ok_or_else(refuse)?;
+    let dt = interval.map(read_interval).transpose();
+    dt.map(|dt| (count, dt)).map_err(|fault| text.on_line(index, fault))
 }
 
 /// The count at the beginning of a text, ended by a separator.

@@ -30,15 +30,10 @@ pub(super) static FORMAT: Format = Format {
     files: "BRI `.ac`",
     source: "Japan",
     azimuths: true,
-    recognises,
+    recognises: |text| head(text).is_some(),
     read,
     ..Format::BASE
 };
-
-/// Whether the first line is a date, a time and three counts.
-fn recognises(text: &Text<'_>) -> bool {
-    head(text).is_some()
-}
 
 fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
     let line = text.line(0)?;

@@ -41,15 +41,10 @@ pub(super) static FORMAT: Format = Format {
     files: "COSMOS and CSMIP V1 and V2",
     source: "United States",
     azimuths: true,
-    recognises,
+    recognises: |text| text.lines().any(announces),
     read,
     ..Format::BASE
 };
-
-/// Whether any line announces a block of samples.
-fn recognises(text: &Text<'_>) -> bool {
-    text.lines().any(announces)
-}
 
 fn announces(line: &str) -> bool {
     is_cosmos(line) || is_csmip(line) || is_raw(line)
@@ -223,9 +218,8 @@ fn announced<'a>(
         let rate = number::finite(after(RAW_RATE)).filter(|rate| *rate > 0.0);
         let dt_s = rate.map(|rate| 1.0 / rate);
         if dt_s.is_none() {
-            let (found, expected) = (excerpt(rest), "a rate in points/s");
-            let fault = Fault::Header { found, expected };
-            return Err(text.on_line(index, fault));
+            let expected = "a rate in points/s";
+            return Err(text.differs(index, excerpt(rest), expected));
         }
         return Ok(Block { count, quantity: "accel", unit, layout, dt_s });
     }

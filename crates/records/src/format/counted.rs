@@ -45,15 +45,10 @@ pub(super) static FORMAT: Format = Format {
     azimuths: true,
     header: Header::NoUnit,
     is_fixed: false,
-    recognises,
+    recognises: |text| head(text).is_some(),
     read,
     ..Format::BASE
 };
-
-/// Whether the head has a count and an interval.
-fn recognises(text: &Text<'_>) -> bool {
-    head(text).is_some()
-}
 
 fn head(text: &Text<'_>) -> Option<Head> {
     two_lines(text).or_else(|| {

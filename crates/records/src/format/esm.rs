@@ -13,16 +13,10 @@ pub(super) static FORMAT: Format = Format {
     files: "ESM and ITACA, AFAD since 2018",
     source: "Europe",
     is_fixed: false,
-    recognises,
+    recognises: |text| keys::has(text, ["SAMPLING_INTERVAL_S", "NDATA"]),
     read,
     ..Format::BASE
 };
-
-/// Whether the header has the format's keys.
-fn recognises(text: &Text<'_>) -> bool {
-    keys::find(text, "SAMPLING_INTERVAL_S").is_some()
-        && keys::find(text, "NDATA").is_some()
-}
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {

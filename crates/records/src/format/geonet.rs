@@ -49,15 +49,10 @@ pub(super) static FORMAT: Format = Format {
     name: "geonet",
     files: "GeoNet V1A and V2A",
     source: "New Zealand",
-    recognises,
+    recognises: |text| text.line(0).is_some_and(is_first),
     read,
     ..Format::BASE
 };
-
-/// Whether the first line is that of the format.
-fn recognises(text: &Text<'_>) -> bool {
-    text.line(0).is_some_and(is_first)
-}
 
 fn is_first(line: &str) -> bool {
     text::contains(line, "corrected accelerogram")
@@ -187,11 +182,12 @@ fn counts(
     };
     let [points, velocity, displacement] = COUNTS;
     let counts = [count(points)?, count(velocity)?, count(displacement)?];
-    match header.after(POINTS, "points") {
-        Some((stated, _)) if stated == counts[0] as f64 && stated > 0.0 => {
-            Ok(counts)
+    let same = |(stated, _)| stated == counts[0] as f64 && stated > 0.0;
+    match header.after(POINTS, "points").is_some_and(same) {
+        true => Ok(counts),
+        false => {
+            Err(header.refuse(POINTS, "the number of points of integer 34"))
         }
-        _ => Err(header.refuse(POINTS, "the number of points of integer 34")),
     }
 }
 
@@ -201,17 +197,13 @@ fn interval(
     reals: &[f64],
     count: usize,
 ) -> Result<f64, RecordError> {
-    let stated = match header.after(INTERVAL, "intervals of") {
-        Some((dt_s, unit)) => Some((dt_s, unit)),
-        None => header.after(INTERVAL, "at"),
+    let stated = header.after(INTERVAL, "intervals of");
+    let stated = stated.or_else(|| header.after(INTERVAL, "at"));
+    let fits = |(dt_s, unit): &(f64, &str)| {
+        *dt_s > 0.0 && unit.trim_start().starts_with('s')
     };
-    let dt_s = match stated {
-        Some((dt_s, unit))
-            if dt_s > 0.0 && unit.trim_start().starts_with('s') =>
-        {
-            dt_s
-        }
-        _ => return Err(header.refuse(INTERVAL, "an interval in s")),
+    let Some((dt_s, _)) = stated.filter(fits) else {
+        return Err(header.refuse(INTERVAL, "an interval in s"));
     };
     let same = |x: &f64| (x - dt_s).abs() <= 1e-6 * dt_s;
     if !reals.get(INTERVAL_S - 1).is_some_and(same) {
@@ -232,24 +224,16 @@ fn interval(
 
 /// The peak acceleration in mm/s2.
 fn peak(header: &Header<'_, '_>) -> Result<f64, RecordError> {
+    let is_unit = |unit: &str| unit.trim_start().starts_with("mm/s/s");
     let raw = text::after_word(header.line(INTERVAL), "units");
-    let fits = match (raw, header.after(INTERVAL, "units of")) {
-        (None, _) => true,
-        (Some(_), Some((factor, unit))) => {
-            factor == 1.0 && unit.trim_start().starts_with("mm/s/s")
-        }
-        (Some(_), None) => false,
-    };
-    if !fits {
+    let readings = header.after(INTERVAL, "units of");
+    let fits = |(factor, unit)| factor == 1.0 && is_unit(unit);
+    if raw.is_some() && !readings.is_some_and(fits) {
         return Err(header.refuse(INTERVAL, "readings in 1.00 mm/s/s"));
     }
-    match header.after(PEAK, "peak") {
-        Some((peak, unit))
-            if unit.trim_start().starts_with("mm/s/s")
-                && text::contains(header.line(PEAK), "acceleration") =>
-        {
-            Ok(peak)
-        }
-        _ => Err(header.refuse(PEAK, "a peak acceleration in mm/s/s")),
-    }
+    let peak = header.after(PEAK, "peak").filter(|(_, unit)| {
+        is_unit(unit) && text::contains(header.line(PEAK), "acceleration")
+    });
+    let refuse = || header.refuse(PEAK, "a peak acceleration in mm/s/s");
+    peak.map(|(peak, _)| peak).ok_or_else(refuse)
 }

@@ -7,7 +7,7 @@
 
 use super::{Channel, Format};
 use crate::direction::Direction;
-use crate::error::{Fault, RecordError};
+use crate::error::RecordError;
 use crate::number;
 use crate::text::Text;
 use crate::{fields, keys};
@@ -22,16 +22,10 @@ pub(super) static FORMAT: Format = Format {
     name: "knet",
     files: "K-NET and KiK-net",
     source: "Japan",
-    recognises,
+    recognises: |text| keys::has(text, ["Scale Factor", "Sampling Freq(Hz)"]),
     read,
     ..Format::BASE
 };
-
-/// Whether the header has the format's keys.
-fn recognises(text: &Text<'_>) -> bool {
-    keys::find(text, "Scale Factor").is_some()
-        && keys::find(text, "Sampling Freq(Hz)").is_some()
-}
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
@@ -45,11 +39,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut samples = fields::read(text, first, text.len(), layout)?;
     let expected = frequency_hz * duration_s;
     if !(expected <= 1e9 && expected.fract() == 0.0) {
-        let fault = Fault::Header {
-            found: format!("{frequency_hz} Hz for {duration_s} s"),
-            expected: "a whole number of samples",
-        };
-        return Err(text.on_line(memo, fault));
+        let found = format!("{frequency_hz} Hz for {duration_s} s");
+        return Err(text.differs(memo, found, "a whole number of samples"));
     }
     text.check_count(samples.len(), expected as usize)?;
     for count in &mut samples {

@@ -15,16 +15,12 @@ pub(super) static FORMAT: Format = Format {
     name: "resorce",
     files: "RESORCE",
     source: "Europe",
-    recognises,
+    recognises: |text| {
+        keys::has(text, ["Time Increment (s)", "Number of Data"])
+    },
     read,
     ..Format::BASE
 };
-
-/// Whether the header has RESORCE's keys.
-fn recognises(text: &Text<'_>) -> bool {
-    keys::find(text, "Time Increment (s)").is_some()
-        && keys::find(text, "Number of Data").is_some()
-}
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {

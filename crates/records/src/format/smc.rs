@@ -71,7 +71,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             let index = TEXT_LINES + (place - 1) / INTEGERS.per_line;
             let found = format!("integer {place} is {value}");
             let expected = "a number of comments (16) or samples (17)";
-            text.on_line(index, Fault::Header { found, expected })
+            text.differs(index, found, expected)
         })
     };
     if integers.len() != INTEGER_LINES * INTEGERS.per_line {

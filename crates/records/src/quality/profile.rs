@@ -82,17 +82,11 @@ impl Profile {
 
 /// What a suite keeps of the motion of a record: the accelerogram, or a
 /// [`Profile`] of one that stays in its file.
-pub trait Motion: sealed::Sealed {
+pub trait Motion {
     /// Name of the record.
     fn name(&self) -> &str;
     /// Its profile.
     fn profile(&self) -> Cow<'_, Profile>;
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::Accelerogram {}
-    impl Sealed for super::Profile {}
 }
 
 impl Motion for Accelerogram {

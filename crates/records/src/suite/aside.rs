@@ -183,10 +183,6 @@ impl SetAside {
         counts.sort_by_key(|count| count.reason);
         counts
     }
-
-    pub(super) fn push(&mut self, aside: Aside) {
-        self.0.push(aside);
-    }
 }
 
 impl Extend<Aside> for SetAside {

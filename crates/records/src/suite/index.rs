@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
-use crate::given::Given;
 use crate::read::settle_one;
-use crate::record::{ReadOptions, Record, Settled, sha256_hex};
+use crate::record::{Given, ReadOptions, Record, Settled, sha256_hex};
 use crate::text::{self, excerpt};
 use rocking::accelerogram::EXPECTED;
 use rocking::accelerogram::result_name;
@@ -60,9 +59,10 @@ const PEER_SECOND: &str = "Horizontal-2 Acc. Filename";
 const PEER_NUMBER: &str = "Record Sequence Number";
 const PEER_EVENT: &str = "Earthquake Name";
 
-/// Whether the first line has a column `file`, or any line is the head of
-/// PEER's list of records.
-pub(super) fn is_index(bytes: &[u8]) -> bool {
+/// Whether the content is an index: its first line has a column `file`, or any
+/// line is the head of PEER's list of records.
+#[must_use]
+pub fn is_index(bytes: &[u8]) -> bool {
     let Ok(content) = text::decode("", bytes) else { return false };
     let mut lines = content.split(['\n', '\r']);
     let plain = lines
@@ -402,9 +402,9 @@ impl Row {
     ) -> Result<(), SuiteError> {
         let motion = &record.accelerogram;
         if let Some(cell) = self.cell("format") {
-            let found = record.format.to_string();
+            let found = record.format.name;
             if found != cell {
-                return Err(self.mismatch("format", found, cell));
+                return Err(self.mismatch("format", found.to_owned(), cell));
             }
         }
         if let Some(cell) = self.cell("npts") {

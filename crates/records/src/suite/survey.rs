@@ -7,10 +7,9 @@ use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::given::Given;
 use crate::quality::{Motion, Remark};
 use crate::read::{file_bytes, is_record, name_of, settle, stem};
-use crate::record::{ReadOptions, Record, Settled};
+use crate::record::{Given, ReadOptions, Record, Settled};
 use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -26,8 +25,11 @@ pub struct Survey<K = SuiteMember> {
     path: String,
     /// Name of the suite.
     name: String,
-    members: Vec<Result<K, SuiteError>>,
-    set_aside: SetAside,
+    /// Every record that was looked for, in the index's order or by file
+    /// name; pairs found by name are known to the suite only.
+    pub members: Vec<Result<K, SuiteError>>,
+    /// What the folder or archive holds beside the records.
+    pub set_aside: SetAside,
     study_rule: StudyRule,
     paired: bool,
 }
@@ -165,7 +167,7 @@ impl<K> Survey<K> {
         for name in names {
             let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
-                .and_then(|bytes| settle(&shown, &bytes, options));
+                .and_then(|bytes| settle(&shown, &bytes, options, None));
             let found = records.unwrap_or_else(|error| {
                 survey.refuse(name, error);
                 Vec::new()
@@ -186,7 +188,7 @@ impl<K> Survey<K> {
     /// Takes what was refused as set aside, or as a fault of the suite.
     fn refuse(&mut self, name: &str, error: RecordError) {
         match Aside::of(name, error) {
-            Ok(aside) => self.set_aside.push(aside),
+            Ok(aside) => self.set_aside.extend([aside]),
             Err(error) => self.members.push(Err(error.into())),
         }
     }
@@ -230,18 +232,6 @@ impl<K> Survey<K> {
             study_rule,
             paired,
         })
-    }
-
-    /// Every record that was looked for, in the index's order or by file
-    /// name; pairs found by name are known to the suite only.
-    pub fn members(&self) -> &[Result<K, SuiteError>] {
-        &self.members
-    }
-
-    /// What the folder or archive holds beside the records.
-    #[must_use]
-    pub fn set_aside(&self) -> &SetAside {
-        &self.set_aside
     }
 }
 

@@ -246,7 +246,7 @@ fn of_a_kiknet_station_the_two_surface_components_make_a_suite() {
     let options = ReadOptions::default();
     let survey = Survey::of_files("d", &names, &options, bytes, KEEP).unwrap();
     let aside: Vec<_> = survey
-        .set_aside()
+        .set_aside
         .all()
         .iter()
         .map(|aside| format!("{} {}", aside.file, aside.reason.code()))

@@ -371,15 +371,15 @@ impl RecordsListing {
             Ok(survey) => survey,
             Err(error) => return self.refused.push(refused(&error)),
         };
-        self.set_aside.extend(survey.set_aside().all().iter().cloned());
-        if survey.members().iter().all(Result::is_ok) {
+        self.set_aside.extend(survey.set_aside.all().iter().cloned());
+        if survey.members.iter().all(Result::is_ok) {
             match survey.into_suite() {
                 Ok(suite) => self.add_suite(path, &suite),
                 Err(error) => self.refused.push(refused(&error)),
             }
             return;
         }
-        for member in survey.members() {
+        for member in &survey.members {
             match member {
                 Ok(member) => {
                     self.records.push(RecordListing::member(member, false));

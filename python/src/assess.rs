@@ -11,8 +11,8 @@ use rocking_procedures::{AssessOptions, Draws, Object, assess as procedure};
 use rocking_records::floor::Floor;
 use rocking_statistics::Clusters;
 
-use crate::exchange::{Written, read};
-use crate::given::{Given, block_of, positive_gravity, suite_of};
+use crate::exchange::{HazardInput, read};
+use crate::given::{ExcitationInput, block_of, positive_gravity, suite_of};
 use crate::work::{self, refuse};
 
 /// An object.
@@ -72,10 +72,10 @@ pub struct Options {
 pub fn assess(
     py: Python<'_>,
     objects: Vec<GivenObject>,
-    records: Vec<Given<'_>>,
+    records: Vec<ExcitationInput<'_>>,
     events: Vec<String>,
     embedded: bool,
-    hazard: Option<Written>,
+    hazard: Option<HazardInput>,
     options: Options,
     threads: Option<usize>,
 ) -> PyResult<BTreeMap<String, String>> {

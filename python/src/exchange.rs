@@ -9,26 +9,29 @@ use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
 };
 use rocking_procedures::{
-    Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
+    Draws, Exposed as ProcedureExposed, FitOptions, Sampled, Shift,
+    risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
 use rocking_surrogate::Surrogate;
 
 use crate::given::{block_of, positive_gravity};
-use crate::procedures::{Fit, GivenSample, answer, clusters_of, sample_of};
+use crate::procedures::{Fit, SampleInput, answer, clusters_of, sample_of};
 use crate::work::{self, refuse};
 
 /// The shift, log_mean and dispersion of a lognormal.
-type Law = (f64, f64, f64);
+type LognormalInput = (f64, f64, f64);
 
-fn lognormal((shift, log_mean, dispersion): Law) -> PyResult<Lognormal> {
+fn lognormal(
+    (shift, log_mean, dispersion): LognormalInput,
+) -> PyResult<Lognormal> {
     Lognormal::try_new(shift, log_mean, dispersion).map_err(refuse)
 }
 
 /// Where a fragility comes from, or the size of its sample.
 #[derive(FromPyObject)]
-pub enum Source {
+pub enum OriginInput {
     Origin(String),
     Size(usize),
 }
@@ -36,11 +39,11 @@ pub enum Source {
 /// The fragilities of a block in the unit of their samples: name, law and
 /// source of each limit state.
 #[derive(FromPyObject)]
-pub struct Wanted {
+pub struct FragilityInput {
     #[pyo3(item)]
     block: (f64, f64),
     #[pyo3(item)]
-    limit_states: Vec<(String, Law, Source)>,
+    limit_states: Vec<(String, LognormalInput, OriginInput)>,
     #[pyo3(item)]
     im: String,
     #[pyo3(item)]
@@ -53,7 +56,7 @@ pub struct Wanted {
     origin: Option<String>,
 }
 
-impl Wanted {
+impl FragilityInput {
     /// The number of units of the block's own measure in one of the
     /// samples'.
     fn factor(&self, gravity: f64) -> PyResult<f64> {
@@ -77,8 +80,8 @@ impl Wanted {
             let fragility = lognormal(law)?.scaled(factor).map_err(refuse)?;
             limit_states.push(LimitState { name, fragility });
             origins.push(match source {
-                Source::Origin(words) => words,
-                Source::Size(n) => unstated_origin(n, &im),
+                OriginInput::Origin(words) => words,
+                OriginInput::Size(n) => unstated_origin(n, &im),
             });
         }
         origins.dedup();
@@ -99,7 +102,7 @@ impl Wanted {
 #[pyfunction]
 pub fn exchange(
     format: &str,
-    blocks: Vec<Wanted>,
+    blocks: Vec<FragilityInput>,
     gravity: f64,
 ) -> PyResult<(String, Option<(&'static str, String)>)> {
     let format = ExchangeFormat::named(format).map_err(refuse)?;
@@ -111,19 +114,19 @@ pub fn exchange(
 
 /// Longitude and latitude in degrees of a site, or its id.
 #[derive(FromPyObject)]
-pub enum GivenSite {
+pub enum SiteInput {
     Degrees((f64, f64)),
     Id(String),
 }
 
 /// A hazard curve as it is written: the place, its text, the years of its
 /// probabilities, and the site.
-pub type Written = (String, String, Option<f64>, Option<GivenSite>);
+pub type HazardInput = (String, String, Option<f64>, Option<SiteInput>);
 
-pub fn read((place, text, years, site): &Written) -> PyResult<Hazard> {
+pub fn read((place, text, years, site): &HazardInput) -> PyResult<Hazard> {
     let site = site.as_ref().map(|site| match site {
-        GivenSite::Degrees((lon, lat)) => Site::Degrees(*lon, *lat),
-        GivenSite::Id(id) => Site::Id(id.clone()),
+        SiteInput::Degrees((lon, lat)) => Site::Degrees(*lon, *lat),
+        SiteInput::Id(id) => Site::Id(id.clone()),
     });
     let options = HazardOptions { years: *years, site };
     Hazard::parse(place, text, &options).map_err(refuse)
@@ -131,11 +134,12 @@ pub fn read((place, text, years, site): &Written) -> PyResult<Hazard> {
 
 /// The points of a hazard curve, its measure, the unit of its intensities,
 /// and what was set aside.
-type Found = (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
+type HazardOutput =
+    (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
 
 /// A hazard curve.
 #[pyfunction]
-pub fn hazard(written: Written) -> PyResult<Found> {
+pub fn hazard(written: HazardInput) -> PyResult<HazardOutput> {
     let found = read(&written)?;
     let remarks = found.remarks.iter().map(ToString::to_string).collect();
     let im = found.im.name();
@@ -144,19 +148,19 @@ pub fn hazard(written: Written) -> PyResult<Found> {
 
 /// A fragility in the unit of a hazard curve, or those of a block.
 #[derive(FromPyObject)]
-pub enum Exposed {
-    Law(Law),
-    Block(Wanted),
+pub enum RiskInput {
+    Law(LognormalInput),
+    Block(FragilityInput),
 }
 
 /// The sample behind a fragility, and how it was fitted.
-type Behind<'py> = Option<(GivenSample<'py>, Fit)>;
+type RiskSample<'py> = Option<(SampleInput<'py>, Fit)>;
 
 /// What the draws of a sample make of its fragility; none above a shift that
 /// is not known.
 fn sampled(
     py: Python<'_>,
-    behind: Behind<'_>,
+    behind: RiskSample<'_>,
     draws: Option<Draws>,
 ) -> PyResult<Option<Sampled>> {
     let Some((sample, fit)) = behind else { return Ok(None) };
@@ -176,8 +180,8 @@ fn sampled(
 #[pyfunction]
 pub fn risk(
     py: Python<'_>,
-    written: Written,
-    exposed: Vec<(String, Exposed, Vec<Behind<'_>>)>,
+    written: HazardInput,
+    exposed: Vec<(String, RiskInput, Vec<RiskSample<'_>>)>,
     gravity: f64,
     years: f64,
     replicates: usize,
@@ -191,12 +195,12 @@ pub fn risk(
         let mut drawn = || sampled(py, behind.next().flatten(), draws);
         let name = fragility.clone();
         let block = match one {
-            Exposed::Law(law) => {
+            RiskInput::Law(law) => {
                 let (fitted, sampled) = (lognormal(law)?, drawn()?);
-                all.push(One { fragility, fitted, sampled });
+                all.push(ProcedureExposed { fragility, fitted, sampled });
                 continue;
             }
-            Exposed::Block(block) => block,
+            RiskInput::Block(block) => block,
         };
         let factor = block.factor(gravity)?;
         let own = block.fragility(gravity)?;
@@ -219,7 +223,7 @@ pub fn risk(
             };
             let scaled = |all: Sampled| all.scaled(factor)?.scaled(unit);
             let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
-            all.push(One { fragility, fitted, sampled });
+            all.push(ProcedureExposed { fragility, fitted, sampled });
         }
     }
     answer(py, || procedure(&hazard, &all, years))

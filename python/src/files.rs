@@ -8,7 +8,7 @@ use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking_records::{
-    Given, ReadOptions, RecordError, Remark, Remarked, Suite, remarks,
+    Fallback, ReadOptions, RecordError, Remark, RemarkInput, Suite, remarks,
     remarks_together,
 };
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
@@ -107,10 +107,10 @@ pub fn read_suite<'py>(
     let members: Vec<_> =
         members.filter(|m| both || m.study_component).collect();
     let together = work::on_all(py, || {
-        let all = members.iter().map(|member| Remarked::from(*member));
+        let all = members.iter().map(|member| RemarkInput::from(*member));
         remarks_together(&all.collect::<Vec<_>>())
     })?;
-    let count = |is: fn(&Given) -> bool| {
+    let count = |is: fn(&Fallback) -> bool| {
         members.iter().filter(|member| is(&member.given)).count()
     };
     let given = (count(|given| given.dt), count(|given| given.unit));
@@ -120,7 +120,8 @@ pub fn read_suite<'py>(
             attributes.insert("file".to_owned(), member.file.clone());
             let event = member.event.clone();
             attributes.extend(event.map(|own| ("event".to_owned(), own)));
-            attributes.insert("format".to_owned(), member.format.name.to_owned());
+            attributes
+                .insert("format".to_owned(), member.format.name.to_owned());
             attributes.insert("units".to_owned(), member.unit.to_string());
             let named = [("site", &member.site), ("pair", &member.pair)];
             for (key, text) in named {

@@ -100,17 +100,19 @@ pub fn block_of((alpha, p): (f64, f64)) -> PyResult<Block> {
 
 /// An excitation as Python hands it over: name, samples in g with their
 /// interval, and a pulse's parameters where there are no samples.
-pub type Given<'py> =
+pub type ExcitationInput<'py> =
     (String, Option<PyReadonlyArray1<'py, f64>>, f64, BTreeMap<String, f64>);
 
 /// An excitation, checked.
-pub enum Ground {
+pub enum RecordOrPulse {
     Record(Accelerogram),
     Pulse(Pulse),
 }
 
-impl Ground {
-    pub fn of((name, samples, dt, numbers): Given<'_>) -> PyResult<Self> {
+impl RecordOrPulse {
+    pub fn of(
+        (name, samples, dt, numbers): ExcitationInput<'_>,
+    ) -> PyResult<Self> {
         match samples {
             None => Ok(Self::Pulse(pulse_of(&name, &numbers)?)),
             Some(samples) => {
@@ -124,13 +126,15 @@ impl Ground {
         }
     }
 
-    pub fn all(given: Vec<Given<'_>>) -> PyResult<Vec<Self>> {
+    pub fn all(given: Vec<ExcitationInput<'_>>) -> PyResult<Vec<Self>> {
         given.into_iter().map(Self::of).collect()
     }
 }
 
 /// The records of a suite, by names that tell them apart.
-pub fn suite_of(given: Vec<Given<'_>>) -> PyResult<Vec<Accelerogram>> {
+pub fn suite_of(
+    given: Vec<ExcitationInput<'_>>,
+) -> PyResult<Vec<Accelerogram>> {
     let records = given.into_iter().map(record_of);
     let records = records.collect::<PyResult<Vec<_>>>()?;
     let given: Vec<&str> = records.iter().map(Accelerogram::name).collect();
@@ -147,10 +151,10 @@ pub fn suite_of(given: Vec<Given<'_>>) -> PyResult<Vec<Accelerogram>> {
 }
 
 /// The record of a given excitation that must be one.
-pub fn record_of(given: Given<'_>) -> PyResult<Accelerogram> {
-    match Ground::of(given)? {
-        Ground::Record(record) => Ok(record),
-        Ground::Pulse(_) => Err(refuse("a pulse: expected a record")),
+pub fn record_of(given: ExcitationInput<'_>) -> PyResult<Accelerogram> {
+    match RecordOrPulse::of(given)? {
+        RecordOrPulse::Record(record) => Ok(record),
+        RecordOrPulse::Pulse(_) => Err(refuse("a pulse: expected a record")),
     }
 }
 

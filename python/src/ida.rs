@@ -17,7 +17,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::stop;
-use rocking_exchange::ida::{self as tables, Curves, Row};
+use rocking_exchange::ida::{self as tables, Curves, IdaRow};
 use rocking_procedures::counts::Outcome;
 use rocking_procedures::ranking::{Candidate, Covariate};
 use rocking_procedures::{
@@ -28,13 +28,13 @@ use rocking_records::intensity::{
     AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
 };
 
-use crate::given::{Given, Physics, block_of, suite_of};
+use crate::given::{ExcitationInput, Physics, block_of, suite_of};
 use crate::procedures::{Fit, answer};
 use crate::work::{self, refuse};
 
 /// Levels and how they are reached.
 #[derive(FromPyObject)]
-pub struct Scan {
+pub struct GridInput {
     #[pyo3(item)]
     step_g: Option<f64>,
     #[pyo3(item)]
@@ -53,7 +53,7 @@ pub struct Scan {
 fn analysis_of(
     block: (f64, f64),
     physics: &Physics,
-    scan: &Scan,
+    scan: &GridInput,
 ) -> PyResult<Analysis> {
     let block = block_of(block)?;
     let grid = match (scan.step_im, scan.step_g) {
@@ -75,8 +75,8 @@ fn analysis_of(
 
 /// The table of an IDA, and unless it was read the run that made it: the
 /// analysis, and the JSON of its summary.
-#[pyclass(frozen, module = "rocking._rocking")]
-pub struct IdaTable {
+#[pyclass(frozen, name = "IdaTable", module = "rocking._rocking")]
+pub struct PyIdaTable {
     table: tables::IdaTable,
     run: Option<(Analysis, String)>,
 }
@@ -87,14 +87,14 @@ pub struct IdaTable {
 pub fn ida<'py>(
     py: Python<'py>,
     block: (f64, f64),
-    records: Vec<Given<'py>>,
+    records: Vec<ExcitationInput<'py>>,
     known: Vec<(String, String)>,
     physics: Physics,
-    scan: Scan,
+    scan: GridInput,
     gravity: f64,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<IdaTable> {
+) -> PyResult<PyIdaTable> {
     let analysis = analysis_of(block, &physics, &scan)?;
     let records = suite_of(records)?;
     let found = work::run(py, threads, progress, records.len(), |done| {
@@ -112,7 +112,7 @@ pub fn ida<'py>(
         tables::IdaTable::of(&curves, &analysis, gravity, about, known);
     let summary = summarise_ida(&curves, &analysis);
     let summary = serde_json::to_string(&summary).map_err(refuse)?;
-    Ok(IdaTable { table, run: Some((analysis, summary)) })
+    Ok(PyIdaTable { table, run: Some((analysis, summary)) })
 }
 
 /// The records at a peak of 1 g.
@@ -126,7 +126,7 @@ fn normalised(records: &[Accelerogram]) -> Vec<NormalisedRecord> {
 
 /// Reads the table of an IDA.
 #[pyfunction]
-pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
+pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<PyIdaTable> {
     let file = File::open(&path).map_err(|error| {
         let text = format!("{}: {error}", path.display());
         if path.exists() {
@@ -137,7 +137,7 @@ pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
     })?;
     let read = || tables::IdaTable::read(file, &path);
     let table = work::alone(py, read)?.map_err(refuse)?;
-    Ok(IdaTable { table, run: None })
+    Ok(PyIdaTable { table, run: None })
 }
 
 /// The table of a CSV text, for pickles: with the block, the physics, the
@@ -145,26 +145,26 @@ pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
 #[pyfunction]
 pub fn ida_of_csv(
     text: &str,
-    run: Option<((f64, f64), Physics, Scan, String)>,
-) -> PyResult<IdaTable> {
+    run: Option<((f64, f64), Physics, GridInput, String)>,
+) -> PyResult<PyIdaTable> {
     let table = tables::IdaTable::read(text.as_bytes(), Path::new("CSV"));
     let run = run.map(|(block, physics, scan, summary)| {
         Ok::<_, PyErr>((analysis_of(block, &physics, &scan)?, summary))
     });
-    Ok(IdaTable { table: table.map_err(refuse)?, run: run.transpose()? })
+    Ok(PyIdaTable { table: table.map_err(refuse)?, run: run.transpose()? })
 }
 
 /// A record of a suite, and what else is known of it.
-type Member<'py> = (Given<'py>, BTreeMap<String, String>);
+type Member<'py> = (ExcitationInput<'py>, BTreeMap<String, String>);
 
 /// The records of a table, unscaled and measured.
-struct Ground {
+struct MeasuredSuite {
     uplift: AtUplift,
     periods_s: Vec<f64>,
     members: Vec<(String, Measures, BTreeMap<String, String>)>,
 }
 
-impl Ground {
+impl MeasuredSuite {
     fn at_uplift(&self, measure: &IntensityMeasure) -> PyResult<Vec<f64>> {
         let of = |(name, measures, known): &(String, _, _)| {
             let attribute = match measure {
@@ -200,7 +200,7 @@ fn cell(
     })
 }
 
-impl IdaTable {
+impl PyIdaTable {
     /// What was run.
     fn run(&self) -> PyResult<&(Analysis, String)> {
         self.run.as_ref().ok_or_else(|| {
@@ -238,7 +238,7 @@ impl IdaTable {
         py: Python<'_>,
         suite: Vec<Member<'_>>,
         ims: &[IntensityMeasure],
-    ) -> PyResult<Ground> {
+    ) -> PyResult<MeasuredSuite> {
         let setting = &self.table.setting;
         let Some(alpha_rad) = self.table.alpha_rad() else {
             return Err(refuse("the records are not scaled: no measure"));
@@ -270,12 +270,12 @@ impl IdaTable {
         };
         let members = work::on_all(py, measured)?.map_err(refuse)?;
         let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
-        Ok(Ground { uplift, periods_s, members })
+        Ok(MeasuredSuite { uplift, periods_s, members })
     }
 }
 
 #[pymethods]
-impl IdaTable {
+impl PyIdaTable {
     /// The CSV text, with the bytes of `rocking ida`.
     fn csv(&self) -> String {
         self.table.csv()
@@ -283,7 +283,7 @@ impl IdaTable {
 
     /// The first row of each record.
     fn starts(&self) -> Vec<usize> {
-        let sizes = self.table.by_record().map(<[Row]>::len);
+        let sizes = self.table.by_record().map(<[IdaRow]>::len);
         let next = |next: &mut usize, size| {
             let start = *next;
             *next += size;
@@ -296,10 +296,10 @@ impl IdaTable {
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.table.rows;
         let out = PyDict::new(py);
-        let texts = |text: fn(&Row) -> &str| {
+        let texts = |text: fn(&IdaRow) -> &str| {
             rows.iter().map(text).collect::<Vec<&str>>()
         };
-        let numbers = |value: fn(&Row) -> f64| {
+        let numbers = |value: fn(&IdaRow) -> f64| {
             rows.iter().map(value).collect::<Vec<f64>>().into_pyarray(py)
         };
         out.set_item("record", texts(|row| &row.record))?;
@@ -347,14 +347,14 @@ impl IdaTable {
     fn pivot_forces(
         &self,
         py: Python<'_>,
-        suite: Vec<Given<'_>>,
+        suite: Vec<ExcitationInput<'_>>,
         friction: Vec<f64>,
     ) -> PyResult<String> {
         let (analysis, _) = self.run()?;
         let records = suite_of(suite)?;
         self.of_suite(records.iter())?;
         // The onset was not run, and a refined end is no level.
-        let run = |rows: &[Row]| -> Vec<f64> {
+        let run = |rows: &[IdaRow]| -> Vec<f64> {
             let levels = rows[1..].iter().filter(|row| !row.is_refined());
             levels.map(|row| row.intensity_pga).collect()
         };

@@ -44,7 +44,7 @@ mod _rocking {
         sampling_interval, uplift_threshold,
     };
     #[pymodule_export]
-    use crate::ida::{IdaCurves, IdaTable, ida, ida_of_csv, read_ida};
+    use crate::ida::{IdaCurves, PyIdaTable, ida, ida_of_csv, read_ida};
     #[pymodule_export]
     use crate::measures::{intensity_measures, velocity_pulse};
     #[pymodule_export]

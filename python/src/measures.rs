@@ -6,7 +6,7 @@ use rocking_records::intensity::{
     IntensityError, Measures, PairMeasures, Settings,
 };
 
-use crate::given::{Given, record_of};
+use crate::given::{ExcitationInput, record_of};
 use crate::procedures::answer;
 use crate::work::refuse;
 
@@ -14,8 +14,8 @@ use crate::work::refuse;
 #[pyfunction]
 pub fn intensity_measures(
     py: Python<'_>,
-    record: Given<'_>,
-    second: Option<Given<'_>>,
+    record: ExcitationInput<'_>,
+    second: Option<ExcitationInput<'_>>,
     periods: Vec<f64>,
     damping: f64,
     gravity: f64,
@@ -35,8 +35,8 @@ pub fn intensity_measures(
 #[pyfunction]
 pub fn velocity_pulse(
     py: Python<'_>,
-    first: Given<'_>,
-    second: Given<'_>,
+    first: ExcitationInput<'_>,
+    second: ExcitationInput<'_>,
     gravity: f64,
 ) -> PyResult<String> {
     let (first, second) = (record_of(first)?, record_of(second)?);

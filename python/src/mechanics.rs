@@ -12,7 +12,9 @@ use rocking::integrator::{
 };
 use rocking::{Excitation, Response, Scene, integrator};
 
-use crate::given::{Given, Ground, Physics, block_of, choose};
+use crate::given::{
+    ExcitationInput, Physics, RecordOrPulse, block_of, choose,
+};
 use crate::work::{self, refuse};
 
 /// What is scaled to a level.
@@ -30,18 +32,18 @@ pub const BY: [(&str, By); 3] =
     [("im", By::Im), ("pga_g", By::PgaG), ("scale", By::Scale)];
 
 /// An excitation, a record also divided by its peak.
-pub enum Motion<'a> {
+pub enum NormalisedMotion<'a> {
     Record(&'a Accelerogram, NormalisedRecord),
     Pulse(&'a Pulse),
 }
 
-impl<'a> Motion<'a> {
-    pub fn of(ground: &'a Ground) -> Self {
+impl<'a> NormalisedMotion<'a> {
+    pub fn of(ground: &'a RecordOrPulse) -> Self {
         match ground {
-            Ground::Record(record) => {
+            RecordOrPulse::Record(record) => {
                 Self::Record(record, NormalisedRecord::new(record))
             }
-            Ground::Pulse(pulse) => Self::Pulse(pulse),
+            RecordOrPulse::Pulse(pulse) => Self::Pulse(pulse),
         }
     }
 }
@@ -54,7 +56,7 @@ pub enum Scaled<'a> {
 
 impl<'a> Scaled<'a> {
     pub fn of(
-        motion: &'a Motion<'_>,
+        motion: &'a NormalisedMotion<'_>,
         by: By,
         level: f64,
         threshold: f64,
@@ -74,10 +76,10 @@ impl<'a> Scaled<'a> {
         }
         let pga_g = if by == By::Im { level * threshold } else { level };
         Ok(match motion {
-            Motion::Record(record, _) if by == By::Scale => {
+            NormalisedMotion::Record(record, _) if by == By::Scale => {
                 Self::Record(ScaledRecord::by_factor(record, level))
             }
-            Motion::Record(_, unit) => {
+            NormalisedMotion::Record(_, unit) => {
                 if !(unit.pga_g() > 0.0) {
                     let name = unit.name();
                     return Err(format!(
@@ -87,7 +89,7 @@ impl<'a> Scaled<'a> {
                 }
                 Self::Record(ScaledRecord::to_pga(unit, pga_g))
             }
-            Motion::Pulse(pulse) => {
+            NormalisedMotion::Pulse(pulse) => {
                 let scaled = match by {
                     By::Scale => pulse.scaled(level),
                     By::Im | By::PgaG => pulse.with_pga(pga_g),
@@ -110,7 +112,7 @@ impl<'a> Scaled<'a> {
 pub fn respond<'py>(
     py: Python<'py>,
     block: (f64, f64),
-    excitation: Given<'py>,
+    excitation: ExcitationInput<'py>,
     physics: Physics,
     by: &str,
     level: f64,
@@ -119,10 +121,10 @@ pub fn respond<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let block = block_of(block)?;
     let model = physics.model()?;
-    let ground = Ground::of(excitation)?;
+    let ground = RecordOrPulse::of(excitation)?;
     let threshold = uplift_threshold(&block, model);
     let by = choose("by", by, &BY)?;
-    let motion = Motion::of(&ground);
+    let motion = NormalisedMotion::of(&ground);
     let scaled = Scaled::of(&motion, by, level, threshold).map_err(refuse)?;
     let scene = Scene {
         model,

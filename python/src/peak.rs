@@ -19,8 +19,10 @@ use rocking::integrator::{
 };
 use rocking::stop;
 
-use crate::given::{Given, Ground, Physics, block_of, choose};
-use crate::mechanics::{BY, By, Motion, Scaled};
+use crate::given::{
+    ExcitationInput, Physics, RecordOrPulse, block_of, choose,
+};
+use crate::mechanics::{BY, By, NormalisedMotion, Scaled};
 use crate::work::{self, Done, refuse};
 
 /// Nearer to the uplift threshold (IM = 1), a grid with this step would have
@@ -36,19 +38,19 @@ const MOST_CURVES: usize = 1 << 17;
 pub fn peak<'py>(
     py: Python<'py>,
     blocks: Vec<(f64, f64)>,
-    excitations: Vec<Given<'py>>,
+    excitations: Vec<ExcitationInput<'py>>,
     levels: Vec<f64>,
     by: &str,
     physics: Physics,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let grounds = Ground::all(excitations)?;
+    let grounds = RecordOrPulse::all(excitations)?;
     let blocks = blocks.into_iter().map(|block| {
         let block = block_of(block)?;
         Ok((block, physics.restitution(&block)?))
     });
-    let asked = Asked {
+    let asked = PeakTask {
         blocks: blocks.collect::<PyResult<_>>()?,
         levels,
         by: choose("by", by, &BY)?,
@@ -60,7 +62,7 @@ pub fn peak<'py>(
     let peaks = work::run(py, threads, progress, total, |done| {
         let motion = |ground| {
             stop::point();
-            Motion::of(ground)
+            NormalisedMotion::of(ground)
         };
         let motions: Vec<_> =
             grounds.par_iter().panic_fuse().map(motion).collect();
@@ -73,7 +75,7 @@ pub fn peak<'py>(
 }
 
 /// What is asked, but for the excitations.
-struct Asked {
+struct PeakTask {
     blocks: Vec<(Block, Restitution)>,
     levels: Vec<f64>,
     by: By,
@@ -82,29 +84,29 @@ struct Asked {
 }
 
 /// An IDA curve with a single level.
-struct Single {
+struct OneLevel {
     block: usize,
     level: usize,
     analysis: Analysis,
 }
 
-impl Asked {
+impl PeakTask {
     fn peaks(
         &self,
-        motions: &[Motion<'_>],
+        motions: &[NormalisedMotion<'_>],
         done: &Done,
     ) -> Result<Vec<f64>, String> {
         let (wide, high) = (motions.len(), self.levels.len());
         let pairs = self.blocks.len() * high;
         let cells: Vec<OnceLock<Result<f64, String>>> =
             (0..pairs * wide).map(|_| OnceLock::new()).collect();
-        let singles: Vec<Option<Single>> =
+        let singles: Vec<Option<OneLevel>> =
             (0..pairs).map(|k| self.single(k / high, k % high)).collect();
         (0..cells.len()).into_par_iter().panic_fuse().try_for_each(
             |index| {
                 let (row, level) = (index / high, index % high);
                 let (block, motion) = (row / wide, &motions[row % wide]);
-                let is_record = matches!(motion, Motion::Record(..));
+                let is_record = matches!(motion, NormalisedMotion::Record(..));
                 if is_record && singles[block * high + level].is_some() {
                     return Ok::<(), String>(());
                 }
@@ -119,18 +121,18 @@ impl Asked {
             .iter()
             .enumerate()
             .filter_map(|(row, motion)| match motion {
-                Motion::Record(_, unit) => Some((row, unit.clone())),
-                Motion::Pulse(_) => None,
+                NormalisedMotion::Record(_, unit) => Some((row, unit.clone())),
+                NormalisedMotion::Pulse(_) => None,
             })
             .unzip();
         let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
-        let singles: Vec<Single> = singles.into_iter().flatten().collect();
+        let singles: Vec<OneLevel> = singles.into_iter().flatten().collect();
         for some in singles.chunks((MOST_CURVES / records.len().max(1)).max(1))
         {
             let analyses: Vec<Analysis> =
                 some.iter().map(|single| single.analysis).collect();
             for_each_curve(&records, &analyses, &batch, &|a, r, curve| {
-                let Single { block, level, .. } = some[a];
+                let OneLevel { block, level, .. } = some[a];
                 let motion = &motions[rows[r]];
                 let peak = self.peak_of(&curve, level);
                 let peak =
@@ -147,7 +149,7 @@ impl Asked {
     }
 
     /// The curve whose only level is this one; none where it runs alone.
-    fn single(&self, block: usize, level: usize) -> Option<Single> {
+    fn single(&self, block: usize, level: usize) -> Option<OneLevel> {
         let (body, restitution) = self.blocks[block];
         let asked = self.levels[level];
         let (grid, highest_im) = match self.by {
@@ -165,7 +167,7 @@ impl Asked {
             highest_im,
             ..Analysis::paper(body, restitution)
         };
-        (highest_im > LEAST_IM && highest_im.is_finite()).then_some(Single {
+        (highest_im > LEAST_IM && highest_im.is_finite()).then_some(OneLevel {
             block,
             level,
             analysis,
@@ -186,7 +188,7 @@ impl Asked {
     fn alone(
         &self,
         block: usize,
-        motion: &Motion<'_>,
+        motion: &NormalisedMotion<'_>,
         level: usize,
     ) -> Result<f64, String> {
         let (block, restitution) = self.blocks[block];

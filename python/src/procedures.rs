@@ -33,17 +33,17 @@ pub fn answer<T: Serialize + Send, E: Display + Send>(
 /// A sample as Python gives it: values, infinite where censored, and the
 /// limits of those that are censored at a known one, and the earthquakes and
 /// the names of the records, none where they are not known.
-pub type GivenSample<'py> =
+pub type SampleInput<'py> =
     (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>, Vec<String>, Vec<String>);
 
 pub fn sample_of(
-    (values, limits, ..): &GivenSample<'_>,
+    (values, limits, ..): &SampleInput<'_>,
 ) -> PyResult<CensoredSample> {
     CensoredSample::try_new(values.as_slice()?, limits).map_err(refuse)
 }
 
 /// The values of a sample by earthquake, where they are known.
-pub fn clusters_of((_, _, events, _): &GivenSample<'_>) -> Option<Clusters> {
+pub fn clusters_of((_, _, events, _): &SampleInput<'_>) -> Option<Clusters> {
     (!events.is_empty()).then(|| Clusters::from_labels(events))
 }
 
@@ -87,7 +87,7 @@ impl Fit {
 #[pyfunction]
 pub fn fit(
     py: Python<'_>,
-    sample: GivenSample<'_>,
+    sample: SampleInput<'_>,
     options: Fit,
 ) -> PyResult<String> {
     let clusters = clusters_of(&sample);
@@ -114,7 +114,7 @@ pub fn fit_stripes(
 #[pyfunction]
 pub fn test_normality(
     py: Python<'_>,
-    sample: GivenSample<'_>,
+    sample: SampleInput<'_>,
     shift: Option<String>,
     level: f64,
     replicates: Option<u64>,
@@ -147,8 +147,8 @@ pub fn summarise(
 #[pyfunction]
 pub fn compare(
     py: Python<'_>,
-    a: GivenSample<'_>,
-    b: GivenSample<'_>,
+    a: SampleInput<'_>,
+    b: SampleInput<'_>,
     margin: f64,
 ) -> PyResult<String> {
     let a = Named { records: &a.3, values: a.0.as_slice()? };
@@ -160,8 +160,8 @@ pub fn compare(
 #[pyfunction]
 pub fn contrast(
     py: Python<'_>,
-    a: GivenSample<'_>,
-    b: GivenSample<'_>,
+    a: SampleInput<'_>,
+    b: SampleInput<'_>,
     replicates: usize,
     seed: u64,
 ) -> PyResult<String> {

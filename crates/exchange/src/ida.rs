@@ -48,7 +48,7 @@ pub struct Setting {
 
 /// One analysis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct IdaRow {
     /// The record.
     pub record: String,
     /// Slenderness angle in rad.
@@ -80,7 +80,7 @@ pub struct IdaTable {
     /// What all rows share.
     pub setting: Setting,
     /// The rows, by record, then level.
-    pub rows: Vec<Row>,
+    pub rows: Vec<IdaRow>,
     /// The first row of each record.
     starts: Vec<usize>,
 }
@@ -165,7 +165,7 @@ impl IdaTable {
             let (remarks, event) = known(&curve.record);
             let factor = curve.velocity_factor(p_rad_s);
             let mut row = |point: &IdaPoint, outcome| {
-                rows.push(Row {
+                rows.push(IdaRow {
                     record: curve.record.clone(),
                     alpha_rad: point.slenderness_rad,
                     pga_g: point.pga_g,
@@ -197,7 +197,7 @@ impl IdaTable {
     #[must_use]
     pub fn csv(&self) -> String {
         let s = &self.setting;
-        let cell = |row: &Row, column| match column {
+        let cell = |row: &IdaRow, column| match column {
             "record" => row.record.clone(),
             "alpha_rad" => row.alpha_rad.to_string(),
             "p_rad_s" => s.p_rad_s.to_string(),
@@ -234,11 +234,12 @@ impl IdaTable {
     pub fn read(from: impl Read, path: &Path) -> Result<Self, FileError> {
         let mut reader = reader(from, csv::Trim::None, None);
         let mut first: Option<(Cells<'_>, Setting)> = None;
-        let (mut found, mut begin): (Vec<Row>, _) = (Vec::new(), Vec::new());
+        let (mut found, mut begin): (Vec<IdaRow>, _) =
+            (Vec::new(), Vec::new());
         let mut seen = BTreeSet::new();
         for cells in rows(&IDA, &mut reader, path)? {
             let cells = cells?;
-            let row = Row::of(&cells)?;
+            let row = IdaRow::of(&cells)?;
             match &first {
                 None => first = Some((cells.clone(), Setting::of(&cells)?)),
                 Some((first, setting)) => setting.holds(&cells, first)?,
@@ -268,7 +269,7 @@ impl IdaTable {
     }
 
     /// The rows of each record.
-    pub fn by_record(&self) -> impl Iterator<Item = &[Row]> {
+    pub fn by_record(&self) -> impl Iterator<Item = &[IdaRow]> {
         let ends = self.starts.iter().skip(1).copied();
         let ends = ends.chain([self.rows.len()]);
         let ranges = self.starts.iter().zip(ends);
@@ -313,7 +314,8 @@ impl IdaTable {
         &self,
         measure: Intensity,
     ) -> Result<Curves, (String, CapacityError)> {
-        let im = |row: &Row| measure.of(row.intensity_pga, row.intensity_pgv);
+        let im =
+            |row: &IdaRow| measure.of(row.intensity_pga, row.intensity_pgv);
         let (mut curves, mut after_overturning) = (Vec::new(), 0);
         for rows in self.by_record() {
             let end = rows.iter().position(|row| row.edp == f64::INFINITY);
@@ -400,7 +402,7 @@ impl Setting {
     }
 }
 
-impl Row {
+impl IdaRow {
     /// Whether it is the refined end of the bracket of a first overturning.
     #[must_use]
     pub fn is_refined(&self) -> bool {

@@ -10,7 +10,7 @@ use crate::quality::Remark;
 
 /// Width of a field and number of fields in a full line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Layout {
+pub(super) struct FieldLayout {
     /// Characters of one number, blanks before it included.
     pub(super) width: usize,
     /// Numbers in a full line.
@@ -19,7 +19,7 @@ pub(super) struct Layout {
     pub(super) missing: usize,
 }
 
-impl Layout {
+impl FieldLayout {
     /// Fields of one width.
     pub(super) const fn even(per_line: usize, width: usize) -> Self {
         Self { width, per_line, missing: 0 }
@@ -44,10 +44,10 @@ pub(super) fn infer(
     first: usize,
     end: usize,
     missing: usize,
-) -> Option<Layout> {
+) -> Option<FieldLayout> {
     let count = end.saturating_sub(first);
     let full = if count > 1 { count - 1 } else { count };
-    let mut votes: BTreeMap<Layout, usize> = BTreeMap::new();
+    let mut votes: BTreeMap<FieldLayout, usize> = BTreeMap::new();
     for line in text.lines_from(first).take(full) {
         if let Some(layout) = layout_of(line, missing) {
             *votes.entry(layout).or_default() += 1;
@@ -58,14 +58,14 @@ pub(super) fn infer(
 }
 
 /// The layout of one line of two numbers or more.
-pub(super) fn layout_of(line: &str, missing: usize) -> Option<Layout> {
+pub(super) fn layout_of(line: &str, missing: usize) -> Option<FieldLayout> {
     let mut tokens = number::tokens(line.as_bytes());
     let (first, second) = (tokens.next()??, tokens.next()??);
     let width = second.end - first.end;
     if first.end + missing != width {
         return None;
     }
-    let mut layout = Layout { width, per_line: 2, missing };
+    let mut layout = FieldLayout { width, per_line: 2, missing };
     for token in tokens {
         if token?.end != layout.field(layout.per_line).end {
             return None;
@@ -85,7 +85,7 @@ pub(super) fn read(
     text: &Text<'_>,
     first: usize,
     end: usize,
-    layout: Option<Layout>,
+    layout: Option<FieldLayout>,
 ) -> Result<Vec<f64>, RecordError> {
     // Counted first: a vector that grows takes three times the room.
     let count = match layout {
@@ -98,7 +98,7 @@ pub(super) fn read(
     let mut samples = Vec::with_capacity(count);
     let mut form = None;
     for index in first..end {
-        let mut line = Line { text, index, form: Some(&mut form) };
+        let mut line = LineReader { text, index, form: Some(&mut form) };
         match layout {
             Some(layout) => {
                 line.fixed(layout, index + 1 == end, &mut samples)?;
@@ -115,24 +115,24 @@ pub(super) fn read_varied(
     text: &Text<'_>,
     first: usize,
     end: usize,
-    layout: Layout,
+    layout: FieldLayout,
 ) -> Result<Vec<f64>, RecordError> {
     let mut values = Vec::new();
     for index in first..end {
-        let mut line = Line { text, index, form: None };
+        let mut line = LineReader { text, index, form: None };
         line.fixed(layout, index + 1 == end, &mut values)?;
     }
     Ok(values)
 }
 
-struct Line<'t, 'a> {
+struct LineReader<'t, 'a> {
     text: &'t Text<'a>,
     index: usize,
     /// The first number's form, where all have one.
     form: Option<&'t mut Option<Form>>,
 }
 
-impl Line<'_, '_> {
+impl LineReader<'_, '_> {
     fn refuse(
         &self,
         byte: usize,
@@ -170,11 +170,11 @@ impl Line<'_, '_> {
 
     fn fixed(
         &mut self,
-        layout: Layout,
+        layout: FieldLayout,
         last: bool,
         samples: &mut Vec<f64>,
     ) -> Result<(), RecordError> {
-        let Layout { width, per_line, missing } = layout;
+        let FieldLayout { width, per_line, missing } = layout;
         let line = self.text.line(self.index).unwrap_or("").trim_end();
         let full = width * per_line - missing;
         if line.len() > full {

@@ -39,10 +39,11 @@ pub use error::{Fault, RecordError};
 pub use format::{Format, Header};
 pub use processing::{Processing, ProcessingError};
 pub use quality::{
-    Motion, Profile, Remark, Remarked, duplicates, remarks, remarks_together,
+    MemberMotion, Profile, Remark, RemarkInput, duplicates, remarks,
+    remarks_together,
 };
 pub use read::{file_bytes, read, read_all, read_as, read_file};
-pub use record::{Given, ReadOptions, Record, sha256_hex};
+pub use record::{Fallback, ReadOptions, Record, sha256_hex};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
     Suite, SuiteError, SuiteMember, Survey, is_index,

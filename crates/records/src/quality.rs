@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::codes::coded;
-use crate::record::Given;
+use crate::record::Fallback;
 use rocking::accelerogram::Accelerogram;
 use rocking::accelerogram::mean;
 use rocking::stop;
 
-pub use profile::{Motion, Profile};
+pub use profile::{MemberMotion, Profile};
 
 mod profile;
 
@@ -190,7 +190,7 @@ fn and_others(more: usize) -> String {
 
 /// A record to be remarked on, beside others.
 #[derive(Clone, Debug)]
-pub struct Remarked<'a> {
+pub struct RemarkInput<'a> {
     /// The record.
     pub profile: Cow<'a, Profile>,
     /// Name of its pair.
@@ -198,10 +198,10 @@ pub struct Remarked<'a> {
     /// What its reading found.
     pub read: &'a [Remark],
     /// What the caller gave because its file states none.
-    pub given: Given,
+    pub given: Fallback,
 }
 
-impl<'a> Remarked<'a> {
+impl<'a> RemarkInput<'a> {
     /// A record, the name of its pair, and what its reading found.
     #[must_use]
     pub fn of(
@@ -210,7 +210,7 @@ impl<'a> Remarked<'a> {
         read: &'a [Remark],
     ) -> Self {
         let (profile, given) =
-            (Cow::Owned(Profile::of(record)), Given::default());
+            (Cow::Owned(Profile::of(record)), Fallback::default());
         Self { profile, pair, read, given }
     }
 }
@@ -353,19 +353,19 @@ pub fn duplicates(records: &[&Profile]) -> Vec<Option<Duplicates>> {
 /// found, [`remarks`], components of a pair that are not alike, and
 /// [`duplicates`].
 #[must_use]
-pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
+pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     let mut found: Vec<Vec<Remark>> = records
         .iter()
         .map(|one| [one.read, &one.profile.remarks].concat())
         .collect();
     let shape = |r: &Profile| (r.samples, r.dt_s);
     let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (i, Remarked { pair, .. }) in records.iter().enumerate() {
+    for (i, RemarkInput { pair, .. }) in records.iter().enumerate() {
         if let Some(pair) = pair {
             pairs.entry(pair).or_default().push(i);
         }
     }
-    for (i, Remarked { profile, pair, .. }) in records.iter().enumerate() {
+    for (i, RemarkInput { profile, pair, .. }) in records.iter().enumerate() {
         let others = pair.map_or(&[][..], |pair| &pairs[pair]);
         let Some(&other) = others.iter().find(|j| **j != i) else { continue };
         let other = &records[other].profile;

@@ -9,7 +9,7 @@ use crate::direction::{self, Direction};
 use crate::error::{Fault, RecordError};
 use crate::format::{Channel, Format};
 use crate::quality::Remark;
-use crate::record::{Given, INTERVALS_S, ReadOptions, Record, Settled};
+use crate::record::{Agreement, Fallback, INTERVALS_S, ReadOptions, Record};
 use crate::text::{self, Text, excerpt};
 
 /// Reads the one component of a file with content `bytes`; `file` names it
@@ -47,7 +47,7 @@ pub(crate) fn settle_one(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
-) -> Result<Settled, RecordError> {
+) -> Result<Agreement, RecordError> {
     let mut records = settle(file, bytes, options, None)?;
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
@@ -66,7 +66,7 @@ pub fn read_all(
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
     let settled = settle(file, bytes, options, None)?;
-    settled.into_iter().map(Settled::agreed).collect()
+    settled.into_iter().map(Agreement::agreed).collect()
 }
 
 /// Reads all components of a file whose format is known, whatever its
@@ -97,7 +97,7 @@ pub fn read_as(
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
     let settled = settle(file, bytes, options, Some(format))?;
-    settled.into_iter().map(Settled::agreed).collect()
+    settled.into_iter().map(Agreement::agreed).collect()
 }
 
 /// Reads all components of a file, in this format or in that of its content;
@@ -107,7 +107,7 @@ pub(crate) fn settle(
     bytes: &[u8],
     options: &ReadOptions,
     format: Option<&'static Format>,
-) -> Result<Vec<Settled>, RecordError> {
+) -> Result<Vec<Agreement>, RecordError> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
         return Err(Fault::Gravity(gravity).whole(file));
@@ -228,10 +228,10 @@ fn complete(
     channel: Channel,
     several: bool,
     options: &ReadOptions,
-) -> Result<Settled, RecordError> {
+) -> Result<Agreement, RecordError> {
     let fail = |fault: Fault| fault.whole(text.file());
     let given =
-        Given { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
+        Fallback { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
     let dt = match (channel.dt, options.dt_s) {
         (Some(stated_s), Some(given_s))
             if !((stated_s - given_s).abs() <= 1e-9 * stated_s) =>
@@ -300,5 +300,5 @@ fn complete(
         site,
         given,
     };
-    Ok(Settled { record, dt, unit: same_unit })
+    Ok(Agreement { record, dt, unit: same_unit })
 }

@@ -53,7 +53,7 @@ impl Default for ReadOptions {
 
 /// What the caller gave because the file states none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Given {
+pub struct Fallback {
     /// Sampling interval.
     pub dt: bool,
     /// Unit of the samples.
@@ -85,18 +85,18 @@ pub struct Record {
     /// motion share them.
     pub site: Option<String>,
     /// What the caller gave because the file states none.
-    pub given: Given,
+    pub given: Fallback,
 }
 
 /// A record, and whether the caller contradicts its file, which is a fault in
 /// a file that belongs to no suite.
-pub(crate) struct Settled {
+pub(crate) struct Agreement {
     pub(crate) record: Record,
     pub(crate) dt: Result<(), RecordError>,
     pub(crate) unit: Result<(), RecordError>,
 }
 
-impl Settled {
+impl Agreement {
     /// The record, if nothing given contradicts its file.
     pub(crate) fn agreed(self) -> Result<Record, RecordError> {
         self.dt.and(self.unit).map(|()| self.record)

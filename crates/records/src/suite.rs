@@ -20,8 +20,8 @@ pub use survey::Survey;
 use crate::error::RecordError;
 use crate::format::Format;
 use crate::processing::{Processing, ProcessingError};
-use crate::quality::{Motion, Profile, Remark, Remarked};
-use crate::record::{Given, ReadOptions, Record};
+use crate::quality::{MemberMotion, Profile, Remark, RemarkInput};
+use crate::record::{Fallback, ReadOptions, Record};
 use rocking::accelerogram::Accelerogram;
 use rocking::units::AccelerationUnit;
 
@@ -73,7 +73,7 @@ pub struct SuiteMember<M = Accelerogram> {
     /// are no independent draws.
     pub event: Option<String>,
     /// What the caller gave because neither file nor index states it.
-    pub given: Given,
+    pub given: Fallback,
     /// Other columns of the index (magnitude, distance, ...): name and cell,
     /// in the index's order.
     pub attributes: Vec<(Arc<str>, String)>,
@@ -213,7 +213,7 @@ impl Suite {
     }
 }
 
-impl<M: Motion> Suite<M> {
+impl<M: MemberMotion> Suite<M> {
     /// Name of the folder or index, without its ending.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -266,7 +266,7 @@ impl<M: Motion> Suite<M> {
     }
 }
 
-impl<'a, M: Motion> From<&'a SuiteMember<M>> for Remarked<'a> {
+impl<'a, M: MemberMotion> From<&'a SuiteMember<M>> for RemarkInput<'a> {
     fn from(member: &'a SuiteMember<M>) -> Self {
         Self {
             profile: member.accelerogram.profile(),

@@ -4,7 +4,7 @@ use std::io::{self, Read};
 
 /// Where in a line of CSV a byte is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum CsvPlace {
     /// At the start of a line.
     Line,
     /// At the start of a cell.
@@ -27,7 +27,7 @@ const MARK: [u8; 3] = *b"\xef\xbb\xbf";
 pub struct Closed<R> {
     from: R,
     comment: Option<u8>,
-    place: Place,
+    place: CsvPlace,
     /// Bytes of a byte order mark that were passed.
     mark: usize,
     /// Line from 1.
@@ -40,12 +40,12 @@ impl<R> Closed<R> {
     /// The bytes of `from`, whose lines that begin with `comment` are not part
     /// of the table.
     pub fn new(from: R, comment: Option<u8>) -> Self {
-        let place = Place::Line;
+        let place = CsvPlace::Line;
         Self { from, comment, place, mark: 0, line: 1, opened: 1 }
     }
 
     fn pass(&mut self, byte: u8) {
-        use Place::{Cell, Comment, Line, Plain, Quote, Quoted};
+        use CsvPlace::{Cell, Comment, Line, Plain, Quote, Quoted};
         if MARK.get(self.mark) == Some(&byte) {
             self.mark += 1;
             return;
@@ -71,7 +71,7 @@ impl<R> Closed<R> {
 impl<R: Read> Read for Closed<R> {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         let count = self.from.read(into)?;
-        if count == 0 && !into.is_empty() && self.place == Place::Quoted {
+        if count == 0 && !into.is_empty() && self.place == CsvPlace::Quoted {
             let message = format!(
                 "a cell that begins with a quote on line {} has no closing \
                  quote",

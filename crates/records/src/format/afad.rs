@@ -87,7 +87,7 @@ fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
 }
 
 /// The numbers of one line: where each ends, its value and its form.
-type Row = [(usize, f64, Form); 3];
+type SampleRow = [(usize, f64, Form); 3];
 
 /// The columns from the line of index `first` on. All numbers have the first
 /// one's form and end where those of the first line do.
@@ -96,7 +96,7 @@ fn samples(
     first: usize,
 ) -> Result<[Vec<f64>; 3], RecordError> {
     let mut columns = [const { Vec::new() }; 3];
-    let mut before: Option<Row> = None;
+    let mut before: Option<SampleRow> = None;
     for (index, line) in text.lines().enumerate().skip(first) {
         let row = row(text, index, line)?;
         let like = *before.get_or_insert(row);
@@ -112,7 +112,11 @@ fn samples(
     Ok(columns)
 }
 
-fn row(text: &Text<'_>, index: usize, line: &str) -> Result<Row, RecordError> {
+fn row(
+    text: &Text<'_>,
+    index: usize,
+    line: &str,
+) -> Result<SampleRow, RecordError> {
     let mut row = Vec::with_capacity(COLUMNS.len());
     for word in line.split_ascii_whitespace() {
         // Both are parts of one text.

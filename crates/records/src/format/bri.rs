@@ -8,15 +8,15 @@
 use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::fields::{self, Layout};
+use crate::fields::{self, FieldLayout};
 use crate::number;
 use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
-const LAYOUT: Layout = Layout::even(8, 10);
+const LAYOUT: FieldLayout = FieldLayout::even(8, 10);
 
 /// What the first line states.
-struct Head<'a> {
+struct FirstLine<'a> {
     event: String,
     channels: usize,
     per_second: usize,
@@ -35,7 +35,7 @@ pub(super) static FORMAT: Format = Format {
     ..Format::BASE
 };
 
-fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
+fn head<'a>(text: &Text<'a>) -> Option<FirstLine<'a>> {
     let line = text.line(0)?;
     let mut words = line.split_ascii_whitespace();
     let (date, time) = (words.next()?, words.next()?);
@@ -49,7 +49,7 @@ fn head<'a>(text: &Text<'a>) -> Option<Head<'a>> {
     let (channels, per_second, count) = (count()?, count()?, count()?);
     let station = words.next().unwrap_or("").trim_end_matches(':');
     let event = format!("{date} {time}");
-    (shape(date, b'/', 10) && shape(time, b':', 8)).then_some(Head {
+    (shape(date, b'/', 10) && shape(time, b':', 8)).then_some(FirstLine {
         event,
         channels,
         per_second,
@@ -83,7 +83,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
 /// Reads the channel whose line has index `index`.
 fn channel(
     text: &Text<'_>,
-    head: &Head<'_>,
+    head: &FirstLine<'_>,
     index: usize,
     rows: usize,
 ) -> Result<Channel, RecordError> {

@@ -19,19 +19,19 @@
 use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::fields::{self, Layout};
+use crate::fields::{self, FieldLayout};
 use crate::number;
 use crate::text::{self, Text, excerpt};
-use stated::{Header, Series};
+use stated::{ChannelHeader, ChannelSeries};
 
 mod stated;
 
 /// A line that announces a block of samples.
-struct Block<'a> {
+struct SampleBlock<'a> {
     count: usize,
     quantity: &'a str,
     unit: &'a str,
-    layout: Layout,
+    layout: FieldLayout,
     dt_s: Option<f64>,
 }
 
@@ -111,11 +111,12 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let samples = fields::read(text, index + 1, end, Some(block.layout))?;
         text.check_count_at(end - 1, samples.len(), block.count)?;
         after_block(text, end)?;
-        let header = Header { text, head, announced: index };
+        let header = ChannelHeader { text, head, announced: index };
         header.check_count(block.count)?;
         if text::contains(block.quantity, "acc") {
             let unit = header.unit(block.unit)?;
-            let series = Series { unit, dt_s: block.dt_s, samples: &samples };
+            let series =
+                ChannelSeries { unit, dt_s: block.dt_s, samples: &samples };
             let dt = match is_cosmos(line) {
                 true => header.of_cosmos(&reals, &series)?,
                 false => header.of_csmip(&series)?,
@@ -150,7 +151,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     Ok(channels)
 }
 
-impl Block<'_> {
+impl SampleBlock<'_> {
     /// Index of the line after the block announced on line `index`.
     fn end(
         &self,
@@ -182,7 +183,7 @@ fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
 fn announced<'a>(
     text: &Text<'a>,
     index: usize,
-) -> Result<Block<'a>, RecordError> {
+) -> Result<SampleBlock<'a>, RecordError> {
     let line = text.line(index).unwrap_or("");
     let header = |expected| text.header(index, expected);
     let trimmed = line.trim_start();
@@ -206,7 +207,7 @@ fn announced<'a>(
         let unit = lower.find("units=").map_or("", |at| &rest[at + 6..]);
         let unit = unit.split(['(', ',']).next().unwrap_or("").trim();
         let unit = unit.trim_end_matches('.');
-        return Ok(Block { count, quantity, unit, layout, dt_s: None });
+        return Ok(SampleBlock { count, quantity, unit, layout, dt_s: None });
     }
     if is_raw(line) {
         let after = |part: &str| {
@@ -221,7 +222,13 @@ fn announced<'a>(
             let expected = "a rate in points/s";
             return Err(text.differs(index, excerpt(rest), expected));
         }
-        return Ok(Block { count, quantity: "accel", unit, layout, dt_s });
+        return Ok(SampleBlock {
+            count,
+            quantity: "accel",
+            unit,
+            layout,
+            dt_s,
+        });
     }
     let spaced = "equally spaced at";
     let at = lower.find(spaced).unwrap_or(0);
@@ -241,12 +248,12 @@ fn announced<'a>(
         rest.split(['(', ')', ',', ' ']).find(|part| !part.is_empty())
     });
     let unit = unit.unwrap_or("").trim_end_matches('.');
-    Ok(Block { count, quantity, unit, layout, dt_s })
+    Ok(SampleBlock { count, quantity, unit, layout, dt_s })
 }
 
 /// The Fortran format of one kind of number in a line: `(8F10.3)`,
 /// `(8(1PE10.4E1))`; after the word `format`, or at the end.
-fn layout(line: &str) -> Option<Layout> {
+fn layout(line: &str) -> Option<FieldLayout> {
     let open = match text::after_word(line, "format") {
         Some(end) => end + line[end..].find('(')?,
         None => line.rfind('(')?,
@@ -260,7 +267,7 @@ fn layout(line: &str) -> Option<Layout> {
         .chars()
         .take_while(char::is_ascii_digit)
         .collect();
-    let layout = Layout::even(repeat.parse().ok()?, width.parse().ok()?);
+    let layout = FieldLayout::even(repeat.parse().ok()?, width.parse().ok()?);
     let sane = (2..=64).contains(&layout.width)
         && (1..=64).contains(&layout.per_line);
     sane.then_some(layout)

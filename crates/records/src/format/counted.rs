@@ -27,7 +27,7 @@ const WORDS_LINES: usize = 6;
 const EMOD3D: usize = 8;
 
 /// What the head states.
-struct Head {
+struct CountLine {
     count: usize,
     dt_s: f64,
     /// Numbers on the line of the count.
@@ -50,7 +50,7 @@ pub(super) static FORMAT: Format = Format {
     ..Format::BASE
 };
 
-fn head(text: &Text<'_>) -> Option<Head> {
+fn head(text: &Text<'_>) -> Option<CountLine> {
     two_lines(text).or_else(|| {
         let named =
             text.lines().take(NAME_LINES).take_while(|line| !is_data(line));
@@ -60,7 +60,7 @@ fn head(text: &Text<'_>) -> Option<Head> {
 
 /// `910 0.0100`, and more numbers in some programs, above samples: not two per
 /// line, which would be times and samples.
-fn one_line(text: &Text<'_>, index: usize) -> Option<Head> {
+fn one_line(text: &Text<'_>, index: usize) -> Option<CountLine> {
     let words = text.line(index)?.split_ascii_whitespace();
     let words: Vec<&str> = words.take(EMOD3D + 1).collect();
     let (count, dt_s) = (count(words.first()?)?, interval(words.get(1)?)?);
@@ -69,7 +69,7 @@ fn one_line(text: &Text<'_>, index: usize) -> Option<Head> {
     let pairs = number::tokens(next.as_bytes()).count() == 2;
     let numbers = words.len();
     let known = numbers == EMOD3D || ([2, 3].contains(&numbers) && !pairs);
-    (known && is_data(text.line(index)?)).then_some(Head {
+    (known && is_data(text.line(index)?)).then_some(CountLine {
         count,
         dt_s,
         numbers,
@@ -78,7 +78,7 @@ fn one_line(text: &Text<'_>, index: usize) -> Option<Head> {
 }
 
 /// `1559 points at equal spacing of 0.02 sec`, and more lines of words.
-fn in_words(text: &Text<'_>) -> Option<Head> {
+fn in_words(text: &Text<'_>) -> Option<CountLine> {
     let stated = |line: &str| {
         let (count, rest) = line.trim().split_once(" points at equal ")?;
         let rest = rest.strip_prefix("spacing of ")?;
@@ -91,14 +91,14 @@ fn in_words(text: &Text<'_>) -> Option<Head> {
         lines.find_map(|(index, line)| Some((index, stated(line)?)))?;
     let words = text.lines_from(index).take(WORDS_LINES);
     let first = index + words.take_while(|line| !is_data(line)).count();
-    Some(Head { count, dt_s, numbers: 2, first })
+    Some(CountLine { count, dt_s, numbers: 2, first })
 }
 
 /// A count and an interval on lines of their own, before that many samples.
-fn two_lines(text: &Text<'_>) -> Option<Head> {
+fn two_lines(text: &Text<'_>) -> Option<CountLine> {
     let (count, dt_s) = (count(text.line(0)?)?, interval(text.line(1)?)?);
     let first = 2;
-    (text.len() - first == count).then_some(Head {
+    (text.len() - first == count).then_some(CountLine {
         count,
         dt_s,
         numbers: 2,
@@ -135,7 +135,7 @@ fn is_data(line: &str) -> bool {
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let Head { count, dt_s, numbers, first } =
+    let CountLine { count, dt_s, numbers, first } =
         head(text).ok_or_else(|| {
             text.header(0, "a count and an interval, such as `910 0.0100`")
         })?;

@@ -17,7 +17,7 @@
 use super::{Channel, Format};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::fields::{self, Layout};
+use crate::fields::{self, FieldLayout};
 use crate::keys;
 use crate::number;
 use crate::text::{self, Text};
@@ -26,7 +26,7 @@ use rocking::units::AccelerationUnit;
 const TEXT_LINES: usize = 16;
 const INTEGER_LINES: usize = 4;
 const REAL_LINES: usize = 6;
-const LAYOUT: Layout = Layout::even(10, 8);
+const LAYOUT: FieldLayout = FieldLayout::even(10, 8);
 const COMPONENTS: usize = 3;
 
 /// Places in the text, from 0.
@@ -75,12 +75,12 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
 }
 
 /// The header of the component that begins on the line of index `first`.
-struct Header<'t, 'a> {
+struct ComponentHeader<'t, 'a> {
     text: &'t Text<'a>,
     first: usize,
 }
 
-impl Header<'_, '_> {
+impl ComponentHeader<'_, '_> {
     /// The line of place `place` in the text.
     fn line(&self, place: usize) -> &str {
         self.text.line(self.first + place).unwrap_or("")
@@ -112,7 +112,7 @@ fn component(
     if text.len() <= samples {
         return Err(text.at_end(Fault::Ends("three components")));
     }
-    let header = Header { text, first };
+    let header = ComponentHeader { text, first };
     if !is_first(header.line(0)) {
         return Err(header.refuse(0, "the first line of a component"));
     }
@@ -169,7 +169,7 @@ fn direction(component: &str) -> Direction {
 
 /// The numbers of samples of acceleration, velocity and displacement.
 fn counts(
-    header: &Header<'_, '_>,
+    header: &ComponentHeader<'_, '_>,
     integers: &[f64],
 ) -> Result<[usize; 3], RecordError> {
     let count = |place: usize| {
@@ -193,7 +193,7 @@ fn counts(
 
 /// The interval (s) of `count` samples.
 fn interval(
-    header: &Header<'_, '_>,
+    header: &ComponentHeader<'_, '_>,
     reals: &[f64],
     count: usize,
 ) -> Result<f64, RecordError> {
@@ -223,7 +223,7 @@ fn interval(
 }
 
 /// The peak acceleration in mm/s2.
-fn peak(header: &Header<'_, '_>) -> Result<f64, RecordError> {
+fn peak(header: &ComponentHeader<'_, '_>) -> Result<f64, RecordError> {
     let is_unit = |unit: &str| unit.trim_start().starts_with("mm/s/s");
     let raw = text::after_word(header.line(INTERVAL), "units");
     let readings = header.after(INTERVAL, "units of");

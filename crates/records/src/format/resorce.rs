@@ -2,13 +2,13 @@
 
 use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
-use crate::fields::{self, Layout};
+use crate::fields::{self, FieldLayout};
 use crate::keys;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;
-const LAYOUT: Layout = Layout::even(5, 14);
+const LAYOUT: FieldLayout = FieldLayout::even(5, 14);
 
 /// The format.
 pub(super) static FORMAT: Format = Format {

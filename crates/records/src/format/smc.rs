@@ -6,17 +6,17 @@
 
 use super::{Channel, Format};
 use crate::error::{Fault, RecordError};
-use crate::fields::{self, Layout};
+use crate::fields::{self, FieldLayout};
 use crate::keys;
 use crate::text::Text;
 use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;
-const INTEGERS: Layout = Layout::even(8, 10);
+const INTEGERS: FieldLayout = FieldLayout::even(8, 10);
 const INTEGER_LINES: usize = 6;
-const REALS: Layout = Layout::even(5, 15);
+const REALS: FieldLayout = FieldLayout::even(5, 15);
 const REAL_LINES: usize = 10;
-const SAMPLES: Layout = Layout::even(8, 10);
+const SAMPLES: FieldLayout = FieldLayout::even(8, 10);
 
 /// What real values stay below: the null value is 1.7e38.
 const NULL: f64 = 1e38;

@@ -19,7 +19,7 @@ const TERMS: usize = 18;
 const LOOK: usize = 1 << 16;
 
 /// Position and velocity, in g.
-pub(crate) type State = [f64; 2];
+pub(crate) type OscillatorState = [f64; 2];
 
 /// An oscillator and its step.
 pub(crate) struct Oscillator {
@@ -52,7 +52,11 @@ impl Oscillator {
     }
 
     /// States at the end of every step, from the state at the first sample.
-    pub(super) fn states(&self, from: State, samples: &[f64]) -> Vec<State> {
+    pub(super) fn states(
+        &self,
+        from: OscillatorState,
+        samples: &[f64],
+    ) -> Vec<OscillatorState> {
         let count = self.steps * (samples.len() - 1) + 1;
         let mut states = Vec::with_capacity(count);
         let mut state = from;
@@ -75,22 +79,22 @@ impl Oscillator {
     /// g, and the last state.
     pub(crate) fn absolute(
         &self,
-        from: State,
+        from: OscillatorState,
         samples: &[f64],
-    ) -> (Vec<f64>, State) {
+    ) -> (Vec<f64>, OscillatorState) {
         let states = self.states(from, samples);
         let all = states.iter().step_by(self.steps);
         let all = all.map(|state| self.felt(*state)).collect();
         (all, states.last().copied().unwrap_or(from))
     }
 
-    fn felt(&self, [u, v]: State) -> f64 {
+    fn felt(&self, [u, v]: OscillatorState) -> f64 {
         -(2.0 * self.damping).mul_add(v, u)
     }
 
     /// Amplitude of the absolute acceleration in the free motion from a
     /// state, which falls by exp(-zeta tau).
-    pub(crate) fn free_amplitude(&self, state: State) -> f64 {
+    pub(crate) fn free_amplitude(&self, state: OscillatorState) -> f64 {
         let zeta = self.damping;
         // With s = u'': s' = -(2 zeta s + u').
         let s = self.felt(state);
@@ -115,7 +119,11 @@ impl Oscillator {
 
     /// Largest |u| at the ends of steps, at turning points between them, and
     /// at the first one after the record.
-    pub(super) fn peak_of(&self, states: &[State], samples: &[f64]) -> f64 {
+    pub(super) fn peak_of(
+        &self,
+        states: &[OscillatorState],
+        samples: &[f64],
+    ) -> f64 {
         stop::point();
         let mut peak: f64 = 0.0;
         for (i, pair) in states.windows(2).enumerate() {
@@ -160,7 +168,7 @@ impl Oscillator {
 
     /// First turning point of the free motion from a state; later ones are
     /// lower.
-    fn after(&self, state: State) -> f64 {
+    fn after(&self, state: OscillatorState) -> f64 {
         let zeta = self.damping;
         let beta = (1.0 - zeta * zeta).sqrt();
         let [u, v] = state;

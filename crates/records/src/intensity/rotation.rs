@@ -1,6 +1,6 @@
 //! RotD50: the median over directions.
 
-use super::oscillator::State;
+use super::oscillator::OscillatorState;
 use super::{Direct, IntensityError, Measures, Settings, Spectrum};
 use rocking::accelerogram::Accelerogram;
 
@@ -48,7 +48,7 @@ pub(super) fn rotd50(
         let (x, y) =
             (oscillator.states(rest, &a), oscillator.states(rest, &b));
         let peaks = turned.iter().map(|(cos, sin)| {
-            let states: Vec<State> = x
+            let states: Vec<OscillatorState> = x
                 .iter()
                 .zip(&y)
                 .map(|(x, y)| [0, 1].map(|k: usize| cos * x[k] + sin * y[k]))

@@ -82,14 +82,14 @@ impl Profile {
 
 /// What a suite keeps of the motion of a record: the accelerogram, or a
 /// [`Profile`] of one that stays in its file.
-pub trait Motion {
+pub trait MemberMotion {
     /// Name of the record.
     fn name(&self) -> &str;
     /// Its profile.
     fn profile(&self) -> Cow<'_, Profile>;
 }
 
-impl Motion for Accelerogram {
+impl MemberMotion for Accelerogram {
     fn name(&self) -> &str {
         self.name()
     }
@@ -99,7 +99,7 @@ impl Motion for Accelerogram {
     }
 }
 
-impl Motion for Profile {
+impl MemberMotion for Profile {
     fn name(&self) -> &str {
         &self.name
     }

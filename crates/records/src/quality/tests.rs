@@ -47,7 +47,7 @@ fn components_of_a_pair_are_compared() {
     };
     let (a, b) = (record("a", 401), record("b", 381));
     let codes = |pair| {
-        let one = |record, pair| Remarked::of(record, pair, &[]);
+        let one = |record, pair| RemarkInput::of(record, pair, &[]);
         let found =
             remarks_together(&[one(&a, Some("p")), one(&b, Some(pair))]);
         let unequal = Remark::UnequalComponents("b".to_owned());
@@ -91,7 +91,7 @@ fn many_copies_of_a_record_have_a_remark_each() {
     };
     let all: Vec<_> = (0..600).map(copy).collect();
     let all: Vec<_> =
-        all.iter().map(|record| Remarked::of(record, None, &[])).collect();
+        all.iter().map(|record| RemarkInput::of(record, None, &[])).collect();
     let found = remarks_together(&all);
     assert!(found.iter().all(|remarks| remarks.len() == 1));
     let words = |k: usize| found[k][0].to_string();

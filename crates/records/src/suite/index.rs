@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
 use crate::read::settle_one;
-use crate::record::{Given, ReadOptions, Record, Settled, sha256_hex};
+use crate::record::{Agreement, Fallback, ReadOptions, Record, sha256_hex};
 use crate::text::{self, excerpt};
 use rocking::accelerogram::EXPECTED;
 use rocking::accelerogram::result_name;
@@ -15,12 +15,12 @@ use rocking::units::AccelerationUnit;
 /// A parsed index: every row has every column.
 pub(super) struct Index {
     columns: Rc<[Arc<str>]>,
-    rows: Vec<Row>,
+    rows: Vec<IndexRow>,
     paired: bool,
 }
 
 /// One row of an index.
-pub(super) struct Row {
+pub(super) struct IndexRow {
     path: Rc<str>,
     line: usize,
     file: String,
@@ -94,7 +94,7 @@ impl Index {
         let lines: Vec<&str> = content.lines().collect();
         let peer = lines.iter().position(|line| is_peer(line));
         let head = peer.unwrap_or(0);
-        let mut table = Table {
+        let mut table = IndexTable {
             path: path.into(),
             columns: Rc::from([]),
             separator: separator(lines.get(head).copied().unwrap_or("")),
@@ -126,7 +126,7 @@ impl Index {
     }
 
     /// Rows in the index's order.
-    pub(super) fn into_rows(self) -> Vec<Row> {
+    pub(super) fn into_rows(self) -> Vec<IndexRow> {
         self.rows
     }
 
@@ -153,14 +153,14 @@ fn refusal(
 }
 
 /// Lines under a head of column names.
-struct Table<'a> {
+struct IndexTable<'a> {
     path: Rc<str>,
     columns: Rc<[Arc<str>]>,
     separator: char,
     lines: &'a [&'a str],
 }
 
-impl Table<'_> {
+impl IndexTable<'_> {
     fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
         refusal(&self.path, line + 1, found, expected)
     }
@@ -243,7 +243,7 @@ impl Table<'_> {
         &self,
         line: usize,
         cells: Vec<String>,
-    ) -> Result<Row, SuiteError> {
+    ) -> Result<IndexRow, SuiteError> {
         let file = self.place("file").map_or("", |place| &cells[place]);
         self.row(line, file.to_owned(), None, cells)
     }
@@ -254,12 +254,12 @@ impl Table<'_> {
         file: String,
         pair: Option<String>,
         cells: Vec<String>,
-    ) -> Result<Row, SuiteError> {
+    ) -> Result<IndexRow, SuiteError> {
         if file.is_empty() {
             return Err(self.refuse(line, &file, "the name of a file"));
         }
         let (path, columns) = (self.path.clone(), self.columns.clone());
-        Ok(Row { path, line: line + 1, file, pair, columns, cells })
+        Ok(IndexRow { path, line: line + 1, file, pair, columns, cells })
     }
 
     /// The two horizontal components of a row of PEER's search results.
@@ -267,7 +267,7 @@ impl Table<'_> {
         &self,
         line: usize,
         cells: &[String],
-    ) -> Result<Vec<Row>, SuiteError> {
+    ) -> Result<Vec<IndexRow>, SuiteError> {
         let cell = |name| self.place(name).map_or("", |i| cells[i].as_str());
         let files = [cell(PEER_FIRST), cell(PEER_SECOND)];
         let there = |file: &&str| !file.trim_matches(['-', ' ']).is_empty();
@@ -279,7 +279,7 @@ impl Table<'_> {
     }
 }
 
-impl Row {
+impl IndexRow {
     /// The file, relative to the index.
     pub(super) fn file(&self) -> &str {
         &self.file
@@ -338,7 +338,7 @@ impl Row {
         &self,
         content: &[u8],
         options: &ReadOptions,
-        see: impl FnOnce(Settled) -> Record,
+        see: impl FnOnce(Agreement) -> Record,
     ) -> Result<SuiteMember, SuiteError> {
         self.check_sum(content)?;
         let unit = match self.cell("units") {
@@ -349,8 +349,10 @@ impl Row {
             ),
         };
         let dt_s = self.positive("dt_s")?;
-        let stated =
-            Given { dt: dt_s.is_some(), unit: self.cell("units").is_some() };
+        let stated = Fallback {
+            dt: dt_s.is_some(),
+            unit: self.cell("units").is_some(),
+        };
         let dt_s = dt_s.or(options.dt_s);
         let read_options = ReadOptions { dt_s, unit, ..*options };
         let mut settled = settle_one(&self.file, content, &read_options)?;

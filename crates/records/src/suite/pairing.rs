@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{SuiteError, SuiteMember};
 use crate::direction::Direction;
 use crate::direction::{glued, is_azimuth, is_code};
-use crate::quality::Motion;
+use crate::quality::MemberMotion;
 use rocking::accelerogram::suite_names;
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
@@ -47,7 +47,7 @@ fn is_orientation(end: &str) -> bool {
 /// Gives the two records that share event and station, or else a name but
 /// for its orientation, that as their pair; any other number of records stays
 /// unpaired.
-pub(super) fn pair_by_name<M: Motion>(members: &mut [SuiteMember<M>]) {
+pub(super) fn pair_by_name<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     let key = |m: &SuiteMember<M>| {
         m.site.clone().or_else(|| pair_key(m.accelerogram.name()))
     };
@@ -64,7 +64,7 @@ pub(super) fn pair_by_name<M: Motion>(members: &mut [SuiteMember<M>]) {
 
 /// Marks, in each pair, the component whose name sorts first; a record
 /// without a partner is marked too.
-pub(super) fn mark_first<M: Motion>(members: &mut [SuiteMember<M>]) {
+pub(super) fn mark_first<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     let mut first: BTreeMap<String, String> = BTreeMap::new();
     for member in members.iter() {
         let Some(pair) = &member.pair else { continue };
@@ -106,7 +106,7 @@ pub(super) fn check_pairs<M>(
 }
 
 /// Refuses records that results could not distinguish.
-pub(super) fn check_names<M: Motion>(
+pub(super) fn check_names<M: MemberMotion>(
     path: &str,
     members: &[SuiteMember<M>],
 ) -> Result<(), SuiteError> {

@@ -7,9 +7,9 @@ use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use super::{index, pairing};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
-use crate::quality::{Motion, Remark};
+use crate::quality::{MemberMotion, Remark};
 use crate::read::{file_bytes, is_record, name_of, settle, stem};
-use crate::record::{Given, ReadOptions, Record, Settled};
+use crate::record::{Agreement, Fallback, ReadOptions, Record};
 use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -163,7 +163,7 @@ impl<K> Survey<K> {
             study_rule: StudyRule::FirstName,
             paired: false,
         };
-        let mut given = Seen::default();
+        let mut given = FallbackUse::default();
         for name in names {
             let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
@@ -209,7 +209,7 @@ impl<K> Survey<K> {
         };
         let rows = index.into_rows();
         let mut members = Vec::with_capacity(rows.len());
-        let mut given = Seen::default();
+        let mut given = FallbackUse::default();
         for row in rows {
             let bytes = file_bytes(row.file()).map_err(SuiteError::from);
             let member = bytes.and_then(|bytes| {
@@ -235,7 +235,7 @@ impl<K> Survey<K> {
     }
 }
 
-impl<M: Motion> Survey<SuiteMember<M>> {
+impl<M: MemberMotion> Survey<SuiteMember<M>> {
     /// The suite, if no record was refused.
     ///
     /// # Errors
@@ -263,15 +263,15 @@ impl<M: Motion> Survey<SuiteMember<M>> {
 /// How the files of a suite take what the caller gave: which of it any file
 /// took, and the first file that contradicts it.
 #[derive(Default)]
-struct Seen {
-    taken: Given,
+struct FallbackUse {
+    taken: Fallback,
     dt: Option<RecordError>,
     unit: Option<RecordError>,
 }
 
-impl Seen {
-    fn see(&mut self, settled: Settled) -> Record {
-        let Settled { record, dt, unit } = settled;
+impl FallbackUse {
+    fn see(&mut self, settled: Agreement) -> Record {
+        let Agreement { record, dt, unit } = settled;
         self.taken.dt |= record.given.dt;
         self.taken.unit |= record.given.unit;
         self.dt = self.dt.take().or(dt.err());

@@ -8,7 +8,7 @@ use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, PulseName, PulseParameter,
     ScaledRecord,
 };
-use rocking_records::{Record, Remarked, SetAside, read_file};
+use rocking_records::{Record, RemarkInput, SetAside, read_file};
 
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
@@ -136,7 +136,7 @@ impl ExcitationArgs {
             let Record { accelerogram, remarks: read, .. } =
                 read_file(path, &options)?;
             let record = self.processing.processing()?.apply(&accelerogram)?;
-            let remarked = Remarked::of(&record, None, &read);
+            let remarked = RemarkInput::of(&record, None, &read);
             let remarks = Remarks::of(&[remarked]);
             self.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);

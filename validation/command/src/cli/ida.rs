@@ -18,7 +18,7 @@ use rocking_procedures::{
     IdaSummary, PivotForces, StripeResponses, summarise_ida,
 };
 use rocking_records::intensity::Intensity;
-use rocking_records::{Profile, Remarked, SetAside, Suite, SuiteMember};
+use rocking_records::{Profile, RemarkInput, SetAside, Suite, SuiteMember};
 use serde::Serialize;
 
 use self::forces::ForcesArgs;
@@ -160,8 +160,8 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
     let plot = args.plot.open(&mut outputs)?;
     let chosen = args.chosen(&suite)?;
-    let remarked: Vec<Remarked<'_>> =
-        chosen.iter().map(|member| Remarked::from(*member)).collect();
+    let remarked: Vec<RemarkInput<'_>> =
+        chosen.iter().map(|member| RemarkInput::from(*member)).collect();
     let remarks = Remarks::of(&remarked);
     drop(remarked);
     args.reading.judge(suite.set_aside(), &remarks)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_records::{
-    Fault, Format, Given, ReadOptions, RecordError, Remark, Remarked,
+    Fallback, Fault, Format, ReadOptions, RecordError, Remark, RemarkInput,
     SetAside, Suite, SuiteMember,
 };
 use serde::Serialize;
@@ -62,14 +62,17 @@ struct RecordListing {
     study_component: Option<bool>,
     /// What reading found; with what the samples show, once all are read.
     remarks: Vec<Remark>,
-    given: Given,
+    given: Fallback,
 }
 
 impl RecordListing {
-    fn remarked(&self) -> Remarked<'_> {
+    fn remarked(&self) -> RemarkInput<'_> {
         let given = self.given;
         let pair = self.pair.as_deref();
-        Remarked { given, ..Remarked::of(&self.motion, pair, &self.remarks) }
+        RemarkInput {
+            given,
+            ..RemarkInput::of(&self.motion, pair, &self.remarks)
+        }
     }
 
     fn member(member: &SuiteMember, in_suite: bool) -> Self {
@@ -339,7 +342,7 @@ impl RecordsListing {
 
     /// Refuses what was given if no file takes it and one contradicts it.
     fn refuse_unused(&mut self) {
-        let given = |taken: fn(Given) -> bool| {
+        let given = |taken: fn(Fallback) -> bool| {
             self.records.iter().any(|listed| taken(listed.given))
         };
         let (dt, unit) = (given(|g| g.dt), given(|g| g.unit));

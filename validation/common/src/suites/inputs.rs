@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
-    Motion, Processing, ProcessingError, Profile, ReadOptions, RecordError,
-    Suite, SuiteError, SuiteMember, Survey,
+    MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
+    RecordError, Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 
@@ -99,7 +99,7 @@ pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
 
 /// The files that the suite read from `path` is made of.
 #[must_use]
-pub fn files<M: Motion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
+pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     let base = match path.is_dir() {
         true => path,
         false => path.parent().unwrap_or(Path::new("")),

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use rocking_records::{Motion, Remark, Remarked, Suite, remarks_together};
+use rocking_records::{
+    MemberMotion, Remark, RemarkInput, Suite, remarks_together,
+};
 use serde::{Serialize, Serializer};
 
 /// Codes of remarks, the gravest first.
@@ -42,7 +44,7 @@ pub struct Remarks {
 impl Remarks {
     /// Remarks on records.
     #[must_use]
-    pub fn of(records: &[Remarked<'_>]) -> Self {
+    pub fn of(records: &[RemarkInput<'_>]) -> Self {
         let mut remarks = remarks_together(records);
         for of_one in &mut remarks {
             let mut seen = Vec::new();
@@ -58,7 +60,7 @@ impl Remarks {
         let place =
             |(place, (name, _)): (usize, &(String, _))| (name.clone(), place);
         let places = found.iter().enumerate().map(place).collect();
-        let count = |given: fn(&Remarked<'_>) -> bool| {
+        let count = |given: fn(&RemarkInput<'_>) -> bool| {
             records.iter().filter(|one| given(one)).count()
         };
         let given = (count(|one| one.given.dt), count(|one| one.given.unit));
@@ -67,8 +69,8 @@ impl Remarks {
 
     /// Remarks on all records of a suite.
     #[must_use]
-    pub fn on<M: Motion>(suite: &Suite<M>) -> Self {
-        let all = suite.members().iter().map(Remarked::from);
+    pub fn on<M: MemberMotion>(suite: &Suite<M>) -> Self {
+        let all = suite.members().iter().map(RemarkInput::from);
         Self::of(&all.collect::<Vec<_>>())
     }
 
@@ -178,7 +180,7 @@ mod tests {
         };
         let clean = [motion("a", 0.3, 0.0)];
         let of = |records: &[Accelerogram]| {
-            let one = |record| Remarked::of(record, None, &[]);
+            let one = |record| RemarkInput::of(record, None, &[]);
             Remarks::of(&records.iter().map(one).collect::<Vec<_>>())
         };
         assert_eq!(of(&clean).words(), None);

@@ -38,7 +38,7 @@ pub(super) fn oriented(integers: &[f64]) -> Direction {
 }
 
 /// The lines of a channel's header.
-pub(super) struct Header<'t, 'a> {
+pub(super) struct ChannelHeader<'t, 'a> {
     pub(super) text: &'t Text<'a>,
     /// Index of the first line.
     pub(super) head: usize,
@@ -47,14 +47,14 @@ pub(super) struct Header<'t, 'a> {
 }
 
 /// A series as it was read.
-pub(super) struct Series<'s> {
+pub(super) struct ChannelSeries<'s> {
     pub(super) unit: Option<AccelerationUnit>,
     /// Interval (s) that the announcing line states.
     pub(super) dt_s: Option<f64>,
     pub(super) samples: &'s [f64],
 }
 
-impl<'a> Header<'_, 'a> {
+impl<'a> ChannelHeader<'_, 'a> {
     /// The header's lines.
     pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
         self.text.lines_from(self.head).take(self.announced - self.head)
@@ -113,7 +113,7 @@ impl<'a> Header<'_, 'a> {
     /// The interval of a CSMIP series.
     pub(super) fn of_csmip(
         &self,
-        series: &Series<'_>,
+        series: &ChannelSeries<'_>,
     ) -> Result<Option<f64>, RecordError> {
         let dt_s = series.dt_s;
         let stated = "equally-spaced intervals of";
@@ -136,7 +136,7 @@ impl<'a> Header<'_, 'a> {
     pub(super) fn of_cosmos(
         &self,
         reals: &[f64],
-        series: &Series<'_>,
+        series: &ChannelSeries<'_>,
     ) -> Result<Option<f64>, RecordError> {
         let value = |place: usize| {
             reals.get(place - 1).copied().filter(|x| *x != UNKNOWN)
@@ -147,7 +147,11 @@ impl<'a> Header<'_, 'a> {
             Some(ms) => {
                 let found = format!("real header value {INTERVAL_MS}: {ms}");
                 let expected = "a positive interval in ms";
-                return Err(self.header(found, expected));
+                return Err(self.text.differs(
+                    self.announced,
+                    found,
+                    expected,
+                ));
             }
         };
         let line = self.text.line(self.announced).unwrap_or("");
@@ -174,14 +178,9 @@ impl<'a> Header<'_, 'a> {
         Ok(dt_s)
     }
 
-    fn header(&self, found: String, expected: &'static str) -> RecordError {
-        let fault = Fault::Header { found, expected };
-        self.text.on_line(self.announced, fault)
-    }
-
     fn check_peak(
         &self,
-        series: &Series<'_>,
+        series: &ChannelSeries<'_>,
         peak: f64,
     ) -> Result<(), RecordError> {
         let Some(unit) = series.unit else { return Ok(()) };

@@ -365,9 +365,9 @@ impl RecordsListing {
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
         let refused = |error: &rocking_records::SuiteError| RecordFinding {
-            file: error.file.clone(),
+            file: error.file().to_owned(),
             code: error.code(),
-            line: error.line,
+            line: error.line(),
             message: error.to_string(),
         };
         let survey = match inputs::visit(path, options, Ok) {

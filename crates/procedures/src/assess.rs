@@ -11,7 +11,6 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::ground::{Found, Ground};
-use super::counts::Bounds;
 use super::risk::FragilityRisk;
 use super::{
     Draws, FragilityFit, ProcedureError, Ranking, RiskError, StripeResponses,
@@ -24,7 +23,7 @@ use rocking::capacity::CapacityError;
 use rocking::ida::{Analysis, IdaError, ResolutionCounts};
 use rocking_records::floor::{Floor, FloorError};
 use rocking_records::intensity::{IntensityError, IntensityMeasure};
-use rocking_statistics::{Clusters, Lognormal};
+use rocking_statistics::{Clusters, Estimate, Lognormal};
 
 /// Coefficients of restitution beside the object's own.
 const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
@@ -128,7 +127,7 @@ pub struct Assessment {
     /// Correlation of the logarithms of the intensities of damage of two
     /// objects over the records: the least, the median and the largest of
     /// all pairs; none where no pair has three records that damage both.
-    pub correlation: Option<Bounds>,
+    pub correlation: Option<Estimate>,
     /// By falling annual frequency of damage, or by rising intensity of 5 %
     /// damage where there is no hazard curve.
     pub objects: Vec<Assessed>,
@@ -194,7 +193,8 @@ impl Assessed {
     pub fn best_im(&self) -> Option<(&str, f64)> {
         let measures = self.ranking.measures.iter();
         let known = measures.filter_map(|m| {
-            Some((m.im.as_str(), m.dispersion.as_ref()?.point))
+            let dispersion = m.dispersion.as_ref()?.estimate.value();
+            Some((m.im.as_str(), dispersion))
         });
         known.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -207,9 +207,9 @@ pub struct Answer {
     /// The fitted distribution.
     pub fitted: Lognormal,
     /// Intensity that damages the object with probability 0.5.
-    pub median_im: Bounds,
+    pub median_im: Estimate,
     /// Intensity that damages it with probability 0.05.
-    pub small_im: Bounds,
+    pub small_im: Estimate,
     /// Annual frequency and probability in T years.
     pub risk: Option<FragilityRisk>,
 }
@@ -218,39 +218,28 @@ impl Answer {
     /// Annual frequency of damage in 1/year, the lower bound of truncation;
     /// none without a hazard curve.
     #[must_use]
-    pub fn annual_frequency(&self) -> Option<Bounds> {
+    pub fn annual_frequency(&self) -> Option<Estimate> {
         let risk = self.risk.as_ref()?;
+        let point = Estimate::exact(risk.annual_frequency_truncation_lower);
         let drawn = risk.sampling.as_ref();
-        Some(Bounds {
-            point: risk.annual_frequency_truncation_lower,
-            low: drawn.map(|drawn| drawn.annual_frequency_low),
-            high: drawn.map(|drawn| drawn.annual_frequency_high),
-        })
+        Some(drawn.map_or(point, |drawn| drawn.annual_frequency))
     }
 
     /// Mean return period of damage in years, the reciprocal of the annual
     /// frequency; none without a hazard curve.
     #[must_use]
-    pub fn return_period_years(&self) -> Option<Bounds> {
-        let frequency = self.annual_frequency()?;
-        Some(Bounds {
-            point: frequency.point.recip(),
-            low: frequency.high.map(f64::recip),
-            high: frequency.low.map(f64::recip),
-        })
+    pub fn return_period_years(&self) -> Option<Estimate> {
+        Some(self.annual_frequency()?.map(f64::recip))
     }
 
     /// Probability of damage in the years of the assessment; none without a
     /// hazard curve.
     #[must_use]
-    pub fn probability(&self) -> Option<Bounds> {
+    pub fn probability(&self) -> Option<Estimate> {
         let risk = self.risk.as_ref()?;
+        let point = Estimate::exact(risk.probability_truncation_lower);
         let drawn = risk.sampling.as_ref();
-        Some(Bounds {
-            point: risk.probability_truncation_lower,
-            low: drawn.map(|drawn| drawn.probability_low),
-            high: drawn.map(|drawn| drawn.probability_high),
-        })
+        Some(drawn.map_or(point, |drawn| drawn.probability))
     }
 }
 
@@ -456,7 +445,7 @@ pub enum AssessError {
 /// let clusters = Clusters::singletons(3);
 /// let found = assess(&[cabinet], &records, &clusters, &options)?;
 /// // No motion overturns it that does not lift it: g tan(alpha) = 0.28 g.
-/// assert!(found.objects[0].answer.median_im.point > 0.5 / 1.8);
+/// assert!(found.objects[0].answer.median_im.value() > 0.5 / 1.8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

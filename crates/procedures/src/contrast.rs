@@ -10,10 +10,11 @@ use super::{Draws, ProcedureError};
 use rocking::accelerogram::are_places;
 use rocking::stop;
 use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 use rocking_statistics::{
-    CensoredSample, Clusters, ExtendedSample, QuantileType, SampleError,
-    normal,
+    CensoredSample, Clusters, Estimate, ExtendedSample, Interval,
+    QuantileType, Range, SampleError, normal,
 };
 
 /// Level of the interval.
@@ -65,6 +66,9 @@ pub enum ContrastError {
     /// No value is left.
     #[error(transparent)]
     Sample(#[from] SampleError),
+    /// A ratio too large or too small for a number.
+    #[error(transparent)]
+    Ratio(#[from] EstimateError),
     /// A median that censored values leave open.
     #[error("a median is censored: the ratio is not known")]
     Open,
@@ -134,12 +138,9 @@ pub struct Half {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MedianRatio {
-    /// The ratio.
-    pub point: f64,
-    /// Lower end; none if draws leave it open.
-    pub low: Option<f64>,
-    /// Upper end; none if draws leave it open.
-    pub high: Option<f64>,
+    /// The ratio, beside an interval whose end is open if draws leave it so.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub estimate: Estimate,
     /// Level of the interval.
     pub level: f64,
     /// Draws in which censored values leave the ratio open; they count as
@@ -181,9 +182,9 @@ pub struct Distance {
 /// }
 /// let draws = Draws { replicates: 200, seed: 0 };
 /// let found = contrast(all(&pulse), all(&ordinary), draws)?;
-/// let ratio = found.median_ratio?;
-/// assert!((ratio.point - 1.35 / 2.8).abs() < 1e-12);
-/// assert!(ratio.high.is_some_and(|high| high < 1.0));
+/// let ratio = found.median_ratio?.estimate;
+/// assert!((ratio.value() - 1.35 / 2.8).abs() < 1e-12);
+/// assert!(ratio.high().is_some_and(|high| high < 1.0));
 /// // Two of the 126 orders of 4 and 5 values separate the samples.
 /// let p_value = found.kolmogorov_smirnov.p_value?;
 /// assert!((p_value - 2.0 / 126.0).abs() < 1e-15);
@@ -366,15 +367,13 @@ fn ratio<S: AsRef<str>>(
         let [below, above] = [place.floor(), place.ceil()];
         let [x, y] = [below, above].map(|place| deviations[place as usize]);
         let found = f64::mul_add(place - below, y - x, x);
-        found.is_finite().then(|| exp(point + found))
+        if found.is_finite() { exp(point + found) } else { if_open }
     };
-    Ok(MedianRatio {
-        point: x / y,
-        low: end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL),
-        high: end(f64::INFINITY, 0.5 + 0.5 * LEVEL),
-        level: LEVEL,
-        open,
-    })
+    let low = end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL);
+    let high = end(f64::INFINITY, 0.5 + 0.5 * LEVEL);
+    let interval = Interval::try_new(low, high)?;
+    let estimate = Estimate::beside(x / y, interval, Range::NotNegative)?;
+    Ok(MedianRatio { estimate, level: LEVEL, open })
 }
 
 #[cfg(test)]

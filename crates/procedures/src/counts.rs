@@ -6,10 +6,10 @@ use std::fmt;
 use super::fit::Sampled;
 use super::{Draws, ProcedureError};
 use rocking::capacity::ResponseCurve;
-use rocking_statistics::bootstrap::{Bootstrap, Estimate};
+use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::lognormal::{Stripe, fit_counts, fit_counts_alone};
 use rocking_statistics::resampling::multiplicities;
-use rocking_statistics::{Clusters, Lognormal};
+use rocking_statistics::{Clusters, Estimate, Lognormal};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -28,10 +28,11 @@ pub struct CountsFragility {
     /// What the intervals rest on.
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub intervals: Basis,
-    /// Median with its interval.
-    pub median: Bounds,
+    /// Median with its interval; an end is open where the likelihood does not
+    /// fall so far. No interval where a draw in twenty has no fit.
+    pub median: Estimate,
     /// Dispersion with its interval.
-    pub dispersion: Bounds,
+    pub dispersion: Estimate,
     /// Log-likelihood of the binomial counts.
     pub log_likelihood: Option<f64>,
     /// Pearson's chi-squared.
@@ -65,20 +66,6 @@ impl fmt::Display for Basis {
     }
 }
 
-/// A value with the ends of its interval; an end is none where the likelihood
-/// does not fall so far, or a draw in twenty has no fit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Bounds {
-    /// The value of the highest likelihood.
-    pub point: f64,
-    /// Lower end.
-    pub low: Option<f64>,
-    /// Upper end.
-    pub high: Option<f64>,
-}
-
 /// What became of a record at an intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
@@ -102,15 +89,13 @@ pub fn fit_stripes(
     shift: f64,
 ) -> Result<CountsFragility, ProcedureError> {
     let found = fit_counts(stripes, shift)?;
-    let fitted = found.fit.distribution;
-    let bounds = |point, (low, high)| Bounds { point, low, high };
     Ok(CountsFragility {
         n: found.fit.n,
-        fitted,
+        fitted: found.fit.distribution,
         level: LEVEL,
         intervals: Basis::IndependentStripes,
-        median: bounds(fitted.median(), found.median),
-        dispersion: bounds(fitted.dispersion(), found.dispersion),
+        median: found.median,
+        dispersion: found.dispersion,
         log_likelihood: found.fit.log_likelihood,
         chi_squared: found.chi_squared,
         degrees_of_freedom: found.degrees_of_freedom,
@@ -137,7 +122,7 @@ pub fn fit_stripes(
 /// let draws = Draws { replicates: 100, seed: 0 };
 /// let records = Clusters::singletons(6);
 /// let found = fit_outcomes(&outcomes, &records, 0.0, draws)?;
-/// assert!((found.median.point - 2.2).abs() < 0.2);
+/// assert!((found.median.value() - 2.2).abs() < 0.2);
 /// # Ok::<(), rocking_procedures::ProcedureError>(())
 /// ```
 ///
@@ -152,20 +137,18 @@ pub fn fit_outcomes(
     let found = fit_stripes(&Outcome::stripes(outcomes, |_| 1), shift)?;
     let Sampled { clusters, fitted, .. } =
         sample_outcomes(outcomes, clusters, shift, draws)?;
-    let bounds = |of: fn(&Lognormal) -> f64, point| {
+    let estimate = |of: fn(&Lognormal) -> f64, point| {
         let value =
             |law: &Option<Lognormal>| law.as_ref().map_or(f64::NAN, of);
         let column: Vec<f64> = fitted.iter().map(value).collect();
         let found = clusters.estimate(point, &column, LEVEL);
-        let enough = |e: &Estimate| 20 * e.used >= 19 * e.replicates;
-        let found = found.filter(enough);
-        let (low, high) =
-            (found.as_ref().map(|e| e.low), found.map(|e| e.high));
-        Bounds { point, low, high }
+        let enough = |e: &BootstrapEstimate| 20 * e.used >= 19 * e.replicates;
+        let found = found.filter(enough).map(|found| found.estimate);
+        found.unwrap_or(Estimate::exact(point))
     };
     Ok(CountsFragility {
-        median: bounds(Lognormal::median, found.median.point),
-        dispersion: bounds(Lognormal::dispersion, found.dispersion.point),
+        median: estimate(Lognormal::median, found.median.value()),
+        dispersion: estimate(Lognormal::dispersion, found.dispersion.value()),
         intervals: Basis::Drawn(draws, clusters),
         ..found
     })

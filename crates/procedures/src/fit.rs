@@ -22,7 +22,7 @@ use rocking_statistics::lognormal::{
 };
 use rocking_statistics::regression::RegressionError;
 use rocking_statistics::{
-    CensoredSample, Clusters, Lognormal, QuantileType, SampleError,
+    CensoredSample, Clusters, Interval, Lognormal, QuantileType, SampleError,
 };
 
 /// The shift IM_R of a fit.
@@ -272,15 +272,15 @@ pub struct FragilityFit {
     pub band: Option<Band>,
 }
 
-/// Ends of the likelihood interval of a shift.
+/// The likelihood interval of a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ShiftInterval {
-    /// Lower end; 0 where the likelihood falls too little down to there.
-    pub low: f64,
-    /// Upper end; none where the likelihood rises towards the smallest value.
-    pub high: Option<f64>,
+    /// Its high end is open where the likelihood rises towards the smallest
+    /// value.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub interval: Interval,
     /// Level of the interval.
     pub level: f64,
 }
@@ -474,9 +474,8 @@ pub fn fit_sample(
     let whole = sample.extended();
     let shift_interval = match options.shift {
         Shift::Free => {
-            let profile = profile_shift(&whole)?;
-            let low = profile.low.unwrap_or(0.0);
-            Some(ShiftInterval { low, high: profile.high, level: 0.95 })
+            let interval = profile_shift(&whole)?.interval;
+            Some(ShiftInterval { interval, level: 0.95 })
         }
         _ => None,
     };

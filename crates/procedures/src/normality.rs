@@ -3,14 +3,16 @@
 use std::fmt;
 
 use super::{ProcedureError, Shift};
+#[cfg(feature = "serde")]
+use rocking_statistics::estimate::keys;
 use rocking_statistics::lilliefors::{
-    Assessment, Inapplicable, LillieforsError, Null, NullDistribution, PValue,
-    Scale, ShiftedNull, Statistic, Table, Verdict,
+    Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
+    ShiftedNull, Statistic, Table, Verdict,
 };
 use rocking_statistics::normality::{
-    Battery, anderson_darling, cramer_von_mises, shapiro_wilk,
+    Battery, Calibrated, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
-use rocking_statistics::{CensoredSample, ExtendedSample, Sample};
+use rocking_statistics::{CensoredSample, Estimate, ExtendedSample, Sample};
 
 /// Samples simulated beyond the table, where none are asked for.
 const REPLICATES_BEYOND: u64 = 100_000;
@@ -49,8 +51,9 @@ pub struct Normality {
     pub largest_tie: Option<usize>,
     /// Lilliefors' statistic.
     pub statistic: Option<Statistic>,
-    /// Its p-value.
-    pub p_value: Option<PValue>,
+    /// Its p-value, with the interval of its Monte Carlo error (95 %).
+    #[cfg_attr(feature = "serde", serde(serialize_with = "keys::if_value"))]
+    pub p_value: Option<Estimate>,
     /// How the p-value was found.
     pub method: Option<NullSource>,
     /// Simulated samples behind the p-value; none for the table.
@@ -110,32 +113,15 @@ impl serde::Serialize for NullSource {
 pub struct OtherTest {
     /// The statistic.
     pub statistic: f64,
-    /// Its p-value: simulated where replicates were asked for, else from a
-    /// published approximation.
-    pub p_value: f64,
-    /// Lower end of the 95 % interval of a simulated p-value.
-    pub p_low: Option<f64>,
-    /// Upper end.
-    pub p_high: Option<f64>,
+    /// Its p-value: simulated where replicates were asked for, with its 95 %
+    /// interval, else from a published approximation.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "keys::p_value")
+    )]
+    pub p_value: Estimate,
     /// The verdict of a simulated p-value.
     pub verdict: Option<Verdict>,
-}
-
-impl OtherTest {
-    fn published(statistic: f64, p_value: f64) -> Self {
-        let (p_low, p_high, verdict) = (None, None, None);
-        Self { statistic, p_value, p_low, p_high, verdict }
-    }
-
-    fn simulated(statistic: f64, p: PValue, level: f64) -> Self {
-        Self {
-            statistic,
-            p_value: p.value,
-            p_low: Some(p.low),
-            p_high: Some(p.high),
-            verdict: Some(p.verdict(level)),
-        }
-    }
 }
 
 /// Tests whether a sample is normal, or lognormal above a shift.
@@ -248,14 +234,16 @@ fn others(
         let battery =
             Battery::simulate(tested.len(), replicates, options.seed)?;
         return Ok(battery.assess(tested).map_or([None; 3], |tests| {
-            tests.map(|t| {
-                let (d, p) = (t.statistic, t.p_value);
-                Some(OtherTest::simulated(d, p, options.level))
+            tests.map(|Calibrated { statistic, p_value, .. }| {
+                let verdict = Verdict::at_level(&p_value, options.level);
+                let verdict = Some(verdict);
+                Some(OtherTest { statistic, p_value, verdict })
             })
         }));
     }
     Ok([anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
         let test = test(tested).ok()?;
-        Some(OtherTest::published(test.statistic, test.p_value))
+        let (statistic, p) = (test.statistic, Estimate::exact(test.p_value));
+        Some(OtherTest { statistic, p_value: p, verdict: None })
     }))
 }

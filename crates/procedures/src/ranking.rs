@@ -4,7 +4,7 @@ use libm::log;
 
 use super::{Draws, ProcedureError};
 use rocking_statistics::Clusters;
-use rocking_statistics::bootstrap::{Bootstrap, Estimate};
+use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::lognormal::fit_intervals;
 use rocking_statistics::regression::{Line, mixed};
 
@@ -80,9 +80,9 @@ pub struct Ranked {
     /// Median of the capacities, in the unit of the measure.
     pub median: f64,
     /// Dispersion of the capacities: the efficiency, small is good.
-    pub dispersion: Option<Estimate>,
+    pub dispersion: Option<BootstrapEstimate>,
     /// Dispersion over that of the first measure.
-    pub ratio_to_first: Option<Estimate>,
+    pub ratio_to_first: Option<BootstrapEstimate>,
     /// Slopes of ln(capacity) on each covariate: the sufficiency, a small
     /// p-value is bad.
     pub slopes: Vec<Slope>,

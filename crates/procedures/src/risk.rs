@@ -7,7 +7,9 @@ use thiserror::Error;
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
 use crate::{Draws, fit::Sampled};
 use rocking::stop;
-use rocking_statistics::{Clusters, Lognormal};
+#[cfg(feature = "serde")]
+use rocking_statistics::estimate::keys;
+use rocking_statistics::{Clusters, Estimate, Interval, Lognormal, Range};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -78,15 +80,19 @@ pub struct SamplingInterval {
     pub drawn: Clusters,
     /// Level of the intervals.
     pub level: f64,
-    /// Lower end of the annual frequency in 1/year, of the lower bound of
-    /// truncation.
-    pub annual_frequency_low: f64,
-    /// Upper end, of the upper bound of truncation.
-    pub annual_frequency_high: f64,
-    /// Lower end of the probability of damage in T years.
-    pub probability_low: f64,
-    /// Upper end.
-    pub probability_high: f64,
+    /// Annual frequency in 1/year, of the lower bound of truncation, beside an
+    /// interval up to the upper end of the upper bound.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "keys::annual_frequency_ends")
+    )]
+    pub annual_frequency: Estimate,
+    /// Probability of damage in T years with that interval.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "keys::probability_ends")
+    )]
+    pub probability: Estimate,
     /// Annual frequency of each draw in 1/year, of the lower bound of
     /// truncation; not a number where a draw makes no fit.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -224,16 +230,17 @@ fn interval(
     });
     let (lows, highs): (Vec<f64>, Vec<f64>) = all.unzip();
     let drawn = &sampled.clusters;
-    let low = drawn.estimate(lower, &lows, LEVEL)?.low;
-    let high = drawn.estimate(upper, &highs, LEVEL)?.high;
+    let low = drawn.estimate(lower, &lows, LEVEL)?.estimate.low()?;
+    let high = drawn.estimate(upper, &highs, LEVEL)?.estimate.high()?;
+    let interval = Interval::try_new(low, high).ok()?;
+    let annual_frequency =
+        Estimate::beside(lower, interval, Range::NotNegative).ok()?;
     Some(SamplingInterval {
         draws: sampled.draws,
         drawn: drawn.clone(),
         level: LEVEL,
-        annual_frequency_low: low,
-        annual_frequency_high: high,
-        probability_low: within(low),
-        probability_high: within(high),
+        annual_frequency,
+        probability: annual_frequency.map(within),
         drawn_annual_frequencies: lows,
     })
 }
@@ -263,12 +270,12 @@ mod tests {
         };
         let found = risk(&hazard, &[one], 50.0).unwrap();
         let found = found.fragilities[0].sampling.as_ref().unwrap();
-        let frequency =
-            [found.annual_frequency_low, found.annual_frequency_high];
-        assert_eq!(frequency, [0.0, 0.0003]);
-        assert_eq!(found.probability_low, 0.0);
+        let ends = |of: Estimate| of.interval().unwrap().ends();
+        assert_eq!(ends(found.annual_frequency), (0.0, 0.0003));
+        let (low, high) = ends(found.probability);
+        assert_eq!(low, 0.0);
         // 1 - exp(-0.015).
-        let high = 0.014_888_060_396_937_339;
-        assert!((found.probability_high / high - 1.0).abs() < 1e-14);
+        let expected = 0.014_888_060_396_937_339;
+        assert!((high / expected - 1.0).abs() < 1e-14);
     }
 }

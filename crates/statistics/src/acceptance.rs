@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::bootstrap::{Estimate, estimate};
+use super::bootstrap::{BootstrapEstimate, estimate};
 use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
@@ -233,7 +233,11 @@ impl NullBand {
 
     /// The band of the share at a level, about an observed one.
     #[must_use]
-    pub fn band(&self, observed: f64, level: f64) -> Option<Estimate> {
+    pub fn band(
+        &self,
+        observed: f64,
+        level: f64,
+    ) -> Option<BootstrapEstimate> {
         estimate(observed, &self.shares, level)
     }
 

@@ -3,24 +3,22 @@
 use rayon::prelude::*;
 
 use super::clusters::Clusters;
-use super::confidence::{Confidence, Ends};
-use super::{QuantileType, Sample, normal};
+use super::confidence::Confidence;
+use super::{Estimate, Interval, QuantileType, Range, Sample, normal};
 use crate::streams::{Streams, below};
 use rocking::stop;
 
-/// A point estimate with its standard error and interval.
+/// An estimate with its standard error and replicates.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
-pub struct Estimate {
-    /// The estimate from the sample itself.
-    pub point: f64,
+pub struct BootstrapEstimate {
+    /// The value of the sample itself, beside an interval of what the
+    /// replicates show.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub estimate: Estimate,
     /// Standard deviation of the replicates.
     pub standard_error: f64,
-    /// Lower end of the interval.
-    pub low: f64,
-    /// Upper end of the interval.
-    pub high: f64,
     /// Level of the interval.
     pub level: f64,
     /// Replicates that gave a finite value.
@@ -105,7 +103,7 @@ pub fn estimate(
     point: f64,
     replicates: &[f64],
     level: f64,
-) -> Option<Estimate> {
+) -> Option<BootstrapEstimate> {
     let finite: Vec<f64> =
         replicates.iter().copied().filter(|x| x.is_finite()).collect();
     if finite.len() < 2 || !point.is_finite() {
@@ -115,11 +113,11 @@ pub fn estimate(
     let quantile_type = QuantileType::try_new(7).ok()?;
     let at = |p| quantile_type.of(&sample, p).ok();
     let spread = sample.sum_of_squares() / (finite.len() as f64 - 1.0);
-    Some(Estimate {
-        point,
+    let ends = (at(0.5 - 0.5 * level)?, at(0.5 + 0.5 * level)?);
+    let interval = Interval::try_new(ends.0, ends.1).ok()?;
+    Some(BootstrapEstimate {
+        estimate: beside(point, interval)?,
         standard_error: spread.sqrt(),
-        low: at(0.5 - 0.5 * level)?,
-        high: at(0.5 + 0.5 * level)?,
         level,
         used: finite.len(),
         replicates: replicates.len(),
@@ -147,7 +145,8 @@ pub fn estimate(
 /// // Of the four others.
 /// let without = x.map(|left_out| (30.0 - left_out) / 4.0);
 /// let estimate = accelerated(mean(&all), &replicates, &without, 0.95);
-/// assert!(estimate.is_some_and(|e| e.low > 1.0 && e.high < 16.0));
+/// let interval = estimate.unwrap().estimate.interval().unwrap();
+/// assert!(interval.low() > 1.0 && interval.high() < 16.0);
 /// ```
 #[must_use]
 pub fn accelerated(
@@ -155,7 +154,7 @@ pub fn accelerated(
     replicates: &[f64],
     jackknife: &[f64],
     level: f64,
-) -> Option<Estimate> {
+) -> Option<BootstrapEstimate> {
     let plain = estimate(point, replicates, level)?;
     let finite: Vec<f64> =
         replicates.iter().copied().filter(|x| x.is_finite()).collect();
@@ -163,9 +162,17 @@ pub fn accelerated(
     if !known.is_accelerated() {
         return None;
     }
-    let Ends { low, high, .. } =
-        known.interval(normal::quantile(0.5 + 0.5 * level));
-    Some(Estimate { low, high, ..plain })
+    let found = known.interval(normal::quantile(0.5 + 0.5 * level))?;
+    Some(BootstrapEstimate {
+        estimate: beside(point, found.interval)?,
+        ..plain
+    })
+}
+
+/// A value beside the quantiles of its replicates, which lie in the range of
+/// the quantity as the replicates do.
+fn beside(point: f64, interval: Interval) -> Option<Estimate> {
+    Estimate::beside(point, interval, Range::Real).ok()
 }
 
 impl Clusters {
@@ -180,7 +187,7 @@ impl Clusters {
         point: f64,
         replicates: &[f64],
         level: f64,
-    ) -> Option<Estimate> {
+    ) -> Option<BootstrapEstimate> {
         let nominal = self.nominal(level)?;
         let found = estimate(point, replicates, nominal)?;
         Some(self.corrected(found, level))
@@ -197,7 +204,7 @@ impl Clusters {
         replicates: &[f64],
         jackknife: &[f64],
         level: f64,
-    ) -> Option<Estimate> {
+    ) -> Option<BootstrapEstimate> {
         let nominal = self.nominal(level)?;
         let found = accelerated(point, replicates, jackknife, nominal)?;
         Some(self.corrected(found, level))
@@ -212,15 +219,23 @@ impl Clusters {
         (nominal > 0.0 && nominal < 1.0).then_some(nominal)
     }
 
-    fn corrected(&self, found: Estimate, level: f64) -> Estimate {
+    fn corrected(
+        &self,
+        found: BootstrapEstimate,
+        level: f64,
+    ) -> BootstrapEstimate {
         let standard_error = found.standard_error * self.unbiased();
-        Estimate { standard_error, level, ..found }
+        BootstrapEstimate { standard_error, level, ..found }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn ends(of: &BootstrapEstimate) -> (f64, f64) {
+        of.estimate.interval().unwrap().ends()
+    }
 
     #[test]
     fn accelerated_intervals_are_those_of_scipy() {
@@ -230,14 +245,9 @@ mod tests {
             (0..1000).map(|i| f64::from(i * i) / 1e6).collect();
         let jackknife = [0.30, 0.29, 0.31, 0.33, 0.28, 0.30, 0.20, 0.31];
         let found = accelerated(0.3, &replicates, &jackknife, 0.9).unwrap();
-        assert!(
-            (found.low - 0.012_832_971_655_152).abs() < 1e-12,
-            "{found:?}"
-        );
-        assert!(
-            (found.high - 0.973_585_316_710_996).abs() < 1e-12,
-            "{found:?}"
-        );
+        let (low, high) = ends(&found);
+        assert!((low - 0.012_832_971_655_152).abs() < 1e-12, "{found:?}");
+        assert!((high - 0.973_585_316_710_996).abs() < 1e-12, "{found:?}");
         assert!(accelerated(-1.0, &replicates, &jackknife, 0.9).is_none());
         assert!(accelerated(0.3, &replicates, &[0.3; 8], 0.9).is_none());
     }
@@ -249,10 +259,9 @@ mod tests {
         let replicates: Vec<f64> = (1..=9).map(f64::from).collect();
         let plain = estimate(5.0, &replicates, 0.9).unwrap();
         let found = accelerated(5.0, &replicates, &[4.0, 6.0], 0.9).unwrap();
-        let gap = (found.low - plain.low).abs();
-        assert!(gap < 1e-12, "{found:?} {plain:?}");
-        let gap = (found.high - plain.high).abs();
-        assert!(gap < 1e-12, "{found:?} {plain:?}");
+        let ((a, b), (c, d)) = (ends(&found), ends(&plain));
+        assert!((a - c).abs() < 1e-12, "{found:?} {plain:?}");
+        assert!((b - d).abs() < 1e-12, "{found:?} {plain:?}");
     }
 
     #[test]
@@ -267,7 +276,8 @@ mod tests {
         let expected = (1599.0_f64 / 12.0 / 40.0).sqrt();
         let error = estimate.standard_error / expected - 1.0;
         assert!(error.abs() < 4.0 / (2.0 * 20_000.0_f64).sqrt());
-        let half = 0.5 * (estimate.high - estimate.low);
+        let (low, high) = ends(&estimate);
+        let half = 0.5 * (high - low);
         assert!((half / (1.96 * expected) - 1.0).abs() < 0.03);
     }
 

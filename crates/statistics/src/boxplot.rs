@@ -3,7 +3,7 @@
 use statrs::distribution::{Binomial, DiscreteCDF as _};
 use thiserror::Error;
 
-use super::{ExtendedSample, QuantileType};
+use super::{ExtendedSample, Interval, QuantileType};
 
 /// Why a boxplot was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -71,10 +71,9 @@ pub struct Boxplot {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct MedianInterval {
-    /// Value of the lower order statistic.
-    pub low: f64,
-    /// Value of the upper order statistic.
-    pub high: f64,
+    /// Between the values of the two.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub interval: Interval,
     /// Rank of the lower one, from 1; the upper one's is n + 1 minus it.
     pub rank: usize,
     /// Coverage for a continuous distribution, at least the level asked for.
@@ -132,7 +131,7 @@ impl Boxplot {
 /// let values: Vec<f64> = (1..=86).map(f64::from).collect();
 /// let sample = ExtendedSample::try_new(&values)?;
 /// let interval = median_interval(&sample, 0.95).unwrap();
-/// assert_eq!((interval.low, interval.high), (34.0, 53.0));
+/// assert_eq!(interval.interval.ends(), (34.0, 53.0));
 /// assert!((interval.coverage - 0.960).abs() < 5e-4);
 /// # Ok::<(), rocking_statistics::SampleError>(())
 /// ```
@@ -147,8 +146,7 @@ pub fn median_interval(
     let rank = (1..=n.div_ceil(2)).rev().find(|&k| coverage(k) >= level)?;
     let sorted = sample.sorted();
     Some(MedianInterval {
-        low: sorted[rank - 1],
-        high: sorted[n - rank],
+        interval: Interval::rising(sorted[rank - 1], sorted[n - rank]),
         rank,
         coverage: coverage(rank),
     })

@@ -3,7 +3,7 @@
 
 use libm::sqrt;
 
-use super::{Clusters, normal};
+use super::{Clusters, Interval, Range, normal};
 
 /// The replicates of one measure, in order: its intervals at all levels.
 ///
@@ -19,11 +19,12 @@ use super::{Clusters, normal};
 /// use rocking_statistics::confidence::Confidence;
 /// let replicates: Vec<f64> = (0..=1000).map(f64::from).collect();
 /// let known = Confidence::new(500.0, &replicates, &[]).unwrap();
-/// let ends = known.interval(Clusters::singletons(86).half_width(0.9));
-/// assert!((ends.low - 50.0).abs() < 1e-9);
-/// assert!((ends.high - 950.0).abs() < 1e-9);
+/// let half_width = Clusters::singletons(86).half_width(0.9);
+/// let found = known.interval(half_width).unwrap();
+/// assert!((found.interval.low() - 50.0).abs() < 1e-9);
+/// assert!((found.interval.high() - 950.0).abs() < 1e-9);
 /// // Of 1001 draws the 5 % point is known to sqrt(0.05 0.95/1001).
-/// assert!((ends.low_error - 6.9).abs() < 0.1);
+/// assert!((found.low_error - 6.9).abs() < 0.1);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Confidence {
@@ -37,11 +38,9 @@ pub struct Confidence {
 /// An interval, and the standard error of each end over sets of draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Ends {
-    /// Low end.
-    pub low: f64,
-    /// High end.
-    pub high: f64,
+pub struct MonteCarloInterval {
+    /// The interval; an end beyond all replicates with a value is open.
+    pub interval: Interval,
     /// Standard error of the low end over sets of draws.
     pub low_error: f64,
     /// Standard error of the high end over sets of draws.
@@ -93,12 +92,13 @@ impl Confidence {
     }
 
     /// The interval whose half width is w standard deviations of the
-    /// replicates; NaN for NaN.
+    /// replicates; none for a width that is negative or NaN.
     #[must_use]
-    pub fn interval(&self, half_width: f64) -> Ends {
+    pub fn interval(&self, half_width: f64) -> Option<MonteCarloInterval> {
         let (low, low_error) = self.end(-half_width);
         let (high, high_error) = self.end(half_width);
-        Ends { low, high, low_error, high_error }
+        let interval = Interval::try_new(low, high).ok()?;
+        Some(MonteCarloInterval { interval, low_error, high_error })
     }
 
     /// The interval of a share of cells that lie in a region, whose value in
@@ -121,9 +121,9 @@ impl Confidence {
     ///     (0..=800).map(|i| 0.86 + 1e-4 * f64::from(i)).collect();
     /// let known = Confidence::new(0.95, &replicates, &[]).unwrap();
     /// let records = Clusters::singletons(86);
-    /// let ends = known.interval_of_share(0.95, &records, 0.9);
-    /// assert!((ends.low - 0.862).abs() < 1e-3);
-    /// assert_eq!(ends.high, 1.0);
+    /// let found = known.interval_of_share(0.95, &records, 0.9).unwrap();
+    /// assert!((found.interval.low() - 0.862).abs() < 1e-3);
+    /// assert_eq!(found.interval.high(), 1.0);
     /// ```
     #[must_use]
     pub fn interval_of_share(
@@ -131,22 +131,21 @@ impl Confidence {
         point: f64,
         clusters: &Clusters,
         level: f64,
-    ) -> Ends {
-        let plain = self.interval(clusters.half_width(0.5 + 0.5 * level));
-        let reflected = (2.0 * point - plain.high, 2.0 * point - plain.low);
-        let (low, low_error) = if reflected.0 < plain.low {
-            (reflected.0, plain.high_error)
-        } else {
-            (plain.low, plain.low_error)
-        };
-        let (high, high_error) = if reflected.1 > plain.high {
-            (reflected.1, plain.low_error)
-        } else {
-            (plain.high, plain.high_error)
-        };
-        let within = |x: f64| x.clamp(0.0, 1.0);
-        let (low, high) = (within(low), within(high));
-        Ends { low, high, low_error, high_error }
+    ) -> Option<MonteCarloInterval> {
+        let plain = self.interval(clusters.half_width(0.5 + 0.5 * level))?;
+        let (mut low, mut high) = plain.interval.ends();
+        let (mut low_error, mut high_error) =
+            (plain.low_error, plain.high_error);
+        let reflected = plain.interval.map(|x| 2.0 * point - x);
+        if reflected.low() < low {
+            (low, low_error) = (reflected.low(), plain.high_error);
+        }
+        if reflected.high() > high {
+            (high, high_error) = (reflected.high(), plain.low_error);
+        }
+        let interval = Interval::try_new(low, high).ok()?;
+        let interval = interval.within(Range::Share);
+        Some(MonteCarloInterval { interval, low_error, high_error })
     }
 
     /// The end that belongs to `w`, and its standard error: that of the
@@ -212,19 +211,20 @@ mod tests {
         let half_width = Clusters::singletons(86).half_width(0.95);
         let of = |replicates: &[f64]| {
             let known = Confidence::new(500.0, replicates, &[]).unwrap();
-            known.interval(half_width)
+            known.interval(half_width).unwrap().interval
         };
         let plain = of(&replicates);
         for x in &mut replicates[500..510] {
             *x = f64::NAN;
         }
         let wide = of(&replicates);
-        assert!(wide.low < plain.low - 9.0 && wide.high > plain.high + 9.0);
+        assert!(wide.low() < plain.low() - 9.0);
+        assert!(wide.high() > plain.high() + 9.0);
         for x in &mut replicates[500..530] {
             *x = f64::INFINITY;
         }
         let none = of(&replicates);
-        assert_eq!((none.low, none.high), (f64::NEG_INFINITY, f64::INFINITY));
+        assert_eq!(none.ends(), (f64::NEG_INFINITY, f64::INFINITY));
         assert!(Confidence::new(f64::NAN, &replicates, &[]).is_none());
     }
 
@@ -248,18 +248,19 @@ mod tests {
             .collect();
         let half_width = Clusters::singletons(n).half_width(0.95);
         let sets = 300;
-        let found: Vec<Ends> = (0..sets)
+        let found: Vec<MonteCarloInterval> = (0..sets)
             .map(|set| {
                 let draws = Bootstrap::new("ends", set, n, 500);
                 let replicates = draws.map(mean);
                 Confidence::new(mean(&all), &replicates, &without)
                     .unwrap()
                     .interval(half_width)
+                    .unwrap()
             })
             .collect();
         for of in [
-            |e: &Ends| (e.low, e.low_error),
-            |e: &Ends| (e.high, e.high_error),
+            |e: &MonteCarloInterval| (e.interval.low(), e.low_error),
+            |e: &MonteCarloInterval| (e.interval.high(), e.high_error),
         ] {
             let count = sets as f64;
             let ends = || found.iter().map(|e| of(e).0);

@@ -7,6 +7,7 @@
 //! | a sample | quantiles by named type | [`quantile`] |
 //! | samples of the same records | a comparison | [`paired`] |
 //! | a statistic and clusters of records | an interval | [`bootstrap`] |
+//! | a value and an interval | a checked pair | [`Estimate`] |
 //! | a seed's name | random numbers with the same bits everywhere | [`streams`] |
 //!
 //! A sample is checked once, when it is made; what takes one relies on it.
@@ -21,6 +22,7 @@ pub mod boxplot;
 pub mod censored;
 pub mod clusters;
 pub mod confidence;
+pub mod estimate;
 pub mod lilliefors;
 pub mod lognormal;
 mod monte_carlo;
@@ -42,6 +44,7 @@ pub mod two_sample;
 pub use boxplot::Boxplot;
 pub use censored::CensoredSample;
 pub use clusters::Clusters;
+pub use estimate::{Estimate, Interval, Range};
 pub use lognormal::Lognormal;
 pub use proportion::Proportion;
 pub use quantile::QuantileType;

@@ -21,7 +21,7 @@ pub use table::Table;
 
 use std::fmt;
 
-use super::{Sample, normal};
+use super::{Estimate, Sample, normal};
 
 /// Why the test was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -181,19 +181,6 @@ fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
     Ok(sample.sorted().iter().map(|y| (y - mean) / deviation).collect())
 }
 
-/// A p-value with the interval of its Monte Carlo error (95 %).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct PValue {
-    /// The estimate.
-    pub value: f64,
-    /// Lower end of the interval.
-    pub low: f64,
-    /// Upper end of the interval.
-    pub high: f64,
-}
-
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -225,16 +212,17 @@ pub enum Verdict {
     Indeterminate,
 }
 
-impl PValue {
-    /// The verdict at a level.
+impl Verdict {
+    /// The verdict at a level, of a p-value with the interval of its Monte
+    /// Carlo error.
     #[must_use]
-    pub fn verdict(&self, level: f64) -> Verdict {
-        if self.high < level {
-            Verdict::Rejected
-        } else if self.low > level {
-            Verdict::NotRejected
+    pub fn at_level(p_value: &Estimate, level: f64) -> Self {
+        if p_value.high().is_some_and(|high| high < level) {
+            Self::Rejected
+        } else if p_value.low().is_some_and(|low| low > level) {
+            Self::NotRejected
         } else {
-            Verdict::Indeterminate
+            Self::Indeterminate
         }
     }
 }

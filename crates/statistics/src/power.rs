@@ -108,7 +108,7 @@ impl Power {
                 .filter(|k| {
                     let drawn = Proportion::try_new(*k as usize, n as usize);
                     let ends = drawn.and_then(|drawn| drawn.interval(level));
-                    ends.is_ok_and(|(low, high)| decides(low, high))
+                    ends.is_ok_and(|ends| decides(ends.low(), ends.high()))
                 })
                 .fold(0.0, |sum, k| sum + law.pmf(k))
         };

@@ -3,6 +3,8 @@
 use statrs::distribution::{Beta, ContinuousCDF as _};
 use thiserror::Error;
 
+use crate::Interval;
+
 /// Why a count gives no probability.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -65,9 +67,9 @@ impl Proportion {
     /// ```
     /// use rocking_statistics::Proportion;
     /// // None of 44: the probability may still be 8 %.
-    /// let (low, high) = Proportion::try_new(0, 44)?.interval(0.95)?;
-    /// assert_eq!(low, 0.0);
-    /// assert!((high - 0.080_42).abs() < 1e-5);
+    /// let found = Proportion::try_new(0, 44)?.interval(0.95)?;
+    /// assert_eq!(found.low(), 0.0);
+    /// assert!((found.high() - 0.080_42).abs() < 1e-5);
     /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
     /// ```
     ///
@@ -75,7 +77,7 @@ impl Proportion {
     ///
     /// # Errors
     /// [`ProportionError::Level`] for another level.
-    pub fn interval(self, level: f64) -> Result<(f64, f64), ProportionError> {
+    pub fn interval(self, level: f64) -> Result<Interval, ProportionError> {
         checked(level)?;
         let (k, n) = (self.successes as f64, self.trials as f64);
         let tail = 0.5 * (1.0 - level);
@@ -90,7 +92,8 @@ impl Proportion {
             0 => 1.0,
             _ => at(k + 1.0, n - k, 1.0 - tail),
         };
-        Ok((low, high))
+        // Quantiles of the two tails, the lower one of the smaller law.
+        Ok(Interval::rising(low, high))
     }
 
     /// Exact intervals of several probabilities that hold all of them at
@@ -102,7 +105,7 @@ impl Proportion {
     /// use rocking_statistics::Proportion;
     /// let one = Proportion::try_new(19, 86)?;
     /// let band = Proportion::band(&[one; 240], 0.95)?;
-    /// let (low, high) = band[0];
+    /// let (low, high) = band[0].ends();
     /// assert!((low - 0.0857).abs() < 1e-4 && (high - 0.4172).abs() < 1e-4);
     /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
     /// ```
@@ -112,7 +115,7 @@ impl Proportion {
     pub fn band(
         all: &[Self],
         level: f64,
-    ) -> Result<Vec<(f64, f64)>, ProportionError> {
+    ) -> Result<Vec<Interval>, ProportionError> {
         checked(level)?;
         let each = 1.0 - (1.0 - level) / all.len() as f64;
         all.iter().map(|one| one.interval(each)).collect()
@@ -135,10 +138,10 @@ mod tests {
             let a = 0.5 * (1.0 - level);
             let end = libm::pow(a, 1.0 / n as f64);
             let none = Proportion::try_new(0, n).unwrap();
-            let (low, high) = none.interval(level).unwrap();
+            let (low, high) = none.interval(level).unwrap().ends();
             assert!(low == 0.0 && (high - (1.0 - end)).abs() < 1e-10);
             let all = Proportion::try_new(n, n).unwrap();
-            let (low, high) = all.interval(level).unwrap();
+            let (low, high) = all.interval(level).unwrap().ends();
             assert!((low - end).abs() < 1e-10 && high == 1.0);
         }
     }
@@ -147,13 +150,13 @@ mod tests {
     fn nothing_in_a_few_trials_is_no_certainty() {
         let of = |k, n| Proportion::try_new(k, n).unwrap();
         for n in [10, 44, 86, 1000] {
-            let (_, high) = of(0, n).interval(0.95).unwrap();
+            let high = of(0, n).interval(0.95).unwrap().high();
             assert!(high > 0.0 && high > 3.0 / n as f64, "{n}: {high}");
         }
         // Of more cells at once each end lies further away.
-        let alone = of(0, 86).interval(0.95).unwrap().1;
+        let alone = of(0, 86).interval(0.95).unwrap().high();
         let band = Proportion::band(&[of(0, 86); 240], 0.95).unwrap();
-        assert!(band.iter().all(|(_, high)| *high > 2.0 * alone));
+        assert!(band.iter().all(|one| one.high() > 2.0 * alone));
     }
 
     #[test]

@@ -7,8 +7,9 @@
 //! [`Subsampling`] draws without, for tests of distribution, which ties
 //! break.
 
-use super::bootstrap::{Bootstrap, Estimate, estimate};
+use super::bootstrap::{Bootstrap, BootstrapEstimate, estimate};
 use super::clusters::Clusters;
+use super::{Estimate, Interval, Range};
 use crate::streams::{Streams, below};
 
 /// How often a draw of `places` holds each of `n` records.
@@ -166,15 +167,16 @@ impl Subsampling {
         values: &[f64],
         without_one: &[f64],
         level: f64,
-    ) -> Option<Estimate> {
+    ) -> Option<BootstrapEstimate> {
         let plain = estimate(point, values, level)?;
         let (centre, factor) = (finite_mean(values), self.factor());
         let wider = factor * self.clusters.student_over_normal(level);
         if !wider.is_finite() {
             return None;
         }
-        let mut low = point - wider * (plain.high - centre);
-        let mut high = point - wider * (plain.low - centre);
+        let reflected = |end: f64| point - wider * (end - centre);
+        let drawn = plain.estimate.interval()?.map(reflected);
+        let (mut low, mut high) = drawn.ends();
         for x in without_one {
             if *x < low {
                 low = *x;
@@ -184,7 +186,11 @@ impl Subsampling {
             }
         }
         let standard_error = factor * plain.standard_error;
-        Some(Estimate { standard_error, low, high, ..plain })
+        let interval = Interval::try_new(low, high).ok()?;
+        // About the mean of the subsamples, not about the value; Real, since
+        // a reflected end may lie beyond the range of the quantity.
+        let estimate = Estimate::beside(point, interval, Range::Real).ok()?;
+        Some(BootstrapEstimate { estimate, standard_error, ..plain })
     }
 }
 
@@ -298,9 +304,11 @@ mod tests {
     fn an_interval_holds_what_each_record_does() {
         let draws = Subsampling::new("test", 0, 20, 18);
         let values = [0.9, 1.0, 1.1, 1.0];
-        let plain = draws.interval(1.0, &values, &[], 0.95).unwrap();
-        let wide = draws.interval(1.0, &values, &[-3.0, 1.0], 0.95).unwrap();
-        assert_eq!((wide.low, wide.high), (-3.0, plain.high));
+        let ends = |without: &[f64]| {
+            let found = draws.interval(1.0, &values, without, 0.95).unwrap();
+            found.estimate.interval().unwrap().ends()
+        };
+        assert_eq!(ends(&[-3.0, 1.0]), (-3.0, ends(&[]).1));
     }
 
     #[test]
@@ -327,7 +335,8 @@ mod tests {
             // Four standard errors of a deviation of 8000 values.
             let error = interval.standard_error / expected - 1.0;
             assert!(error.abs() < 4.0 / 16_000.0_f64.sqrt(), "{error}");
-            let half = 0.5 * (interval.high - interval.low);
+            let (low, high) = interval.estimate.interval().unwrap().ends();
+            let half = 0.5 * (high - low);
             assert!((half / (1.96 * expected) - 1.0).abs() < 0.04);
         }
         let all = Subsampling::new("test", 0, n, n);

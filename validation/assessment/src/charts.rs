@@ -76,11 +76,8 @@ fn fragility(one: &Assessed, axis: &str) -> ChartPanel {
     let last = one.answer.fitted.quantile(0.98);
     let band: Vec<_> = band.filter(|p| p.intensity <= last).collect();
     let x: Vec<f64> = band.iter().map(|p| p.intensity).collect();
-    let y: Vec<f64> = band.iter().map(|p| p.probability).collect();
-    let ends: Vec<(f64, f64)> = band
-        .iter()
-        .map(|p| (p.low.unwrap_or(f64::NAN), p.high.unwrap_or(f64::NAN)))
-        .collect();
+    let y = band.iter().map(|p| p.probability.value()).collect();
+    let ends = band.iter().map(|p| p.probability.ends()).collect();
     let n = one.by_record.len() as f64;
     let damaged = one.by_record.iter().filter(|r| r.damages).map(|r| r.im);
     let damaged: Vec<f64> = damaged.filter(|im| *im <= last).collect();

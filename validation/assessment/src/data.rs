@@ -52,9 +52,9 @@ pub(crate) fn fragilities(found: &Assessment) -> String {
                 found.im.to_string(),
                 found.unit.to_owned(),
                 number(point.intensity),
-                number(point.probability),
-                optional(point.low),
-                optional(point.high),
+                number(point.probability.value()),
+                optional(point.probability.low()),
+                optional(point.probability.high()),
             ]);
         }
     }

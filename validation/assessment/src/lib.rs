@@ -18,6 +18,7 @@ use rocking_exchange::ExchangeFormat;
 use rocking_procedures::assess::{
     Alternative, Assessed, Assessment, Damage, Object,
 };
+use rocking_statistics::Interval;
 use rocking_surrogate::Surrogate;
 use rocking_synthesis::SuiteKind;
 
@@ -206,8 +207,8 @@ fn together(found: &Assessment) -> Markup {
                 @if let Some(r) = &found.correlation {
                     " Over the records, the logarithms of the intensities \
                      that damage two objects have a correlation of "
-                    (short(r.point)) " in the median of all pairs"
-                    @if let (Some(low), Some(high)) = (r.low, r.high) {
+                    (short(r.value())) " in the median of all pairs"
+                    @if let Some((low, high)) = r.interval().map(Interval::ends) {
                         ", from " (short(low)) " to " (short(high))
                     }
                     "."
@@ -297,7 +298,7 @@ fn remarks(found: &Assessment, one: &Assessed) -> Markup {
                         @if let Some(own) = &pga.dispersion
                             && pga.im != best
                         {
-                            " PGA leaves " (short(own.point)) "."
+                            " PGA leaves " (short(own.estimate.value())) "."
                         }
                     }
                 }

@@ -146,9 +146,9 @@ fn the_return_period_that_comes_first_has_its_ends_in_order() {
     let (high, _) = rest.split_once(") years").unwrap();
     let shown = [low, own, high].map(|years| years.parse::<f64>().unwrap());
     let frequency = found.objects[0].answer.annual_frequency().unwrap();
-    let ends = [frequency.high.unwrap(), frequency.point];
+    let ends = [frequency.high().unwrap(), frequency.value()];
     let [shortest, own] = ends.map(f64::recip);
-    let longest = frequency.low.unwrap().recip();
+    let longest = frequency.low().unwrap().recip();
     for (years, expected) in shown.iter().zip([shortest, own, longest]) {
         // Two digits are shown.
         assert!((years / expected - 1.0).abs() < 0.05, "{first}");
@@ -198,7 +198,7 @@ fn intensities_have_the_units_that_they_name() {
     let row = row.unwrap();
     assert_eq!((found.unit, row["Demand-Unit"]), ("cm/s", "mps"));
     let median_m_s: f64 = row["LS1-Theta_0"].parse().unwrap();
-    let median_cm_s = one.answer.median_im.point;
+    let median_cm_s = one.answer.median_im.value();
     assert!((100.0 * median_m_s / median_cm_s - 1.0).abs() < 1e-9);
 }
 

@@ -2,43 +2,35 @@
 
 use rocking_common::words::{columns, percent, rounded};
 use rocking_procedures::assess::{Answer, Assessed, Assessment, Damage};
-use rocking_procedures::counts::Bounds;
 use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Estimate;
 
 /// A number in three significant digits.
 pub(crate) fn short(x: f64) -> String {
     rounded(x, 3).to_string()
 }
 
-/// A value with its interval, where it has one, both as `show` writes them.
-fn interval(value: &Bounds, show: impl Fn(f64) -> String) -> String {
-    let point = show(value.point);
-    match (value.low, value.high) {
-        (None, None) => point,
-        (low, high) => {
-            let open = || "open".to_owned();
-            let low = low.map_or_else(open, &show);
-            let high = high.map_or_else(open, &show);
-            format!("{point} ({low} to {high})")
-        }
-    }
+/// A value with its interval in so many significant digits.
+fn rounded_text(estimate: &Estimate, digits: usize) -> String {
+    estimate.text("", |x| match x.is_finite() {
+        true => rounded(x, digits).to_string(),
+        false => "open".to_owned(),
+    })
 }
 
 /// A value with its interval in three significant digits.
-pub(crate) fn bounds(value: &Bounds) -> String {
-    interval(value, short)
+pub(crate) fn three_digits(estimate: &Estimate) -> String {
+    rounded_text(estimate, 3)
 }
 
 /// Mean return period of damage in years, with its interval.
 pub(crate) fn return_period(answer: &Answer) -> Option<String> {
-    let period = answer.return_period_years()?;
-    Some(interval(&period, |years| rounded(years, 2).to_string()))
+    Some(rounded_text(&answer.return_period_years()?, 2))
 }
 
 /// The probability of damage in T years in percent, with its interval.
 pub(crate) fn in_years(answer: &Answer) -> Option<String> {
-    let show = |p: f64| rounded(100.0 * p, 2).to_string();
-    Some(interval(&answer.probability()?, show))
+    Some(rounded_text(&answer.probability()?.map(|p| 100.0 * p), 2))
 }
 
 /// The intensity measure.
@@ -73,7 +65,7 @@ pub(crate) fn first(found: &Assessment) -> String {
         None => format!(
             "a {} of {} {} causes {what} with a probability of 5 %",
             measure(found),
-            bounds(&one.answer.small_im),
+            three_digits(&one.answer.small_im),
             found.unit
         ),
     };
@@ -117,7 +109,8 @@ pub(crate) fn risk_heads(found: &Assessment) -> Vec<String> {
 /// What a fragility says, cell by cell.
 pub(crate) fn answer_cells(answer: &Answer) -> Vec<String> {
     let risk = return_period(answer).into_iter().chain(in_years(answer));
-    let ims = [bounds(&answer.small_im), bounds(&answer.median_im)];
+    let ims =
+        [three_digits(&answer.small_im), three_digits(&answer.median_im)];
     risk.chain(ims).collect()
 }
 

@@ -6,12 +6,14 @@
 
 mod claims;
 mod effect;
-mod measured;
+pub mod estimate;
+mod unit;
 
 use std::fmt;
 
 use rocking::block::Block;
 use rocking::integrator::Overturning;
+use rocking_statistics::Estimate;
 use rocking_statistics::multiple::{benjamini_hochberg, benjamini_yekutieli};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -20,11 +22,11 @@ use crate::json::nine;
 use crate::paper::{Arm, ClaimVerdict, Intensity, SuiteKind};
 
 pub use effect::Effect;
-pub use measured::{Measured, Unit};
+pub use unit::Unit;
 
 pub use claims::{
-    CellCounts, Claim, ClaimResult, DecisionPower, Detail, ERROR, Interval,
-    Kind, LEVEL, Quantifier, Region, SuiteSet, Theme,
+    CellCounts, Claim, ClaimResult, DecisionPower, Detail, ERROR,
+    IntervalMethod, Kind, LEVEL, Quantifier, Region, SuiteSet, Theme,
 };
 
 /// Version of the file's shape. It rises with every change of a field or of
@@ -277,7 +279,8 @@ pub struct TableRow {
     /// The place.
     pub at: RowPlace,
     /// A value for each quantity of the table.
-    pub values: Vec<Measured>,
+    #[serde(with = "estimate::list")]
+    pub values: Vec<Estimate>,
 }
 
 /// What distinguishes a row of a table from the others.
@@ -422,20 +425,7 @@ impl Findings {
                  by one version of the program"
             ));
         }
-        let findings: Self =
-            serde_json::from_str(text).map_err(|e| e.to_string())?;
-        for claim in &findings.claims {
-            for ClaimResult { low, high, .. } in &claim.results {
-                if !(low <= high || low.is_nan() && high.is_nan()) {
-                    return Err(format!(
-                        "claim {}: low {low}, high {high}: expected rising \
-                         numbers, or neither",
-                        claim.id
-                    ));
-                }
-            }
-        }
-        Ok(findings)
+        serde_json::from_str(text).map_err(|e| e.to_string())
     }
 
     /// How many decisions do not hold at a false discovery rate, over all
@@ -471,9 +461,18 @@ impl Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rocking_statistics::{Interval, Range};
 
-    fn measured(text: &str) -> Result<Measured, String> {
-        serde_json::from_str(text).map_err(|e| e.to_string())
+    fn read(text: &str) -> Result<Estimate, String> {
+        let mut from = serde_json::Deserializer::from_str(text);
+        estimate::deserialize(&mut from).map_err(|e| e.to_string())
+    }
+
+    fn written(of: &Estimate) -> String {
+        let mut out = Vec::new();
+        let mut to = serde_json::Serializer::new(&mut out);
+        estimate::serialize(of, &mut to).unwrap();
+        String::from_utf8(out).unwrap()
     }
 
     #[test]
@@ -483,14 +482,17 @@ mod tests {
             (f64::INFINITY, None),
             (0.1, Some((0.1, 0.1))),
         ] {
-            let one = Measured { value, interval };
-            let text = serde_json::to_string(&one).unwrap();
-            assert_eq!(measured(&text).unwrap(), one, "{text}");
+            let one =
+                interval.map_or(Estimate::exact(value), |(low, high)| {
+                    let interval = Interval::try_new(low, high).unwrap();
+                    Estimate::try_new(value, interval, Range::Real).unwrap()
+                });
+            let text = written(&one);
+            assert_eq!(read(&text).unwrap(), one, "{text}");
         }
-        let none = Measured::exact(f64::NAN);
-        let text = serde_json::to_string(&none).unwrap();
+        let text = written(&Estimate::exact(f64::NAN));
         assert_eq!(text, r#"{"value":null}"#);
-        assert!(measured(&text).unwrap().value.is_nan());
+        assert!(read(&text).unwrap().value().is_nan());
     }
 
     #[test]
@@ -500,11 +502,11 @@ mod tests {
             r#"{"value":1,"low":null,"high":1}"#,
             r#"{"value":1,"low":1,"high":null}"#,
         ] {
-            assert!(measured(text).unwrap_err().contains("rising"), "{text}");
+            assert!(read(text).unwrap_err().contains("rising"), "{text}");
         }
         let text = r#"{"value":"one","low":null,"high":null}"#;
-        assert!(measured(text).unwrap_err().contains("\"inf\""));
-        assert!(measured(r#"{"low":1,"high":2}"#).is_err());
+        assert!(read(text).unwrap_err().contains("\"inf\""));
+        assert!(read(r#"{"low":1,"high":2}"#).is_err());
     }
 
     #[test]

@@ -130,9 +130,9 @@ impl QuestionPart {
     fn value(&self, result: &ClaimResult) -> f64 {
         match &result.deciding_cell {
             Some(cell) if self.shown == FactNumber::Apart => {
-                cell.measured.value
+                cell.estimate.value()
             }
-            _ => result.value,
+            _ => result.estimate.value(),
         }
     }
 
@@ -165,7 +165,7 @@ impl QuestionPart {
         }
         let text = match &result.deciding_cell {
             Some(cell) if self.shown == FactNumber::Apart => {
-                cell_text(claim, cell.measured)
+                cell_text(claim, &cell.estimate)
             }
             _ => measured_text(claim, result),
         };

@@ -6,10 +6,11 @@ use serde::Deserialize;
 
 use crate::evidence::{NOT_RUN, Proof};
 use crate::words::Words;
-use rocking_common::findings::{Claim, Findings, Measured};
+use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
+use rocking_statistics::Estimate;
 use rocking_study::measures::without_closed_form;
 use rocking_study::results::StudyResults;
 
@@ -33,7 +34,7 @@ const RATIOS: [&str; 4] =
 #[derive(Clone)]
 struct PaperNumber {
     quantity: String,
-    ours: Measured,
+    ours: Estimate,
     paper: f64,
     /// Standard uncertainty by the paper's printed digits; none where the
     /// paper says it in words.
@@ -52,7 +53,7 @@ struct PaperNumber {
 fn printed() -> Result<Vec<PaperNumber>, BlockError> {
     let one = |quantity: &str, ours: f64, paper: f64, unit: f64| PaperNumber {
         quantity: quantity.into(),
-        ours: Measured::exact(ours),
+        ours: Estimate::exact(ours),
         paper,
         rounding: half_unit(unit),
         records: false,
@@ -101,7 +102,7 @@ fn ratios(results: &StudyResults, claims: &[Claim]) -> Vec<PaperNumber> {
                     result.place(),
                     cell.name
                 ),
-                ours: cell.measured,
+                ours: cell.estimate,
                 paper: 1.0,
                 rounding: None,
                 records: true,
@@ -167,12 +168,13 @@ fn comparison_table(compared: &[PaperNumber], shift: f64) -> PlainTable {
 }
 
 fn row(one: &PaperNumber, shift: f64) -> Vec<String> {
-    let value = one.ours.value;
+    let value = one.ours.value();
     // An error below the ninth digit is rounding.
     let error = value - one.paper;
     let error = if error.abs() < 1e-9 { 0.0 } else { error };
     let numerics = if one.records { shift * value.abs() } else { 0.0 };
-    let input = one.ours.interval.map(|(a, b)| (b - a) / (2.0 * HALF_WIDTH));
+    let input = one.ours.interval();
+    let input = input.map(|i| (i.high() - i.low()) / (2.0 * HALF_WIDTH));
     let square = |x: f64| x * x;
     let together = (square(numerics)
         + square(input.unwrap_or(0.0))
@@ -344,12 +346,20 @@ impl Credibility {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rocking_statistics::{Interval, Range};
+
+    fn estimate(value: f64, ends: Option<(f64, f64)>) -> Estimate {
+        ends.map_or(Estimate::exact(value), |(low, high)| {
+            let interval = Interval::try_new(low, high).unwrap();
+            Estimate::try_new(value, interval, Range::Real).unwrap()
+        })
+    }
 
     #[test]
     fn errors_are_set_against_their_uncertainty() {
         let one = |value, paper, interval, rounding| PaperNumber {
             quantity: "q".into(),
-            ours: Measured { value, interval },
+            ours: estimate(value, interval),
             paper,
             rounding,
             records: interval.is_some() || rounding.is_none(),
@@ -381,10 +391,7 @@ mod tests {
         let says = |left| {
             let one = PaperNumber {
                 quantity: "q".into(),
-                ours: Measured {
-                    value: 0.9866,
-                    interval: Some((0.984_955_146, 0.988_244_854)),
-                },
+                ours: estimate(0.9866, Some((0.984_955_146, 0.988_244_854))),
                 paper: 1.0,
                 rounding: None,
                 records: true,

@@ -1,9 +1,10 @@
 //! Values of findings as people read them, each in the unit of its limit.
 
 use rocking_common::findings::{
-    Claim, ClaimResult, DecisionPower, Measured, Quantifier, Region, Unit,
+    Claim, ClaimResult, DecisionPower, Quantifier, Region, Unit,
 };
 use rocking_common::words::{rounded, rounded_text};
+use rocking_statistics::Estimate;
 
 /// How a number is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -80,20 +81,11 @@ pub fn number(x: f64) -> String {
     if x == 0.0 { "0".into() } else { x.to_string() }
 }
 
-fn measured(measured: Measured, scale: ValueScale) -> String {
-    let unit = scale.unit();
-    let value = scale.number(measured.value);
-    if measured.value.is_nan() {
+fn text(estimate: &Estimate, scale: ValueScale) -> String {
+    if estimate.value().is_nan() {
         return "no data".into();
     }
-    match measured.interval {
-        Some((low, high)) => format!(
-            "{value}{unit} ({} to {})",
-            scale.number(low),
-            scale.number(high)
-        ),
-        None => format!("{value}{unit}"),
-    }
+    estimate.text(scale.unit(), |x| scale.number(x))
 }
 
 /// Whether a claim's value is a share of cells, and its region about one of
@@ -106,7 +98,7 @@ fn of_cells(claim: &Claim) -> bool {
 /// A result's value with its interval and unit: `12 % (8 to 17)`.
 pub fn measured_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
-    measured(result.measured(), scale(result.unit, region))
+    text(&result.estimate, scale(result.unit, region))
 }
 
 /// That text; where the limit is about one cell of many, it is the share of
@@ -124,8 +116,8 @@ pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
 }
 
 /// The number of a cell of a claim, in the unit of the claim's limit.
-pub fn cell_text(claim: &Claim, value: Measured) -> String {
-    measured(value, scale(Unit::One, claim.region))
+pub fn cell_text(claim: &Claim, value: &Estimate) -> String {
+    text(value, scale(Unit::One, claim.region))
 }
 
 /// Where a claim's values have to lie: `-5 to +5 %, in every cell`; "most"
@@ -188,17 +180,14 @@ pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
         None => remarks.push(result.at.clone()),
     }
     if let Some(cell) = &result.deciding_cell {
-        let value = cell_text(claim, cell.measured);
+        let value = cell_text(claim, &cell.estimate);
         remarks.push(format!("deciding: {}, {value}", cell.name));
     } else if result.cells.is_some() {
         remarks.push(format!("deciding: {}", result.at));
     }
     for detail in &result.details {
-        let ends = detail.measured.interval.map_or(String::new(), |(a, b)| {
-            format!(" ({} to {})", rounded_text(a), rounded_text(b))
-        });
-        let value = rounded_text(detail.measured.value);
-        remarks.push(format!("{}: {value}{ends}", detail.name));
+        let number = detail.estimate.text("", rounded_text);
+        remarks.push(format!("{}: {number}", detail.name));
     }
     if let Some(interval) = result.interval {
         remarks.push(format!("interval: {}", interval.words()));
@@ -210,12 +199,16 @@ pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rocking_statistics::{Interval, Range};
 
     #[test]
     fn values_carry_the_unit_of_their_limit() {
-        let value = |x, interval| Measured { value: x, interval };
-        let text = |unit, region, x, interval| {
-            measured(value(x, interval), scale(unit, region))
+        let text = |unit, region, x, interval: Option<(f64, f64)>| {
+            let estimate = interval.map_or(Estimate::exact(x), |(a, b)| {
+                let interval = Interval::try_new(a, b).unwrap();
+                Estimate::try_new(x, interval, Range::Real).unwrap()
+            });
+            text(&estimate, scale(unit, region))
         };
         let (share, one) = (Unit::Share, Unit::One);
         let ends = Some((0.95, 1.041));

@@ -279,7 +279,7 @@ fn no_claim_names_a_restitution_that_a_run_may_not_have() {
 fn numbers(findings: &Findings) -> BTreeSet<String> {
     let claims = findings.claims.iter();
     let results = claims.flat_map(|c| c.results.iter().map(move |r| (c, r)));
-    let bounded = results.filter(|(_, r)| r.measured().interval.is_some());
+    let bounded = results.filter(|(_, r)| r.estimate.interval().is_some());
     let texts = bounded.map(|(c, r)| measured_text(c, r));
     let suites = findings.suites.iter();
     let suites =
@@ -311,7 +311,8 @@ fn figure_18_is_about_its_claim(found: &Findings, page: &str) {
         .map(|word| word.trim().parse().expect("a number"))
         .collect();
     // The claim: by how much c = 1 is further off than c = 0.25.
-    let apart = distances[3] - distances[0] - gain.expect("a result").value;
+    let apart =
+        distances[3] - distances[0] - gain.expect("a result").estimate.value();
     assert!(apart.abs() <= 0.001, "{distances:?}");
 }
 
@@ -394,7 +395,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         let finding = claim.kind == Kind::Finding;
         assert_eq!(claim.results.is_empty(), !finding, "{}", claim.id);
         for result in &claim.results {
-            let known = result.measured().interval.is_some();
+            let known = result.estimate.interval().is_some();
             let judged = result.by_equivalence.is_some();
             assert_eq!(judged, known, "{}, {}", claim.id, result.place());
         }
@@ -407,7 +408,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     }
     // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
     let uplift = findings.table(Topic::UpliftUnscaled).expect("table");
-    assert_eq!(uplift.rows[1].values[0].value, 10.0);
+    assert_eq!(uplift.rows[1].values[0].value(), 10.0);
     // The ledger names what was measured, and all of it.
     let keys: Vec<&str> =
         findings.claims.iter().map(|claim| claim.id.as_str()).collect();

@@ -194,10 +194,10 @@ impl ClaimTest {
         if let (Some(region), Some(Criterion { name, measured })) =
             (self.share, prepared.criterion)
         {
-            let (measured, verdict) =
+            let (estimate, verdict) =
                 judged_share(draws, tested, &measured, region);
             result.by_criterion = Some(verdict);
-            result.details.push(Detail { name, measured });
+            result.details.push(Detail { name, estimate });
         }
         result.details.extend(prepared.details);
         Ok(judged)

@@ -2,9 +2,7 @@
 //! paired ratios.
 
 use rocking_statistics::boxplot::median_interval;
-use rocking_statistics::{ExtendedSample, QuantileType};
-
-use rocking_common::findings::Measured;
+use rocking_statistics::{Estimate, ExtendedSample, QuantileType, Range};
 
 /// Level of the intervals.
 pub(crate) const LEVEL: f64 = 0.95;
@@ -12,18 +10,18 @@ pub(crate) const LEVEL: f64 = 0.95;
 /// Median with its exact order-statistic interval; what was never reached
 /// counts as infinite, what is NaN does not count.
 #[must_use]
-pub fn median(values: &[f64]) -> Measured {
+pub fn median(values: &[f64]) -> Estimate {
     let there: Vec<f64> =
         values.iter().copied().filter(|x| !x.is_nan()).collect();
     let Ok(sample) = ExtendedSample::try_new(&there) else {
-        return Measured::exact(f64::NAN);
+        return Estimate::exact(f64::NAN);
     };
     let sorted = sample.sorted();
     let n = sorted.len();
-    Measured {
-        value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
-        interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
-    }
+    let value = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+    median_interval(&sample, LEVEL)
+        .and_then(|i| Estimate::try_new(value, i.interval, Range::Real).ok())
+        .unwrap_or(Estimate::exact(value))
 }
 
 /// Mean of the finite ones among some numbers.
@@ -52,7 +50,7 @@ mod tests {
     fn a_median_counts_what_was_never_reached() {
         let inf = f64::INFINITY;
         let found = median(&[1.0, inf, f64::NAN, 2.0]);
-        assert_eq!(found.value, 2.0);
-        assert_eq!(median(&[1.0, inf, inf]).value, inf);
+        assert_eq!(found.value(), 2.0);
+        assert_eq!(median(&[1.0, inf, inf]).value(), inf);
     }
 }

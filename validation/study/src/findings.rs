@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use rocking_records::{AsideCount, SetAside};
-use rocking_statistics::Proportion;
+use rocking_statistics::{Estimate, Proportion, Range};
 use serde::Deserialize;
 
 use crate::analyses::{Deviation, StripeDemands, SuiteResults};
@@ -16,7 +16,7 @@ use crate::runs::capacities_at;
 use crate::sensitivities::OtherChoice;
 use crate::stripes::adjusted_split;
 use rocking_common::findings::{
-    AsideFiles, Claim, Findings, FindingsTable, Measured, RowPlace, SCHEMA,
+    AsideFiles, Claim, Findings, FindingsTable, RowPlace, SCHEMA,
     SuiteSummary, TableRow, Topic,
 };
 use rocking_common::paper::{
@@ -104,8 +104,8 @@ pub fn set_aside(found: &SetAside) -> Vec<AsideFiles> {
 }
 
 /// A number that is counted or computed exactly.
-fn count(n: usize) -> Measured {
-    Measured::exact(n as f64)
+fn count(n: usize) -> Estimate {
+    Estimate::exact(n as f64)
 }
 
 /// A block of a suite, an arm and an intensity measure.
@@ -143,7 +143,7 @@ fn shares(results: &StudyResults) -> Vec<TableRow> {
             let values = [block.shift, original, shifted];
             TableRow {
                 at: place_of(suite.kind, found, block),
-                values: values.map(Measured::exact).into(),
+                values: values.map(Estimate::exact).into(),
             }
         }));
     }
@@ -188,7 +188,7 @@ fn single(results: &StudyResults) -> Vec<TableRow> {
             };
             rows.push(TableRow {
                 at,
-                values: values.map(Measured::exact).into(),
+                values: values.map(Estimate::exact).into(),
             });
         }
     }
@@ -231,8 +231,9 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
                 adjusted_split(suite, suite.stripes(arm)?, frequency)?;
             for (stripe, split) in stripes.iter().zip(splits) {
                 let median = stripe.summary.as_ref().map(|b| b.median);
-                let part =
-                    |of: &[f64]| Measured::exact(estimates::median(of).value);
+                let part = |of: &[f64]| {
+                    Estimate::exact(estimates::median(of).value())
+                };
                 let at = RowPlace {
                     arm: Some(arm),
                     p_rad_s: Some(p_rad_s),
@@ -242,7 +243,7 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
                 let values = vec![
                     count(stripe.records),
                     usable(stripe)?,
-                    Measured::exact(median.unwrap_or(f64::NAN)),
+                    Estimate::exact(median.unwrap_or(f64::NAN)),
                     part(&split.within),
                     part(&split.above),
                     count(split.above.len()),
@@ -255,14 +256,12 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
 }
 
 /// Of as many records of the kind, how many would be usable.
-fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
+fn usable(stripe: &Stripe) -> anyhow::Result<Estimate> {
     let share = Proportion::try_new(stripe.usable, stripe.records)?;
-    let (low, high) = share.interval(estimates::LEVEL)?;
     let n = stripe.records as f64;
-    Ok(Measured {
-        value: stripe.usable as f64,
-        interval: Some((low * n, high * n)),
-    })
+    let interval = share.interval(estimates::LEVEL)?.map(|p| p * n);
+    let usable = stripe.usable as f64;
+    Ok(Estimate::try_new(usable, interval, Range::NotNegative)?)
 }
 
 /// Median overturning intensities, a row a block, suite and measure, in the

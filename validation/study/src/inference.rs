@@ -13,9 +13,10 @@ mod refuted;
 mod rule;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, LEVEL, Measured, Quantifier, Region, SuiteSet,
+    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet,
 };
 use rocking_common::paper::{Arm, ClaimVerdict};
+use rocking_statistics::{Estimate, Range};
 
 pub use drawn::by_cell;
 pub use draws::{
@@ -49,9 +50,7 @@ pub fn judge(
         let mut result = ClaimResult {
             suite: tested,
             arm,
-            value: f64::NAN,
-            low: f64::NAN,
-            high: f64::NAN,
+            estimate: Estimate::exact(f64::NAN),
             monte_carlo_error: f64::NAN,
             unit: rule.unit,
             by_criterion: None,
@@ -95,8 +94,8 @@ pub fn judged_share(
     tested: SuiteSet,
     measured: &Replicates,
     region: Region,
-) -> (Measured, ClaimVerdict) {
-    let known = CellIntervals::new(draws, tested, (0.0, 1.0), measured);
+) -> (Estimate, ClaimVerdict) {
+    let known = CellIntervals::new(draws, tested, Range::Share, measured);
     let ends = known.drawn(0, LEVEL);
     let verdict = ends.map_or(ClaimVerdict::Inconclusive, |ends| {
         ends.verdict(region, Caution::FULL)
@@ -116,11 +115,11 @@ fn judge_one(
     else {
         return;
     };
-    result.value = *value;
+    result.estimate = Estimate::exact(*value);
     result.at.clone_from(&cell.at);
     let of = |level| known.drawn(0, level);
     if let Some(ends) = of(LEVEL) {
-        (result.low, result.high) = ends.both();
+        result.estimate = ends.beside(*value);
         result.monte_carlo_error = ends.deciding_error(rule.region);
         result.interval = Some(ends.way);
         let verdict = ends.verdict(rule.region, caution);
@@ -140,7 +139,7 @@ fn judge_one(
         let mean = sum / finite.len() as f64;
         result.details.push(Detail {
             name: "mean over halves of the records".into(),
-            measured: Measured::exact(mean),
+            estimate: Estimate::exact(mean),
         });
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use rocking_statistics::acceptance::{AcceptedShare, NullBand};
 use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
-use rocking_statistics::{ExtendedSample, SampleError};
+use rocking_statistics::{ExtendedSample, Interval, SampleError};
 
 /// Level of the tests.
 pub const LEVEL: f64 = 0.05;
@@ -77,8 +77,8 @@ pub fn null_band(
 /// Central 95 % of a null band.
 #[must_use]
 pub fn ends(band: &NullBand) -> Option<(f64, f64)> {
-    let band = band.band(1.0 - LEVEL, 0.95)?;
-    Some((band.low, band.high))
+    let band = band.band(1.0 - LEVEL, 0.95)?.estimate;
+    band.interval().map(Interval::ends)
 }
 
 #[cfg(test)]

@@ -2,14 +2,12 @@
 
 use super::Answer;
 use super::ground::{Ground, LEVEL};
-use crate::counts::Bounds;
 use crate::fit::Sampled;
 use crate::fragility::hazard::Hazard;
 use crate::{
     Exposed, FitOptions, FragilityFit, ProcedureError, Shift, fit_sample, risk,
 };
-use rocking_statistics::bootstrap::Estimate;
-use rocking_statistics::{CensoredSample, Clusters, Lognormal};
+use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 
 /// The small probability of damage whose intensity is stated.
 const SMALL: f64 = 0.05;
@@ -109,9 +107,7 @@ impl Ground<'_> {
                 let drawn: Vec<f64> = all.fitted.iter().map(of).collect();
                 all.clusters.estimate(point, &drawn, LEVEL)
             });
-            let ends = |end: fn(&Estimate) -> f64| found.as_ref().map(end);
-            let (low, high) = (ends(|e| e.low), ends(|e| e.high));
-            Bounds { point, low, high }
+            found.map_or(Estimate::exact(point), |found| found.estimate)
         };
         let (median_im, small_im) = (at(0.5), at(SMALL));
         let exposed = |hazard: &Hazard| {

@@ -7,7 +7,6 @@ use super::{
     Alternative, AssessError, AssessOptions, Assessed, Assumption, Damage,
     LEAST_RECORDS, NamedFloor, Object, RecordCapacity, Together,
 };
-use crate::counts::Bounds;
 use crate::fragility::hazard::{Hazard, HazardMeasure};
 use crate::pivot::needs_more;
 use crate::ranking::Candidate;
@@ -23,8 +22,8 @@ use rocking::ida::{
 use rocking::integrator::uplift_threshold;
 use rocking_records::floor::Floor;
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
-use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::{Stripe, fit_counts_alone};
+use rocking_statistics::{Clusters, Estimate, Interval, Range};
 
 /// Level of the intervals.
 pub(super) const LEVEL: f64 = 0.95;
@@ -542,7 +541,7 @@ fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
 
 /// The correlation of the logarithms of the intensities of damage of two
 /// objects: the least, the median and the largest of all pairs.
-pub(super) fn correlation(found: &[Found]) -> Option<Bounds> {
+pub(super) fn correlation(found: &[Found]) -> Option<Estimate> {
     let pair = |a: &Found, b: &Found| {
         let both = a.intervals.iter().zip(&b.intervals);
         let both = both.filter(|(a, b)| a.1.is_finite() && b.1.is_finite());
@@ -556,7 +555,7 @@ pub(super) fn correlation(found: &[Found]) -> Option<Bounds> {
         pairs.flat_map(|(k, a)| found[..k].iter().map(move |b| (a, b)));
     let mut all: Vec<f64> = pairs.filter_map(|(a, b)| pair(a, b)).collect();
     all.sort_by(f64::total_cmp);
-    let (low, high) = (all.first().copied(), all.last().copied());
-    let point = *all.get(all.len() / 2)?;
-    Some(Bounds { point, low, high })
+    let interval = Interval::try_new(*all.first()?, *all.last()?).ok()?;
+    // Rounding may carry a correlation beyond 1.
+    Estimate::try_new(all[all.len() / 2], interval, Range::Real).ok()
 }

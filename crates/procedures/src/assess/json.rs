@@ -1,6 +1,8 @@
 //! An assessment as it is serialised: what a fragility says, in place of the
 //! fit, the samples and the curves.
 
+use rocking_statistics::Estimate;
+use rocking_statistics::estimate::keys;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -26,12 +28,12 @@ impl Serialize for Answer {
     }
 }
 
+/// The probability of damage at an intensity of the hazard curve.
 #[derive(Serialize)]
-struct Probability {
+struct DamagePoint {
     im: f64,
-    p: f64,
-    low: Option<f64>,
-    high: Option<f64>,
+    #[serde(flatten, serialize_with = "keys::p")]
+    p: Estimate,
 }
 
 impl Serialize for Assessed {
@@ -65,11 +67,9 @@ impl Serialize for Assessed {
             edges.flat_map(|c| [c.from_im, c.to_im]).collect();
         let band = fragility.band.iter().flat_map(|band| &band.points);
         let at_hazard = band.filter(|point| edges.contains(&point.intensity));
-        let p_damage = at_hazard.map(|point| Probability {
+        let p_damage = at_hazard.map(|point| DamagePoint {
             im: point.intensity,
             p: point.probability,
-            low: point.low,
-            high: point.high,
         });
         let standing = by_record.iter().filter(|r| !r.damages).count();
         let needed = fragility.needed.as_ref().map(|n| n.for_median);

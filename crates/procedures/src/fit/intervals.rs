@@ -4,9 +4,11 @@
 use super::{Draws, FitOptions, Fitted, Sampled};
 use crate::fragility::FragilityError;
 use rocking::stop;
-use rocking_statistics::bootstrap::{Bootstrap, Estimate};
+use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
+#[cfg(feature = "serde")]
+use rocking_statistics::estimate::keys;
 use rocking_statistics::lognormal::FitMethod;
-use rocking_statistics::{CensoredSample, Clusters, Lognormal};
+use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 
 /// Level of all intervals.
 const LEVEL: f64 = 0.95;
@@ -17,9 +19,9 @@ const LEVEL: f64 = 0.95;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Intervals {
     /// Percentile interval; none where fewer than two replicates have one.
-    pub percentile: Option<Estimate>,
+    pub percentile: Option<BootstrapEstimate>,
     /// Bias-corrected and accelerated interval.
-    pub bca: Option<Estimate>,
+    pub bca: Option<BootstrapEstimate>,
 }
 
 /// Bootstrap intervals of the numbers of a fit; earthquakes are drawn with
@@ -159,17 +161,20 @@ pub struct Band {
 pub struct BandPoint {
     /// The intensity, in the unit of the sample.
     pub intensity: f64,
-    /// Probability of the fit.
-    pub probability: f64,
-    /// Lower end by the bootstrap.
-    pub low: Option<f64>,
-    /// Upper end by the bootstrap.
-    pub high: Option<f64>,
-    /// Lower end by the delta method: of complete samples of independent
-    /// records, fitted by maximum likelihood or moments above a known shift.
-    pub delta_low: Option<f64>,
-    /// Upper end by the delta method.
-    pub delta_high: Option<f64>,
+    /// Probability of the fit, with its interval by the bootstrap.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "keys::probability")
+    )]
+    pub probability: Estimate,
+    /// The same probability with its interval by the delta method: of
+    /// complete samples of independent records, fitted by maximum likelihood
+    /// or moments above a known shift.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "keys::delta_ends")
+    )]
+    pub delta: Estimate,
 }
 
 impl Band {
@@ -187,10 +192,11 @@ impl Band {
         let mut band = sampled.band(fitted, &options.band);
         if complete && known && sampled.clusters.is_singletons() {
             for point in &mut band.points {
-                let n = sample.len();
-                let (low, high) =
-                    fitted.interval_of_cdf(n, point.intensity, LEVEL);
-                (point.delta_low, point.delta_high) = (Some(low), Some(high));
+                point.delta = fitted.estimate_of_cdf(
+                    sample.len(),
+                    point.intensity,
+                    LEVEL,
+                );
             }
         }
         band
@@ -209,15 +215,10 @@ impl Sampled {
             };
             let column: Vec<f64> = self.fitted.iter().map(at).collect();
             let probability = fitted.cdf(intensity);
+            let delta = Estimate::exact(probability);
             let found = self.clusters.estimate(probability, &column, LEVEL);
-            BandPoint {
-                intensity,
-                probability,
-                low: found.as_ref().map(|e| e.low),
-                high: found.as_ref().map(|e| e.high),
-                delta_low: None,
-                delta_high: None,
-            }
+            let probability = found.map_or(delta, |found| found.estimate);
+            BandPoint { intensity, probability, delta }
         };
         let points = intensities.iter().map(point).collect();
         let drawn = self.clusters.clone();

@@ -14,7 +14,7 @@ fn median_interval_has_the_published_ranks_and_coverage() {
         (73, 28.0, 46.0, 0.966),
     ] {
         let interval = median_interval(&one_to(n), 0.95).unwrap();
-        assert_eq!((interval.low, interval.high), (low, high), "n = {n}");
+        assert_eq!(interval.interval.ends(), (low, high), "n = {n}");
         assert!((interval.coverage - coverage).abs() < 5e-4);
     }
     // Five values cover with 1 - 2/32 only, six with 1 - 2/64.

@@ -2,11 +2,9 @@
 
 use thiserror::Error;
 
-use super::{
-    LillieforsError, NullDistribution, PValue, Statistic, Table, Verdict,
-};
+use super::{LillieforsError, NullDistribution, Statistic, Table, Verdict};
 use crate::lognormal::{FitError, shifted_finite};
-use crate::{ExtendedSample, Sample, SampleError};
+use crate::{Estimate, ExtendedSample, Sample, SampleError};
 
 /// Share of distinct values below which ties decide the test.
 const DISTINCT: f64 = 0.8;
@@ -78,8 +76,8 @@ pub struct Assessment {
     pub tested: Option<Sample>,
     /// The statistic, if it exists.
     pub statistic: Option<Statistic>,
-    /// Its p-value.
-    pub p_value: Option<PValue>,
+    /// Its p-value, with the 95 % interval of its Monte Carlo error.
+    pub p_value: Option<Estimate>,
     /// The critical value at the level.
     pub critical_value: Option<f64>,
     /// The level.
@@ -162,7 +160,7 @@ impl Assessment {
             }
             Null::Simulated(null) => {
                 let critical = null.critical_value(self.level)?;
-                self.critical_value = Some(critical.value);
+                self.critical_value = Some(critical.estimate.value());
                 null.p_value(d)
             }
         };
@@ -170,7 +168,7 @@ impl Assessment {
         if (distinct as f64) < DISTINCT * n as f64 {
             return Err(Inapplicable::Ties { distinct, largest_tie, n });
         }
-        Ok(p_value.verdict(self.level))
+        Ok(Verdict::at_level(&p_value, self.level))
     }
 }
 

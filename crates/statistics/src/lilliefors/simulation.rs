@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::LillieforsError;
 use super::fast::{LANES, Scratch};
-use super::{LillieforsError, PValue};
 use crate::streams::{Stream, Streams, standard_normals};
-use crate::{Proportion, monte_carlo, normal};
+use crate::{Estimate, Interval, Proportion, monte_carlo, normal};
 use rocking::stop;
 
 /// Replicates that share one scratch space.
@@ -20,7 +20,8 @@ const CHUNK: u64 = 4096;
 /// use rocking_statistics::lilliefors::NullDistribution;
 /// let null = NullDistribution::simulate(20, 2000, 0)?;
 /// let critical = null.critical_value(0.05)?;
-/// assert!((critical.value - 0.192).abs() < 4.0 * critical.standard_error);
+/// let error = critical.estimate.value() - 0.192;
+/// assert!(error.abs() < 4.0 * critical.standard_error);
 /// # Ok::<(), rocking_statistics::lilliefors::LillieforsError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -35,15 +36,16 @@ pub struct NullDistribution {
 #[non_exhaustive]
 pub struct CriticalValue {
     /// The order statistic of rank ceil((1 - level)(N + 1)): a sample's D
-    /// exceeds it with probability `level` exactly, over both draws.
-    pub value: f64,
+    /// exceeds it with probability `level` exactly, over both draws. With its
+    /// 95 % interval by order statistics.
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "crate::estimate::keys::value")
+    )]
+    pub estimate: Estimate,
     /// sqrt(level (1 - level)/N)/f, with the density f by the difference
     /// quotient of the order statistics 0.2 level to either side.
     pub standard_error: f64,
-    /// Lower end of the 95 % interval by order statistics.
-    pub low: f64,
-    /// Upper end of the 95 % interval by order statistics.
-    pub high: f64,
 }
 
 impl NullDistribution {
@@ -166,26 +168,27 @@ impl NullDistribution {
         let spacing = at(rank + span) - at(rank - span);
         let deviation = (level * (1.0 - level) * count).sqrt();
         let half = (normal::quantile(0.975) * deviation).ceil();
+        let interval = Interval::rising(at(rank - half), at(rank + half));
         Ok(CriticalValue {
-            value: at(rank),
+            estimate: Estimate::inside(at(rank), interval),
             standard_error: deviation * spacing / (2.0 * span),
-            low: at(rank - half),
-            high: at(rank + half),
         })
     }
 
     /// The p-value of a statistic, (b + 1)/(N + 1) with b the number of
     /// replicates not below it, and the 95 % Clopper-Pearson interval of b.
     #[must_use]
-    pub fn p_value(&self, d: f64) -> PValue {
+    pub fn p_value(&self, d: f64) -> Estimate {
         let below = self.sorted.partition_point(|&x| x < d);
         let count = self.sorted.len();
-        let not_below = Proportion::try_new(count - below, count);
-        let (low, high) = not_below
-            .and_then(|share| share.interval(0.95))
-            .unwrap_or((f64::NAN, f64::NAN));
         let value = monte_carlo::p_value(count - below, count);
-        PValue { value, low, high }
+        let not_below = Proportion::try_new(count - below, count);
+        not_below.and_then(|share| share.interval(0.95)).map_or(
+            Estimate::exact(value),
+            // Less than 1/N from b/N, which the interval holds with its
+            // neighbours.
+            |interval| Estimate::inside(value, interval),
+        )
     }
 }
 
@@ -216,7 +219,7 @@ mod tests {
             (1.0, 1.0),
             (0.5, 1.0),
         ] {
-            let found = null.p_value(d).value;
+            let found = null.p_value(d).value();
             assert_eq!(found, expected, "p-value of D = {d}");
         }
     }
@@ -229,10 +232,10 @@ mod tests {
             let statistics = (1..=count).map(f64::from).collect();
             let null = NullDistribution::of(20, statistics);
             for level in [0.2, 0.1, 0.07, 0.05] {
-                let d = null.critical_value(level).unwrap().value;
+                let d = null.critical_value(level).unwrap().estimate.value();
                 let (at, beyond) = (null.p_value(d), null.p_value(d + 0.5));
                 assert!(
-                    beyond.value <= level && at.value > level,
+                    beyond.value() <= level && at.value() > level,
                     "N = {count}, level {level}: D = {d} {at:?} {beyond:?}"
                 );
             }

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::{LillieforsError, PValue, Statistic};
-use crate::normal;
+use super::{LillieforsError, Statistic};
+use crate::{Estimate, Interval, Range, normal};
 
 /// Written by `rocking lilliefors --write-table`.
 const CSV: &str = include_str!("table.csv");
@@ -16,7 +16,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| Table::parse(CSV));
 /// sizes sqrt(n) D is linear in 1/sqrt(n); between levels the normal score
 /// of the level is a monotone cubic in D. Both interpolations together err
 /// less than 0.6 % of p(1 - p) (1.2 % for n = 4, whose density has kinks),
-/// which [`PValue`]'s interval contains; judged by leaving levels and sizes
+/// which the interval of a p-value contains; judged by leaving levels and sizes
 /// out, which errs four times as much.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -139,13 +139,13 @@ impl Table {
         &self,
         n: usize,
         d: f64,
-    ) -> Result<PValue, LillieforsError> {
+    ) -> Result<Estimate, LillieforsError> {
         if d.is_nan() || d <= 0.0 {
             return Err(LillieforsError::Statistic(d));
         }
         let column = self.column(n)?;
         if d > Statistic::largest(n) {
-            return Ok(PValue { value: 0.0, low: 0.0, high: 0.0 });
+            return Ok(Estimate::inside(0.0, Interval::rising(0.0, 0.0)));
         }
         let score = monotone_cubic(&column.values, &column.scores(), d);
         let value = normal::cdf(-score);
@@ -158,7 +158,8 @@ impl Table {
         let last = column.values.len() - 1;
         let low = if d > column.values[last] { 0.0 } else { value - half };
         let high = if d < column.values[0] { 1.0 } else { value + half };
-        Ok(PValue { value, low: low.max(0.0), high: high.min(1.0) })
+        let interval = Interval::rising(low, high).within(Range::Share);
+        Ok(Estimate::inside(value, interval))
     }
 
     /// Mean of D of normal samples of n values, in probability: the integral
@@ -316,7 +317,7 @@ mod tests {
             let i = table.columns.partition_point(|c| c.n < n);
             let known = table.columns.remove(i);
             for (value, level) in known.values.iter().zip(known.levels) {
-                let p = table.p_value(n, *value).unwrap().value;
+                let p = table.p_value(n, *value).unwrap().value();
                 let error = excess(p, level, known.replicates);
                 let bound = 4.0 * interpolation(n);
                 assert!(error < bound, "{n}, {level}: {error}");

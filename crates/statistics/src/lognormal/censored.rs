@@ -143,7 +143,7 @@ pub(super) const DROP: f64 = 1.920_729_410_347_062;
 const FARTHEST: f64 = 30.0;
 
 /// Limits of the 95 % likelihood interval of the mean and of the standard
-/// deviation at whose maximum the log-likelihood is `top`; none where the
+/// deviation at whose maximum the log-likelihood is `top`; open where the
 /// profile does not fall by 1.92.
 ///
 /// In (1/sigma, mu/sigma), where the log-likelihood is concave, a standard
@@ -152,7 +152,7 @@ const FARTHEST: f64 = 30.0;
 pub(super) fn profile_limits(
     observations: &[Observation],
     (mean, deviation, top): (f64, f64, f64),
-) -> [(Option<f64>, Option<f64>); 2] {
+) -> [crate::Interval; 2] {
     let of_mean = |mu: f64| {
         let start = 1.0 / (deviation + (mu - mean).abs());
         highest(observations, start, |a| (a, mu * a), (1.0, mu))
@@ -167,17 +167,24 @@ pub(super) fn profile_limits(
         while (inside + step - from).abs() < FARTHEST {
             let next = inside + step;
             if value(next) < limit {
-                return Some(halve(value, limit, inside, next));
+                return halve(value, limit, inside, next);
             }
             (inside, step) = (next, 1.5 * step);
         }
-        None
+        f64::INFINITY.copysign(step)
     };
     let step = 0.1 * deviation;
     let ln = log(deviation);
-    let low = end(ln, -0.1, &of_ln_deviation).map(exp);
-    let high = end(ln, 0.1, &of_ln_deviation).map(exp);
-    [(end(mean, -step, &of_mean), end(mean, step, &of_mean)), (low, high)]
+    let closed = |end: f64| if end.is_finite() { exp(end) } else { end };
+    let [low, high] = [-0.1, 0.1].map(|step| end(ln, step, &of_ln_deviation));
+    // Ends on either side of the maximum.
+    [
+        crate::Interval::rising(
+            end(mean, -step, &of_mean),
+            end(mean, step, &of_mean),
+        ),
+        crate::Interval::rising(closed(low), closed(high)),
+    ]
 }
 
 /// The highest log-likelihood on a line through (1/sigma, mu/sigma), by

@@ -5,6 +5,7 @@ use libm::{exp, log};
 use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
+use crate::Estimate;
 
 /// Most records in all stripes: each is an observation.
 const MOST_RECORDS: u64 = 1_000_000;
@@ -27,11 +28,11 @@ pub struct CountsFit {
     /// The fit; its log-likelihood is that of the binomial distributions,
     /// their coefficients included, and its size the number of records run.
     pub fit: LognormalFit,
-    /// Ends of the 95 % likelihood interval of the median; none where the
-    /// likelihood does not fall so far.
-    pub median: (Option<f64>, Option<f64>),
-    /// Ends of that interval of the dispersion.
-    pub dispersion: (Option<f64>, Option<f64>),
+    /// The median with its 95 % likelihood interval; an end is open where
+    /// the likelihood does not fall so far.
+    pub median: Estimate,
+    /// The dispersion with that interval.
+    pub dispersion: Estimate,
     /// Pearson's chi-squared, sum (k - n F)^2/(n F (1 - F)): well above its
     /// degrees of freedom where records scatter more than binomially or the
     /// fragility is not lognormal.
@@ -80,7 +81,8 @@ pub fn fit_counts(
     let (log_mean, dispersion, value) = found;
     let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
     let [mean, deviation] = profile_limits(&known, found);
-    let median = |mu: f64| shift + exp(mu);
+    let median =
+        mean.map(|mu| if mu.is_finite() { shift + exp(mu) } else { mu });
     let chi_squared = stripes.iter().fold(0.0, |sum, stripe| {
         let (p, n) = (distribution.cdf(stripe.im), f64::from(stripe.n));
         let q = distribution.survival(stripe.im);
@@ -94,8 +96,9 @@ pub fn fit_counts(
             n_kept: known.len(),
             log_likelihood: Some(value + coefficients),
         },
-        median: (mean.0.map(median), mean.1.map(median)),
-        dispersion: deviation,
+        // Either profile falls to both sides of its maximum.
+        median: Estimate::inside(distribution.median(), median),
+        dispersion: Estimate::inside(dispersion, deviation),
         chi_squared,
         degrees_of_freedom: stripes.len().saturating_sub(2),
     })

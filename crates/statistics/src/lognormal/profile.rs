@@ -4,7 +4,7 @@ use libm::{exp, log};
 
 use super::censored::DROP;
 use super::{FitError, FitMethod, LognormalFit, fit};
-use crate::ExtendedSample;
+use crate::{ExtendedSample, Interval};
 
 /// Places at which the profile is looked at, by ln(smallest - shift).
 const PLACES: usize = 400;
@@ -17,12 +17,10 @@ const CLOSEST: f64 = 1e-8;
 pub struct ShiftProfile {
     /// The fit at the best shift; its log-likelihood has three parameters.
     pub fit: LognormalFit,
-    /// Lower end of the 95 % likelihood interval of the shift; none where it
-    /// reaches 0.
-    pub low: Option<f64>,
-    /// Upper end; none where the likelihood does not fall so far before it
-    /// rises without bound towards the smallest value.
-    pub high: Option<f64>,
+    /// The 95 % likelihood interval of the shift; its high end is open where
+    /// the likelihood does not fall so far before it rises without bound
+    /// towards the smallest value.
+    pub interval: Interval,
 }
 
 /// Profile likelihood of the shift r in [0, smallest value).
@@ -57,20 +55,22 @@ pub fn profile_shift(
     let limit = value(best) - DROP;
     let below = (0..peak).rev().find(|&i| values[i] < limit);
     let above = (peak + 1..=PLACES).find(|&i| values[i] < limit);
-    let low = below.map(|i| {
+    let low = below.map_or(0.0, |i| {
         let next = place(i + 1).min(best);
         shift(bisect(value, limit, place(i), next))
     });
-    let high = above.map(|i| {
+    let high = above.map_or(f64::INFINITY, |i| {
         let previous = place(i - 1).max(best);
         shift(bisect(value, limit, place(i), previous))
     });
+    // On either side of the best place.
+    let interval = Interval::rising(low, high);
     let fit = fit(sample, shift(best), method)?;
     let unshifted = at_zero.log_likelihood.unwrap_or(f64::NEG_INFINITY);
     if fit.log_likelihood.is_none_or(|value| value < unshifted) {
         return Err(FitError::NoInteriorMaximum);
     }
-    Ok(ShiftProfile { fit, low, high })
+    Ok(ShiftProfile { fit, interval })
 }
 
 /// The place of a maximum between two places, by golden sections.

@@ -121,10 +121,10 @@ fn counts_agree_with_statsmodels_and_mpmath() {
             fitted.median(),
             fitted.dispersion(),
             ours.fit.log_likelihood.unwrap(),
-            open(ours.median.0),
-            open(ours.median.1),
-            open(ours.dispersion.0),
-            open(ours.dispersion.1),
+            open(ours.median.low()),
+            open(ours.median.high()),
+            open(ours.dispersion.low()),
+            open(ours.dispersion.high()),
         ];
         for (a, b) in found.iter().zip(&expected) {
             let same = (a / b - 1.0).abs() < 1e-9 || a.is_nan() && b.is_nan();
@@ -252,8 +252,8 @@ fn profile_of_the_shift_agrees_with_mpmath() {
     let profile = profile_shift(&sample).unwrap();
     let shift = profile.fit.distribution.shift();
     assert!(close(shift, theirs[0], 1e-7), "{shift}");
-    assert!(close(profile.low.unwrap(), theirs[1], 1e-9), "{profile:?}");
-    assert!(close(profile.high.unwrap(), theirs[2], 1e-9), "{profile:?}");
+    assert!(close(profile.interval.low(), theirs[1], 1e-9), "{profile:?}");
+    assert!(close(profile.interval.high(), theirs[2], 1e-9), "{profile:?}");
     let value = profile.fit.log_likelihood.unwrap();
     assert!(close(value, theirs[3], 1e-13), "{value}");
 }

@@ -5,7 +5,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::{PairedError, binomial_cdf};
 use crate::sample::{mean, sum_of_squares};
-use crate::{ExtendedSample, QuantileType, normal};
+use crate::{Estimate, ExtendedSample, Interval, QuantileType, normal};
 use rocking::stop;
 
 /// Equivalence of the mean of ln ratio to 0 by two one-sided t tests.
@@ -15,12 +15,15 @@ use rocking::stop;
 pub struct Equivalence {
     /// Margin m: the bounds are -ln(1 + m) and ln(1 + m).
     pub margin: f64,
-    /// exp(mean of ln ratio), the geometric mean.
-    pub geometric_mean: f64,
-    /// Lower end of the 90 % interval of the geometric mean.
-    pub low: f64,
-    /// Upper end of the 90 % interval of the geometric mean.
-    pub high: f64,
+    /// exp(mean of ln ratio), the geometric mean, with its 90 % interval.
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            flatten,
+            serialize_with = "crate::estimate::keys::geometric_mean"
+        )
+    )]
+    pub geometric_mean: Estimate,
     /// One-sided p-value against a mean at or below the lower bound.
     pub p_lower: f64,
     /// One-sided p-value against a mean at or above the upper bound.
@@ -59,11 +62,10 @@ pub fn equivalence(
     let half = t.inverse_cdf(0.95) * error;
     let p_lower = t.cdf(-(centre + bound) / error);
     let p_upper = t.cdf((centre - bound) / error);
+    let interval = Interval::rising(centre - half, centre + half);
     Ok(Equivalence {
         margin,
-        geometric_mean: exp(centre),
-        low: exp(centre - half),
-        high: exp(centre + half),
+        geometric_mean: Estimate::inside(centre, interval).map(exp),
         p_lower,
         p_upper,
         p_value: p_lower.max(p_upper),
@@ -116,11 +118,11 @@ pub(super) const MOST: usize = 3000;
 #[non_exhaustive]
 pub struct HodgesLehmann {
     /// exp of the median of the Walsh averages of ln ratio.
-    pub ratio: f64,
-    /// Lower end of the interval.
-    pub low: f64,
-    /// Upper end of the interval.
-    pub high: f64,
+    #[cfg_attr(
+        feature = "serde",
+        serde(flatten, serialize_with = "crate::estimate::keys::ratio")
+    )]
+    pub ratio: Estimate,
     /// Level of the interval: 0.95, or 1 - 2^(1 - n) for n = 2 to 5 ratios,
     /// whose Walsh averages reach no further.
     pub level: f64,
@@ -155,10 +157,10 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
         .map_err(|_| PairedError::TooFew(n))?;
     let rank = signed_rank_quantile(n).max(1);
     let sorted = sample.sorted();
+    let last = sorted.len() - rank;
+    let interval = Interval::rising(sorted[rank - 1], sorted[last]);
     Ok(HodgesLehmann {
-        ratio: exp(median),
-        low: exp(sorted[rank - 1]),
-        high: exp(sorted[sorted.len() - rank]),
+        ratio: Estimate::inside(median, interval).map(exp),
         level: if n < 6 { 1.0 - 1.0 / f64::from(1 << (n - 1)) } else { 0.95 },
     })
 }

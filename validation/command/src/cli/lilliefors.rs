@@ -152,7 +152,7 @@ fn write_table(path: &Path) -> Result<(), Failure> {
                 n.to_string(),
                 replicates.to_string(),
                 level.to_string(),
-                format!("{:.8}", critical.value),
+                format!("{:.8}", critical.estimate.value()),
                 format!("{:.1e}", critical.standard_error),
             ]);
         }

@@ -304,7 +304,7 @@ fn fragility(
             replicates.iter().flatten().map(|r| r[k]).collect();
         let point = found.map_or(f64::NAN, |found| found[k]);
         let ends = clusters.estimate(point, &values, 0.95);
-        ends.map_or([f64::NAN; 2], |e| [e.low, e.high])
+        ends.map_or([f64::NAN; 2], |found| found.estimate.ends().into())
     };
     let found = found.unwrap_or([f64::NAN; 2]);
     let numbers = [shift, found[0], found[1]].into_iter();

@@ -5,10 +5,12 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::measured::{Measured, Unit};
+use super::estimate;
+use super::unit::Unit;
 use crate::json::nine;
 use crate::paper::{Arm, ClaimVerdict, PaperSection, SuiteKind};
 use rocking::names::named;
+use rocking_statistics::Estimate;
 
 /// One statement of the paper, and what was found about it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -258,21 +260,15 @@ pub struct ClaimResult {
     /// Arm of the grid, where there is one.
     pub arm: Option<Arm>,
     /// The value that decides: of one value itself, of "all" the deciding
-    /// cell, of "most" and "almost all" the share of cells in the region.
-    #[serde(with = "nine")]
-    pub value: f64,
-    /// Lower end of its interval, of [`LEVEL`]: that which decides. Missing
-    /// for an identity.
-    #[serde(with = "nine")]
-    pub low: f64,
-    /// Upper end of it.
-    #[serde(with = "nine")]
-    pub high: f64,
+    /// cell, of "most" and "almost all" the share of cells in the region. With
+    /// its interval, of [`LEVEL`]: that which decides; none for an identity.
+    #[serde(flatten, with = "estimate::complete")]
+    pub estimate: Estimate,
     /// Standard error, over sets of draws, of the end that is nearest to a
     /// limit.
     #[serde(with = "nine")]
     pub monte_carlo_error: f64,
-    /// Unit of the three.
+    /// Unit of value and interval.
     pub unit: Unit,
     /// Verdict by the paper's own criterion, where it states one.
     pub by_criterion: Option<ClaimVerdict>,
@@ -287,7 +283,7 @@ pub struct ClaimResult {
     /// Which cell decides, or where the one value is.
     pub at: String,
     /// How the interval was made.
-    pub interval: Option<Interval>,
+    pub interval: Option<IntervalMethod>,
     /// Counts of the cells, where there are several.
     pub cells: Option<CellCounts>,
     /// Of "most" and "almost all", the cell that bears the verdict.
@@ -319,22 +315,12 @@ impl ClaimResult {
         let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()
     }
-
-    /// The value with its interval.
-    #[must_use]
-    pub fn measured(&self) -> Measured {
-        let there = self.low <= self.high;
-        Measured {
-            value: self.value,
-            interval: there.then_some((self.low, self.high)),
-        }
-    }
 }
 
 /// How an interval was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Interval {
+pub enum IntervalMethod {
     /// Bootstrap, bias-corrected and accelerated.
     Accelerated,
     /// Bootstrap, percentiles.
@@ -351,7 +337,7 @@ pub enum Interval {
     ExactSimultaneous,
 }
 
-impl Interval {
+impl IntervalMethod {
     /// The way in words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -393,8 +379,8 @@ pub struct Detail {
     /// What it is.
     pub name: String,
     /// The value, with its interval where it has one.
-    #[serde(flatten)]
-    pub measured: Measured,
+    #[serde(flatten, with = "estimate")]
+    pub estimate: Estimate,
 }
 
 #[cfg(test)]

@@ -103,9 +103,9 @@ impl Boxplots {
                 ] {
                     row(quantity, number(value));
                 }
-                let interval = b.median_interval;
-                row("median_low", optional(interval.map(|i| i.low)));
-                row("median_high", optional(interval.map(|i| i.high)));
+                let interval = b.median_interval.map(|i| i.interval.ends());
+                row("median_low", optional(interval.map(|i| i.0)));
+                row("median_high", optional(interval.map(|i| i.1)));
                 for outlier in &b.outliers {
                     row("outlier", number(*outlier));
                 }
@@ -282,7 +282,7 @@ fn draw_box(
     let median = [(b.median, y - waist), (b.median, y + waist)];
     panel.line(median, Pen::new(ink, 1.6));
     if let Some(interval) = b.median_interval {
-        let (from, to) = (interval.low, interval.high);
+        let (from, to) = interval.interval.ends();
         panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
     }
     let edges = [

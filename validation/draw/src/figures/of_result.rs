@@ -5,6 +5,7 @@ use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
 use rocking_procedures::Ranking;
 use rocking_records::intensity::{IntensityMeasure, Measures};
 use rocking_score::{Code, Score};
+use rocking_statistics::Estimate;
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Look, Mark,
@@ -136,8 +137,10 @@ pub fn ranking_svg(
     edp: f64,
 ) -> String {
     let rows = &ranking.measures;
-    let none = (f64::NAN, f64::NAN);
-    let beta = rows.iter().map(|row| row.dispersion.as_ref());
+    let none = Estimate::exact(f64::NAN);
+    let beta = rows.iter().map(|row| {
+        row.dispersion.as_ref().map_or(none, |found| found.estimate)
+    });
     let names = measures.iter().map(|m| markup::escape(&short(m)));
     let x = ChartAxis::named(names.collect());
     let label = format!("dispersion at EDP {}", edp);
@@ -145,10 +148,9 @@ pub fn ranking_svg(
         "95 % interval by the bootstrap of records",
         Mark::Points,
         (1..=rows.len()).map(|k| k as f64).collect(),
-        beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
+        beta.clone().map(|beta| beta.value()).collect(),
     );
-    let ends = beta.map(|b| b.map_or(none, |e| (e.low, e.high)));
-    let series = series.with(ends.collect());
+    let series = series.with(beta.map(|beta| beta.ends()).collect());
     let ends = series.interval.iter().map(|ends| ends.1);
     let most = ends.fold(0.0, f64::max);
     let top = if most > 0.0 { 1.1 * most } else { 1.0 };

@@ -116,9 +116,8 @@ fn lines(all: &[Exposed], levels: &[f64]) -> Vec<Series> {
         let line = Series::new(&*label, Mark::Line, levels.to_vec(), y);
         let Some(sampled) = &one.sampled else { return line };
         let band = sampled.band(&one.fitted, levels);
-        let end = |end: Option<f64>| end.unwrap_or(f64::NAN);
         let points = band.points.iter();
-        line.with(points.map(|p| (end(p.low), end(p.high))).collect())
+        line.with(points.map(|p| p.probability.ends()).collect())
             .labelled(label + ", 95 % band")
     };
     all.iter().map(line).collect()

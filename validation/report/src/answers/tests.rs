@@ -3,6 +3,7 @@
 use super::*;
 use crate::basis::recorded;
 use crate::verdicts::work;
+use rocking_statistics::Estimate;
 
 /// What may come out about a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,7 +206,7 @@ fn a_fact_has_the_number_of_the_worst_verdict() {
         (0.06, ClaimVerdict::NotConfirmed),
         (0.08, ClaimVerdict::Inconclusive),
     ]) {
-        result.value = value;
+        result.estimate = Estimate::exact(value);
         result.by_equivalence = Some(verdict);
     }
     let found = asked.answer(&own, first);

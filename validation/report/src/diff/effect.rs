@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::number::{percent, plain};
-use rocking_common::findings::Measured;
+use rocking_statistics::Interval;
 use rocking_study::estimates::median;
 
 /// Records of a suite in two runs; the same name with other samples is
@@ -68,7 +68,7 @@ impl OverturningChange {
     /// records count where both runs have them.
     pub fn sentence(&self, both: &[String]) -> Option<String> {
         let mut parts = Vec::new();
-        let change = |own: &[f64]| percent(median(own).value);
+        let change = |own: &[f64]| percent(median(own).value());
         let all: Vec<f64> = self.medians.values().flatten().copied().collect();
         if all.iter().any(|change| !change.is_nan()) {
             let groups = self.medians.iter();
@@ -83,12 +83,12 @@ impl OverturningChange {
         }
         let own = both.iter().filter_map(|name| self.records.get(name));
         let own: Vec<f64> = own.copied().collect();
-        let Measured { value, interval } = median(&own);
-        if let Some((low, high)) = interval {
+        let median = median(&own);
+        if let Some((low, high)) = median.interval().map(Interval::ends) {
             parts.push(format!(
                 "record by record {} (95 %: {} to {}; block of Figure 11, n = \
                  {})",
-                percent(value),
+                percent(median.value()),
                 plain(100.0 * low, 2),
                 plain(100.0 * high, 2),
                 own.len()

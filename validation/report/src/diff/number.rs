@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use rocking_common::findings::{Effect, Measured, Unit};
+use rocking_common::findings::{Effect, Unit};
 use rocking_common::words::rounded;
+use rocking_statistics::Estimate;
 use rocking_study::inference::LEAST_DECIDING;
 
 /// Unit of the ninth significant digit, relative: files have no more.
@@ -17,7 +18,7 @@ pub struct NumberPair {
     /// Its unit.
     pub unit: Unit,
     /// Old and new value, with their intervals.
-    pub measured: [Measured; 2],
+    pub estimates: [Estimate; 2],
     /// Numbers of records or ratios behind them, where known.
     pub n: [Option<usize>; 2],
 }
@@ -44,7 +45,7 @@ pub struct NumberChange {
 impl NumberPair {
     /// The change; NaN where only one is a number.
     pub fn change(&self) -> f64 {
-        let [a, b] = self.measured.map(|measured| measured.value);
+        let [a, b] = self.estimates.map(|estimate| estimate.value());
         match self.effect {
             _ if a == b || (a.is_nan() && b.is_nan()) => 0.0,
             Some(Effect::Relative(_)) => (b - a) / a.abs(),
@@ -61,9 +62,9 @@ impl NumberPair {
             _ => (1.0, "", ""),
         };
         let at = |digits| {
-            self.measured.map(|m| match m.value.is_nan() {
+            self.estimates.map(|e| match e.value().is_nan() {
                 true => "none".into(),
-                false => plain(factor * m.value, digits) + unit,
+                false => plain(factor * e.value(), digits) + unit,
             })
         };
         let differ = |[a, b]: &[String; 2]| a != b;
@@ -73,10 +74,11 @@ impl NumberPair {
             None => (f64::INFINITY, signed(change, factor, points)),
         };
         let over = change.abs() / (limit * (1.0 + LAST_DIGIT));
-        let half = |m: Measured| m.interval.map(|(a, b)| 0.5 * (b - a));
-        let [a, b] = self.measured;
+        let half =
+            |e: Estimate| e.interval().map(|i| 0.5 * (i.high() - i.low()));
+        let [a, b] = self.estimates;
         let u = half(a).zip(half(b)).map(|(a, b)| (a * a + b * b).sqrt());
-        let u = u.map(|u| (b.value - a.value).abs() / u);
+        let u = u.map(|u| (b.value() - a.value()).abs() / u);
         let is_known = change.is_finite();
         (change != 0.0).then(|| NumberChange {
             values: (3..17).map(at).find(differ).unwrap_or_else(|| at(17)),

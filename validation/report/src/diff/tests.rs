@@ -1,4 +1,5 @@
-use rocking_common::findings::{Effect, Measured, Unit};
+use rocking_common::findings::{Effect, Unit};
+use rocking_statistics::{Estimate, Interval, Range};
 
 use serde_json::json;
 
@@ -11,8 +12,8 @@ const TOLERANCE: Option<Effect> = Some(Effect::Absolute(1e-9));
 
 /// A number without an interval, on 86 records.
 fn number(effect: Option<Effect>, unit: Unit, ends: [f64; 2]) -> NumberPair {
-    let measured = ends.map(Measured::exact);
-    NumberPair { effect, unit, measured, n: [Some(86); 2] }
+    let estimates = ends.map(Estimate::exact);
+    NumberPair { effect, unit, estimates, n: [Some(86); 2] }
 }
 
 fn moved(number: &NumberPair) -> NumberChange {
@@ -60,12 +61,12 @@ fn a_move_has_the_digits_that_show_it() {
 
 #[test]
 fn what_is_least_a_matter_of_chance_weighs_most() {
-    let measured = |value: f64, half: f64| {
-        let interval = Some((value - half, value + half));
-        Measured { value, interval }
+    let estimate = |value: f64, half: f64| {
+        let interval = Interval::try_new(value - half, value + half).unwrap();
+        Estimate::try_new(value, interval, Range::Real).unwrap()
     };
     let sure = NumberPair {
-        measured: [measured(1.0, 0.03), measured(1.2, 0.04)],
+        estimates: [estimate(1.0, 0.03), estimate(1.2, 0.04)],
         ..number(TENTH, Unit::One, [1.0, 1.2])
     };
     let [u, open] = [&sure, &number(TENTH, Unit::One, [1.0, 1.3])].map(moved);

@@ -9,12 +9,13 @@ use super::input::{bounded, text};
 use super::number::NumberPair;
 use super::{Change, Difference, Subject};
 use rocking_common::findings::{
-    ClaimResult, Effect, Measured, Quantifier, Quantity, Region, RowPlace,
-    SuiteSet, TableRow, Topic, Unit,
+    ClaimResult, Effect, Quantifier, Quantity, Region, RowPlace, SuiteSet,
+    TableRow, Topic, Unit,
 };
 use rocking_common::json::Extended;
 use rocking_common::paper::{Arm, ClaimVerdict, LEAST_USABLE};
 use rocking_proof::verdict::snapshot::QuantityResult;
+use rocking_statistics::Estimate;
 
 /// Old and new.
 type Sides<T> = [T; 2];
@@ -161,7 +162,7 @@ impl Walk<'_> {
             let number = NumberPair {
                 effect: topic.smallest_effect(*unit),
                 unit: *unit,
-                measured: [a.values[k], b.values[k]],
+                estimates: [a.values[k], b.values[k]],
                 n: n.map(|(row, root)| {
                     let own = behind(&new, row, name);
                     own.or_else(|| records(root, suite?.name()))
@@ -190,7 +191,7 @@ impl Walk<'_> {
         let number = NumberPair {
             effect: Effect::of_claim(region.unwrap_or_default(), b.unit),
             unit: b.unit,
-            measured: [a.measured(), b.measured()],
+            estimates: [a.estimate, b.estimate],
             n: self.roots.map(|root| records(root, b.suite.name())),
         };
         // Of "every cell", the value is that of the cell that decides.
@@ -206,7 +207,7 @@ impl Walk<'_> {
             ),
         ] {
             let lacks = if old.is_none() { &a } else { &b };
-            let few = lacks.cells.is_some() && lacks.value.is_nan();
+            let few = lacks.cells.is_some() && lacks.estimate.value().is_nan();
             if old.and(new).is_some() {
                 self.tally(Subject::Verdict);
             }
@@ -237,7 +238,7 @@ impl Walk<'_> {
                 // Every bound was checked when it was read.
                 effect: bounded(b, old.0).unwrap_or_default(),
                 unit: Unit::One,
-                measured: [old.0, new.0].map(Measured::exact),
+                estimates: [old.0, new.0].map(Estimate::exact),
                 n: [None; 2],
             };
             let what = format!("{what}, value {} of {}", k + 1, b.values);
@@ -309,7 +310,7 @@ fn records(root: &Value, tested: &str) -> Option<usize> {
 fn behind(all: &[Quantity], row: &TableRow, name: &str) -> Option<usize> {
     let count = |name: &str| {
         let at = all.iter().position(|quantity| quantity.name == name)?;
-        Some(row.values[at].value as usize)
+        Some(row.values[at].value() as usize)
     };
     match name {
         "median_alpha_above_0.25" => count("usable_alpha_above_0.25"),

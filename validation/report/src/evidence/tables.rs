@@ -198,7 +198,7 @@ fn case_input<T: Default + serde::de::DeserializeOwned>(
 }
 
 fn level_of(n: usize, value: f64) -> Result<f64, LillieforsError> {
-    Ok(Table::embedded().p_value(n, value)?.value)
+    Ok(Table::embedded().p_value(n, value)?.value())
 }
 
 /// Where the formula of Dallal and Wilkinson (American Statistician 40, 1986,

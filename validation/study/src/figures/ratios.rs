@@ -131,7 +131,7 @@ fn adjusted_form(
         .filter(|((a, b), _)| a.is_finite() && b.is_finite())
         .map(|(_, r)| closed_form(adjusted_slenderness(r, STRIPES[stripe])))
         .collect();
-    median(&expected).value
+    median(&expected).value()
 }
 
 fn notched(ratios: &[f64]) -> anyhow::Result<Boxplot> {

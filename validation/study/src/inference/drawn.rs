@@ -5,7 +5,8 @@ use rayon::prelude::*;
 
 use super::draws::{Replicates, Resamples};
 use super::known::CellIntervals;
-use rocking_common::findings::{LEVEL, Measured, SuiteSet};
+use rocking_common::findings::{LEVEL, SuiteSet};
+use rocking_statistics::{Estimate, Interval, Range};
 
 /// Level of a band that is drawn and decides nothing.
 const BAND: f64 = 0.95;
@@ -25,7 +26,8 @@ impl Replicates {
             .map(|k| {
                 let values = Self::column(&self.replicates, k);
                 let e = clusters.estimate(self.points[k], &values, BAND)?;
-                (10 * e.used > 9 * e.replicates).then_some((e.low, e.high))
+                let ends = e.estimate.interval().map(Interval::ends);
+                ends.filter(|_| 10 * e.used > 9 * e.replicates)
             })
             .collect()
     }
@@ -36,9 +38,9 @@ impl Replicates {
 pub fn by_cell(
     draws: &Resamples,
     tested: SuiteSet,
-    range: (f64, f64),
+    range: Range,
     measured: &Replicates,
-) -> Vec<Measured> {
+) -> Vec<Estimate> {
     let known = CellIntervals::new(draws, tested, range, measured);
     let count = measured.points.len();
     (0..count).map(|k| known.shown(k, known.drawn(k, LEVEL))).collect()

@@ -4,26 +4,27 @@
 use rayon::prelude::*;
 use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::confidence::Confidence;
-use rocking_statistics::{Clusters, ExtendedSample, power};
+use rocking_statistics::{
+    Clusters, Estimate, ExtendedSample, Interval, Range, power,
+};
 
 use super::draws::{
     LEAST_DECIDING, REPLICATES, Replicates, Resamples, Scheme,
 };
 use rocking_common::findings::{
-    DecisionPower, ERROR, Interval, LEVEL, Measured, Region, SuiteSet,
+    DecisionPower, ERROR, IntervalMethod, LEVEL, Region, SuiteSet,
 };
 use rocking_common::paper::ClaimVerdict;
 use rocking_statistics::resampling::Subsampling;
 
-/// An interval; the standard error of each end over sets of draws; the ends
-/// that the value cannot cross.
+/// An interval as its method gives it; the standard error of each end over
+/// sets of draws; the range of the quantity, which limits the ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ends {
-    pub(super) low: f64,
-    pub(super) high: f64,
+    pub(super) interval: Interval,
     pub(super) errors: (f64, f64),
-    pub(super) range: (f64, f64),
-    pub(super) way: Interval,
+    pub(super) range: Range,
+    pub(super) way: IntervalMethod,
 }
 
 impl Ends {
@@ -31,13 +32,21 @@ impl Ends {
     fn moved(&self, by: f64) -> (f64, f64) {
         // Not moved by no error: an error may be infinite.
         let away = |error: f64| if by == 0.0 { 0.0 } else { by * error };
-        let low = self.low - away(self.errors.0);
-        let high = self.high + away(self.errors.1);
-        (clipped(low, self.range), clipped(high, self.range))
+        let low = self.interval.low() - away(self.errors.0);
+        let high = self.interval.high() + away(self.errors.1);
+        (self.range.nearest(low), self.range.nearest(high))
     }
 
-    pub(super) fn both(&self) -> (f64, f64) {
-        self.moved(0.0)
+    /// The interval within the range of the quantity.
+    pub(super) fn within(&self) -> Interval {
+        self.interval.within(self.range)
+    }
+
+    /// A value beside this interval, corrected for bias or reflected; without
+    /// it where the quantity cannot take the value.
+    pub(super) fn beside(&self, value: f64) -> Estimate {
+        Estimate::beside(value, self.within(), self.range)
+            .unwrap_or(Estimate::exact(value))
     }
 
     /// On which side of a region the interval lies, wherever other draws put
@@ -53,7 +62,7 @@ impl Ends {
 
     /// Error of the end that is nearest to one of the region's.
     pub(super) fn deciding_error(&self, region: Region) -> f64 {
-        let (low, high) = self.both();
+        let (low, high) = self.within().ends();
         let away = |x: f64| (x - region.nearest_end(x)).abs();
         let error =
             if away(low) < away(high) { self.errors.0 } else { self.errors.1 };
@@ -91,7 +100,7 @@ pub(super) struct CellIntervals<'a> {
     pub(super) measured: &'a Replicates,
     pub(super) clusters: &'a Clusters,
     rule: &'a Subsampling,
-    range: (f64, f64),
+    range: Range,
     /// Intervals of a bootstrap, one for each cell; empty otherwise.
     confidence: Vec<Option<Confidence>>,
 }
@@ -100,7 +109,7 @@ impl<'a> CellIntervals<'a> {
     pub(super) fn new(
         draws: &'a Resamples,
         tested: SuiteSet,
-        range: (f64, f64),
+        range: Range,
         measured: &'a Replicates,
     ) -> Self {
         let of = |k: usize| {
@@ -129,16 +138,16 @@ impl<'a> CellIntervals<'a> {
 
     /// The interval of a cell by the replicates, at a level.
     pub(super) fn drawn(&self, k: usize, level: f64) -> Option<Ends> {
-        let (low, high, errors, way) = match self.measured.scheme {
+        let (interval, errors, way) = match self.measured.scheme {
             Scheme::Bootstrap => {
                 let own = self.confidence.get(k)?.as_ref()?;
-                let ends = own.interval(self.clusters.half_width(level));
+                let ends = own.interval(self.clusters.half_width(level))?;
                 let way = match own.is_accelerated() {
-                    true => Interval::Accelerated,
-                    false => Interval::Percentile,
+                    true => IntervalMethod::Accelerated,
+                    false => IntervalMethod::Percentile,
                 };
                 let errors = (ends.low_error, ends.high_error);
-                (ends.low, ends.high, errors, way)
+                (ends.interval, errors, way)
             }
             Scheme::Subsampling => {
                 let point = self.measured.points[k];
@@ -146,13 +155,16 @@ impl<'a> CellIntervals<'a> {
                 let values = column(&self.measured.replicates);
                 let others = column(&self.measured.without_one);
                 let of = |others: &[f64]| {
-                    self.rule.interval(point, &values, others, level)
+                    let found =
+                        self.rule.interval(point, &values, others, level);
+                    found?.estimate.interval()
                 };
                 let (found, plain) = (of(&others)?, of(&[])?);
                 let own = Confidence::new(point, &values, &[])?;
                 let z = Clusters::singletons(0).half_width(level);
-                let ends = own.interval(z);
-                let scale = (plain.high - plain.low) / (ends.high - ends.low);
+                let ends = own.interval(z)?;
+                let width = |of: Interval| of.high() - of.low();
+                let scale = width(plain) / width(ends.interval);
                 // What one earthquake carries moves with no draw.
                 let error = |moves: bool, error: f64| {
                     if moves && scale.is_finite() {
@@ -162,20 +174,18 @@ impl<'a> CellIntervals<'a> {
                     }
                 };
                 let errors = (
-                    error(found.low == plain.low, ends.high_error),
-                    error(found.high == plain.high, ends.low_error),
+                    error(found.low() == plain.low(), ends.high_error),
+                    error(found.high() == plain.high(), ends.low_error),
                 );
-                (found.low, found.high, errors, Interval::Subsampling)
+                (found, errors, IntervalMethod::Subsampling)
             }
             Scheme::Counted => {
                 let count = self.measured.counts.get(k)?;
-                let (low, high) = count.interval(level).ok()?;
-                (low, high, (0.0, 0.0), Interval::Exact)
+                let interval = count.interval(level).ok()?;
+                (interval, (0.0, 0.0), IntervalMethod::Exact)
             }
         };
-        let there = !low.is_nan() && !high.is_nan();
-        let range = self.range;
-        there.then_some(Ends { low, high, errors, range, way })
+        Some(Ends { interval, errors, range: self.range, way })
     }
 
     /// The interval of a cell of few records: exact, of the order statistics
@@ -184,14 +194,15 @@ impl<'a> CellIntervals<'a> {
         let ranked = self.measured.samples.get(k)?;
         let values: Vec<f64> = ranked.each().map(|(x, _)| x).collect();
         let sample = ExtendedSample::try_new(&values).ok()?;
-        let found = median_interval(&sample, level)?;
-        (found.low.is_finite() && found.high.is_finite()).then_some(Ends {
-            low: found.low,
-            high: found.high,
-            errors: (0.0, 0.0),
-            range: self.range,
-            way: Interval::Exact,
-        })
+        let interval = median_interval(&sample, level)?.interval;
+        (interval.low().is_finite() && interval.high().is_finite()).then_some(
+            Ends {
+                interval,
+                errors: (0.0, 0.0),
+                range: self.range,
+                way: IntervalMethod::Exact,
+            },
+        )
     }
 
     /// The interval by which a cell of so many records is judged.
@@ -229,18 +240,16 @@ impl<'a> CellIntervals<'a> {
         };
         let student = match ends.way {
             // Its unit is the record.
-            Interval::Exact => 1.0,
+            IntervalMethod::Exact => 1.0,
             _ => self.clusters.student_over_normal(LEVEL),
         };
         power_of(point, ends, student, &deviations, region)
     }
 
     /// A cell with its interval.
-    pub(super) fn shown(&self, k: usize, ends: Option<Ends>) -> Measured {
-        Measured {
-            value: self.measured.points[k],
-            interval: ends.map(|ends| ends.both()),
-        }
+    pub(super) fn shown(&self, k: usize, ends: Option<Ends>) -> Estimate {
+        let value = self.measured.points[k];
+        ends.map_or(Estimate::exact(value), |ends| ends.beside(value))
     }
 }
 
@@ -254,7 +263,7 @@ pub(super) fn power_of(
     region: Region,
 ) -> Option<DecisionPower> {
     let decides = decides(point, region, ends.range);
-    let Ends { low, high, .. } = *ends;
+    let (low, high) = ends.interval.ends();
     let found =
         power::Power::of((point, low, high), student, deviations, decides);
     (!deviations.is_empty()).then(|| stored(&found))
@@ -264,11 +273,11 @@ pub(super) fn power_of(
 fn decides(
     point: f64,
     region: Region,
-    range: (f64, f64),
+    range: Range,
 ) -> impl Fn(f64, f64) -> bool {
     let wanted = region.verdict(point, point);
     move |low, high| {
-        region.verdict(clipped(low, range), clipped(high, range)) == wanted
+        region.verdict(range.nearest(low), range.nearest(high)) == wanted
     }
 }
 
@@ -327,14 +336,4 @@ pub(super) fn p_value(
         if lies(middle) { yes = middle } else { no = middle }
     }
     yes
-}
-
-pub(super) fn clipped(x: f64, (low, high): (f64, f64)) -> f64 {
-    if x < low {
-        low
-    } else if x > high {
-        high
-    } else {
-        x
-    }
 }

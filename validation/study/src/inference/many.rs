@@ -8,17 +8,16 @@
 
 use super::draws::LEAST_DECIDING;
 use super::draws::Scheme;
-use super::known::{
-    Caution, CellIntervals, Ends, clipped, p_of, p_value, power_of,
-};
+use super::known::{Caution, CellIntervals, Ends, p_of, p_value, power_of};
 use super::refuted::refuted;
 use super::rule::{Cell, ClaimRule};
 use rocking_common::findings::{
-    CellCounts, ClaimResult, Detail, ERROR, Interval, LEVEL, Measured,
-    Quantifier, Region, Unit,
+    CellCounts, ClaimResult, Detail, ERROR, IntervalMethod, LEVEL, Quantifier,
+    Region, Unit,
 };
 use rocking_common::paper::ClaimVerdict;
 use rocking_statistics::confidence::Confidence;
+use rocking_statistics::{Estimate, Range};
 
 /// A cell that decides: its place, and its own interval.
 struct DecidingCell {
@@ -82,8 +81,7 @@ pub(super) fn judge_many(
             return;
         };
         let ends = ends_of(worst);
-        result.value = known.measured.points[worst.k];
-        (result.low, result.high) = ends.both();
+        result.estimate = ends.beside(known.measured.points[worst.k]);
         result.monte_carlo_error = ends.deciding_error(rule.region);
         result.interval = Some(ends.way);
         result.at = named(&cells[worst.k], known);
@@ -120,7 +118,7 @@ pub(super) fn judge_many(
         let worst = worst(drawn.into_iter(), rule.region, &ends_of);
         result.deciding_cell = worst.map(|cell| Detail {
             name: named(&cells[cell.k], known),
-            measured: known.shown(cell.k, Some(cell.ends)),
+            estimate: known.shown(cell.k, Some(cell.ends)),
         });
     }
     result.cells = Some(counts);
@@ -171,7 +169,7 @@ fn worst<'a>(
     ends_of: &impl Fn(&DecidingCell) -> Ends,
 ) -> Option<&'a DecidingCell> {
     let reach = |cell: &DecidingCell| {
-        let (a, b) = ends_of(cell).both();
+        let (a, b) = ends_of(cell).within().ends();
         let (a, b) = (region.badness(a), region.badness(b));
         let reach = if a > b { a } else { b };
         // An endless interval has no reach to be compared.
@@ -199,7 +197,7 @@ fn discovered(
         let inside = |cell: &&DecidingCell| {
             let ends = known.cell(cell.k, cells[cell.k].records, level);
             ends.is_some_and(|ends| {
-                let (low, high) = ends.both();
+                let (low, high) = ends.within().ends();
                 region.verdict(low, high) == ClaimVerdict::Confirmed
             })
         };
@@ -228,7 +226,7 @@ fn judge_share(
     let value = of(&known.measured.points);
     let values: Vec<f64> =
         known.measured.replicates.iter().map(|row| of(row)).collect();
-    result.value = value;
+    result.estimate = Estimate::exact(value);
     result.unit = Unit::Share;
     result.at = "share of the cells of 30 records or more".into();
     let Some(confidence) = Confidence::new(value, &values, &[]) else {
@@ -236,13 +234,13 @@ fn judge_share(
         return;
     };
     let ends = |level: f64| {
-        let found = confidence.interval_of_share(value, known.clusters, level);
+        let found =
+            confidence.interval_of_share(value, known.clusters, level)?;
         Some(Ends {
-            low: found.low,
-            high: found.high,
+            interval: found.interval,
             errors: (found.low_error, found.high_error),
-            range: (0.0, 1.0),
-            way: Interval::ShareOfCells,
+            range: Range::Share,
+            way: IntervalMethod::ShareOfCells,
         })
     };
     let Some(own) = ends(LEVEL) else { return };
@@ -250,7 +248,7 @@ fn judge_share(
         Quantifier::Most => Region::Above(0.5),
         _ => Region::Within(0.9, 1.0),
     };
-    (result.low, result.high) = own.both();
+    result.estimate = own.beside(value);
     result.monte_carlo_error = own.deciding_error(region);
     result.interval = Some(own.way);
     let verdict = own.verdict(region, caution);
@@ -289,17 +287,17 @@ fn details(
         let values: Vec<f64> = rows.iter().map(|row| over(row)).collect();
         let value = over(&known.measured.points);
         let confidence = Confidence::new(value, &values, &[]);
-        let interval = confidence.map(|known_| {
-            let plain = known_.interval(known.clusters.half_width(LEVEL));
-            let reflected =
-                |x: f64| clipped(2.0 * value - x, (0.0, f64::INFINITY));
-            (reflected(plain.high), reflected(plain.low))
+        let estimate = confidence.and_then(|own| {
+            let plain = own.interval(known.clusters.half_width(LEVEL))?;
+            let reflected = plain.interval.map(|x| 2.0 * value - x);
+            let range = Range::NotNegative;
+            Estimate::beside(value, reflected.within(range), range).ok()
         });
         result.details.push(Detail {
             name: format!(
                 "{name} over the cells of the distance from {middle}"
             ),
-            measured: Measured { value, interval },
+            estimate: estimate.unwrap_or(Estimate::exact(value)),
         });
     }
 }

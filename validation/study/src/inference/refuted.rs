@@ -1,13 +1,13 @@
 //! Which of many cells are shown to lie outside their region, all of them at
 //! once.
 
-use rocking_statistics::normal;
 use rocking_statistics::step_down::StepDown;
+use rocking_statistics::{Interval, Range, normal};
 
 use super::draws::{Replicates, Scheme};
 use super::known::Ends;
 use super::known::{Caution, CellIntervals, p_value};
-use rocking_common::findings::{ERROR, Interval, LEVEL, Region};
+use rocking_common::findings::{ERROR, IntervalMethod, LEVEL, Region};
 use rocking_common::paper::ClaimVerdict;
 
 /// The cells that are shown to lie outside.
@@ -78,7 +78,7 @@ fn by_holm(
         let Some(ends) = known.drawn(*k, level) else { continue };
         let out = open && ends.verdict(region, caution) == wanted;
         let way = match ends.way {
-            Interval::Exact => Interval::ExactSimultaneous,
+            IntervalMethod::Exact => IntervalMethod::ExactSimultaneous,
             other => other,
         };
         step += usize::from(out);
@@ -178,12 +178,12 @@ fn by_maximum(
         if statistics[place] > 0.0 {
             let (y, by) = (scale.on(points[*k]), steps.critical[place] * s);
             found.out[*k] = steps.rejected[place];
-            found.ends[*k] = Some(Ends {
-                low: scale.back(y - by),
-                high: scale.back(y + by),
+            let interval = Interval::try_new(y - by, y + by).ok();
+            found.ends[*k] = interval.map(|interval| Ends {
+                interval: interval.map(|y| scale.back(y)),
                 errors: (0.0, 0.0),
-                range: (f64::NEG_INFINITY, f64::INFINITY),
-                way: Interval::Simultaneous,
+                range: Range::Real,
+                way: IntervalMethod::Simultaneous,
             });
         }
     }

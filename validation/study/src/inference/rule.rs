@@ -1,6 +1,7 @@
 //! What a claim asks of its cells.
 
 use rocking_common::findings::{Quantifier, Region, Unit};
+use rocking_statistics::Range;
 
 /// What a claim asks of its cells.
 #[derive(Clone, Copy, Debug)]
@@ -11,8 +12,8 @@ pub struct ClaimRule {
     pub region: Region,
     /// Unit of a cell.
     pub unit: Unit,
-    /// Ends that a value cannot cross: 0 and 1 of a share.
-    pub range: (f64, f64),
+    /// The numbers that a cell can have: from 0 to 1 for a share.
+    pub range: Range,
 }
 
 /// A cell's name, and how many records are in it.

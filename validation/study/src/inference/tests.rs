@@ -2,7 +2,7 @@ use rocking_statistics::resampling::Ranked;
 
 use super::*;
 use rocking_common::findings::Unit;
-use rocking_common::findings::{ERROR, Interval};
+use rocking_common::findings::{ERROR, IntervalMethod};
 use rocking_common::paper::SuiteKind;
 use rocking_statistics::{Clusters, Proportion};
 
@@ -12,8 +12,15 @@ fn drawn(sizes: [usize; 2]) -> Resamples {
 }
 
 fn rule(quantifier: Quantifier, region: Region) -> ClaimRule {
-    let range = (f64::NEG_INFINITY, f64::INFINITY);
-    ClaimRule { quantifier, region, unit: Unit::One, range }
+    ClaimRule { quantifier, region, unit: Unit::One, range: Range::Real }
+}
+
+fn low(of: &ClaimResult) -> f64 {
+    of.estimate.ends().0
+}
+
+fn high(of: &ClaimResult) -> f64 {
+    of.estimate.ends().1
 }
 
 /// 80 values about 1 for each cell, and how far each cell is shifted.
@@ -70,7 +77,8 @@ fn the_quantifier_decides_how_many_cells_must_hold() {
             Some(expected),
             "{quantifier:?} {shifts:?}: {found:?}"
         );
-        assert!(found.low <= found.value && found.value <= found.high);
+        let interval = found.estimate.interval().unwrap();
+        assert!(interval.holds(found.estimate.value()));
     }
 }
 
@@ -78,7 +86,7 @@ fn the_quantifier_decides_how_many_cells_must_hold() {
 fn the_cell_that_is_shown_is_the_one_that_decides() {
     let found = judged(Quantifier::All, &[0.0, 0.2, -0.1]);
     assert_eq!(found.at, "cell 1");
-    assert!(found.low < 1.2 && found.high > 1.2);
+    assert!(low(&found) < 1.2 && high(&found) > 1.2);
     // A cell of few records that is no median decides nothing.
     let draws = drawn([80, 40]);
     let (mut cells, ranked) = cells(&[0.0, 0.9]);
@@ -125,13 +133,13 @@ fn one_record_that_carries_a_share_keeps_it_open() {
     let measured = draws.subsampled(SuiteSet::Ordinary, &carried);
     let cells = [Cell { at: "one record".into(), records: 50 }];
     let rule = ClaimRule {
-        range: (0.0, 1.0),
+        range: Range::Share,
         ..rule(Quantifier::One, Region::Above(0.5))
     };
     let found =
         judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
             .result;
-    assert_eq!((found.value, found.low), (1.0, 0.0));
+    assert_eq!((found.estimate.value(), low(&found)), (1.0, 0.0));
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
 }
 
@@ -146,7 +154,7 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
     let all = counts.iter().map(|(k, n)| Proportion::try_new(*k, *n).unwrap());
     let measured = Replicates::of_counts(all.collect());
     let rule = ClaimRule {
-        range: (0.0, 1.0),
+        range: Range::Share,
         ..rule(quantifier, Region::Below(0.05))
     };
     judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured).result
@@ -156,15 +164,15 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
 fn none_of_a_few_records_is_not_shown_to_be_below_a_limit() {
     // 0 of 44: the probability may be 6.6 %, one-sided; 0 of 59 decide.
     let found = counted(&[(0, 44)], Quantifier::One);
-    assert_eq!(found.interval, Some(Interval::Exact));
-    assert!(found.low == 0.0 && (found.high - 0.0658).abs() < 1e-4);
+    assert_eq!(found.interval, Some(IntervalMethod::Exact));
+    assert!(low(&found) == 0.0 && (high(&found) - 0.0658).abs() < 1e-4);
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
     let power = found.power.unwrap();
     assert_eq!(power.probability, 0.0);
     assert!((power.times - 59.0 / 44.0).abs() < 0.02, "{power:?}");
     // One of many cells, each with the same limit.
     let many = counted(&[(0, 44); 180], Quantifier::All);
-    assert!((many.high - 0.0658).abs() < 1e-4, "{many:?}");
+    assert!((high(&many) - 0.0658).abs() < 1e-4, "{many:?}");
     assert_eq!(many.by_equivalence, Some(ClaimVerdict::Inconclusive));
     assert_eq!(many.cells.map(|c| (c.inside, c.outside)), Some((0, 0)));
     // 0 of 86 is below 5 %, alone and in every one of many cells.
@@ -181,15 +189,15 @@ fn a_count_far_above_a_limit_is_seen_among_many_cells() {
         counts.push((above, 86));
         let found = counted(&counts, Quantifier::All);
         assert_eq!(found.by_equivalence, Some(ClaimVerdict::NotConfirmed));
-        assert_eq!(found.interval, Some(Interval::ExactSimultaneous));
+        assert_eq!(found.interval, Some(IntervalMethod::ExactSimultaneous));
         assert_eq!(found.at, "cell 239");
-        assert!(found.low > 0.05, "{}", found.low);
+        assert!(low(&found) > 0.05, "{}", low(&found));
     }
     // 19 of 86, one of 240: scipy.stats.beta.ppf(0.05/240, 19, 68).
     let mut counts = vec![(0, 86); 239];
     counts.push((19, 86));
     let found = counted(&counts, Quantifier::All);
-    assert!((found.low - 0.0904).abs() < 1e-4, "{}", found.low);
+    assert!((low(&found) - 0.0904).abs() < 1e-4, "{}", low(&found));
     assert_eq!(found.cells.map(|c| (c.inside, c.outside)), Some((239, 1)));
     // 7 of 44, one of 180, may lie below 5 %.
     let mut counts = vec![(0, 86); 179];
@@ -222,8 +230,8 @@ fn few_records_have_the_exact_interval_of_their_median() {
     // third 93.5 %.
     let found = few(&[values(11)], region);
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::Confirmed));
-    assert_eq!(found.interval, Some(Interval::Exact));
-    assert_eq!((found.low, found.high), (1.002, 1.008));
+    assert_eq!(found.interval, Some(IntervalMethod::Exact));
+    assert_eq!(found.estimate.ends(), (1.002, 1.008));
     assert_eq!(found.at, "cell 0, of the 11 survivors");
     // The range of four values holds the median in 87.5 %: no interval.
     let found = few(&[values(4)], region);
@@ -237,9 +245,9 @@ fn a_share_of_cells_is_judged_by_its_own_interval() {
     let near = |k: usize| if k < 80 { 0.002 * (k % 7) as f64 } else { 0.9 };
     let shifts: Vec<f64> = (0..90).map(near).collect();
     let found = judged(Quantifier::AlmostAll, &shifts);
-    assert_eq!(found.interval, Some(Interval::ShareOfCells));
-    assert!((found.value - 80.0 / 90.0).abs() < 1e-12);
-    assert_eq!((found.low, found.high), (found.value, found.value));
+    assert_eq!(found.interval, Some(IntervalMethod::ShareOfCells));
+    assert!((found.estimate.value() - 80.0 / 90.0).abs() < 1e-12);
+    assert_eq!(found.estimate.ends(), (80.0 / 90.0, 80.0 / 90.0));
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::NotConfirmed));
     assert_eq!(found.cells.map(|c| (c.inside, c.outside)), Some((80, 10)));
     // Ten on the edge: the share may be 100 %.
@@ -247,7 +255,7 @@ fn a_share_of_cells_is_judged_by_its_own_interval() {
     let shifts: Vec<f64> = (0..90).map(near).collect();
     let found = judged(Quantifier::AlmostAll, &shifts);
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
-    assert!(found.low < 0.95 && found.high > 0.95, "{found:?}");
+    assert!(low(&found) < 0.95 && high(&found) > 0.95, "{found:?}");
 }
 
 #[test]
@@ -269,7 +277,8 @@ fn a_replicate_without_a_value_lies_outside() {
         judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
             .result;
     // (38/40)^40 = 13 % of the replicates: one of two cells is inside.
-    assert_eq!((found.value, found.low, found.high), (1.0, 0.5, 1.0));
+    assert_eq!(found.estimate.value(), 1.0);
+    assert_eq!(found.estimate.ends(), (0.5, 1.0));
     assert_eq!(found.cells.map(|c| c.inside), Some(1));
 }
 
@@ -310,8 +319,8 @@ fn a_verdict_that_other_draws_may_change_is_none() {
     };
     let Ruling { result, more } = judged(1.0);
     assert!(!more);
-    let (high, error) = (result.high, result.monte_carlo_error);
-    assert!(error > 0.0 && error < 0.2 * (high - result.value));
+    let (end, error) = (high(&result), result.monte_carlo_error);
+    assert!(error > 0.0 && error < 0.2 * (end - result.estimate.value()));
     // Eight times as many draws have errors 2.8 times as small.
     for (away, decides, draws_more) in [
         (5.0, true, false),
@@ -320,14 +329,14 @@ fn a_verdict_that_other_draws_may_change_is_none() {
         (-3.0, false, true),
         (-5.0, false, false),
     ] {
-        let Ruling { result, more } = judged(high + away * error);
+        let Ruling { result, more } = judged(end + away * error);
         assert_eq!(more, draws_more, "{away}");
         let decided = result.by_equivalence == Some(ClaimVerdict::Confirmed);
         assert_eq!(decided, decides, "{away}");
     }
     // The p-value belongs to the one-sided test at the limit: four errors
     // beyond an end of 5 % it is a little smaller.
-    let beyond = judged(high + 4.001 * error).result.p;
+    let beyond = judged(end + 4.001 * error).result.p;
     assert!((0.02..0.05).contains(&beyond), "{beyond}");
 }
 
@@ -345,7 +354,8 @@ fn a_verdict_and_its_p_value_agree() {
             assert_eq!(decided, found.p <= ERROR, "{shift}: {found:?}");
             assert_eq!(found.power.is_none(), decided);
             open += usize::from(!decided);
-            let side = Region::Within(0.8, 1.2).verdict(found.low, found.high);
+            let side =
+                Region::Within(0.8, 1.2).verdict(low(&found), high(&found));
             if matches!(quantifier, One | All) && decided {
                 assert_eq!(side, verdict, "{shift}: {found:?}");
             }
@@ -388,5 +398,5 @@ fn a_cell_that_no_replicate_moves_is_open() {
     assert_eq!(found.by_equivalence, Some(ClaimVerdict::Inconclusive));
     // The cell that is shown has an interval.
     assert_eq!(found.at, "cell 1");
-    assert!(found.low.is_finite() && found.high.is_finite());
+    assert!(low(&found).is_finite() && high(&found).is_finite());
 }

@@ -13,8 +13,9 @@ use crate::distances::{
 use crate::estimates::mean;
 use crate::inference::Cell;
 use crate::runs::not_run;
-use rocking_common::findings::{Detail, Measured};
+use rocking_common::findings::Detail;
 use rocking_common::paper::{Intensity, SLENDERNESSES_RAD, position};
+use rocking_statistics::Estimate;
 
 /// The block that the paper compares its badly performing one with: p = 3,
 /// alpha = 0.20.
@@ -55,7 +56,7 @@ fn of_cells(
     let one = |of: &dyn Fn(&[f64]) -> f64| replicated.map(|row| vec![of(row)]);
     let detail = |(name, of): &NamedNumber<'_>| Detail {
         name: (*name).into(),
-        measured: Measured::exact(one(of).point(0)),
+        estimate: Estimate::exact(one(of).point(0)),
     };
     Ok(MeasureCells {
         cells: cells.iter().map(cell).collect(),

@@ -102,7 +102,7 @@ impl LevelsRow {
         let stands = with_step(BAND_STRIDE);
         let ratios = mean(stands.iter().map(over_critical));
         let p_values: Vec<f64> =
-            tests.iter().filter_map(|t| Some(t.p_value?.value)).collect();
+            tests.iter().filter_map(|t| Some(t.p_value?.value())).collect();
         let below = |adjusted: Vec<f64>| {
             count(adjusted.iter().filter(|p| **p <= LEVEL).count())
         };
@@ -152,7 +152,7 @@ fn others(tests: &[Assessment], battery: &Battery) -> [f64; 3] {
             let values = test.tested.as_ref();
             let found = values.and_then(|v| battery.assess(v).ok());
             found.map_or([None; 3], |found| {
-                found.map(|t| Some(t.p_value.value > LEVEL))
+                found.map(|t| Some(t.p_value.value() > LEVEL))
             })
         })
         .collect();

@@ -43,7 +43,7 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
             let finite: Vec<f64> =
                 row.ratios.into_iter().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
-            let middle = median(&finite).value;
+            let middle = median(&finite).value();
             let without = PLACES.len() - finite.len();
             table.row(vec![
                 ("suite", word(suite.kind.name())),
@@ -67,8 +67,8 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
              accepted share of a block changes by {:.3} (median; {least:.3} \
              to {most:.3}).",
             capital(suite.kind.name()),
-            median(&all_ratios).value,
-            median(&changes).value,
+            median(&all_ratios).value(),
+            median(&changes).value(),
         ));
     }
     table.part(
@@ -95,7 +95,7 @@ fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
             let total = (null.redrawn + REPLICATES) as f64;
             redrawn = redrawn.max(null.redrawn as f64 / total);
             let critical = null.null.critical_value(LEVEL).ok()?;
-            Some(critical.value / tabulated.ok()?.0)
+            Some(critical.estimate.value() / tabulated.ok()?.0)
         })
         .map(|ratio| ratio.unwrap_or(f64::NAN))
         .collect();

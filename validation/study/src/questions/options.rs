@@ -168,7 +168,7 @@ fn entries<'a>(
         });
         let interval = |k: usize| {
             let found = clusters.estimate(distances[k], &drawn[k], 0.95);
-            found.map_or((f64::NAN, f64::NAN), |e| (e.low, e.high))
+            found.map_or((f64::NAN, f64::NAN), |e| e.estimate.ends())
         };
         RecipeFit {
             recipe,
@@ -203,9 +203,9 @@ fn summaries(entries: &[RecipeFit<'_>]) -> Vec<RecipeSummary> {
                 recipe: *recipe,
                 intensity,
                 defined: defined.len() as f64 / own.len() as f64,
-                ks: median(&ks).value,
+                ks: median(&ks).value(),
                 largest: range(ks.into_iter()).1,
-                area: median(&of(|e| e.distances[1])).value,
+                area: median(&of(|e| e.distances[1])).value(),
             });
         }
     }

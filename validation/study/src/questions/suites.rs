@@ -6,9 +6,7 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{
-    Agreement, Interval, MOTIONS, QuantityRow, RowGroup, of_group, of_motion,
-};
+use row::{Agreement, MOTIONS, QuantityRow, RowGroup, of_group, of_motion};
 
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
@@ -19,6 +17,7 @@ use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
 use rocking_common::words::{capital, range};
 use rocking_draw::markup;
+use rocking_statistics::{Estimate, Interval};
 
 /// The comparison with 86 ordinary and 44 pulse-type recorded motions:
 /// medians, dispersions and intervals alone.
@@ -90,7 +89,7 @@ fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
             .filter(|(row, _)| row.medians(LIMIT) == Agreement::Apart)
             .map(|(row, label)| {
                 let label = markup::plain(label);
-                format!("{label} {:.2}", row.ratio.value)
+                format!("{label} {:.2}", row.ratio.value())
             })
             .collect();
         let apart = match apart.as_slice() {
@@ -110,7 +109,7 @@ fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
         for &intensity in measures {
             let own =
                 of_group(rows, RowGroup::Capacity, kind, intensity.name());
-            let (low, high) = range(own.iter().map(|r| r.ratio.value));
+            let (low, high) = range(own.iter().map(|r| r.ratio.value()));
             out.push(format!(
                 "Capacities in {}: medians {low:.2} to {high:.2} times \
                  recorded, {}; dispersions, {}.",
@@ -162,11 +161,14 @@ fn compared(
     r: &QuantityRow,
     decimals: usize,
 ) -> Vec<(&'static str, TableCell)> {
-    let ends = |i: &Interval| word(format!("{:.2} to {:.2}", i.low, i.high));
+    let ends = |e: &Estimate| {
+        let (low, high) = e.ends();
+        word(format!("{low:.2} to {high:.2}"))
+    };
     vec![
         ("embedded median", number(r.embedded.middle, decimals)),
         ("recorded median", number(r.recorded.middle, decimals)),
-        ("ratio", number(r.ratio.value, 2)),
+        ("ratio", number(r.ratio.value(), 2)),
         ("95 %", ends(&r.ratio)),
         ("embedded dispersion", number(r.embedded.dispersion(), 2)),
         ("recorded dispersion", number(r.recorded.dispersion(), 2)),
@@ -248,16 +250,16 @@ fn accepted(rows: &[QuantityRow]) -> PlainTable {
             count(own.iter().filter(side).count())
         };
         let apart = of(|r| r.embedded.middle - r.recorded.middle);
-        let ends = apart.interval;
+        let ends = apart.interval().map(Interval::ends);
         let ends =
             ends.map_or("–".into(), |(a, b)| format!("{a:.2} to {b:.2}"));
         table.row(vec![
             ("suite", word(kind)),
             ("sample", word(quantity.replace('_', " "))),
             ("blocks", count(own.len())),
-            ("embedded", number(of(|r| r.embedded.middle).value, 2)),
-            ("recorded", number(of(|r| r.recorded.middle).value, 2)),
-            ("difference", number(apart.value, 2)),
+            ("embedded", number(of(|r| r.embedded.middle).value(), 2)),
+            ("recorded", number(of(|r| r.recorded.middle).value(), 2)),
+            ("difference", number(apart.value(), 2)),
             ("95 %", word(ends)),
             ("embedded below its band", below(|r| r.embedded)),
             ("recorded below its band", below(|r| r.recorded)),
@@ -279,16 +281,17 @@ mod tests {
     use super::*;
     use crate::facts::{Facts, facts};
     use rocking_common::suites::StudySuite;
-    use rocking_statistics::ExtendedSample;
-    use rocking_statistics::QuantileType;
+    use rocking_statistics::{ExtendedSample, QuantileType, Range};
 
     /// A row of capacities with intervals of the ratio of medians and of
     /// the difference of dispersions, about a recorded dispersion of 0.5.
     fn capacity(ratio: (f64, f64), spread: (f64, f64)) -> QuantityRow {
-        let interval = |(low, high): (f64, f64)| Interval {
-            value: 0.5 * (low + high),
-            low,
-            high,
+        let estimate = |(low, high): (f64, f64)| {
+            let value = 0.5 * (low + high);
+            let interval = Interval::try_new(low, high).ok();
+            interval.map_or(Estimate::exact(value), |interval| {
+                Estimate::try_new(value, interval, Range::Real).unwrap()
+            })
         };
         let side = Quantiles {
             records: 86,
@@ -305,8 +308,8 @@ mod tests {
             edp: 1.0,
             embedded: side,
             recorded: side,
-            ratio: interval(ratio),
-            spread: interval(spread),
+            ratio: estimate(ratio),
+            spread: estimate(spread),
             distance: f64::NAN,
             p_value: f64::NAN,
         }

@@ -250,11 +250,11 @@ fn csv(band: &Band) -> String {
     for point in &band.points {
         table.row([
             number(point.intensity),
-            number(point.probability),
-            optional(point.low),
-            optional(point.high),
-            optional(point.delta_low),
-            optional(point.delta_high),
+            number(point.probability.value()),
+            optional(point.probability.low()),
+            optional(point.probability.high()),
+            optional(point.delta.low()),
+            optional(point.delta.high()),
         ]);
     }
     table.finish()

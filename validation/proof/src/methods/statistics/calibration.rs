@@ -18,7 +18,9 @@ use rocking_statistics::normality::{
 use rocking_statistics::paired::{
     equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
+use rocking_statistics::{
+    Boxplot, ExtendedSample, Interval, QuantileType, Sample,
+};
 
 use super::truths::{Truth, share};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -113,21 +115,20 @@ fn covers(
     values: &[f64],
 ) -> Result<bool> {
     let sample = || ExtendedSample::try_new(values);
-    let inside = |low: f64, x: f64, high: f64| low <= x && x <= high;
     Ok(match procedure {
         "notch" => {
             let boxplot =
                 Boxplot::try_new(&sample()?, QuantileType::default())?;
-            inside(boxplot.notch_low, 0.0, boxplot.notch_high)
+            boxplot.notch_low <= 0.0 && 0.0 <= boxplot.notch_high
         }
         "exact-interval" => {
             let found = median_interval(&sample()?, 0.95);
-            found.is_some_and(|i| inside(i.low, 0.0, i.high))
+            found.is_some_and(|found| found.interval.holds(0.0))
         }
         "hodges-lehmann" => {
             let ratios: Vec<f64> = values.iter().map(|y| exp(*y)).collect();
             let found = hodges_lehmann(&ratios)?;
-            inside(found.low, 1.0, found.high)
+            found.ratio.interval().is_some_and(|i| i.holds(1.0))
         }
         // On the edge of equivalence the test says "equivalent" at its
         // level.
@@ -144,8 +145,7 @@ fn covers(
             let Truth::Lognormal { dispersion } = truth else {
                 bail!("a lognormal truth");
             };
-            let (low, high) = dispersion_interval(procedure, values)?;
-            inside(low, dispersion, high)
+            dispersion_interval(procedure, values)?.holds(dispersion)
         }
         // The shift is the sample's smallest value, which is left out.
         "smallest-value-as-shift" => {
@@ -157,7 +157,7 @@ fn covers(
 
 /// 95 % interval of the dispersion (moment fit) by the bootstrap, or by its
 /// normal approximation with divisor 2n.
-fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<(f64, f64)> {
+fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<Interval> {
     let n = values.len();
     let of = |values: &[f64]| -> f64 {
         ExtendedSample::try_new(values)
@@ -168,7 +168,7 @@ fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<(f64, f64)> {
     let point = of(values);
     if procedure == "normal-beta" {
         let half = point / (2.0 * n as f64).sqrt();
-        return Ok((point - half, point + half));
+        return Ok(Interval::try_new(point - half, point + half)?);
     }
     // One stream a sample: its values' bits name it.
     let name = format!("{:x}", values[0].to_bits());
@@ -184,8 +184,7 @@ fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<(f64, f64)> {
     } else {
         estimate(point, &replicates, 0.95)
     };
-    let found = found.context("none")?;
-    Ok((found.low, found.high))
+    found.and_then(|found| found.estimate.interval()).context("none")
 }
 
 /// Replicates of the null of one sample whose smallest value is its shift.
@@ -221,7 +220,7 @@ fn rejects_above_the_smallest(
     } else {
         simulate(values)
     };
-    Ok(null?.null.p_value(d).value <= 0.05)
+    Ok(null?.null.p_value(d).value() <= 0.05)
 }
 
 /// Means of a fit's parameters over lognormal samples.

@@ -15,7 +15,7 @@ use rocking_procedures::{
 };
 use rocking_statistics::regression::mixed;
 use rocking_statistics::streams::{Streams, standard_normal};
-use rocking_statistics::{CensoredSample, Clusters, Lognormal};
+use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 use serde::Deserialize;
 
 use super::truths::{SuiteShape, share};
@@ -100,8 +100,8 @@ fn holds(
 ) -> Result<bool> {
     const AT: f64 = 0.7;
     let draws = Draws { replicates: REPLICATES, seed };
-    let inside = |low: Option<f64>, x: f64, high: Option<f64>| {
-        low.is_some_and(|low| low <= x) && high.is_some_and(|high| x <= high)
+    let holds = |of: Estimate, truth: f64| {
+        of.interval().is_some_and(|interval| interval.holds(truth))
     };
     let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?;
     if matches!(measure, RateMeasure::Counts) {
@@ -117,8 +117,7 @@ fn holds(
         let draws = Draws { replicates: REPLICATES / 2, seed };
         let outcomes: Vec<Outcome> = levels.iter().flat_map(stripe).collect();
         let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
-        let median = found?.median;
-        return Ok(inside(median.low, 1.0, median.high));
+        return Ok(holds(found?.median, 1.0));
     }
     let sample = CensoredSample::try_new(values, &[])?;
     let options = FitOptions {
@@ -143,19 +142,13 @@ fn holds(
         let own = found.fragilities[0].sampling.as_ref();
         // Cornell's closed form.
         let lambda = 1e-4 * exp(2.0 * DISPERSION * DISPERSION);
-        let low = own.map(|own| own.annual_frequency_low);
-        return Ok(inside(
-            low,
-            lambda,
-            own.map(|own| own.annual_frequency_high),
-        ));
+        return Ok(own.is_some_and(|own| holds(own.annual_frequency, lambda)));
     }
     let fit = fit_sample(&sample, &options)?;
     if matches!(measure, RateMeasure::Probability) {
         let point = fit.band.as_ref().and_then(|band| band.points.first());
-        let (low, high) =
-            (point.and_then(|p| p.low), point.and_then(|p| p.high));
-        return Ok(inside(low, truth.cdf(AT), high));
+        let truth = truth.cdf(AT);
+        return Ok(point.is_some_and(|point| holds(point.probability, truth)));
     }
     let none = || anyhow!("no bootstrap");
     let all = fit.bootstrap.ok_or_else(none)?;
@@ -164,8 +157,7 @@ fn holds(
         _ => (all.median, 1.0),
     };
     let found = own.bca.or(own.percentile);
-    let low = found.as_ref().map(|e| e.low);
-    Ok(inside(low, truth, found.map(|e| e.high)))
+    Ok(found.is_some_and(|found| holds(found.estimate, truth)))
 }
 
 /// Slopes with a random intercept, and what widens an interval of few

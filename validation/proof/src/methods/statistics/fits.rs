@@ -130,17 +130,17 @@ pub fn paired(context: &Context, answer: &mut Reply) -> Result<()> {
     let sign = SignTest::of(&ratios, 1.0);
     let centre = hodges_lehmann(&ratios)?;
     let own = [
-        ("geometric_mean", mean.geometric_mean),
-        ("low", mean.low),
-        ("high", mean.high),
+        ("geometric_mean", mean.geometric_mean.value()),
+        ("low", mean.geometric_mean.ends().0),
+        ("high", mean.geometric_mean.ends().1),
         ("p_lower", mean.p_lower),
         ("p_upper", mean.p_upper),
         ("sign_lower", median.p_lower),
         ("sign_upper", median.p_upper),
         ("sign", sign.p_value),
-        ("hl", centre.ratio),
-        ("hl_low", centre.low),
-        ("hl_high", centre.high),
+        ("hl", centre.ratio.value()),
+        ("hl_low", centre.ratio.ends().0),
+        ("hl_high", centre.ratio.ends().1),
     ];
     let rows = PAIRED.rows(&letter)?;
     for (name, own) in own {

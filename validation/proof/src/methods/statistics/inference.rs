@@ -20,7 +20,7 @@ use rocking_statistics::resampling::{Ranked, Subsampling};
 use rocking_statistics::step_down::StepDown;
 use rocking_statistics::streams::{Stream, Streams, standard_normal};
 use rocking_statistics::{
-    Clusters, ExtendedSample, Proportion, Sample, normal,
+    Clusters, ExtendedSample, Interval, Proportion, Sample, normal,
 };
 use serde::Deserialize;
 
@@ -123,8 +123,13 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-fn hold(ends: Option<(f64, f64)>, truth: f64) -> bool {
-    ends.is_some_and(|(low, high)| low <= truth && truth <= high)
+fn hold(interval: Option<Interval>, truth: f64) -> bool {
+    interval.is_some_and(|interval| interval.holds(truth))
+}
+
+/// The interval of a measure whose replicates give one.
+fn interval(known: Option<Confidence>, half_width: f64) -> Option<Interval> {
+    Some(known?.interval(half_width)?.interval)
 }
 
 /// A field over blocks and levels, added to `scores` with a weight.
@@ -227,7 +232,7 @@ impl Trials {
                 };
                 let level = self.or(WrongModel::OtherInterval, 0.75, LEVEL);
                 let found = median_interval(&sample, level);
-                hold(found.map(|i| (i.low, i.high)), 0.0)
+                hold(found.map(|found| found.interval), 0.0)
             }
             IntervalMeasure::Count => {
                 let limit = normal::quantile(PROBABILITY);
@@ -238,9 +243,9 @@ impl Trials {
                 let share = count as f64 / n as f64;
                 let error = sqrt(share * (1.0 - share) / n as f64);
                 let wide = normal::quantile(1.0 - ERROR) * error;
-                let normal = (share - wide, share + wide);
+                let normal = Interval::try_new(share - wide, share + wide);
                 let wrong = WrongModel::OtherInterval;
-                let ends = self.or(wrong, Some(normal), exact.ok());
+                let ends = self.or(wrong, normal.ok(), exact.ok());
                 hold(ends, PROBABILITY)
             }
             _ => {
@@ -266,14 +271,16 @@ impl Trials {
                 // Three times the tail's probability.
                 let (wrong, more) = (WrongModel::OtherInterval, 3.0 * LEVEL);
                 let level = self.or(wrong, more - 2.0, LEVEL);
-                let Some(known) = known else { return false };
-                let ends = known.interval(self.drawn.half_width(level));
+                let half_width = self.drawn.half_width(level);
+                let Some(ends) = interval(known, half_width) else {
+                    return false;
+                };
                 match measure {
                     IntervalMeasure::CellOnTheEdge => {
-                        ends.low >= 0.95 && ends.high <= 1.05
+                        ends.low() >= 0.95 && ends.high() <= 1.05
                     }
-                    IntervalMeasure::CellRefuted => ends.low > 1.05,
-                    _ => hold(Some((ends.low, ends.high)), 1.0),
+                    IntervalMeasure::CellRefuted => ends.low() > 1.05,
+                    _ => ends.holds(1.0),
                 }
             }
         }
@@ -310,8 +317,8 @@ impl Trials {
             let half_width = self.drawn.half_width(level);
             return (0..points.len()).any(|k| {
                 let (own, others) = (column(&rows, k), column(&without, k));
-                Confidence::new(points[k], &own, &others)
-                    .is_some_and(|known| known.interval(half_width).low > 0.0)
+                let known = Confidence::new(points[k], &own, &others);
+                interval(known, half_width).is_some_and(|i| i.low() > 0.0)
             });
         }
         let spread = |k: usize| {
@@ -388,9 +395,12 @@ impl Trials {
         let of_points = known.interval(self.drawn.half_width(LEVEL));
         let own = known.interval_of_share(point, &self.drawn, LEVEL);
         let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
+        let ends = ends.map(|found| found.interval);
         match measure {
-            IntervalMeasure::ShareRefuted => ends.high < 0.9,
-            _ => hold(Some((ends.low, ends.high)), share(&truths)),
+            IntervalMeasure::ShareRefuted => {
+                ends.is_some_and(|i| i.high() < 0.9)
+            }
+            _ => hold(ends, share(&truths)),
         }
     }
 
@@ -400,7 +410,7 @@ impl Trials {
         &self,
         trial: u64,
         measure: IntervalMeasure,
-    ) -> Result<(f64, Option<(f64, f64)>)> {
+    ) -> Result<(f64, Option<Interval>)> {
         let table = Table::embedded();
         let logs: Vec<Vec<f64>> = self
             .scores(trial)
@@ -434,7 +444,7 @@ impl Trials {
                 .map(|index| of(&draws.draw(index)))
                 .collect::<Result<Vec<_>, _>>()?;
             let found = estimate(point, &values, LEVEL);
-            return Ok((point, found.map(|e| (e.low, e.high))));
+            return Ok((point, found.and_then(|e| e.estimate.interval())));
         }
         let size = n - n.div_ceil(10);
         let rule = Subsampling::of(&name, 0, &self.drawn, size);
@@ -451,6 +461,6 @@ impl Trials {
             }
             _ => rule.interval(point, &values, &without, LEVEL),
         };
-        Ok((point, found.map(|e| (e.low, e.high))))
+        Ok((point, found.and_then(|e| e.estimate.interval())))
     }
 }

@@ -178,7 +178,7 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
     for (n, value) in n.iter().zip(&values) {
         let p = Table::embedded().p_value(*n, *value)?;
         let known = 2.0 * libm::exp(-2.0 * *n as f64 * value * value);
-        let p = context.or(WrongModel::PlainKolmogorov, known, p.value);
+        let p = context.or(WrongModel::PlainKolmogorov, known, p.value());
         levels.push(p);
     }
     for level in [0.1, 0.05, 0.01, 0.001] {

@@ -59,10 +59,10 @@ pub fn power(context: &Context, answer: &mut Reply) -> Result<()> {
         let replicates: Vec<f64> =
             (0..REPLICATES as u64).map(|i| mean(&draws.draw(i))).collect();
         let known = Confidence::new(point, &replicates, &[])?;
-        let ends = known.interval(drawn.half_width(level));
+        let ends = known.interval(drawn.half_width(level))?.interval;
         let deviations = drawn.deviations(point, &replicates);
         let limit = distance.mul_add(error, point);
-        let own = (point, ends.low, ends.high);
+        let own = (point, ends.low(), ends.high());
         let student = drawn.student_over_normal(level);
         Some(Power::of(own, student, &deviations, |_, high| high < limit))
     };

@@ -1,7 +1,8 @@
 //! A probability from a count.
 
-use anyhow::Result;
-use rocking_statistics::{Proportion, normal};
+use anyhow::{Context as _, Result};
+use rocking_statistics::estimate::EstimateError;
+use rocking_statistics::{Interval, Proportion, normal};
 
 use crate::methods::cells::{Csv, CsvRow, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -11,12 +12,16 @@ const PROPORTION: Csv = csv!("oracles/proportion.csv");
 const LEVEL: f64 = 0.95;
 
 /// Wilson's interval, which is not exact.
-fn wilson(share: f64, trials: usize, level: f64) -> (f64, f64) {
+fn wilson(
+    share: f64,
+    trials: usize,
+    level: f64,
+) -> Result<Interval, EstimateError> {
     let (z, n) = (normal::quantile(0.5 * (1.0 + level)), trials as f64);
     let middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
     let spread = share * (1.0 - share) / n + z * z / (4.0 * n * n);
     let half = z * spread.sqrt() / (1.0 + z * z / n);
-    (middle - half, middle + half)
+    Interval::try_new(middle - half, middle + half)
 }
 
 /// Exact intervals of probabilities, alone or of many at once.
@@ -32,11 +37,10 @@ pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
         let count = context.or(WrongModel::PointwiseIntervals, 1, together);
         let all = vec![one; count];
         let band = Proportion::band(&all, LEVEL)?;
-        let first = band.first().copied();
-        let mut ends = first.unwrap_or((f64::NAN, f64::NAN));
+        let mut interval = *band.first().context("no probability")?;
         if context.is(WrongModel::WilsonInterval) {
             let level = 1.0 - (1.0 - LEVEL) / count as f64;
-            ends = wilson(one.share(), trials, level);
+            interval = wilson(one.share(), trials, level)?;
         }
         let words = [successes, trials, together].map(|k| k.to_string());
         let rows = PROPORTION.rows(&words[0])?;
@@ -44,7 +48,8 @@ pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
         let row = rows.iter().find(is).ok_or_else(|| {
             PROPORTION.lacks(format!("no row `{}`", words.join(",")))
         })?;
-        row.put(answer, 3, &[("low", ends.0), ("high", ends.1)])?;
+        let ends = [("low", interval.low()), ("high", interval.high())];
+        row.put(answer, 3, &ends)?;
     }
     Ok(())
 }

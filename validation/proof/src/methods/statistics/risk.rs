@@ -6,7 +6,7 @@ use libm::{exp, log};
 use rocking_procedures::fragility::risk::HazardCurve;
 use rocking_statistics::bootstrap::{Bootstrap, estimate};
 use rocking_statistics::lognormal::{FitMethod, fit};
-use rocking_statistics::{ExtendedSample, Lognormal, normal};
+use rocking_statistics::{Estimate, ExtendedSample, Lognormal, normal};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -98,7 +98,10 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
         let drawn: Vec<f64> = places.iter().map(|&i| values[i]).collect();
         fitted(&drawn)
     });
-    let width = |(low, high)| normal::quantile(high) - normal::quantile(low);
+    let width = |probability: Estimate| {
+        let (low, high) = probability.map(normal::quantile).ends();
+        high - low
+    };
     for score in scores {
         let x = shift + exp(ln_median + dispersion * score);
         let column: Vec<f64> = fits
@@ -112,9 +115,9 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
                 let wide = normal::quantile(0.5 * (1.0 + LEVEL));
                 2.0 * wide / (n as f64).sqrt()
             }
-            _ => width(whole.interval_of_cdf(n, x, LEVEL)),
+            _ => width(whole.estimate_of_cdf(n, x, LEVEL)),
         };
-        answer.put("width", [found], [width((drawn.low, drawn.high))]);
+        answer.put("width", [found], [width(drawn.estimate)]);
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::measures::{
 };
 use crate::results::StudyResults;
 use anyhow::Context as _;
-use rocking_common::findings::{Measured, SuiteSet};
+use rocking_common::findings::SuiteSet;
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
@@ -22,6 +22,7 @@ use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
 use rocking_draw::grid::Grid;
+use rocking_statistics::{Estimate, Interval};
 
 const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
 const USFL: (&str, Pen) = ("USFL", Pen::new(Ink::Series(0), 1.4));
@@ -185,7 +186,7 @@ struct ThresholdPanel<'a> {
     place: usize,
     limit: f64,
     /// Largest distance of USFL7 to SSFL, as the claim judges it.
-    cell: Option<&'a Measured>,
+    cell: Option<&'a Estimate>,
 }
 
 fn panel(
@@ -262,7 +263,7 @@ fn panel(
             ),
         ],
         (Some(_), Some(cell)) => {
-            vec!["largest distance to SSFL:".into(), with_interval(cell)]
+            vec!["largest distance to SSFL:".into(), cell.text("", three)]
         }
     };
     for (name, fit) in [(USFL.0, first), (name, second)] {
@@ -290,21 +291,15 @@ fn range(sample: &[f64]) -> (f64, f64) {
     (0.6 * least, 1.05 * most.unwrap_or(2.0 * least))
 }
 
-/// `0.031 (0.012 to 0.071)`.
-fn with_interval(of: &Measured) -> String {
-    let three = |x: f64| format!("{x:.3}").replace('-', "−");
-    match of.interval {
-        Some((low, high)) => {
-            format!("{} ({} to {})", three(of.value), three(low), three(high))
-        }
-        None => three(of.value),
-    }
+/// Three decimals.
+fn three(x: f64) -> String {
+    format!("{x:.3}").replace('-', "−")
 }
 
 /// What shifting gains, in a sentence.
-fn gain_in_words(name: &str, gain: Option<&Measured>, limit: f64) -> String {
+fn gain_in_words(name: &str, gain: Option<&Estimate>, limit: f64) -> String {
     let Some(gain) = gain else { return String::new() };
-    let Some((low, high)) = gain.interval else {
+    let Some((low, high)) = gain.interval().map(Interval::ends) else {
         return format!("For {name} no interval tells what shifting gains.");
     };
     let finding = if low > limit {
@@ -320,13 +315,14 @@ fn gain_in_words(name: &str, gain: Option<&Measured>, limit: f64) -> String {
     };
     format!(
         "For {name} {finding}; the mean gain over three demands is {}.",
-        with_interval(gain)
+        gain.text("", three)
     )
 }
 
-/// DemandFits which demands USFL7 is near enough, in a sentence.
-fn distances_in_words(name: &str, cells: &[Measured], limit: f64) -> String {
-    let ends = |cell: &Measured| cell.interval.unwrap_or((0.0, 1.0));
+/// At which demands USFL7 is near enough, in a sentence.
+fn distances_in_words(name: &str, cells: &[Estimate], limit: f64) -> String {
+    let ends =
+        |cell: &Estimate| cell.interval().map_or((0.0, 1.0), Interval::ends);
     let listed = |is: &dyn Fn((f64, f64)) -> bool| {
         let demands: Vec<String> = THRESHOLDS
             .iter()

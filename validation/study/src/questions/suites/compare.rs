@@ -3,12 +3,11 @@
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rocking::ida::Adjust;
-use rocking_statistics::Clusters;
-use rocking_statistics::ExtendedSample;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
+use rocking_statistics::{Clusters, Estimate, ExtendedSample};
 
-use super::row::{Interval, Quantiles, QuantityRow, RowGroup};
+use super::row::{Quantiles, QuantityRow, RowGroup};
 use crate::analyses::normalised;
 use crate::distributions::{BlockSamples, Distributions, suite_distributions};
 use crate::estimates::three_quantiles;
@@ -93,8 +92,8 @@ impl SuitePair {
             edp: f64::NAN,
             embedded: side(0),
             recorded: side(1),
-            ratio: Interval::NONE,
-            spread: Interval::NONE,
+            ratio: Estimate::exact(f64::NAN),
+            spread: Estimate::exact(f64::NAN),
             distance: f64::NAN,
             p_value: f64::NAN,
         }
@@ -185,13 +184,9 @@ impl SuitePair {
             spreads.push(dispersion(e) - dispersion(r));
         }
         let [e, r] = points;
-        let ratio = self.interval(libm::log(e[1] / r[1]), &ratios);
-        row.ratio = Interval {
-            value: libm::exp(ratio.value),
-            low: libm::exp(ratio.low),
-            high: libm::exp(ratio.high),
-        };
-        row.spread = self.interval(dispersion(e) - dispersion(r), &spreads);
+        let ratio = self.estimate(libm::log(e[1] / r[1]), &ratios);
+        row.ratio = ratio.map(libm::exp);
+        row.spread = self.estimate(dispersion(e) - dispersion(r), &spreads);
         let found = kolmogorov_smirnov(
             &ExtendedSample::try_new(embedded)?,
             &ExtendedSample::try_new(recorded)?,
@@ -200,13 +195,9 @@ impl SuitePair {
         Ok(row)
     }
 
-    fn interval(&self, value: f64, replicates: &[f64]) -> Interval {
-        match self.clusters.estimate(value, replicates, 0.95) {
-            Some(found) => {
-                Interval { value, low: found.low, high: found.high }
-            }
-            None => Interval { value, ..Interval::NONE },
-        }
+    fn estimate(&self, value: f64, replicates: &[f64]) -> Estimate {
+        let found = self.clusters.estimate(value, replicates, 0.95);
+        found.map_or(Estimate::exact(value), |found| found.estimate)
     }
 }
 

@@ -1,13 +1,12 @@
 //! Figures of the comparison.
 
-use super::row::{
-    Interval, MOTIONS, QuantityRow, RowGroup, of_group, of_motion,
-};
+use super::row::{MOTIONS, QuantityRow, RowGroup, of_group, of_motion};
 use crate::facts::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
 };
+use rocking_statistics::Estimate;
 
 /// Demands at which capacities are drawn.
 const SHOWN: [f64; 2] = [0.15, 1.0];
@@ -45,7 +44,8 @@ pub(super) fn motions(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
 
 fn ratios(rows: &[QuantityRow], kind: &str) -> ChartPanel {
     let found = MOTIONS.map(|(quantity, _)| {
-        of_motion(rows, kind, quantity).map_or(Interval::NONE, |r| r.ratio)
+        of_motion(rows, kind, quantity)
+            .map_or(Estimate::exact(f64::NAN), |r| r.ratio)
     });
     let places = (1..=MOTIONS.len()).map(|k| k as f64).collect();
     let own = ratio_series("ratio of medians, 95 %", places, &found);
@@ -60,10 +60,10 @@ fn ratios(rows: &[QuantityRow], kind: &str) -> ChartPanel {
 fn ratio_series(
     label: impl Into<String>,
     x: Vec<f64>,
-    of: &[Interval],
+    of: &[Estimate],
 ) -> Series {
-    let y = of.iter().map(|r| r.value).collect();
-    let ends = of.iter().map(|r| (r.low, r.high));
+    let y = of.iter().map(Estimate::value).collect();
+    let ends = of.iter().map(Estimate::ends);
     Series::new(label, Mark::Points, x, y).with(ends.collect())
 }
 
@@ -139,7 +139,7 @@ fn blocks(
         // Beside each other, not on each other.
         let shift = 0.006 * (k as f64 - 1.0);
         let x = own.iter().map(|r| r.alpha_rad + shift).collect();
-        let ratios: Vec<Interval> = own.iter().map(|r| r.ratio).collect();
+        let ratios: Vec<Estimate> = own.iter().map(|r| r.ratio).collect();
         let label = format!("*p* = {p} s^{{−1}}");
         series.push(ratio_series(label, x, &ratios));
     }

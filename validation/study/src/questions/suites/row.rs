@@ -2,6 +2,7 @@
 
 use rocking::names::named;
 use rocking_common::table::{Table, digits};
+use rocking_statistics::{Estimate, Interval, Range};
 
 named! {
     /// What kind of quantity a row holds.
@@ -35,29 +36,17 @@ impl Quantiles {
     }
 }
 
-/// A value with its 95 % interval; NaN where there is none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interval {
-    pub(super) value: f64,
-    pub(super) low: f64,
-    pub(super) high: f64,
-}
-
-impl Interval {
-    pub(super) const NONE: Self =
-        Self { value: f64::NAN, low: f64::NAN, high: f64::NAN };
-
-    /// What the interval shows of two numbers that are equal where the value
-    /// is `equal`, and alike where it is at most `limit` from there.
-    pub(super) fn shows(&self, equal: f64, limit: f64) -> Agreement {
-        let (low, high) = (self.low - equal, self.high - equal);
-        if low >= -limit && high <= limit {
-            Agreement::Alike
-        } else if low > 0.0 || high < 0.0 {
-            Agreement::Apart
-        } else {
-            Agreement::Open
-        }
+/// What the interval of an estimate shows of two numbers that are equal where
+/// the value is `equal`, and alike where it is at most `limit` from there.
+fn agreement(estimate: &Estimate, equal: f64, limit: f64) -> Agreement {
+    let Some(interval) = estimate.interval() else { return Agreement::Open };
+    let (low, high) = (interval.low() - equal, interval.high() - equal);
+    if low >= -limit && high <= limit {
+        Agreement::Alike
+    } else if low > 0.0 || high < 0.0 {
+        Agreement::Apart
+    } else {
+        Agreement::Open
     }
 }
 
@@ -84,10 +73,10 @@ pub(super) struct QuantityRow {
     pub(super) edp: f64,
     pub(super) embedded: Quantiles,
     pub(super) recorded: Quantiles,
-    /// Embedded median over recorded.
-    pub(super) ratio: Interval,
+    /// Embedded median over recorded, with its 95 % interval.
+    pub(super) ratio: Estimate,
     /// Embedded dispersion less recorded.
-    pub(super) spread: Interval,
+    pub(super) spread: Estimate,
     /// Distance of the two empirical distributions, and its p-value.
     pub(super) distance: f64,
     pub(super) p_value: f64,
@@ -97,13 +86,13 @@ impl QuantityRow {
     /// What is shown of the medians, alike within `limit` of the recorded
     /// one.
     pub(super) fn medians(&self, limit: f64) -> Agreement {
-        self.ratio.shows(1.0, limit)
+        agreement(&self.ratio, 1.0, limit)
     }
 
     /// What is shown of the dispersions, alike within `limit` of the
     /// recorded one.
     pub(super) fn dispersions(&self, limit: f64) -> Agreement {
-        self.spread.shows(0.0, limit * self.recorded.dispersion())
+        agreement(&self.spread, 0.0, limit * self.recorded.dispersion())
     }
 }
 
@@ -127,7 +116,11 @@ pub(super) fn to_csv(rows: &[QuantityRow]) -> String {
             let ends = [s.low, s.middle, s.high].map(short);
             std::iter::once(s.records.to_string()).chain(ends)
         };
-        let three = |i: &Interval| [i.value, i.low, i.high].map(short);
+        let three = |e: &Estimate| {
+            let ends =
+                [e.low(), e.high()].map(|x| x.map_or(String::new(), short));
+            std::iter::once(short(e.value())).chain(ends)
+        };
         let name = row.group.name().to_owned();
         let cells = [row.suite.clone(), name, row.quantity.clone()]
             .into_iter()
@@ -155,10 +148,11 @@ pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
             middle: number(k + 2),
             high: number(k + 3),
         };
-        let interval = |k: usize| Interval {
-            value: number(k),
-            low: number(k + 1),
-            high: number(k + 2),
+        let estimate = |k: usize| {
+            let value = number(k);
+            Interval::try_new(number(k + 1), number(k + 2))
+                .and_then(|ends| Estimate::beside(value, ends, Range::Real))
+                .unwrap_or(Estimate::exact(value))
         };
         Some(QuantityRow {
             suite: (*cells.first()?).to_owned(),
@@ -171,8 +165,8 @@ pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
             edp: number(5),
             embedded: side(6),
             recorded: side(10),
-            ratio: interval(14),
-            spread: interval(19),
+            ratio: estimate(14),
+            spread: estimate(19),
             distance: number(22),
             p_value: number(23),
         })

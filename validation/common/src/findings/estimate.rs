@@ -1,0 +1,126 @@
+//! Estimates as data files hold them.
+
+use rocking_statistics::estimate::EstimateError;
+use rocking_statistics::{Estimate, Interval, Range};
+use serde::de::Error as _;
+use serde::ser::SerializeMap as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::json::{nine, rounded};
+
+/// The keys of an estimate: `value`, and `low` and `high` where there is an
+/// interval.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    #[serde(with = "nine")]
+    value: f64,
+    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
+    low: f64,
+    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
+    high: f64,
+}
+
+/// What stands for an end that is not there.
+fn none() -> f64 {
+    f64::NAN
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it so")]
+fn is_none(x: &f64) -> bool {
+    x.is_nan()
+}
+
+impl From<&Estimate> for Keys {
+    fn from(estimate: &Estimate) -> Self {
+        let (low, high) = estimate.ends();
+        Self { value: estimate.value(), low, high }
+    }
+}
+
+impl TryFrom<Keys> for Estimate {
+    type Error = EstimateError;
+
+    fn try_from(
+        Keys { value, low, high }: Keys,
+    ) -> Result<Self, EstimateError> {
+        if low.is_nan() && high.is_nan() {
+            return Ok(Self::exact(value));
+        }
+        // The unit of the quantity, not its range, is in the file.
+        Self::beside(value, Interval::try_new(low, high)?, Range::Real)
+    }
+}
+
+/// Writes an estimate.
+///
+/// # Errors
+/// The serializer's.
+pub fn serialize<S: Serializer>(
+    estimate: &Estimate,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    Keys::from(estimate).serialize(to)
+}
+
+/// Reads an estimate.
+///
+/// # Errors
+/// For another shape, and for ends that fall.
+pub fn deserialize<'de, D: Deserializer<'de>>(
+    from: D,
+) -> Result<Estimate, D::Error> {
+    Keys::deserialize(from)?.try_into().map_err(D::Error::custom)
+}
+
+/// A list of estimates.
+pub mod list {
+    use super::*;
+
+    /// Writes a list.
+    ///
+    /// # Errors
+    /// The serializer's.
+    pub fn serialize<S: Serializer>(
+        estimates: &[Estimate],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_seq(estimates.iter().map(Keys::from))
+    }
+
+    /// Reads a list.
+    ///
+    /// # Errors
+    /// For another shape, and for ends that fall.
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<Estimate>, D::Error> {
+        let all = Vec::<Keys>::deserialize(from)?.into_iter();
+        let all = all.map(Estimate::try_from).collect::<Result<_, _>>();
+        all.map_err(D::Error::custom)
+    }
+}
+
+/// An estimate whose ends are written in any case: `null` where there is no
+/// interval.
+pub mod complete {
+    use super::*;
+
+    pub use super::deserialize;
+
+    /// Writes an estimate.
+    ///
+    /// # Errors
+    /// The serializer's.
+    pub fn serialize<S: Serializer>(
+        estimate: &Estimate,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        let Keys { value, low, high } = estimate.into();
+        let mut map = to.serialize_map(Some(3))?;
+        map.serialize_entry("value", &rounded(value))?;
+        map.serialize_entry("low", &rounded(low))?;
+        map.serialize_entry("high", &rounded(high))?;
+        map.end()
+    }
+}

@@ -100,7 +100,7 @@ pub(super) struct CellIntervals<'a> {
     pub(super) measured: &'a Replicates,
     pub(super) clusters: &'a Clusters,
     rule: &'a Subsampling,
-    range: Range,
+    pub(super) range: Range,
     /// Intervals of a bootstrap, one for each cell; empty otherwise.
     confidence: Vec<Option<Confidence>>,
 }

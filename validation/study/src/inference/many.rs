@@ -169,7 +169,8 @@ fn worst<'a>(
     ends_of: &impl Fn(&DecidingCell) -> Ends,
 ) -> Option<&'a DecidingCell> {
     let reach = |cell: &DecidingCell| {
-        let (a, b) = ends_of(cell).within().ends();
+        // As the method gives it: ends that the range limits are equal.
+        let (a, b) = ends_of(cell).interval.ends();
         let (a, b) = (region.badness(a), region.badness(b));
         let reach = if a > b { a } else { b };
         // An endless interval has no reach to be compared.

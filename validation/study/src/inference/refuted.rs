@@ -2,7 +2,7 @@
 //! once.
 
 use rocking_statistics::step_down::StepDown;
-use rocking_statistics::{Interval, Range, normal};
+use rocking_statistics::{Interval, normal};
 
 use super::draws::{Replicates, Scheme};
 use super::known::Ends;
@@ -182,7 +182,7 @@ fn by_maximum(
             found.ends[*k] = interval.map(|interval| Ends {
                 interval: interval.map(|y| scale.back(y)),
                 errors: (0.0, 0.0),
-                range: Range::Real,
+                range: known.range,
                 way: IntervalMethod::Simultaneous,
             });
         }

@@ -104,6 +104,32 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
     assert_eq!(found.cells.map(|c| c.too_few), Some(1));
 }
 
+/// Shares near 0 whose largest is above its limit by chance: the simultaneous
+/// interval of the cell reaches below 0.
+#[test]
+fn simultaneous_ends_lie_in_the_range_of_the_quantity() {
+    let draws = drawn([20, 20]);
+    let names = ["a", "b", "c"].map(str::to_owned);
+    let cells = names.map(|at| Cell { at, records: 80 });
+    let shares = |draw: Resample<'_>| -> Vec<f64> {
+        let counts = draw.of(SuiteKind::Ordinary);
+        let share = |k: usize| f64::from(counts[k] + counts[k + 3]) / 20.0;
+        (0..3).map(share).collect()
+    };
+    let measured = draws.smooth(SuiteSet::Ordinary, &shares);
+    let judged = |range| {
+        let region = Region::Below(0.09);
+        let rule = ClaimRule { range, ..rule(Quantifier::All, region) };
+        judge(&draws, SuiteSet::Ordinary, None, &rule, &cells, &measured)
+            .result
+    };
+    let [free, limited] = [Range::Real, Range::Share].map(judged);
+    assert_eq!(free.interval, Some(IntervalMethod::Simultaneous));
+    assert!(low(&free) < 0.0 && high(&free) > 0.0);
+    assert_eq!(limited.estimate.ends(), (0.0, high(&free)));
+    assert_eq!(limited.by_equivalence, free.by_equivalence);
+}
+
 #[test]
 fn suites_are_drawn_independently_and_records_jointly() {
     let draws = drawn([30, 30]);

@@ -7,7 +7,9 @@ use rocking::ida::{Analysis, Batch, BracketEnd, REFINEMENT, curves};
 use rocking::{Block, Restitution};
 use rocking_records::{ReadOptions, Suite};
 use rocking_statistics::ExtendedSample;
-use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::lilliefors::{
+    LillieforsTable, LillieforsTest, Null, Scale,
+};
 use rocking_statistics::lognormal::{FitMethod, fit};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -30,8 +32,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sample = ExtendedSample::try_new(&capacities)?;
     let fragility = fit(&sample, 1.0, FitMethod::MaximumLikelihood)?;
     let scale = Scale::Logarithmic { shift: 1.0 };
-    let null = Null::Table(Table::embedded());
-    let test = Assessment::new(&sample, scale, 0.05, null);
+    let null = Null::Table(LillieforsTable::embedded());
+    let test = LillieforsTest::new(&sample, scale, 0.05, null);
     println!("{:?}: {:?}", fragility.distribution, test.verdict);
     Ok(())
 }

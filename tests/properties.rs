@@ -90,7 +90,7 @@ proptest! {
             let kind = QuantileType::try_new(number).unwrap();
             let quantiles: Vec<f64> = probabilities
                 .iter()
-                .map(|p| kind.of_extended(&sample, *p).unwrap())
+                .map(|p| kind.extended_quantile(&sample, *p).unwrap())
                 .collect();
             prop_assert!(quantiles.is_sorted(), "{number}: {quantiles:?}");
             let within = |q: &f64| {
@@ -99,7 +99,7 @@ proptest! {
             };
             prop_assert!(quantiles.iter().all(within));
             for (p, q) in probabilities.iter().zip(&quantiles) {
-                let other = kind.of_extended(&reversed, *p).unwrap();
+                let other = kind.extended_quantile(&reversed, *p).unwrap();
                 prop_assert_eq!(q.to_bits(), other.to_bits());
             }
         }

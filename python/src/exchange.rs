@@ -9,7 +9,7 @@ use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
 };
 use rocking_procedures::{
-    Draws, Exposed as ProcedureExposed, FitOptions, Sampled, Shift,
+    Draws, FragilityInput as ProcedureExposed, FitOptions, BootstrapFits, Shift,
     risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
@@ -162,7 +162,7 @@ fn sampled(
     py: Python<'_>,
     behind: RiskSample<'_>,
     draws: Option<Draws>,
-) -> PyResult<Option<Sampled>> {
+) -> PyResult<Option<BootstrapFits>> {
     let Some((sample, fit)) = behind else { return Ok(None) };
     let options = fit.options()?;
     if !matches!(options.shift, Shift::Given(_)) {
@@ -221,7 +221,7 @@ pub fn risk(
                 true => name.clone(),
                 false => format!("{name} {}", state.name),
             };
-            let scaled = |all: Sampled| all.scaled(factor)?.scaled(unit);
+            let scaled = |all: BootstrapFits| all.scaled(factor)?.scaled(unit);
             let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
             all.push(ProcedureExposed { fragility, fitted, sampled });
         }

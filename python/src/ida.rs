@@ -18,8 +18,8 @@ use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::stop;
 use rocking_exchange::ida::{self as tables, Curves, IdaRow};
-use rocking_procedures::counts::Outcome;
-use rocking_procedures::ranking::{Candidate, Covariate};
+use rocking_procedures::counts::RecordOutcome;
+use rocking_procedures::ranking::{CandidateMeasure, Covariate};
 use rocking_procedures::{
     Draws, FitOptions, ProcedureError, capacities, fit_levels, fit_outcomes,
     pivot_forces, rank, stripes, summarise_ida,
@@ -412,7 +412,7 @@ impl PyIdaTable {
         let found = found.map_err(refuse)?;
         let ground = self.ground(py, suite, &ims)?;
         let candidate = |measure: &IntensityMeasure| {
-            Ok(Candidate {
+            Ok(CandidateMeasure {
                 im: measure.words(),
                 at_uplift: ground.at_uplift(measure)?,
                 squared: measure.is_squared(),
@@ -568,7 +568,7 @@ impl IdaCurves {
         replicates: usize,
         seed: u64,
     ) -> PyResult<String> {
-        let outcomes = Outcome::of(&self.linear()?, &ims, edp);
+        let outcomes = RecordOutcome::from_curves(&self.linear()?, &ims, edp);
         let draws = Draws { replicates, seed };
         let clusters = &self.0.clusters;
         answer(py, || fit_outcomes(&outcomes, clusters, shift, draws))

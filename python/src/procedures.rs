@@ -5,8 +5,8 @@ use std::fmt::Display;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rocking::stop;
-use rocking_procedures::comparison::Named;
-use rocking_procedures::contrast::Drawn;
+use rocking_procedures::comparison::NamedSample;
+use rocking_procedures::contrast::ContrastSample;
 use rocking_procedures::{
     Draws, FitOptions, NormalityOptions, compare as compare_pairs,
     contrast as contrast_suites, fit_sample, fit_stripes as fit_counts,
@@ -151,8 +151,8 @@ pub fn compare(
     b: SampleInput<'_>,
     margin: f64,
 ) -> PyResult<String> {
-    let a = Named { records: &a.3, values: a.0.as_slice()? };
-    let b = Named { records: &b.3, values: b.0.as_slice()? };
+    let a = NamedSample { records: &a.3, values: a.0.as_slice()? };
+    let b = NamedSample { records: &b.3, values: b.0.as_slice()? };
     answer(py, || compare_pairs(a, b, margin))
 }
 
@@ -166,8 +166,8 @@ pub fn contrast(
     seed: u64,
 ) -> PyResult<String> {
     let (of_a, of_b) = (sample_of(&a)?, sample_of(&b)?);
-    let a = Drawn { sample: &of_a, records: &a.3, events: &a.2 };
-    let b = Drawn { sample: &of_b, records: &b.3, events: &b.2 };
+    let a = ContrastSample { sample: &of_a, records: &a.3, events: &a.2 };
+    let b = ContrastSample { sample: &of_b, records: &b.3, events: &b.2 };
     answer(py, || contrast_suites(a, b, Draws { replicates, seed }))
 }
 

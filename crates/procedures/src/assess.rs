@@ -10,7 +10,7 @@ use std::fmt;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use self::ground::{Found, Ground};
+use self::ground::{AssessmentSuite, ObjectResult};
 use super::risk::FragilityRisk;
 use super::{
     Draws, FragilityFit, ProcedureError, Ranking, RiskError, StripeResponses,
@@ -130,15 +130,15 @@ pub struct Assessment {
     pub correlation: Option<Estimate>,
     /// By falling annual frequency of damage, or by rising intensity of 5 %
     /// damage where there is no hazard curve.
-    pub objects: Vec<Assessed>,
+    pub objects: Vec<ObjectAssessment>,
     /// At least one, two, .. objects damaged by the same earthquake.
-    pub together: Vec<Together>,
+    pub together: Vec<JointDamage>,
 }
 
 /// One object.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Assessed {
+pub struct ObjectAssessment {
     /// Its name.
     pub id: String,
     /// The block that it is taken for.
@@ -186,7 +186,7 @@ pub struct Assessed {
     pub first_in_draws: f64,
 }
 
-impl Assessed {
+impl ObjectAssessment {
     /// The intensity measure that leaves the least dispersion, and that
     /// dispersion.
     #[must_use]
@@ -307,7 +307,7 @@ pub struct Alternative {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
-pub struct Together {
+pub struct JointDamage {
     /// So many objects or more are damaged.
     pub at_least: usize,
     /// What follows of the fit to the intensities at which each record
@@ -462,7 +462,7 @@ pub fn assess(
     if objects.is_empty() {
         return Err(AssessError::NoObject);
     }
-    let ground = Ground::of(objects, records, clusters, options)?;
+    let ground = AssessmentSuite::new(objects, records, clusters, options)?;
     let mut analyses = Vec::new();
     for object in objects {
         if let Some(found) = object.limit_ratio
@@ -495,7 +495,7 @@ pub fn assess(
         drawn: clusters.clone(),
         years: options.years,
         correlation: ground::correlation(&found),
-        objects: Found::sorted(found),
+        objects: ObjectResult::sorted(found),
         together,
     })
 }

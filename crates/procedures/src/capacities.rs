@@ -87,7 +87,7 @@ pub fn levels(
             ims.values().iter().map(|im| measured(*im)).collect();
         let ims = ExtendedSample::try_new(&ims)?;
         let at = |p| {
-            let value = QuantileType::default().of_extended(&ims, p);
+            let value = QuantileType::default().extended_quantile(&ims, p);
             value.unwrap_or(f64::NAN)
         };
         Ok(LevelCapacities {

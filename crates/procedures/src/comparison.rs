@@ -42,7 +42,7 @@ pub struct Comparison {
 
 /// The first or the second of two samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum SampleSide {
     /// The first.
     A,
     /// The second.
@@ -61,7 +61,7 @@ pub enum ComparisonError {
     )]
     Unnamed {
         /// Which sample.
-        side: Side,
+        side: SampleSide,
         /// Number of names.
         names: usize,
         /// Number of values.
@@ -73,14 +73,14 @@ pub enum ComparisonError {
          which values are paired; a contrast takes samples of different \
          records"
     )]
-    Numbered(Side),
+    Numbered(SampleSide),
     /// A record twice in a sample.
     #[error(
         "record {record} is twice in the sample: expected it once in both"
     )]
     Twice {
         /// Which sample.
-        side: Side,
+        side: SampleSide,
         /// The record.
         record: String,
         /// Place of the second value, from 0.
@@ -93,7 +93,7 @@ pub enum ComparisonError {
     )]
     Lone {
         /// Which sample has it.
-        side: Side,
+        side: SampleSide,
         /// The record.
         record: String,
         /// Place of its value, from 0.
@@ -107,7 +107,7 @@ pub enum ComparisonError {
 impl ComparisonError {
     /// The sample that is refused, and the place of the value.
     #[must_use]
-    pub fn place(&self) -> Option<(Side, Option<usize>)> {
+    pub fn place(&self) -> Option<(SampleSide, Option<usize>)> {
         match *self {
             Self::Unnamed { side, .. } | Self::Numbered(side) => {
                 Some((side, None))
@@ -121,18 +121,18 @@ impl ComparisonError {
 
 /// Values, one per record, with the names of the records.
 #[derive(Clone, Copy, Debug)]
-pub struct Named<'a, S> {
+pub struct NamedSample<'a, S> {
     /// Names of the records.
     pub records: &'a [S],
     /// Their values.
     pub values: &'a [f64],
 }
 
-impl<'a, S: AsRef<str>> Named<'a, S> {
+impl<'a, S: AsRef<str>> NamedSample<'a, S> {
     /// Places of the values by the names of their records.
     fn places(
         &self,
-        side: Side,
+        side: SampleSide,
     ) -> Result<BTreeMap<&'a str, usize>, ComparisonError> {
         let (names, values) = (self.records.len(), self.values.len());
         if names != values {
@@ -155,7 +155,7 @@ impl<'a, S: AsRef<str>> Named<'a, S> {
 
 /// Refuses a record that only one sample has.
 fn refuse_lone(
-    side: Side,
+    side: SampleSide,
     own: &BTreeMap<&str, usize>,
     others: &BTreeMap<&str, usize>,
 ) -> Result<(), ComparisonError> {
@@ -176,9 +176,9 @@ fn refuse_lone(
 ///
 /// ```
 /// use rocking_procedures::compare;
-/// use rocking_procedures::comparison::Named;
-/// let a = Named { records: &["x", "y", "z"], values: &[1.0, 2.0, 3.0] };
-/// let b = Named { records: &["z", "x", "y"], values: &[3.1, 1.0, 1.9] };
+/// use rocking_procedures::comparison::NamedSample;
+/// let a = NamedSample { records: &["x", "y", "z"], values: &[1.0, 2.0, 3.0] };
+/// let b = NamedSample { records: &["z", "x", "y"], values: &[3.1, 1.0, 1.9] };
 /// let found = compare(a, b, 0.05)?;
 /// assert_eq!(found.pairs.ratios.len(), 3);
 /// assert_eq!(found.sign_test.equal, 1);
@@ -189,16 +189,16 @@ fn refuse_lone(
 /// [`ComparisonError`] for records without names, a record that is only in one
 /// sample, a value that is negative or NaN, or a margin that is not positive.
 pub fn compare<S: AsRef<str>>(
-    a: Named<'_, S>,
-    b: Named<'_, S>,
+    a: NamedSample<'_, S>,
+    b: NamedSample<'_, S>,
     margin: f64,
 ) -> Result<Comparison, ComparisonError> {
     if !(margin > 0.0 && margin.is_finite()) {
         return Err(PairedError::Margin(margin).into());
     }
-    let (named, others) = (a.places(Side::A)?, b.places(Side::B)?);
-    refuse_lone(Side::A, &named, &others)?;
-    refuse_lone(Side::B, &others, &named)?;
+    let (named, others) = (a.places(SampleSide::A)?, b.places(SampleSide::B)?);
+    refuse_lone(SampleSide::A, &named, &others)?;
+    refuse_lone(SampleSide::B, &others, &named)?;
     let names = a.records.iter();
     let second: Vec<f64> =
         names.map(|name| b.values[others[name.as_ref()]]).collect();
@@ -211,7 +211,7 @@ pub fn compare<S: AsRef<str>>(
         usable: ratios.len(),
         share: pairs.share(),
         boxplot,
-        sign_test: SignTest::of(ratios, 1.0),
+        sign_test: SignTest::about(ratios, 1.0),
         mcnemar: pairs.mcnemar(),
         hodges_lehmann: hodges_lehmann(ratios),
         mean_equivalence: equivalence(ratios, margin),
@@ -229,8 +229,8 @@ mod tests {
         let values = [1.0, 2.0, 4.0];
         let named = |records: [&'static str; 3]| records;
         let ask = |a: &[&str], b: &[&str]| {
-            let a = Named { records: a, values: &values };
-            let b = Named { records: b, values: &values };
+            let a = NamedSample { records: a, values: &values };
+            let b = NamedSample { records: b, values: &values };
             compare(a, b, 0.05)
         };
         let own = named(["x", "y", "z"]);

@@ -88,7 +88,7 @@ pub enum ContrastError {
 
 /// One of two samples, and what is known about its records.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawn<'a, S> {
+pub struct ContrastSample<'a, S> {
     /// One positive value per record, infinite if censored.
     pub sample: &'a CensoredSample,
     /// Names of the records; empty if they are not known.
@@ -171,14 +171,14 @@ pub struct Distance {
 /// [`Clusters::half_width`] over the normal quantile, the larger of the two.
 ///
 /// ```
-/// use rocking_procedures::contrast::{Drawn, contrast};
+/// use rocking_procedures::contrast::{ContrastSample, contrast};
 /// use rocking_procedures::Draws;
 /// use rocking_statistics::CensoredSample;
 /// let sample = |values: &[f64]| CensoredSample::try_new(values, &[]);
 /// let (pulse, ordinary) =
 ///     (sample(&[1.1, 1.3, 1.4, 1.8])?, sample(&[2.2, 2.6, 2.8, 3.6, 9.0])?);
-/// fn all(sample: &CensoredSample) -> Drawn<'_, &str> {
-///     Drawn { sample, records: &[], events: &[] }
+/// fn all(sample: &CensoredSample) -> ContrastSample<'_, &str> {
+///     ContrastSample { sample, records: &[], events: &[] }
 /// }
 /// let draws = Draws { replicates: 200, seed: 0 };
 /// let found = contrast(all(&pulse), all(&ordinary), draws)?;
@@ -195,8 +195,8 @@ pub struct Distance {
 /// [`ContrastError`] for a value that is not positive, more than 3000 values,
 /// a record that is twice in a sample or in both, and draws that are refused.
 pub fn contrast<S: AsRef<str>>(
-    a: Drawn<'_, S>,
-    b: Drawn<'_, S>,
+    a: ContrastSample<'_, S>,
+    b: ContrastSample<'_, S>,
     draws: Draws,
 ) -> Result<Contrast, ContrastError> {
     draws.check()?;
@@ -215,7 +215,7 @@ pub fn contrast<S: AsRef<str>>(
     };
     let limits = [a, b].into_iter().flat_map(|of| of.sample.limits());
     let up_to = limits.flatten().copied().reduce(f64::min);
-    let cut = |of: &Drawn<'_, S>| {
+    let cut = |of: &ContrastSample<'_, S>| {
         let most = up_to.unwrap_or(f64::INFINITY);
         let cut = |x: &f64| if *x <= most { *x } else { f64::INFINITY };
         let values: Vec<f64> = of.sample.values().iter().map(cut).collect();
@@ -236,7 +236,7 @@ pub fn contrast<S: AsRef<str>>(
     })
 }
 
-impl<S: AsRef<str>> Drawn<'_, S> {
+impl<S: AsRef<str>> ContrastSample<'_, S> {
     fn check(&self) -> Result<(), ContrastError> {
         let values = self.sample.values();
         if values.len() > MOST {
@@ -274,13 +274,13 @@ impl<S: AsRef<str>> Drawn<'_, S> {
 
 /// Refuses samples with a record in common; places do not count as names.
 fn refuse_shared<S: AsRef<str>>(
-    a: &Drawn<'_, S>,
-    b: &Drawn<'_, S>,
+    a: &ContrastSample<'_, S>,
+    b: &ContrastSample<'_, S>,
 ) -> Result<(), ContrastError> {
     if are_places(a.records) || are_places(b.records) {
         return Ok(());
     }
-    let names = |of: &Drawn<'_, S>| -> BTreeSet<String> {
+    let names = |of: &ContrastSample<'_, S>| -> BTreeSet<String> {
         of.records.iter().map(|name| name.as_ref().to_owned()).collect()
     };
     match names(a).intersection(&names(b)).next() {
@@ -309,13 +309,13 @@ fn wider(a: &Clusters, b: &Clusters) -> Result<f64, ContrastError> {
 fn ratio<S: AsRef<str>>(
     (x, y): (f64, f64),
     wider: f64,
-    (a, b): (&Drawn<'_, S>, &Drawn<'_, S>),
+    (a, b): (&ContrastSample<'_, S>, &ContrastSample<'_, S>),
     draws: Draws,
 ) -> Result<MedianRatio, ContrastError> {
     let Draws { replicates, seed } = draws;
     let n = a.sample.len();
     // Earthquakes of the first sample, of the second, and of both.
-    let events = |of: &Drawn<'_, S>| -> BTreeSet<String> {
+    let events = |of: &ContrastSample<'_, S>| -> BTreeSet<String> {
         of.events.iter().map(|event| event.as_ref().to_owned()).collect()
     };
     let (own, others) = (events(a), events(b));
@@ -336,7 +336,7 @@ fn ratio<S: AsRef<str>>(
         .filter(|(_, (places, _))| !places.is_empty())
         .map(|(name, (places, labels))| {
             let clusters = Clusters::from_labels(labels);
-            (places, Bootstrap::of(name, seed, &clusters, replicates))
+            (places, Bootstrap::of_clusters(name, seed, &clusters, replicates))
         })
         .collect();
     let (first, second) = (a.sample, b.sample);
@@ -352,8 +352,8 @@ fn ratio<S: AsRef<str>>(
             return None;
         }
         let of_b: Vec<usize> = of_b.iter().map(|place| place - n).collect();
-        let x = median(&first.at(&of_a))?;
-        let y = median(&second.at(&of_b))?;
+        let x = median(&first.resample(&of_a))?;
+        let y = median(&second.resample(&of_b))?;
         Some(wider * (log(x / y) - point))
     };
     let found = (0..replicates as u64).into_par_iter().panic_fuse();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::fit::Sampled;
+use super::fit::BootstrapFits;
 use super::{Draws, ProcedureError};
 use rocking::capacity::ResponseCurve;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
@@ -68,7 +68,7 @@ impl fmt::Display for Basis {
 
 /// What became of a record at an intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct RecordOutcome {
     /// The intensity.
     pub im: f64,
     /// Place of the record.
@@ -109,12 +109,12 @@ pub fn fit_stripes(
 ///
 /// ```
 /// use rocking_procedures::{Draws, fit_outcomes};
-/// use rocking_procedures::counts::Outcome;
+/// use rocking_procedures::counts::RecordOutcome;
 /// use rocking_statistics::Clusters;
 /// let capacities = [1.2, 1.7, 2.2, 2.4, 3.1, 3.6];
 /// let stripe = |im: f64| {
 ///     let of = |(record, capacity): (usize, &f64)| {
-///         Outcome { im, record, exceeded: *capacity <= im }
+///         RecordOutcome { im, record, exceeded: *capacity <= im }
 ///     };
 ///     capacities.iter().enumerate().map(of).collect::<Vec<_>>()
 /// };
@@ -129,13 +129,13 @@ pub fn fit_stripes(
 /// # Errors
 /// [`ProcedureError::Fit`] for outcomes that make no fit.
 pub fn fit_outcomes(
-    outcomes: &[Outcome],
+    outcomes: &[RecordOutcome],
     clusters: &Clusters,
     shift: f64,
     draws: Draws,
 ) -> Result<CountsFragility, ProcedureError> {
-    let found = fit_stripes(&Outcome::stripes(outcomes, |_| 1), shift)?;
-    let Sampled { clusters, fitted, .. } =
+    let found = fit_stripes(&RecordOutcome::stripes(outcomes, |_| 1), shift)?;
+    let BootstrapFits { clusters, fitted, .. } =
         sample_outcomes(outcomes, clusters, shift, draws)?;
     let estimate = |of: fn(&Lognormal) -> f64, point| {
         let value =
@@ -160,11 +160,11 @@ pub fn fit_outcomes(
 /// # Errors
 /// [`ProcedureError`] for no draws.
 pub fn sample_outcomes(
-    outcomes: &[Outcome],
+    outcomes: &[RecordOutcome],
     clusters: &Clusters,
     shift: f64,
     draws: Draws,
-) -> Result<Sampled, ProcedureError> {
+) -> Result<BootstrapFits, ProcedureError> {
     draws.check()?;
     let mut known: Vec<usize> = outcomes.iter().map(|o| o.record).collect();
     known.sort_unstable();
@@ -172,20 +172,20 @@ pub fn sample_outcomes(
     let clusters = clusters.part(&known);
     let place = |record| known.partition_point(|other| *other < record);
     let Draws { replicates, seed } = draws;
-    let all = Bootstrap::of("counts", seed, &clusters, replicates);
+    let all = Bootstrap::of_clusters("counts", seed, &clusters, replicates);
     let fitted = all.map(|places| {
         let counts = multiplicities(places, clusters.records());
         let of = |record| counts[place(record)];
-        fit_counts_alone(&Outcome::stripes(outcomes, of), shift).ok()
+        fit_counts_alone(&RecordOutcome::stripes(outcomes, of), shift).ok()
     });
-    Ok(Sampled { draws, clusters, fitted })
+    Ok(BootstrapFits { draws, clusters, fitted })
 }
 
-impl Outcome {
+impl RecordOutcome {
     /// Whether each record responds at `edp` (peak |theta|/alpha) or above,
     /// at each intensity up to which it was run; by record.
     #[must_use]
-    pub fn of(
+    pub fn from_curves(
         curves: &[ResponseCurve],
         intensities: &[f64],
         edp: f64,

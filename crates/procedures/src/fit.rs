@@ -10,7 +10,7 @@ use std::str::FromStr;
 use thiserror::Error;
 
 pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
-pub use precision::Needed;
+pub use precision::SampleSize;
 pub use remark::FitRemark;
 
 use crate::capacities;
@@ -262,10 +262,10 @@ pub struct FragilityFit {
     /// The fit by the same method without a shift (USFL).
     pub unshifted: Option<Lognormal>,
     /// What Eqs. 5 to 7 make of the unshifted statistics.
-    pub transformed: Transformed,
+    pub transformed: Transformation,
     /// How many records a precision needs; none where censored values of
     /// shared earthquakes leave the design effect open.
-    pub needed: Option<Needed>,
+    pub needed: Option<SampleSize>,
     /// Bootstrap intervals, where draws were asked for.
     pub bootstrap: Option<FitIntervals>,
     /// Probabilities with their band, where asked for.
@@ -289,7 +289,7 @@ pub struct ShiftInterval {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Transformed {
+pub struct Transformation {
     /// The shift IM_R.
     pub shift: f64,
     /// The constant c of Eq. 7.
@@ -307,11 +307,11 @@ pub struct Transformed {
     pub eq7: Option<Result<f64, FragilityError>>,
 }
 
-impl Transformed {
+impl Transformation {
     /// Eqs. 5 to 7 of an unshifted median and dispersion, and of unshifted
     /// 16 and 84 % quantiles, above `shift`, all intensities in one unit.
     #[must_use]
-    pub fn of(
+    pub fn new(
         (median, dispersion): (Option<f64>, Option<f64>),
         (im16, im84): (Option<f64>, Option<f64>),
         shift: f64,
@@ -332,7 +332,7 @@ impl Transformed {
 /// The distributions fitted to the draws of a sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Sampled {
+pub struct BootstrapFits {
     /// The draws of the bootstrap.
     pub draws: Draws,
     /// What was drawn.
@@ -341,7 +341,7 @@ pub struct Sampled {
     pub fitted: Vec<Option<Lognormal>>,
 }
 
-impl Sampled {
+impl BootstrapFits {
     /// All of them in a unit of which one of theirs has `factor`.
     ///
     /// # Errors
@@ -355,10 +355,10 @@ impl Sampled {
 }
 
 /// One fit of one sample: what every replicate of a bootstrap repeats.
-struct Fitted {
+struct SampleFit {
     fit: LognormalFit,
     unshifted: Option<Lognormal>,
-    transformed: Transformed,
+    transformed: Transformation,
     left_out: usize,
 }
 
@@ -400,13 +400,13 @@ impl FitOptions {
     pub fn sampled(
         &self,
         sample: &CensoredSample,
-    ) -> Result<Option<Sampled>, ProcedureError> {
+    ) -> Result<Option<BootstrapFits>, ProcedureError> {
         self.check(sample)?;
         let Some(draws) = self.draws else { return Ok(None) };
         let clusters = self.clusters(sample);
         let drawn = intervals::replicates(sample, self, &clusters);
         let fitted = drawn.into_iter().map(|(_, fitted)| fitted).collect();
-        Ok(Some(Sampled { draws, clusters, fitted }))
+        Ok(Some(BootstrapFits { draws, clusters, fitted }))
     }
 
     /// The records of a sample, by earthquake where these are known.
@@ -415,7 +415,7 @@ impl FitOptions {
         self.clusters.clone().unwrap_or_else(records)
     }
 
-    fn once(&self, sample: &CensoredSample) -> Result<Fitted, FitError> {
+    fn once(&self, sample: &CensoredSample) -> Result<SampleFit, FitError> {
         let (shift, above) = self.shift.split(sample)?;
         let fit = above.fit(shift, self.method)?;
         let unshifted = sample.fit(0.0, self.method).ok();
@@ -424,9 +424,9 @@ impl FitOptions {
             (unshifted.map(|u| u.median()), unshifted.map(|u| u.dispersion()));
         let at = |p| sample.quantile(self.quantile_type, p);
         let quantiles = (at(0.16), at(0.84));
-        let transformed = Transformed::of(own, quantiles, shift, self.c);
+        let transformed = Transformation::new(own, quantiles, shift, self.c);
         let left_out = sample.len() - above.len();
-        Ok(Fitted { fit, unshifted, transformed, left_out })
+        Ok(SampleFit { fit, unshifted, transformed, left_out })
     }
 }
 
@@ -484,14 +484,14 @@ pub fn fit_sample(
     let replicates = intervals::replicates(sample, options, &clusters);
     let bootstrap = options.draws.map(|draws| {
         let own = (draws, &clusters);
-        FitIntervals::of(sample, options, own, &found, &replicates)
+        FitIntervals::new(sample, options, own, &found, &replicates)
     });
     let band = options.draws.filter(|_| !options.band.is_empty());
     let band = band.map(|draws| {
         let laws = replicates.iter().map(|(_, fitted)| *fitted).collect();
         let clusters = clusters.clone();
-        let sampled = Sampled { draws, clusters, fitted: laws };
-        Band::of(sample, options, &fitted, &sampled)
+        let sampled = BootstrapFits { draws, clusters, fitted: laws };
+        Band::new(sample, options, &fitted, &sampled)
     });
     // The empirical distribution is that of values with one limit.
     let ks_distance =
@@ -502,7 +502,7 @@ pub fn fit_sample(
         n_censored: sample.censored(),
         n_limited: sample.limited(),
         n_left_out: found.left_out,
-        remarks: FitRemark::of(sample, found.left_out),
+        remarks: FitRemark::remarks(sample, found.left_out),
         method: options.method,
         fitted,
         shift_interval,
@@ -515,7 +515,7 @@ pub fn fit_sample(
         im84: at(0.84),
         unshifted: found.unshifted,
         transformed: found.transformed,
-        needed: Needed::of(sample, &fitted, &clusters),
+        needed: SampleSize::for_fit(sample, &fitted, &clusters),
         bootstrap,
         band,
     })

@@ -103,7 +103,8 @@ impl IdaSummary {
         let im = |c: &CurveSummary| c.overturning_im.unwrap_or(f64::INFINITY);
         let ims: Vec<f64> = self.curves.iter().map(im).collect();
         let ims = ExtendedSample::try_new(&ims).ok();
-        let median = |ims| QuantileType::default().of_extended(&ims, 0.5).ok();
+        let median =
+            |ims| QuantileType::default().extended_quantile(&ims, 0.5).ok();
         self.median_overturning_im = ims.and_then(median);
     }
 }

@@ -36,15 +36,15 @@ pub use counts::{
     CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
 };
 pub use fit::{
-    Draws, FitOptions, FitRemark, FragilityFit, LevelFit, ProcedureError,
-    Sampled, Shift, fit_levels, fit_sample,
+    BootstrapFits, Draws, FitOptions, FitRemark, FragilityFit, LevelFit,
+    ProcedureError, Shift, fit_levels, fit_sample,
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use inversion::inversion_discrepancy;
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
-pub use risk::{Exposed, Risk, RiskError, risk};
+pub use risk::{FragilityInput, Risk, RiskError, risk};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 

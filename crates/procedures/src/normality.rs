@@ -6,11 +6,11 @@ use super::{ProcedureError, Shift};
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lilliefors::{
-    Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
-    ShiftedNull, Statistic, Table, Verdict,
+    Inapplicable, LillieforsError, LillieforsTable, LillieforsTest, Null,
+    NullDistribution, Scale, ShiftedNull, Statistic, Verdict,
 };
 use rocking_statistics::normality::{
-    Battery, Calibrated, anderson_darling, cramer_von_mises, shapiro_wilk,
+    Battery, SimulatedTest, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
 use rocking_statistics::{CensoredSample, Estimate, ExtendedSample, Sample};
 
@@ -162,9 +162,10 @@ pub fn test_normality(
     };
     let simulated = simulated(sample, &tested, options)?;
     let null = simulated.as_ref();
-    let source =
-        null.map_or(Null::Table(Table::embedded()), |s| Null::Simulated(&s.1));
-    let found = Assessment::new(&tested, scale, level, source);
+    let source = null.map_or(Null::Table(LillieforsTable::embedded()), |s| {
+        Null::Simulated(&s.1)
+    });
+    let found = LillieforsTest::new(&tested, scale, level, source);
     if let Err(Inapplicable::Test(error @ LillieforsError::Level { .. })) =
         found.verdict
     {
@@ -211,7 +212,8 @@ fn simulated(
         let null = ShiftedNull::smallest_value(values, replicates, seed)?.null;
         return Ok(Some((NullSource::SmallestValue, null)));
     }
-    let is_beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
+    let is_beyond =
+        LillieforsTable::sizes().last().is_none_or(|&(last, _)| n > last);
     let own = is_beyond.then_some(REPLICATES_BEYOND);
     let Some(replicates) = options.replicates.or(own) else {
         return Ok(None);
@@ -234,7 +236,7 @@ fn others(
         let battery =
             Battery::simulate(tested.len(), replicates, options.seed)?;
         return Ok(battery.assess(tested).map_or([None; 3], |tests| {
-            tests.map(|Calibrated { statistic, p_value, .. }| {
+            tests.map(|SimulatedTest { statistic, p_value, .. }| {
                 let verdict = Verdict::at_level(&p_value, options.level);
                 let verdict = Some(verdict);
                 Some(OtherTest { statistic, p_value, verdict })

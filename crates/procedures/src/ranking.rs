@@ -13,7 +13,7 @@ const LEVEL: f64 = 0.95;
 
 /// An intensity measure, and its values of the records of a suite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
+pub struct CandidateMeasure {
     /// Its name.
     pub im: String,
     /// Its value for each record, scaled to PGA/(g tan alpha) = 1.
@@ -67,14 +67,14 @@ pub struct Ranking {
     /// Why there is no slope, where a covariate was given and there is none.
     pub remark: Option<String>,
     /// The measures.
-    pub measures: Vec<Ranked>,
+    pub measures: Vec<MeasureRank>,
 }
 
 /// What was found of one intensity measure.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Ranked {
+pub struct MeasureRank {
     /// Its name, behind `root of` where its root is ranked.
     pub im: String,
     /// Median of the capacities, in the unit of the measure.
@@ -114,10 +114,10 @@ pub struct Slope {
 /// records: these are drawn.
 ///
 /// ```
-/// use rocking_procedures::{Draws, ranking::{Candidate, rank}};
+/// use rocking_procedures::{Draws, ranking::{CandidateMeasure, rank}};
 /// use rocking_statistics::Clusters;
 /// let capacities = [(1.0, 1.0), (2.0, 2.0), (4.0, f64::INFINITY)];
-/// let pga = Candidate {
+/// let pga = CandidateMeasure {
 ///     im: "pga".into(),
 ///     at_uplift: vec![1.0; 3],
 ///     squared: false,
@@ -134,7 +134,7 @@ pub struct Slope {
 /// capacities, and for capacities that make no fit.
 pub fn rank(
     capacities: &[(f64, f64)],
-    candidates: &[Candidate],
+    candidates: &[CandidateMeasure],
     covariates: &[Covariate],
     clusters: &Clusters,
     draws: Draws,
@@ -153,7 +153,7 @@ pub fn rank(
             return Err(ProcedureError::Length { name, found, expected: n });
         }
     }
-    let own = |candidate: &Candidate| -> Vec<(f64, f64)> {
+    let own = |candidate: &CandidateMeasure| -> Vec<(f64, f64)> {
         let root = |x: f64| if candidate.squared { x.sqrt() } else { x };
         let all = capacities.iter().zip(&candidate.at_uplift);
         all.map(|((low, high), factor)| {
@@ -168,7 +168,7 @@ pub fn rank(
         fit.map_or(f64::NAN, |fit| fit.distribution.dispersion())
     };
     let Draws { replicates, seed } = draws;
-    let drawn = Bootstrap::of("rank", seed, clusters, replicates);
+    let drawn = Bootstrap::of_clusters("rank", seed, clusters, replicates);
     let drawn = drawn.map(|places| {
         let pick = |capacities: &Vec<(f64, f64)>| {
             let own: Vec<_> = places.iter().map(|&i| capacities[i]).collect();
@@ -177,7 +177,7 @@ pub fn rank(
         all.iter().map(pick).collect::<Vec<f64>>()
     });
     let first = all.first().map_or(f64::NAN, |first| dispersion(first));
-    let measure = |(i, candidate): (usize, &Candidate)| {
+    let measure = |(i, candidate): (usize, &CandidateMeasure)| {
         let root = if candidate.squared { "root of " } else { "" };
         let im = format!("{root}{}", candidate.im);
         let fit = fit_intervals(&all[i], 0.0).map_err(|source| {
@@ -193,7 +193,7 @@ pub fn rank(
             Ok(Slope { on, line: mixed(&covariate.values, &y, clusters)? })
         };
         let used = covariates.iter().filter(|_| censored == 0);
-        Ok(Ranked {
+        Ok(MeasureRank {
             im,
             median: fit.distribution.median(),
             dispersion: clusters.estimate(point, &column, LEVEL),

@@ -5,7 +5,7 @@ use libm::expm1;
 use thiserror::Error;
 
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
-use crate::{Draws, fit::Sampled};
+use crate::{Draws, fit::BootstrapFits};
 use rocking::stop;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
@@ -50,16 +50,16 @@ pub struct HazardPoint {
 
 /// A fragility in the unit of the hazard curve.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exposed {
+pub struct FragilityInput {
     /// Its name.
     pub fragility: String,
     /// The fragility.
     pub fitted: Lognormal,
     /// What the draws of its sample make of it; none for no interval.
-    pub sampled: Option<Sampled>,
+    pub sampled: Option<BootstrapFits>,
 }
 
-impl Exposed {
+impl FragilityInput {
     /// A fragility that counts as known.
     #[must_use]
     pub fn known(name: &str, fitted: Lognormal) -> Self {
@@ -153,12 +153,12 @@ pub enum RiskError {
 ///
 /// ```
 /// use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
-/// use rocking_procedures::{Exposed, risk};
+/// use rocking_procedures::{FragilityInput, risk};
 /// use rocking_statistics::Lognormal;
 /// let text = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
 /// let hazard = Hazard::parse("h.csv", text, &HazardOptions::default())?;
 /// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
-/// let found = risk(&hazard, &[Exposed::known("block", fragility)], 50.0)?;
+/// let found = risk(&hazard, &[FragilityInput::known("block", fragility)], 50.0)?;
 /// // Cornell's closed form for H = 1e-4 x^-2, median 1, dispersion 0.5.
 /// let cornell = 1e-4 * 0.5f64.exp();
 /// let row = &found.fragilities[0];
@@ -173,7 +173,7 @@ pub enum RiskError {
 /// [`RiskError`] for a time that is no positive number.
 pub fn risk(
     hazard: &Hazard,
-    fragilities: &[Exposed],
+    fragilities: &[FragilityInput],
     years: f64,
 ) -> Result<Risk, RiskError> {
     if !(years > 0.0 && years.is_finite()) {
@@ -185,7 +185,7 @@ pub fn risk(
         annual_frequency,
     };
     let within = |frequency: f64| -expm1(-frequency * years);
-    let row = |one: &Exposed| {
+    let row = |one: &FragilityInput| {
         let found = hazard.curve.annual_frequency(&one.fitted);
         let (lower, upper) = (found.truncation_lower, found.truncation_upper);
         FragilityRisk {
@@ -218,7 +218,7 @@ pub fn risk(
 fn interval(
     hazard: &Hazard,
     (lower, upper): (f64, f64),
-    sampled: &Sampled,
+    sampled: &BootstrapFits,
     within: impl Fn(f64) -> f64,
 ) -> Option<SamplingInterval> {
     let all = sampled.fitted.iter().map(|fitted| {
@@ -259,14 +259,14 @@ mod tests {
         let options = HazardOptions::default();
         let hazard = Hazard::parse("h.csv", text, &options).unwrap();
         let beyond = Lognormal::try_new(5.0, 0.0, 0.1).unwrap();
-        let sampled = Sampled {
+        let sampled = BootstrapFits {
             draws: Draws { replicates: 40, seed: 0 },
             clusters: Clusters::singletons(9),
             fitted: vec![Some(beyond); 40],
         };
-        let one = Exposed {
+        let one = FragilityInput {
             sampled: Some(sampled),
-            ..Exposed::known("block", beyond)
+            ..FragilityInput::known("block", beyond)
         };
         let found = risk(&hazard, &[one], 50.0).unwrap();
         let found = found.fragilities[0].sampling.as_ref().unwrap();

@@ -98,7 +98,7 @@ pub fn stripes(
         let sample = ExtendedSample::try_new(&known)
             .map_err(|_| ProcedureError::NotRun(im))?;
         let quantile = |p| {
-            let value = QuantileType::default().of_extended(&sample, p);
+            let value = QuantileType::default().extended_quantile(&sample, p);
             value.unwrap_or(f64::NAN)
         };
         let exceeded =

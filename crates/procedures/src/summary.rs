@@ -53,7 +53,7 @@ pub fn summarise(
     quantile_type: QuantileType,
 ) -> Result<Summary, QuantileError> {
     let quantile = |&probability: &f64| {
-        let value = quantile_type.of_extended(sample, probability)?;
+        let value = quantile_type.extended_quantile(sample, probability)?;
         Ok(Quantile { probability, value })
     };
     Ok(Summary {

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::bootstrap::{BootstrapEstimate, estimate};
 use super::lilliefors::fast::{LANES, Scratch};
-use super::lilliefors::{Assessment, LillieforsError, standardised};
+use super::lilliefors::{LillieforsError, LillieforsTest, standardised};
 use super::sample::{mean, sum_of_squares};
 use super::{Sample, monte_carlo};
 use crate::streams::{Streams, standard_normal};
@@ -63,8 +63,8 @@ pub struct AcceptedShare {
 impl AcceptedShare {
     /// Counts the decisions of a list of tests.
     #[must_use]
-    pub fn of(assessments: &[Assessment]) -> Self {
-        let decisions = || assessments.iter().map(Assessment::exceeds);
+    pub fn from_tests(tests: &[LillieforsTest]) -> Self {
+        let decisions = || tests.iter().map(LillieforsTest::exceeds);
         Self {
             tested: decisions().flatten().count(),
             accepted: decisions().filter(|d| *d == Some(false)).count(),

@@ -55,12 +55,12 @@ impl Bootstrap {
     /// `replicates` draws out of n records.
     #[must_use]
     pub fn new(name: &str, seed: u64, n: usize, replicates: usize) -> Self {
-        Self::of(name, seed, &Clusters::singletons(n), replicates)
+        Self::of_clusters(name, seed, &Clusters::singletons(n), replicates)
     }
 
     /// `replicates` draws out of the records of clusters.
     #[must_use]
-    pub fn of(
+    pub fn of_clusters(
         name: &str,
         seed: u64,
         clusters: &Clusters,
@@ -111,7 +111,7 @@ pub fn estimate(
     }
     let sample = Sample::try_new(&finite).ok()?;
     let quantile_type = QuantileType::try_new(7).ok()?;
-    let at = |p| quantile_type.of(&sample, p).ok();
+    let at = |p| quantile_type.quantile(&sample, p).ok();
     let spread = sample.sum_of_squares() / (finite.len() as f64 - 1.0);
     let ends = (at(0.5 - 0.5 * level)?, at(0.5 + 0.5 * level)?);
     let interval = Interval::try_new(ends.0, ends.1).ok()?;

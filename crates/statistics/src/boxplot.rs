@@ -94,7 +94,7 @@ impl Boxplot {
             n: sample.len(),
         };
         let at = |p| {
-            let value = quantile_type.of_extended(sample, p).ok();
+            let value = quantile_type.extended_quantile(sample, p).ok();
             value.filter(|x| x.is_finite()).ok_or(infinite)
         };
         let (q1, median, q3) = (at(0.25)?, at(0.5)?, at(0.75)?);

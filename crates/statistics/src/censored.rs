@@ -55,12 +55,12 @@ impl CensoredSample {
     /// The same values without their limits.
     #[must_use]
     pub fn extended(&self) -> ExtendedSample {
-        ExtendedSample::of(&self.values)
+        ExtendedSample::from_valid(&self.values)
     }
 
     /// The values at these places, in this order.
     #[must_use]
-    pub fn at(&self, places: &[usize]) -> Self {
+    pub fn resample(&self, places: &[usize]) -> Self {
         let pick = |&i: &usize| (self.values[i], self.limits[i]);
         let (values, limits) = places.iter().map(pick).unzip();
         Self { values, limits }
@@ -73,7 +73,7 @@ impl CensoredSample {
         let above = |&i: &usize| self.values[i] > least;
         let places: Vec<usize> =
             (0..self.values.len()).filter(above).collect();
-        (least, self.at(&places))
+        (least, self.resample(&places))
     }
 
     /// Number of values.
@@ -103,7 +103,8 @@ impl CensoredSample {
         quantile_type: QuantileType,
         p: f64,
     ) -> Option<f64> {
-        let value = quantile_type.of_extended(&self.extended(), p).ok()?;
+        let value =
+            quantile_type.extended_quantile(&self.extended(), p).ok()?;
         let open = self.limits.iter().flatten().any(|limit| *limit < value);
         (!open || value.is_infinite()).then_some(value)
     }
@@ -151,7 +152,7 @@ impl CensoredSample {
         let (cut, common) = match method {
             FitMethod::MaximumLikelihood => (f64::INFINITY, None),
             FitMethod::Censored(quantile_type) => {
-                let cut = quantile_type.of_extended(&sample, 0.95);
+                let cut = quantile_type.extended_quantile(&sample, 0.95);
                 let cut = cut.unwrap_or(f64::INFINITY);
                 let kept = sample.finite().iter().filter(|x| **x <= cut);
                 (cut, kept.copied().reduce(f64::max))

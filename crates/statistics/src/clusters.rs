@@ -12,7 +12,7 @@ use rocking::names::named;
 
 named! {
     /// What a resampling draws.
-    pub enum Unit: "unit" {
+    pub enum SamplingUnit: "unit" {
         /// Records: no earthquake is known, or none is shared.
         Record = "record",
         /// Earthquakes, each with all its records.
@@ -25,10 +25,10 @@ named! {
 /// Clusters are numbered by their first record.
 ///
 /// ```
-/// use rocking_statistics::clusters::{Clusters, Unit};
+/// use rocking_statistics::clusters::{Clusters, SamplingUnit};
 /// let clusters = Clusters::from_labels(["Kobe", "Izmit", "Kobe"]);
 /// assert_eq!((clusters.records(), clusters.count()), (3, 2));
-/// assert_eq!((clusters.of(2), clusters.members(0)), (0, &[0, 2][..]));
+/// assert_eq!((clusters.cluster_of(2), clusters.members(0)), (0, &[0, 2][..]));
 /// assert_eq!(clusters.without(0), [0, 1, 0]);
 /// assert_eq!(
 ///     clusters.to_string(),
@@ -37,7 +37,7 @@ named! {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
-    unit: Unit,
+    unit: SamplingUnit,
     of: Vec<usize>,
     members: Vec<Vec<usize>>,
 }
@@ -63,19 +63,19 @@ impl Clusters {
         for label in labels.into_iter().enumerate() {
             of.push(place(label));
         }
-        Self { unit: Unit::Earthquake, of, members }
+        Self { unit: SamplingUnit::Earthquake, of, members }
     }
 
     /// Clusters of `n` records without a label: each record is a cluster.
     #[must_use]
     pub fn singletons(n: usize) -> Self {
         let members = (0..n).map(|record| vec![record]).collect();
-        Self { unit: Unit::Record, of: (0..n).collect(), members }
+        Self { unit: SamplingUnit::Record, of: (0..n).collect(), members }
     }
 
     /// What a resampling draws.
     #[must_use]
-    pub fn unit(&self) -> Unit {
+    pub fn unit(&self) -> SamplingUnit {
         self.unit
     }
 
@@ -93,7 +93,7 @@ impl Clusters {
 
     /// The cluster of a record.
     #[must_use]
-    pub fn of(&self, record: usize) -> usize {
+    pub fn cluster_of(&self, record: usize) -> usize {
         self.of[record]
     }
 
@@ -114,8 +114,8 @@ impl Clusters {
     pub fn part(&self, records: &[usize]) -> Self {
         let labels = records.iter().map(|record| self.of[*record].to_string());
         match self.unit {
-            Unit::Record => Self::singletons(records.len()),
-            Unit::Earthquake => Self::from_labels(labels),
+            SamplingUnit::Record => Self::singletons(records.len()),
+            SamplingUnit::Earthquake => Self::from_labels(labels),
         }
     }
 
@@ -244,8 +244,10 @@ impl std::fmt::Display for Clusters {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let records = self.records();
         match self.unit {
-            Unit::Record => write!(f, "{records} records; unit: record"),
-            Unit::Earthquake => write!(
+            SamplingUnit::Record => {
+                write!(f, "{records} records; unit: record")
+            }
+            SamplingUnit::Earthquake => write!(
                 f,
                 "{records} records of {} earthquakes; unit: earthquake",
                 self.count()
@@ -282,7 +284,7 @@ mod tests {
     fn records_of_earthquakes_of_their_own_are_drawn_as_records() {
         let clusters = Clusters::from_labels(["a", "b", "c", "d"]);
         assert!(clusters.is_singletons());
-        assert_eq!(clusters.unit(), Unit::Earthquake);
+        assert_eq!(clusters.unit(), SamplingUnit::Earthquake);
         let drawn = clusters.multiplicities("test", 0, 5);
         let records = Clusters::singletons(4);
         assert_eq!(drawn, records.multiplicities("test", 0, 5));
@@ -293,7 +295,7 @@ mod tests {
     fn subsamples_hold_whole_clusters() {
         let labels = ["a", "b", "c", "d", "e"].repeat(4);
         let clusters = Clusters::from_labels(labels);
-        let drawn = Subsampling::of("test", 0, &clusters, 13);
+        let drawn = Subsampling::of_clusters("test", 0, &clusters, 13);
         for index in 0..20 {
             let counts = drawn.multiplicities(index);
             let first: u32 = counts[..5].iter().sum();

@@ -136,11 +136,11 @@ impl<'de> serde::Deserialize<'de> for Interval {
         from: D,
     ) -> Result<Self, D::Error> {
         #[derive(serde::Deserialize)]
-        struct Ends {
+        struct IntervalEnds {
             low: f64,
             high: f64,
         }
-        let Ends { low, high } = Ends::deserialize(from)?;
+        let IntervalEnds { low, high } = IntervalEnds::deserialize(from)?;
         Self::try_new(low, high).map_err(serde::de::Error::custom)
     }
 }
@@ -326,8 +326,8 @@ pub mod keys {
         to: S,
     ) -> Result<S::Ok, S::Error> {
         #[derive(serde::Serialize)]
-        struct Value(#[serde(serialize_with = "value")] Estimate);
-        estimate.map(Value).serialize(to)
+        struct NamedValue(#[serde(serialize_with = "value")] Estimate);
+        estimate.map(NamedValue).serialize(to)
     }
 
     keys! {

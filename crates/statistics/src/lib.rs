@@ -3,7 +3,7 @@
 //! | input | result | function |
 //! |---|---|---|
 //! | capacities | a lognormal fragility, with or without a shift | [`lognormal::fit`] |
-//! | a sample | a test of lognormality | [`lilliefors::Assessment`] |
+//! | a sample | a test of lognormality | [`lilliefors::LillieforsTest`] |
 //! | a sample | quantiles by named type | [`quantile`] |
 //! | samples of the same records | a comparison | [`paired`] |
 //! | a statistic and clusters of records | an interval | [`bootstrap`] |

@@ -2,7 +2,7 @@
 //!
 //! Lilliefors, "On the Kolmogorov-Smirnov test for normality with mean and
 //! variance unknown", JASA 62 (1967) 399. The null distribution of D depends
-//! on n alone. [`Table`] holds critical values simulated by
+//! on n alone. [`LillieforsTable`] holds critical values simulated by
 //! [`NullDistribution`] and p-values between them; published tables and
 //! other packages' are not used.
 
@@ -14,10 +14,10 @@ mod table;
 
 use thiserror::Error;
 
-pub use assess::{Assessment, Inapplicable, Null, Scale};
+pub use assess::{Inapplicable, LillieforsTest, Null, Scale};
 pub use shift::ShiftedNull;
 pub use simulation::{CriticalValue, NullDistribution};
-pub use table::Table;
+pub use table::LillieforsTable;
 
 use std::fmt;
 

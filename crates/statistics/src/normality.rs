@@ -8,7 +8,7 @@ mod shapiro_wilk;
 
 use libm::exp;
 
-pub use battery::{Battery, Calibrated};
+pub use battery::{Battery, SimulatedTest};
 pub use shapiro_wilk::shapiro_wilk;
 
 use super::lilliefors::{LillieforsError, standardised};
@@ -17,7 +17,7 @@ use super::{Sample, normal};
 /// A statistic and its p-value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Test {
+pub struct NormalityTest {
     /// The statistic, not modified for the sample's size.
     pub statistic: f64,
     /// Its p-value, by the published approximation.
@@ -41,7 +41,9 @@ pub struct Test {
 ///
 /// # Errors
 /// [`LillieforsError`] for fewer than 4 values or values that don't vary.
-pub fn anderson_darling(sample: &Sample) -> Result<Test, LillieforsError> {
+pub fn anderson_darling(
+    sample: &Sample,
+) -> Result<NormalityTest, LillieforsError> {
     let scores = standardised(sample)?;
     let n = scores.len() as f64;
     let statistic = a2(&scores);
@@ -57,7 +59,7 @@ pub fn anderson_darling(sample: &Sample) -> Result<Test, LillieforsError> {
     } else {
         3.7e-24
     };
-    Ok(Test { statistic, p_value })
+    Ok(NormalityTest { statistic, p_value })
 }
 
 /// Cramer-von Mises' W^2 = 1/(12 n) + sum [F_i - (2i - 1)/(2n)]^2.
@@ -66,7 +68,9 @@ pub fn anderson_darling(sample: &Sample) -> Result<Test, LillieforsError> {
 ///
 /// # Errors
 /// [`LillieforsError`] for fewer than 4 values or values that don't vary.
-pub fn cramer_von_mises(sample: &Sample) -> Result<Test, LillieforsError> {
+pub fn cramer_von_mises(
+    sample: &Sample,
+) -> Result<NormalityTest, LillieforsError> {
     let scores = standardised(sample)?;
     let n = scores.len() as f64;
     let statistic = w2(&scores);
@@ -82,7 +86,7 @@ pub fn cramer_von_mises(sample: &Sample) -> Result<Test, LillieforsError> {
     } else {
         7.37e-10
     };
-    Ok(Test { statistic, p_value })
+    Ok(NormalityTest { statistic, p_value })
 }
 
 /// A^2 of ascending scores.

@@ -155,12 +155,12 @@ impl SignTest {
     ///
     /// ```
     /// use rocking_statistics::paired::SignTest;
-    /// let test = SignTest::of(&[1.1, 1.2, 1.3, 1.4, 1.5, 0.9], 1.0);
+    /// let test = SignTest::about(&[1.1, 1.2, 1.3, 1.4, 1.5, 0.9], 1.0);
     /// assert_eq!((test.above, test.below), (5, 1));
     /// assert!((test.p_value - 14.0 / 64.0).abs() < 1e-14);
     /// ```
     #[must_use]
-    pub fn of(values: &[f64], centre: f64) -> Self {
+    pub fn about(values: &[f64], centre: f64) -> Self {
         let above = values.iter().filter(|&&x| x > centre).count();
         let below = values.iter().filter(|&&x| x < centre).count();
         let equal = values.len() - above - below;

@@ -50,14 +50,14 @@ impl Power {
     /// // Standard error 1, limit at 1, one-sided limits of 5 %.
     /// let normal: Vec<f64> =
     ///     (1..1000).map(|i| quantile(1e-3 * f64::from(i))).collect();
-    /// let found = Power::of((0.0, -1.645, 1.645), 1.0, &normal, |_, high| {
+    /// let found = Power::of_measure((0.0, -1.645, 1.645), 1.0, &normal, |_, high| {
     ///     high < 1.0
     /// });
     /// assert!((found.probability - 0.26).abs() < 0.002);
     /// assert!((found.times - 2.486_f64.powi(2)).abs() < 0.05);
     /// ```
     #[must_use]
-    pub fn of(
+    pub fn of_measure(
         (point, low, high): (f64, f64, f64),
         student: f64,
         deviations: &[f64],

@@ -28,8 +28,8 @@ pub enum QuantileError {
 /// use rocking_statistics::{QuantileType, Sample};
 /// let sample = Sample::try_new(&[1.0, 2.0, 3.0, 4.0])?;
 /// let type_5 = QuantileType::default();
-/// assert_eq!(type_5.of(&sample, 0.25)?, 1.5);
-/// assert_eq!(QuantileType::try_new(7)?.of(&sample, 0.25)?, 1.75);
+/// assert_eq!(type_5.quantile(&sample, 0.25)?, 1.5);
+/// assert_eq!(QuantileType::try_new(7)?.quantile(&sample, 0.25)?, 1.75);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,11 @@ impl QuantileType {
     ///
     /// # Errors
     /// [`QuantileError::Probability`] outside [0, 1].
-    pub fn of(self, sample: &Sample, p: f64) -> Result<f64, QuantileError> {
+    pub fn quantile(
+        self,
+        sample: &Sample,
+        p: f64,
+    ) -> Result<f64, QuantileError> {
         self.of_sorted(sample.sorted(), p)
     }
 
@@ -78,7 +82,7 @@ impl QuantileType {
     ///
     /// # Errors
     /// [`QuantileError::Probability`] outside [0, 1].
-    pub fn of_extended(
+    pub fn extended_quantile(
         self,
         sample: &ExtendedSample,
         p: f64,

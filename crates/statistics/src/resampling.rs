@@ -65,7 +65,7 @@ impl Clusters {
         seed: u64,
         index: u64,
     ) -> Vec<u32> {
-        Bootstrap::of(name, seed, self, 1).multiplicities(index)
+        Bootstrap::of_clusters(name, seed, self, 1).multiplicities(index)
     }
 }
 
@@ -85,13 +85,13 @@ impl Subsampling {
     /// larger.
     #[must_use]
     pub fn new(name: &str, seed: u64, n: usize, size: usize) -> Self {
-        Self::of(name, seed, &Clusters::singletons(n), size)
+        Self::of_clusters(name, seed, &Clusters::singletons(n), size)
     }
 
     /// Subsamples of the clusters whose share of all is nearest to that of
     /// `size` among the records. A subsample holds about `size` records.
     #[must_use]
-    pub fn of(
+    pub fn of_clusters(
         name: &str,
         seed: u64,
         clusters: &Clusters,
@@ -206,16 +206,16 @@ fn finite_mean(values: &[f64]) -> f64 {
 /// never reached.
 ///
 /// ```
-/// use rocking_statistics::resampling::Ranked;
-/// let ranked = Ranked::new(&[4.0, 1.0, 2.0]);
+/// use rocking_statistics::resampling::RecordRanks;
+/// let ranked = RecordRanks::new(&[4.0, 1.0, 2.0]);
 /// assert_eq!(ranked.median(&[1, 1, 1]), 2.0);
 /// // The first record twice, the second not at all.
 /// assert_eq!(ranked.median(&[2, 0, 1]), 4.0);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Ranked(Vec<(f64, usize)>);
+pub struct RecordRanks(Vec<(f64, usize)>);
 
-impl Ranked {
+impl RecordRanks {
     /// The values by record; NaN is none.
     #[must_use]
     pub fn new(values: &[f64]) -> Self {
@@ -265,11 +265,11 @@ impl Ranked {
         let rank = (position + fuzz).floor();
         let weight = position - rank;
         let last = f64::from(n);
-        let low = self.at(counts, rank.clamp(1.0, last));
+        let low = self.value_at(counts, rank.clamp(1.0, last));
         if weight <= fuzz {
             return low;
         }
-        let high = self.at(counts, (rank + 1.0).clamp(1.0, last));
+        let high = self.value_at(counts, (rank + 1.0).clamp(1.0, last));
         if low == high || high == f64::INFINITY {
             return high;
         }
@@ -277,7 +277,7 @@ impl Ranked {
     }
 
     /// The value of a rank, from 1.
-    fn at(&self, counts: &[u32], rank: f64) -> f64 {
+    fn value_at(&self, counts: &[u32], rank: f64) -> f64 {
         let mut passed = 0.0;
         for (x, record) in &self.0 {
             passed += f64::from(counts[*record]);
@@ -346,13 +346,14 @@ mod tests {
     #[test]
     fn quantiles_of_a_replicate_are_those_of_its_values() {
         let values = [3.0, 1.0, f64::INFINITY, 2.0, f64::NAN, 8.0, 5.0];
-        let ranked = Ranked::new(&values);
+        let ranked = RecordRanks::new(&values);
         for counts in [[1; 7], [2, 0, 1, 3, 4, 0, 1], [0, 1, 3, 0, 0, 1, 0]] {
             let drawn = ranked.drawn(&counts);
             let sample = ExtendedSample::try_new(&drawn).unwrap();
             for p in [0.0, 0.16, 0.25, 0.5, 0.84, 0.9, 1.0] {
-                let expected =
-                    QuantileType::default().of_extended(&sample, p).unwrap();
+                let expected = QuantileType::default()
+                    .extended_quantile(&sample, p)
+                    .unwrap();
                 assert_eq!(ranked.quantile(&counts, p), expected, "{p}");
             }
         }

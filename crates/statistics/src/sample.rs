@@ -62,7 +62,7 @@ impl Sample {
     }
 
     /// A sample of values that are known to be finite, at least one.
-    pub(super) fn of(mut values: Vec<f64>) -> Self {
+    pub(super) fn from_finite(mut values: Vec<f64>) -> Self {
         values.sort_unstable_by(f64::total_cmp);
         Self { sorted: values }
     }
@@ -142,7 +142,7 @@ impl ExtendedSample {
     }
 
     /// A sample of values that are known to make one.
-    pub(super) fn of(values: &[f64]) -> Self {
+    pub(super) fn from_valid(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let finite = sorted.partition_point(|x| x.is_finite());

@@ -6,7 +6,7 @@ use rocking::stop;
 /// Kolmogorov and Smirnov's comparison of two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Comparison {
+pub struct TwoSampleTest {
     /// Largest distance of the empirical distributions.
     pub statistic: f64,
     /// Probability of one at least as large among all orders in which the
@@ -35,7 +35,7 @@ pub struct Comparison {
 pub fn kolmogorov_smirnov(
     a: &ExtendedSample,
     b: &ExtendedSample,
-) -> Comparison {
+) -> TwoSampleTest {
     let (x, y) = (a.sorted(), b.sorted());
     let (n, m) = (x.len(), y.len());
     // Distances times n m are whole numbers.
@@ -63,7 +63,7 @@ pub fn kolmogorov_smirnov(
         }
     }
     let statistic = largest as f64 / (n * m) as f64;
-    Comparison { statistic, p_value: share[m] }
+    TwoSampleTest { statistic, p_value: share[m] }
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ impl Surrogate {
         let middle = |values: Vec<f64>| {
             let sample = Sample::try_new(&values)?;
             // The median exists at every size.
-            let median = QuantileType::default().of(&sample, 0.5);
+            let median = QuantileType::default().quantile(&sample, 0.5);
             Ok::<f64, SurrogateError>(median.unwrap_or(f64::NAN))
         };
         let median = |b: &Fitted| half(b.median_low, b.median_high) / b.median;

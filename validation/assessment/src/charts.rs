@@ -8,7 +8,7 @@ use rocking_draw::figures::{
 use rocking_draw::markup;
 use rocking_draw::panel::Marker;
 use rocking_procedures::StripeResponses;
-use rocking_procedures::assess::{Assessed, Assessment};
+use rocking_procedures::assess::{Assessment, ObjectAssessment};
 
 use crate::words::{measure, short};
 
@@ -16,7 +16,7 @@ use crate::words::{measure, short};
 const TALLEST_PX: f64 = 150.0;
 
 /// The objects side by side, to scale.
-pub(crate) fn sketch(objects: &[Assessed]) -> Markup {
+pub(crate) fn sketch(objects: &[ObjectAssessment]) -> Markup {
     let tallest = objects.iter().map(|o| o.height_m).fold(0.0, f64::max);
     let scale = TALLEST_PX / tallest;
     let mut x = 10.0;
@@ -58,7 +58,11 @@ pub(crate) fn sketch(objects: &[Assessed]) -> Markup {
 }
 
 /// Fragility, response and, under a hazard curve, risk by intensity.
-pub(crate) fn curves(found: &Assessment, one: &Assessed, k: usize) -> Chart {
+pub(crate) fn curves(
+    found: &Assessment,
+    one: &ObjectAssessment,
+    k: usize,
+) -> Chart {
     let axis = format!("{} ({})", measure(found), found.unit);
     let mut panels = vec![fragility(one, &axis), response(one)];
     panels.extend(risk(one, &axis));
@@ -71,7 +75,7 @@ pub(crate) fn curves(found: &Assessment, one: &Assessed, k: usize) -> Chart {
     Chart { heading, panels, columns }
 }
 
-fn fragility(one: &Assessed, axis: &str) -> ChartPanel {
+fn fragility(one: &ObjectAssessment, axis: &str) -> ChartPanel {
     let band = one.fragility.band.iter().flat_map(|b| &b.points);
     let last = one.answer.fitted.quantile(0.98);
     let band: Vec<_> = band.filter(|p| p.intensity <= last).collect();
@@ -94,7 +98,7 @@ fn fragility(one: &Assessed, axis: &str) -> ChartPanel {
     )
 }
 
-fn response(one: &Assessed) -> ChartPanel {
+fn response(one: &ObjectAssessment) -> ChartPanel {
     let quantile = |name: &str, of: fn(&StripeResponses) -> f64| {
         let y = one.ida.iter().map(|s| s.intensity).collect();
         Series::new(name, Mark::Line, one.ida.iter().map(of).collect(), y)
@@ -117,7 +121,7 @@ fn response(one: &Assessed) -> ChartPanel {
     )
 }
 
-fn risk(one: &Assessed, axis: &str) -> Option<ChartPanel> {
+fn risk(one: &ObjectAssessment, axis: &str) -> Option<ChartPanel> {
     let last = one.contributions.last()?;
     let parts = one.contributions.iter().map(|c| c.annual_frequency);
     let total: f64 = parts.clone().sum();

@@ -5,7 +5,7 @@ use rocking_common::table::columns::{
 };
 use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, ExchangeFormat, Id, LimitState};
-use rocking_procedures::assess::{Assessed, Assessment};
+use rocking_procedures::assess::{Assessment, ObjectAssessment};
 use serde::Serialize;
 
 use crate::About;
@@ -14,7 +14,7 @@ use crate::About;
 const SCHEMA: u32 = 1;
 
 #[derive(Serialize)]
-struct File<'a> {
+struct AssessmentFile<'a> {
     schema: u32,
     version: &'static str,
     #[serde(flatten)]
@@ -37,7 +37,7 @@ pub fn json(found: &Assessment, about: &About) -> anyhow::Result<String> {
     let provenance =
         provenance.map(|(what, is)| Provenance { what, is }).collect();
     let version = env!("CARGO_PKG_VERSION");
-    let file = File { schema: SCHEMA, version, found, provenance };
+    let file = AssessmentFile { schema: SCHEMA, version, found, provenance };
     Ok(serde_json::to_string_pretty(&file)? + "\n")
 }
 
@@ -105,7 +105,7 @@ pub(crate) fn exchanged(
     found: &Assessment,
     format: &ExchangeFormat,
 ) -> anyhow::Result<Vec<(String, String)>> {
-    let fragility = |one: &Assessed| {
+    let fragility = |one: &ObjectAssessment| {
         let id = |name: &str| {
             name.parse::<Id>()
                 .map_err(|error| anyhow::anyhow!("{name}: {error}"))

@@ -16,7 +16,7 @@ use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::ExchangeFormat;
 use rocking_procedures::assess::{
-    Alternative, Assessed, Assessment, Damage, Object,
+    Alternative, Assessment, Damage, Object, ObjectAssessment,
 };
 use rocking_statistics::Interval;
 use rocking_surrogate::Surrogate;
@@ -158,7 +158,7 @@ fn table(label: &str, heads: &[String], rows: &[Vec<String>]) -> Markup {
 
 /// What friction makes of the answers.
 fn sliding(found: &Assessment) -> Markup {
-    let ids = |of: &dyn Fn(&Assessed) -> bool| {
+    let ids = |of: &dyn Fn(&ObjectAssessment) -> bool| {
         let all = found.objects.iter().filter(|one| of(one));
         let all: Vec<&str> = all.map(|one| one.id.as_str()).collect();
         all.join(", ")
@@ -190,7 +190,7 @@ fn together(found: &Assessment) -> Markup {
     heads.extend(risk_heads(found));
     heads.push(format!("{im} of 5 %, {unit}"));
     heads.push(format!("{im} of 50 %, {unit}"));
-    let row = |row: &rocking_procedures::assess::Together| {
+    let row = |row: &rocking_procedures::assess::JointDamage| {
         let first = format!("{} or more", row.at_least);
         let mut cells = vec![first];
         cells.extend(answer_cells(&row.answer));
@@ -219,7 +219,7 @@ fn together(found: &Assessment) -> Markup {
     }
 }
 
-fn object(found: &Assessment, one: &Assessed, k: usize) -> Markup {
+fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
     let chart = charts::curves(found, one, k).figure(String::new());
     let (im, unit) = (measure(found), found.unit);
     let mut heads = vec!["Assumption".to_owned()];
@@ -280,7 +280,7 @@ fn object(found: &Assessment, one: &Assessed, k: usize) -> Markup {
 }
 
 /// What else an engineer wants to know of an object.
-fn remarks(found: &Assessment, one: &Assessed) -> Markup {
+fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
     let (im, unit) = (measure(found), found.unit);
     let damaging = one.by_record.iter().filter(|r| r.damages).take(NAMED);
     let damaging: Vec<String> =

@@ -1,7 +1,9 @@
 //! The numbers of an assessment in words.
 
 use rocking_common::words::{columns, percent, rounded};
-use rocking_procedures::assess::{Answer, Assessed, Assessment, Damage};
+use rocking_procedures::assess::{
+    Answer, Assessment, Damage, ObjectAssessment,
+};
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Estimate;
 
@@ -45,7 +47,7 @@ pub(crate) fn measure(found: &Assessment) -> String {
 }
 
 /// What counts as damage, as a noun.
-pub(crate) fn damage(one: &Assessed) -> String {
+pub(crate) fn damage(one: &ObjectAssessment) -> String {
     match one.damage {
         Damage::Overturning => "overturning".to_owned(),
         Damage::Rotation(ratio) => {
@@ -115,7 +117,10 @@ pub(crate) fn answer_cells(answer: &Answer) -> Vec<String> {
 }
 
 /// The row of an object, cell by cell.
-pub(crate) fn ranked(found: &Assessment, one: &Assessed) -> Vec<String> {
+pub(crate) fn ranked(
+    found: &Assessment,
+    one: &ObjectAssessment,
+) -> Vec<String> {
     let mut cells = vec![one.id.clone(), one.damage.to_string()];
     cells.extend(answer_cells(&one.answer));
     if found.objects.len() > 1 {

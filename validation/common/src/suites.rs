@@ -11,7 +11,7 @@ use std::path::Path;
 use rocking::accelerogram::Accelerogram;
 use rocking_records::{Processing, ReadOptions, SetAside, SuiteMember};
 use rocking_statistics::Clusters;
-use rocking_statistics::clusters::Unit;
+use rocking_statistics::clusters::SamplingUnit;
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 
@@ -199,7 +199,7 @@ pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
 /// Number of earthquakes, where they are known.
 #[must_use]
 pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
-    (clusters.unit() == Unit::Earthquake).then_some(clusters.count())
+    (clusters.unit() == SamplingUnit::Earthquake).then_some(clusters.count())
 }
 
 /// Sampling interval and samples, added to a hash.

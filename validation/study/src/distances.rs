@@ -7,7 +7,7 @@
 
 use libm::log;
 use rocking_statistics::acceptance::distances;
-use rocking_statistics::lilliefors::{Assessment, Table};
+use rocking_statistics::lilliefors::{LillieforsTable, LillieforsTest};
 
 use crate::distributions::{BlockSamples, factors, scaled};
 use crate::estimates::mean;
@@ -97,7 +97,7 @@ impl OverLevels {
 /// Mean of D for a lognormal of n records, and its critical value; NaN
 /// outside the table.
 fn null(n: usize) -> (f64, f64) {
-    let table = Table::embedded();
+    let table = LillieforsTable::embedded();
     let critical = table.critical_value(n, LEVEL).map_or(f64::NAN, |c| c.0);
     (table.mean(n).unwrap_or(f64::NAN), critical)
 }
@@ -242,8 +242,9 @@ fn value(
     block: &BlockSamples,
     factors: Option<&[f64]>,
 ) -> OverLevels {
-    let of = |assessments: &[Assessment]| {
-        let d = |test: &Assessment| test.statistic.map_or(f64::NAN, |s| s.d);
+    let of = |assessments: &[LillieforsTest]| {
+        let d =
+            |test: &LillieforsTest| test.statistic.map_or(f64::NAN, |s| s.d);
         let found: Vec<f64> = assessments.iter().map(d).collect();
         let n = block.samples.first().map_or(0, Vec::len);
         let accepted = accepted_share(assessments);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking_statistics::acceptance::NullBand;
-use rocking_statistics::lilliefors::Assessment;
+use rocking_statistics::lilliefors::LillieforsTest;
 
 use crate::facts::Facts;
 use crate::normality::{accepted_share, along, null_band};
@@ -24,9 +24,9 @@ pub struct BlockSamples {
     /// Capacities by level of [`demands`], then by record.
     pub samples: Vec<Vec<f64>>,
     /// The test of ln x by level.
-    pub original: Vec<Assessment>,
+    pub original: Vec<LillieforsTest>,
     /// The test of ln(x - shift) by level.
-    pub shifted: Vec<Assessment>,
+    pub shifted: Vec<LillieforsTest>,
     /// Null bands of the two accepted shares, in the plan's common arm.
     pub bands: [Option<NullBand>; 2],
 }

@@ -38,7 +38,7 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
 /// counts as infinite.
 pub(crate) fn three_quantiles(values: &[f64]) -> anyhow::Result<[f64; 3]> {
     let sample = ExtendedSample::try_new(values)?;
-    let at = |p| QuantileType::default().of_extended(&sample, p);
+    let at = |p| QuantileType::default().extended_quantile(&sample, p);
     Ok([at(0.16)?, at(0.5)?, at(0.84)?])
 }
 

@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 use rocking_statistics::acceptance::{AcceptedShare, NullBand};
-use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::lilliefors::{
+    LillieforsTable, LillieforsTest, Null, Scale,
+};
 use rocking_statistics::{ExtendedSample, Interval, SampleError};
 
 /// Level of the tests.
@@ -16,14 +18,14 @@ pub const LEVEL: f64 = 0.05;
 pub fn along(
     samples: &[Vec<f64>],
     shift: f64,
-) -> Result<Vec<Assessment>, SampleError> {
+) -> Result<Vec<LillieforsTest>, SampleError> {
     let scale = Scale::Logarithmic { shift };
-    let null = Null::Table(Table::embedded());
+    let null = Null::Table(LillieforsTable::embedded());
     samples
         .par_iter()
         .map(|sample| {
             let sample = ExtendedSample::try_new(sample)?;
-            Ok(Assessment::new(&sample, scale, LEVEL, null))
+            Ok(LillieforsTest::new(&sample, scale, LEVEL, null))
         })
         .collect()
 }
@@ -31,15 +33,15 @@ pub fn along(
 /// D over its critical value: lognormality is accepted up to 1. NaN where
 /// the test does not apply.
 #[must_use]
-pub fn over_critical(assessment: &Assessment) -> f64 {
+pub fn over_critical(assessment: &LillieforsTest) -> f64 {
     assessment.ratio().unwrap_or(f64::NAN)
 }
 
 /// Share of the levels at which lognormality is accepted, of those tested;
 /// NaN if none was.
 #[must_use]
-pub fn accepted_share(assessments: &[Assessment]) -> f64 {
-    AcceptedShare::of(assessments).share().unwrap_or(f64::NAN)
+pub fn accepted_share(assessments: &[LillieforsTest]) -> f64 {
+    AcceptedShare::from_tests(assessments).share().unwrap_or(f64::NAN)
 }
 
 /// Every so many levels enter the null band, which a denser choice does not
@@ -70,7 +72,8 @@ pub fn null_band(
         return None;
     }
     let size = samples.first()?.len();
-    let (critical, _) = Table::embedded().critical_value(size, LEVEL).ok()?;
+    let (critical, _) =
+        LillieforsTable::embedded().critical_value(size, LEVEL).ok()?;
     NullBand::simulate(&levels, critical, BAND_REPLICATES, name, 0).ok()
 }
 

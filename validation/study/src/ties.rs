@@ -3,7 +3,9 @@
 
 use libm::{exp, log, tan};
 use rayon::prelude::*;
-use rocking_statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking_statistics::lilliefors::{
+    LillieforsTable, LillieforsTest, Null, Scale,
+};
 use rocking_statistics::lognormal::fit;
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
@@ -36,16 +38,16 @@ fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
 /// on that grid; none where there is no fit.
 pub(crate) fn critical_on_grid(block: &BlockSamples) -> Option<f64> {
     let (truth, step, n) = overturnings(block)?;
-    let ratios = on_grid(&truth, step, n, Assessment::ratio);
+    let ratios = on_grid(&truth, step, n, LillieforsTest::ratio);
     let ratios: Vec<f64> = ratios.into_iter().flatten().collect();
     let sample = Sample::try_new(&ratios).ok()?;
-    QuantileType::default().of(&sample, 1.0 - LEVEL).ok()
+    QuantileType::default().quantile(&sample, 1.0 - LEVEL).ok()
 }
 
 /// Share of samples of `n` capacities of a shifted lognormal that the
 /// shifted test rejects after they were put on the next multiple of `step`.
 fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
-    let rejected = on_grid(truth, step, n, Assessment::exceeds);
+    let rejected = on_grid(truth, step, n, LillieforsTest::exceeds);
     let count = rejected.into_iter().filter(|r| r.unwrap_or(true)).count();
     count as f64 / DRAWS as f64
 }
@@ -56,7 +58,7 @@ fn on_grid<T: Send>(
     truth: &Lognormal,
     step: f64,
     n: usize,
-    of: impl Fn(&Assessment) -> Option<T> + Sync,
+    of: impl Fn(&LillieforsTest) -> Option<T> + Sync,
 ) -> Vec<Option<T>> {
     let streams = Streams::new("study/grid alone", 0);
     let shift = truth.shift();
@@ -78,8 +80,8 @@ fn on_grid<T: Send>(
                 })
                 .collect();
             let sample = ExtendedSample::try_new(&logs).ok()?;
-            let null = Null::Table(Table::embedded());
-            of(&Assessment::new(&sample, scale, LEVEL, null))
+            let null = Null::Table(LillieforsTable::embedded());
+            of(&LillieforsTest::new(&sample, scale, LEVEL, null))
         })
         .collect()
 }

@@ -1,11 +1,12 @@
 //! What intensities of damage say of an object: fits, intervals and risk.
 
 use super::Answer;
-use super::ground::{Ground, LEVEL};
-use crate::fit::Sampled;
+use super::ground::{AssessmentSuite, LEVEL};
+use crate::fit::BootstrapFits;
 use crate::fragility::hazard::Hazard;
 use crate::{
-    Exposed, FitOptions, FragilityFit, ProcedureError, Shift, fit_sample, risk,
+    FitOptions, FragilityFit, FragilityInput, ProcedureError, Shift,
+    fit_sample, risk,
 };
 use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 
@@ -15,7 +16,7 @@ const SMALL: f64 = 0.05;
 /// Intensities at which a fragility is drawn.
 const POINTS: usize = 40;
 
-impl Ground<'_> {
+impl AssessmentSuite<'_> {
     fn sample(
         values: &[(f64, f64)],
     ) -> Result<CensoredSample, ProcedureError> {
@@ -97,7 +98,11 @@ impl Ground<'_> {
         Ok((answer, keys))
     }
 
-    fn answer(&self, fitted: Lognormal, sampled: Option<Sampled>) -> Answer {
+    fn answer(
+        &self,
+        fitted: Lognormal,
+        sampled: Option<BootstrapFits>,
+    ) -> Answer {
         let at = |p: f64| {
             let point = fitted.quantile(p);
             let found = sampled.as_ref().and_then(|all| {
@@ -112,7 +117,8 @@ impl Ground<'_> {
         let (median_im, small_im) = (at(0.5), at(SMALL));
         let exposed = |hazard: &Hazard| {
             let fragility = String::new();
-            let one = Exposed { fragility, fitted, sampled: sampled.clone() };
+            let one =
+                FragilityInput { fragility, fitted, sampled: sampled.clone() };
             let found = risk(hazard, &[one], self.options.years).ok()?;
             found.fragilities.into_iter().next()
         };

@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
 
 use super::{
-    Alternative, AssessError, AssessOptions, Assessed, Assumption, Damage,
-    LEAST_RECORDS, NamedFloor, Object, RecordCapacity, Together,
+    Alternative, AssessError, AssessOptions, Assumption, Damage, JointDamage,
+    LEAST_RECORDS, NamedFloor, Object, ObjectAssessment, RecordCapacity,
 };
 use crate::fragility::hazard::{Hazard, HazardMeasure};
 use crate::pivot::needs_more;
-use crate::ranking::Candidate;
+use crate::ranking::CandidateMeasure;
 use crate::{ProcedureError, Ranking, StripeResponses, capacities, rank};
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
@@ -41,14 +41,14 @@ const REACH: f64 = 2.0;
 const STEP_G: f64 = 0.01;
 
 /// The motions of the ground, or of one floor, under all records.
-struct Moved {
+struct ObjectMotion {
     floor: Option<Floor>,
     normalised: Vec<NormalisedRecord>,
     pga_g: Vec<f64>,
 }
 
-impl Moved {
-    fn of(
+impl ObjectMotion {
+    fn new(
         records: &[Accelerogram],
         floor: Option<&NamedFloor>,
     ) -> Result<Self, AssessError> {
@@ -71,9 +71,9 @@ impl Moved {
 }
 
 /// The records of one assessment, measured.
-pub(super) struct Ground<'a> {
+pub(super) struct AssessmentSuite<'a> {
     names: Vec<&'a str>,
-    moved: Vec<Moved>,
+    moved: Vec<ObjectMotion>,
     measures: Vec<Measures>,
     settings: Settings,
     pub(super) clusters: &'a Clusters,
@@ -84,8 +84,8 @@ pub(super) struct Ground<'a> {
 }
 
 /// One object, and what is needed to set it beside the others.
-pub(super) struct Found {
-    pub(super) assessed: Assessed,
+pub(super) struct ObjectResult {
+    pub(super) assessed: ObjectAssessment,
     /// Its intensities of damage by record: (value, value), or (limit,
     /// infinity).
     pub(super) intervals: Vec<(f64, f64)>,
@@ -95,9 +95,9 @@ pub(super) struct Found {
     keys: Vec<f64>,
 }
 
-impl Found {
+impl ObjectResult {
     /// Sorts objects, and counts in how many draws each comes first.
-    pub(super) fn sorted(mut all: Vec<Self>) -> Vec<Assessed> {
+    pub(super) fn sorted(mut all: Vec<Self>) -> Vec<ObjectAssessment> {
         all.sort_by(|a, b| a.key.total_cmp(&b.key));
         let draws = all.first().map_or(0, |one| one.keys.len());
         let mut first = vec![0usize; all.len()];
@@ -110,7 +110,7 @@ impl Found {
         }
         let counted = all.into_iter().zip(first);
         counted
-            .map(|(one, count)| Assessed {
+            .map(|(one, count)| ObjectAssessment {
                 first_in_draws: count as f64 / draws as f64,
                 ..one.assessed
             })
@@ -118,8 +118,8 @@ impl Found {
     }
 }
 
-impl<'a> Ground<'a> {
-    pub(super) fn of(
+impl<'a> AssessmentSuite<'a> {
+    pub(super) fn new(
         objects: &[Object],
         records: &'a [Accelerogram],
         clusters: &'a Clusters,
@@ -163,12 +163,12 @@ impl<'a> Ground<'a> {
                 AssessError::Record { record: record.name().into(), source }
             })
         });
-        let mut moved: Vec<Moved> = Vec::new();
+        let mut moved: Vec<ObjectMotion> = Vec::new();
         for object in objects {
             let floor = object.floor.as_ref();
             let known = floor.map(|on| on.floor);
             if moved.iter().all(|moved| moved.floor != known) {
-                moved.push(Moved::of(records, floor)?);
+                moved.push(ObjectMotion::new(records, floor)?);
             }
         }
         Ok(Self {
@@ -196,7 +196,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The motions of what an object stands on.
-    fn under(&self, object: &Object) -> &Moved {
+    fn under(&self, object: &Object) -> &ObjectMotion {
         let floor = object.floor.as_ref().map(|on| on.floor);
         let own = self.moved.iter().find(|moved| moved.floor == floor);
         own.unwrap_or(&self.moved[0])
@@ -229,7 +229,11 @@ impl<'a> Ground<'a> {
 
     /// The measure of the ground of each record where the PGA of what the
     /// object stands on is 1 g.
-    fn per_pga(&self, moved: &Moved, im: &IntensityMeasure) -> Vec<f64> {
+    fn per_pga(
+        &self,
+        moved: &ObjectMotion,
+        im: &IntensityMeasure,
+    ) -> Vec<f64> {
         let periods_s = self.settings.periods_s();
         let of = |(measures, pga_g): (&Measures, &f64)| {
             let value = pga_g.recip();
@@ -245,7 +249,7 @@ impl<'a> Ground<'a> {
         object: &Object,
         analyses: &[Analysis],
         made: &[Vec<IdaCurve>],
-    ) -> Result<Found, AssessError> {
+    ) -> Result<ObjectResult, AssessError> {
         let id = &object.id;
         let refused = |source: ProcedureError| {
             let id = id.clone();
@@ -336,8 +340,8 @@ impl<'a> Ground<'a> {
             resolution.add(&curve.resolution);
         }
         let size = object.block.dimensions(self.options.gravity_m_s2)?;
-        Ok(Found {
-            assessed: Assessed {
+        Ok(ObjectResult {
+            assessed: ObjectAssessment {
                 id: id.clone(),
                 block: object.block,
                 floor: object.floor.as_ref().map(|on| on.name.clone()),
@@ -405,7 +409,7 @@ impl<'a> Ground<'a> {
 
     fn ranking(
         &self,
-        moved: &Moved,
+        moved: &ObjectMotion,
         curves: &[IdaCurve],
         damage: Damage,
         threshold: f64,
@@ -419,10 +423,10 @@ impl<'a> Ground<'a> {
                 if squared { threshold * threshold } else { threshold };
             let per = self.per_pga(moved, im).into_iter();
             let at_uplift = per.map(|per| per * scale).collect();
-            Candidate { im: im.to_string(), at_uplift, squared }
+            CandidateMeasure { im: im.to_string(), at_uplift, squared }
         };
         let measures = IntensityMeasure::usual();
-        let candidates: Vec<Candidate> =
+        let candidates: Vec<CandidateMeasure> =
             measures.iter().map(candidate).collect();
         let draws = self.options.draws;
         Ok(all.and_then(|all| {
@@ -476,8 +480,8 @@ impl<'a> Ground<'a> {
     /// So many objects or more damaged by the same record.
     pub(super) fn together(
         &self,
-        found: &[Found],
-    ) -> Result<Vec<Together>, AssessError> {
+        found: &[ObjectResult],
+    ) -> Result<Vec<JointDamage>, AssessError> {
         let own = found.iter().map(|one| one.assessed.uplift_pga_g);
         let mut uplifts: Vec<f64> = own.collect();
         uplifts.sort_by(f64::total_cmp);
@@ -508,7 +512,7 @@ impl<'a> Ground<'a> {
                 id: format!("{at_least} objects or more"),
                 source,
             })?;
-            all.push(Together { at_least, answer: answer.0 });
+            all.push(JointDamage { at_least, answer: answer.0 });
         }
         Ok(all)
     }
@@ -541,8 +545,8 @@ fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
 
 /// The correlation of the logarithms of the intensities of damage of two
 /// objects: the least, the median and the largest of all pairs.
-pub(super) fn correlation(found: &[Found]) -> Option<Estimate> {
-    let pair = |a: &Found, b: &Found| {
+pub(super) fn correlation(found: &[ObjectResult]) -> Option<Estimate> {
+    let pair = |a: &ObjectResult, b: &ObjectResult| {
         let both = a.intervals.iter().zip(&b.intervals);
         let both = both.filter(|(a, b)| a.1.is_finite() && b.1.is_finite());
         let (x, y): (Vec<f64>, Vec<f64>) =

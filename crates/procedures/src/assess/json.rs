@@ -6,7 +6,7 @@ use rocking_statistics::estimate::keys;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::{Answer, Assessed};
+use super::{Answer, ObjectAssessment};
 
 impl Answer {
     fn entries<M: SerializeMap>(&self, to: &mut M) -> Result<(), M::Error> {
@@ -36,7 +36,7 @@ struct DamagePoint {
     p: Estimate,
 }
 
-impl Serialize for Assessed {
+impl Serialize for ObjectAssessment {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         // Without `..`: a new field has to be placed here.
         let Self {

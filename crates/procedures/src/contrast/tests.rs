@@ -10,8 +10,8 @@ fn sample(values: &[f64]) -> CensoredSample {
 fn of<'a>(
     sample: &'a CensoredSample,
     events: &'a [String],
-) -> Drawn<'a, String> {
-    Drawn { sample, records: &[], events }
+) -> ContrastSample<'a, String> {
+    ContrastSample { sample, records: &[], events }
 }
 
 /// Quantiles of a lognormal of median 1.
@@ -116,8 +116,9 @@ fn what_makes_no_contrast_is_refused() {
     let names = ["x".to_owned(), "y".to_owned()];
     let twice = ["x".to_owned(), "x".to_owned()];
     let places = ["1".to_owned(), "2".to_owned()];
-    let named = |records| Drawn { records, ..of(&good, &[]) };
-    let ask = |a: Drawn<'_, String>, b: Drawn<'_, String>| {
+    let named = |records| ContrastSample { records, ..of(&good, &[]) };
+    let ask = |a: ContrastSample<'_, String>,
+               b: ContrastSample<'_, String>| {
         contrast(a, b, DRAWS).map(|_| ()).map_err(|e| e.to_string())
     };
     let refused = [

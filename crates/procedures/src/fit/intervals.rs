@@ -1,7 +1,7 @@
 //! What few records leave open: intervals of a fit, and bands over
 //! intensity.
 
-use super::{Draws, FitOptions, Fitted, Sampled};
+use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::fragility::FragilityError;
 use rocking::stop;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
@@ -57,7 +57,7 @@ type Numbers = [f64; 6];
 /// A replicate: its numbers, and its distribution where it has a fit.
 pub(super) type Replicate = (Numbers, Option<Lognormal>);
 
-fn numbers(found: &Fitted) -> Numbers {
+fn numbers(found: &SampleFit) -> Numbers {
     let fitted = found.fit.distribution;
     let own = &found.transformed;
     let or_nan = |x: &Option<Result<f64, FragilityError>>| {
@@ -78,7 +78,7 @@ fn refitted(
     options: &FitOptions,
     places: &[usize],
 ) -> Replicate {
-    let found = options.once(&sample.at(places));
+    let found = options.once(&sample.resample(places));
     found.map_or(([f64::NAN; 6], None), |found| {
         (numbers(&found), Some(found.fit.distribution))
     })
@@ -92,16 +92,16 @@ pub(super) fn replicates(
 ) -> Vec<Replicate> {
     let Some(draws) = options.draws else { return Vec::new() };
     let (seed, replicates) = (draws.seed, draws.replicates);
-    let all = Bootstrap::of("fragility", seed, clusters, replicates);
+    let all = Bootstrap::of_clusters("fragility", seed, clusters, replicates);
     all.map(|places| refitted(sample, options, places))
 }
 
 impl FitIntervals {
-    pub(super) fn of(
+    pub(super) fn new(
         sample: &CensoredSample,
         options: &FitOptions,
         (draws, clusters): (Draws, &Clusters),
-        found: &Fitted,
+        found: &SampleFit,
         replicates: &[Replicate],
     ) -> Self {
         let without: Vec<Replicate> = (0..clusters.count())
@@ -109,7 +109,7 @@ impl FitIntervals {
                 stop::point();
                 let all = 0..clusters.records();
                 let others: Vec<_> =
-                    all.filter(|i| clusters.of(*i) != k).collect();
+                    all.filter(|i| clusters.cluster_of(*i) != k).collect();
                 refitted(sample, options, &others)
             })
             .collect();
@@ -178,11 +178,11 @@ pub struct BandPoint {
 }
 
 impl Band {
-    pub(super) fn of(
+    pub(super) fn new(
         sample: &CensoredSample,
         options: &FitOptions,
         fitted: &Lognormal,
-        sampled: &Sampled,
+        sampled: &BootstrapFits,
     ) -> Self {
         let complete = sample.censored() == 0;
         let known = matches!(
@@ -203,7 +203,7 @@ impl Band {
     }
 }
 
-impl Sampled {
+impl BootstrapFits {
     /// Probabilities of a fit at these intensities, with the 95 % band of
     /// these draws; the ends by the delta method are none.
     #[must_use]

@@ -16,7 +16,7 @@ const LEVEL: f64 = 0.9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Needed {
+pub struct SampleSize {
     /// Half the width of the interval, relative to the value: 0.1.
     pub precision: f64,
     /// Level of the interval: 0.9.
@@ -32,7 +32,7 @@ pub struct Needed {
     pub design_effect: f64,
 }
 
-impl Needed {
+impl SampleSize {
     /// Of the fit of a sample of these clusters; none where censored values
     /// of shared earthquakes leave the design effect open.
     ///
@@ -41,7 +41,7 @@ impl Needed {
     /// D/2. D = 1 + (m - 1) rho, m = sum n_g^2/n the mean size of a record's
     /// own earthquake and rho the intraclass correlation (Kish, Survey
     /// Sampling, 1965).
-    pub(super) fn of(
+    pub(super) fn for_fit(
         sample: &CensoredSample,
         fitted: &Lognormal,
         clusters: &Clusters,

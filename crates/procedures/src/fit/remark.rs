@@ -29,7 +29,10 @@ pub enum FitRemark {
 impl FitRemark {
     /// Remarks on the fit to a sample, `left_out` of whose values are left
     /// out.
-    pub(super) fn of(sample: &CensoredSample, left_out: usize) -> Vec<Self> {
+    pub(super) fn remarks(
+        sample: &CensoredSample,
+        left_out: usize,
+    ) -> Vec<Self> {
         let censored = sample.censored();
         match sample.len() - censored - left_out {
             1 => vec![Self::OneValue { censored }],

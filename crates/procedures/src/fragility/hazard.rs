@@ -246,7 +246,7 @@ impl Hazard {
         text: &str,
         options: &HazardOptions,
     ) -> Result<Self, HazardFileError> {
-        read(text, options).map_err(|(line, fault)| HazardFileError {
+        parse_hazard(text, options).map_err(|(line, fault)| HazardFileError {
             file: file.to_owned(),
             line,
             fault,
@@ -268,7 +268,10 @@ fn fault(
 /// A row of the table: line and cells.
 type Row<'a> = (usize, Vec<&'a str>);
 
-fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
+fn parse_hazard(
+    text: &str,
+    options: &HazardOptions,
+) -> Result<Hazard, Faulty> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
     let mut comments = String::new();

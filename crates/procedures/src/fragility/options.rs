@@ -138,7 +138,7 @@ impl Recipe {
         unshifted: &mut impl FnMut(FitMethod) -> Fitted,
     ) -> Result<Lognormal, RecipeError> {
         let at = |quantile_type: QuantileType, p| {
-            let value = quantile_type.of_extended(sample, p);
+            let value = quantile_type.extended_quantile(sample, p);
             value.unwrap_or(f64::NAN)
         };
         match *self {

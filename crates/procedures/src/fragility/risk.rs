@@ -164,7 +164,7 @@ impl HazardCurve {
         if !(pair[0].0 <= im) {
             return None;
         }
-        Some(Segment::of(pair).frequency(im))
+        Some(Segment::between(pair).frequency(im))
     }
 
     /// Mean annual frequency of damage, the integral of F(x) |dH(x)|.
@@ -197,7 +197,7 @@ impl HazardCurve {
             (self.points[0], self.points[self.points.len() - 1]);
         let first_probability = fragility.cdf(first.0);
         let inner = self.points.windows(2).fold(0.0, |sum, pair| {
-            sum + Segment::of(pair).integral(fragility)
+            sum + Segment::between(pair).integral(fragility)
         });
         let low = first_probability * first.1 + inner;
         AnnualFrequency {
@@ -230,7 +230,8 @@ impl HazardCurve {
             Contribution {
                 from_im: pair[0].0,
                 to_im: pair[1].0,
-                annual_frequency: ends + Segment::of(pair).integral(fragility),
+                annual_frequency: ends
+                    + Segment::between(pair).integral(fragility),
             }
         };
         self.points.windows(2).map(one).collect()
@@ -267,7 +268,7 @@ const NODES: [(f64, f64); 4] = [
 ];
 
 impl Segment {
-    fn of(pair: &[(f64, f64)]) -> Self {
+    fn between(pair: &[(f64, f64)]) -> Self {
         let (from, to) = (pair[0], pair[1]);
         let k = log(from.1 / to.1) / log(to.0 / from.0);
         Self { from, to, k }

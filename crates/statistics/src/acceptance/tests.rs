@@ -1,5 +1,5 @@
 use super::*;
-use crate::lilliefors::Table;
+use crate::lilliefors::LillieforsTable;
 use crate::streams::{Streams, standard_normal};
 
 fn normals(n: usize, index: u64) -> Vec<f64> {
@@ -11,7 +11,8 @@ fn normals(n: usize, index: u64) -> Vec<f64> {
 fn every_level_keeps_the_level_of_the_test() {
     let (n, count, replicates) = (30, 12, 4000_u64);
     let levels: Vec<_> = (0..count).map(|k| normals(n, k)).collect();
-    let (critical, _) = Table::embedded().critical_value(n, 0.05).unwrap();
+    let (critical, _) =
+        LillieforsTable::embedded().critical_value(n, 0.05).unwrap();
     let band =
         NullBand::simulate(&levels, critical, replicates, "t", 0).unwrap();
     let average = mean(&band.shares);
@@ -85,7 +86,7 @@ fn many_levels_at_once_are_decided_as_one_by_one() {
         })
         .collect();
     levels[40][3] = f64::INFINITY;
-    let table = crate::lilliefors::Table::embedded();
+    let table = crate::lilliefors::LillieforsTable::embedded();
     let (critical, _) = table.critical_value(77, 0.05).unwrap();
     let found = AcceptedShare::of_values(&levels, critical);
     let accepted = levels

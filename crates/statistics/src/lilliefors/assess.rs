@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
-use super::{LillieforsError, NullDistribution, Statistic, Table, Verdict};
+use super::{
+    LillieforsError, LillieforsTable, NullDistribution, Statistic, Verdict,
+};
 use crate::lognormal::{FitError, shifted_finite};
 use crate::{Estimate, ExtendedSample, Sample, SampleError};
 
@@ -61,7 +63,7 @@ pub enum Inapplicable {
 #[derive(Clone, Copy, Debug)]
 pub enum Null<'a> {
     /// The committed table.
-    Table(&'a Table),
+    Table(&'a LillieforsTable),
     /// A simulation of the sample's size.
     Simulated(&'a NullDistribution),
 }
@@ -69,7 +71,7 @@ pub enum Null<'a> {
 /// Lilliefors' test of one sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Assessment {
+pub struct LillieforsTest {
     /// Size of the sample, censored values included.
     pub n: usize,
     /// The values tested, if they exist.
@@ -86,18 +88,18 @@ pub struct Assessment {
     pub verdict: Result<Verdict, Inapplicable>,
 }
 
-impl Assessment {
+impl LillieforsTest {
     /// Tests a sample at a level.
     ///
     /// ```
     /// use rocking_statistics::ExtendedSample;
     /// use rocking_statistics::lilliefors::{
-    ///     Assessment, Null, Scale, Table, Verdict,
+    ///     LillieforsTest, Null, Scale, LillieforsTable, Verdict,
     /// };
     /// let values: Vec<f64> = (1..=40).map(f64::from).collect();
     /// let sample = ExtendedSample::try_new(&values)?;
-    /// let table = Null::Table(Table::embedded());
-    /// let test = Assessment::new(&sample, Scale::Linear, 0.05, table);
+    /// let table = Null::Table(LillieforsTable::embedded());
+    /// let test = LillieforsTest::new(&sample, Scale::Linear, 0.05, table);
     /// assert_eq!(test.verdict, Ok(Verdict::NotRejected));
     /// # Ok::<(), rocking_statistics::SampleError>(())
     /// ```

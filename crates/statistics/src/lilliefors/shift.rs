@@ -66,7 +66,7 @@ impl ShiftedNull {
         }
         let u: Vec<f64> = onsets.iter().map(|u| log(*u)).collect();
         let y: Vec<f64> = capacities.iter().map(|x| log(x - shift)).collect();
-        let model = Joint::of(&u, &y)?;
+        let model = Joint::new(&u, &y)?;
         let streams =
             Streams::new(&format!("lilliefors, lowest onset, {n}"), seed);
         let draw = |stream: &mut Stream, values: &mut [f64]| {
@@ -160,7 +160,7 @@ fn dispersion_of_any_shift(sample: &Sample) -> Result<f64, LillieforsError> {
     const NORMAL_84: f64 = 0.994_457_883_209_753;
     /// As good as normal.
     const LEAST: f64 = 1e-3;
-    let at = |p| QuantileType::default().of(sample, p);
+    let at = |p| QuantileType::default().quantile(sample, p);
     let quantiles = [at(0.16), at(0.5), at(0.84)];
     let [Ok(low), Ok(middle), Ok(high)] = quantiles else {
         return Err(LillieforsError::Degenerate);
@@ -183,7 +183,7 @@ struct Joint {
 }
 
 impl Joint {
-    fn of(u: &[f64], y: &[f64]) -> Result<Self, LillieforsError> {
+    fn new(u: &[f64], y: &[f64]) -> Result<Self, LillieforsError> {
         let (mean_u, mean_y) = (mean(u), mean(y));
         let (square_u, square_y) = (sum_of_squares(u), sum_of_squares(y));
         let cross = u.iter().zip(y).fold(0.0, |sum, (u, y)| {
@@ -237,7 +237,7 @@ impl Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lilliefors::Table;
+    use crate::lilliefors::LillieforsTable;
     use crate::normal;
 
     fn points(n: u32) -> impl Iterator<Item = f64> {
@@ -257,7 +257,8 @@ mod tests {
                 .unwrap();
         assert_eq!(shifted.redrawn, 0);
         let ours = shifted.null.critical_value(0.05).unwrap();
-        let (table, _) = Table::embedded().critical_value(40, 0.05).unwrap();
+        let (table, _) =
+            LillieforsTable::embedded().critical_value(40, 0.05).unwrap();
         let gap = (ours.estimate.value() - table).abs();
         assert!(gap < 4.0 * ours.standard_error, "{ours:?} {table}");
     }
@@ -269,7 +270,8 @@ mod tests {
         let null = ShiftedNull::with_dispersion(41, 0.5, 20_000, 0).unwrap();
         assert_eq!(null.null.n(), 40);
         let ours = null.null.critical_value(0.05).unwrap();
-        let (table, _) = Table::embedded().critical_value(40, 0.05).unwrap();
+        let (table, _) =
+            LillieforsTable::embedded().critical_value(40, 0.05).unwrap();
         assert!(
             (ours.estimate.value() - table).abs() > 4.0 * ours.standard_error
         );

@@ -109,7 +109,7 @@ impl NullDistribution {
             all.extend(statistics);
             counted = u64::saturating_add(counted, count);
         }
-        Ok((Self::of(n, all), counted))
+        Ok((Self::from_statistics(n, all), counted))
     }
 
     /// Refuses sizes and numbers of replicates that tell nothing.
@@ -127,7 +127,7 @@ impl NullDistribution {
     }
 
     /// The distribution of statistics that were simulated, in any order.
-    pub(crate) fn of(n: usize, mut sorted: Vec<f64>) -> Self {
+    pub(crate) fn from_statistics(n: usize, mut sorted: Vec<f64>) -> Self {
         sorted.par_sort_unstable_by(|a, b| {
             stop::point();
             a.total_cmp(b)
@@ -210,7 +210,7 @@ mod tests {
     #[test]
     fn a_p_value_counts_the_sample_among_the_replicates() {
         let statistics: Vec<f64> = (1..=200).rev().map(f64::from).collect();
-        let null = NullDistribution::of(20, statistics);
+        let null = NullDistribution::from_statistics(20, statistics);
         for (d, expected) in [
             (201.0, 1.0 / 201.0),
             (200.0, 2.0 / 201.0),
@@ -230,7 +230,7 @@ mod tests {
     fn a_critical_value_is_the_one_at_which_p_passes_the_level() {
         for count in [250, 333, 499, 1000] {
             let statistics = (1..=count).map(f64::from).collect();
-            let null = NullDistribution::of(20, statistics);
+            let null = NullDistribution::from_statistics(20, statistics);
             for level in [0.2, 0.1, 0.07, 0.05] {
                 let d = null.critical_value(level).unwrap().estimate.value();
                 let (at, beyond) = (null.p_value(d), null.p_value(d + 0.5));

@@ -8,7 +8,8 @@ use crate::{Estimate, Interval, Range, normal};
 /// Written by `rocking lilliefors --write-table`.
 const CSV: &str = include_str!("table.csv");
 
-static TABLE: LazyLock<Table> = LazyLock::new(|| Table::parse(CSV));
+static TABLE: LazyLock<LillieforsTable> =
+    LazyLock::new(|| LillieforsTable::parse(CSV));
 
 /// Simulated critical values of D for n from 4 to 1000.
 ///
@@ -19,13 +20,13 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| Table::parse(CSV));
 /// which the interval of a p-value contains; judged by leaving levels and sizes
 /// out, which errs four times as much.
 #[derive(Clone, Debug)]
-pub struct Table {
-    columns: Vec<Column>,
+pub struct LillieforsTable {
+    columns: Vec<LevelColumn>,
 }
 
 /// The critical values of one size, levels falling.
 #[derive(Clone, Debug)]
-struct Column {
+struct LevelColumn {
     n: usize,
     replicates: f64,
     levels: Vec<f64>,
@@ -33,7 +34,7 @@ struct Column {
     errors: Vec<f64>,
 }
 
-impl Table {
+impl LillieforsTable {
     /// The table that the project simulated.
     #[must_use]
     pub fn embedded() -> &'static Self {
@@ -66,7 +67,7 @@ impl Table {
     /// Reads rows `n,replicates,level,critical_value,standard_error`; a row
     /// that is no such row is left out, which the tests would see.
     fn parse(csv: &str) -> Self {
-        let mut columns: Vec<Column> = Vec::new();
+        let mut columns: Vec<LevelColumn> = Vec::new();
         for line in csv.lines() {
             let fields: Vec<f64> =
                 line.split(',').filter_map(|f| f.parse().ok()).collect();
@@ -76,7 +77,7 @@ impl Table {
             };
             let n = n as usize;
             if columns.last().is_none_or(|column| column.n != n) {
-                columns.push(Column {
+                columns.push(LevelColumn {
                     n,
                     replicates,
                     levels: Vec::new(),
@@ -97,8 +98,8 @@ impl Table {
     /// intermediate level.
     ///
     /// ```
-    /// use rocking_statistics::lilliefors::Table;
-    /// let (value, error) = Table::embedded().critical_value(86, 0.05)?;
+    /// use rocking_statistics::lilliefors::LillieforsTable;
+    /// let (value, error) = LillieforsTable::embedded().critical_value(86, 0.05)?;
     /// assert!((value - 0.09576).abs() < 5e-5 && error < 1.2e-5);
     /// # Ok::<(), rocking_statistics::lilliefors::LillieforsError>(())
     /// ```
@@ -173,8 +174,8 @@ impl Table {
     /// n = 10 on.
     ///
     /// ```
-    /// use rocking_statistics::lilliefors::Table;
-    /// let mean = Table::embedded().mean(86)?;
+    /// use rocking_statistics::lilliefors::LillieforsTable;
+    /// let mean = LillieforsTable::embedded().mean(86)?;
     /// assert!((mean - 0.06673).abs() < 1e-4);
     /// # Ok::<(), rocking_statistics::lilliefors::LillieforsError>(())
     /// ```
@@ -197,7 +198,7 @@ impl Table {
     }
 
     /// The column of a size, interpolated if it is not there.
-    fn column(&self, n: usize) -> Result<Column, LillieforsError> {
+    fn column(&self, n: usize) -> Result<LevelColumn, LillieforsError> {
         let i = self.columns.partition_point(|column| column.n < n);
         let above = self.columns.get(i);
         if let Some(column) = above.filter(|column| column.n == n) {
@@ -220,7 +221,7 @@ impl Table {
             };
             a.iter().zip(b).map(between).collect()
         };
-        Ok(Column {
+        Ok(LevelColumn {
             n,
             replicates: below.replicates.min(above.replicates),
             levels: below.levels.clone(),
@@ -235,7 +236,7 @@ fn interpolation(n: usize) -> f64 {
     if n == 4 { 0.012 } else { 0.006 }
 }
 
-impl Column {
+impl LevelColumn {
     /// Normal scores of the levels, rising.
     fn scores(&self) -> Vec<f64> {
         self.levels.iter().map(|&level| -normal::quantile(level)).collect()

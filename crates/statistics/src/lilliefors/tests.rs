@@ -31,7 +31,7 @@ fn a_null_distribution_holds_for_its_own_size() {
     let sample = ExtendedSample::try_new(&values).unwrap();
     let null = NullDistribution::simulate(20, 1000, 0).unwrap();
     let null = Null::Simulated(&null);
-    let found = Assessment::new(&sample, Scale::Linear, 0.05, null);
+    let found = LillieforsTest::new(&sample, Scale::Linear, 0.05, null);
     let size = LillieforsError::Size { found: 30, expected: 20 };
     assert_eq!(found.verdict, Err(Inapplicable::Test(size)));
 }
@@ -42,7 +42,7 @@ fn three_values_have_a_statistic_and_no_test() {
     // 1/3 - Phi(-1) by 15 digits of Phi.
     let d = statistic(&[10_000_001.0, 10_000_003.0, 10_000_002.0]).d;
     assert!((d - 0.174_678_079_401_876).abs() < 1e-14, "{d}");
-    let table = Table::embedded();
+    let table = LillieforsTable::embedded();
     assert_eq!(
         table.p_value(3, d),
         Err(LillieforsError::TooFew { found: 3, least: 4 })
@@ -66,9 +66,9 @@ fn mirrored_samples_exchange_the_sides() {
 
 #[test]
 fn table_is_complete_and_falls_with_size_and_level() {
-    let table = Table::embedded();
-    for (n, _) in Table::sizes() {
-        let values = Table::LEVELS
+    let table = LillieforsTable::embedded();
+    for (n, _) in LillieforsTable::sizes() {
+        let values = LillieforsTable::LEVELS
             .map(|level| table.critical_value(n, level).unwrap().0);
         assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{n}");
         assert!(values[31] < Statistic::largest(n), "{n}");
@@ -82,9 +82,9 @@ fn table_is_complete_and_falls_with_size_and_level() {
 
 #[test]
 fn p_values_invert_the_table_and_end_at_the_largest_statistic() {
-    let table = Table::embedded();
+    let table = LillieforsTable::embedded();
     for n in [4, 12, 44, 86, 250, 777] {
-        for level in Table::LEVELS {
+        for level in LillieforsTable::LEVELS {
             let (value, _) = table.critical_value(n, level).unwrap();
             let p = table.p_value(n, value).unwrap();
             assert!((p.value() / level - 1.0).abs() < 1e-9, "{n}, {level}");
@@ -107,7 +107,7 @@ fn interpolated_p_values_agree_with_direct_simulation() {
         for i in 1..40 {
             let d = null.sorted()[2_500 * i - 1];
             let direct = null.p_value(d);
-            let table = Table::embedded().p_value(n, d).unwrap();
+            let table = LillieforsTable::embedded().p_value(n, d).unwrap();
             let spread = (table.value() * (1.0 - table.value()) / 1e5).sqrt();
             let gap = (direct.value() - table.value()).abs();
             assert!(gap < 4.5 * spread, "{n}, {d}: {direct:?} {table:?}");
@@ -117,11 +117,12 @@ fn interpolated_p_values_agree_with_direct_simulation() {
 
 #[test]
 fn regresses_the_generator_of_the_table() {
-    let &(n, replicates) = Table::sizes().first().unwrap();
+    let &(n, replicates) = LillieforsTable::sizes().first().unwrap();
     let null = NullDistribution::simulate(n, replicates, 0).unwrap();
-    for level in Table::LEVELS {
+    for level in LillieforsTable::LEVELS {
         let ours = null.critical_value(level).unwrap();
-        let (value, _) = Table::embedded().critical_value(n, level).unwrap();
+        let (value, _) =
+            LillieforsTable::embedded().critical_value(n, level).unwrap();
         assert!(
             (ours.estimate.value() - value).abs() < 2e-8,
             "{level}: {ours:?}"

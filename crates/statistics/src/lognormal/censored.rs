@@ -27,7 +27,7 @@ struct Point {
 }
 
 impl Point {
-    fn at(observations: &[Observation], a: f64, b: f64) -> Self {
+    fn new(observations: &[Observation], a: f64, b: f64) -> Self {
         let mut point =
             Self { value: 0.0, gradient: [0.0; 2], curvature: [0.0; 3] };
         for observation in observations {
@@ -102,7 +102,7 @@ pub(super) fn maximise(
         .collect();
     let exact = observations.iter().filter(|o| matches!(o, Exact(_))).count();
     let (mut a, mut b) = (1.0, 0.0);
-    let mut here = Point::at(&standardised, a, b);
+    let mut here = Point::new(&standardised, a, b);
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
         let [aa, ab, bb] = here.curvature;
@@ -121,7 +121,7 @@ pub(super) fn maximise(
         loop {
             let (next_a, next_b) = (a - share * step_a, b - share * step_b);
             if next_a > 0.0 {
-                let next = Point::at(&standardised, next_a, next_b);
+                let next = Point::new(&standardised, next_a, next_b);
                 // At the maximum the value no longer tells steps apart.
                 if next.value >= here.value - 1e-13 * here.value.abs() {
                     (a, b, here) = (next_a, next_b, next);
@@ -197,7 +197,7 @@ fn highest(
 ) -> f64 {
     let at = |t: f64| {
         let (a, b) = place(t);
-        Point::at(observations, a, b)
+        Point::new(observations, a, b)
     };
     let mut t = start;
     let mut here = at(t);

@@ -299,7 +299,7 @@ pub fn fit(
         }
         FitMethod::Censored(quantile_type) => {
             let limit = quantile_type
-                .of_extended(sample, 0.95)
+                .extended_quantile(sample, 0.95)
                 .unwrap_or(f64::INFINITY);
             let kept = sample.finite().partition_point(|&x| x <= limit);
             let (centre, squares) = moments(&y[..kept])?;
@@ -448,7 +448,7 @@ fn finite_quantile(
     quantile_type: QuantileType,
     p: f64,
 ) -> Result<f64, FitError> {
-    let value = quantile_type.of_extended(sample, p).ok();
+    let value = quantile_type.extended_quantile(sample, p).ok();
     value.filter(|x| x.is_finite()).ok_or(FitError::InfiniteQuantile {
         percent: 100.0 * p,
         censored: sample.censored(),

@@ -33,7 +33,7 @@ pub struct Battery {
 /// A statistic with its simulated p-value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Calibrated {
+pub struct SimulatedTest {
     /// The statistic, not modified for the sample's size.
     pub statistic: f64,
     /// (b + 1)/(N + 1), with the 95 % Clopper-Pearson interval.
@@ -76,7 +76,8 @@ impl Battery {
                         let mut stream = streams.stream(index);
                         let mut values = vec![0.0; n];
                         standard_normals(&mut stream, &mut values);
-                        let scores = standardised(&Sample::of(values))?;
+                        let scores =
+                            standardised(&Sample::from_finite(values))?;
                         let deficit = deficit(&weights, &scores);
                         Ok([a2(&scores), w2(&scores), deficit])
                     })
@@ -85,7 +86,7 @@ impl Battery {
             .collect::<Result<_, _>>()?;
         let null = |k: usize| {
             let column = rows.iter().flatten().map(|row| row[k]).collect();
-            NullDistribution::of(n, column)
+            NullDistribution::from_statistics(n, column)
         };
         Ok(Self { n, nulls: [null(0), null(1), null(2)] })
     }
@@ -98,7 +99,7 @@ impl Battery {
     pub fn assess(
         &self,
         sample: &Sample,
-    ) -> Result<[Calibrated; 3], LillieforsError> {
+    ) -> Result<[SimulatedTest; 3], LillieforsError> {
         if sample.len() != self.n {
             let (found, expected) = (sample.len(), self.n);
             return Err(LillieforsError::Size { found, expected });
@@ -108,9 +109,9 @@ impl Battery {
         let statistics = [a2(&scores), w2(&scores), deficit];
         let p = [0, 1, 2].map(|k: usize| self.nulls[k].p_value(statistics[k]));
         Ok([
-            Calibrated { statistic: statistics[0], p_value: p[0] },
-            Calibrated { statistic: statistics[1], p_value: p[1] },
-            Calibrated { statistic: 1.0 - deficit, p_value: p[2] },
+            SimulatedTest { statistic: statistics[0], p_value: p[0] },
+            SimulatedTest { statistic: statistics[1], p_value: p[1] },
+            SimulatedTest { statistic: 1.0 - deficit, p_value: p[2] },
         ])
     }
 

@@ -2,7 +2,7 @@
 
 use libm::{exp, log};
 
-use super::Test;
+use super::NormalityTest;
 use crate::lilliefors::{LillieforsError, standardised};
 use crate::{Sample, normal};
 
@@ -22,7 +22,9 @@ pub(super) const LARGEST: usize = 5000;
 /// # Errors
 /// [`LillieforsError`] for fewer than 4 or more than 5000 values, or values
 /// that don't vary.
-pub fn shapiro_wilk(sample: &Sample) -> Result<Test, LillieforsError> {
+pub fn shapiro_wilk(
+    sample: &Sample,
+) -> Result<NormalityTest, LillieforsError> {
     let scores = standardised(sample)?;
     if scores.len() > LARGEST {
         return Err(LillieforsError::TooMany {
@@ -32,7 +34,7 @@ pub fn shapiro_wilk(sample: &Sample) -> Result<Test, LillieforsError> {
     }
     let deficit = deficit(&weights(scores.len()), &scores);
     let statistic = 1.0 - deficit;
-    Ok(Test { statistic, p_value: p_value(scores.len(), deficit) })
+    Ok(NormalityTest { statistic, p_value: p_value(scores.len(), deficit) })
 }
 
 /// 1 - W of ascending scores.

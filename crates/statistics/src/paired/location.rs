@@ -153,7 +153,7 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
     let too_few = |_| PairedError::TooFew(n);
     let sample = ExtendedSample::try_new(&walsh).map_err(too_few)?;
     let median = QuantileType::default()
-        .of_extended(&sample, 0.5)
+        .extended_quantile(&sample, 0.5)
         .map_err(|_| PairedError::TooFew(n))?;
     let rank = signed_rank_quantile(n).max(1);
     let sorted = sample.sorted();

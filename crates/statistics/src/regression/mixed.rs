@@ -36,7 +36,7 @@ struct Solution {
 }
 
 impl Group {
-    fn of(members: &[usize], x: &[f64], y: &[f64]) -> Self {
+    fn new(members: &[usize], x: &[f64], y: &[f64]) -> Self {
         let pick = |values: &[f64]| -> Vec<f64> {
             members.iter().map(|&i| values[i]).collect()
         };
@@ -134,7 +134,7 @@ pub fn mixed(
     let x: Vec<f64> = x.iter().map(|x| x - centre_x).collect();
     let y: Vec<f64> = y.iter().map(|y| y - centre_y).collect();
     let groups: Vec<Group> = (0..clusters.count())
-        .map(|g| Group::of(clusters.members(g), &x, &y))
+        .map(|g| Group::new(clusters.members(g), &x, &y))
         .collect();
     let at = |ratio| solve(&groups, n, ratio);
     let value = |place: f64| {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use rocking_procedures::compare;
-use rocking_procedures::comparison::{Named, Side};
+use rocking_procedures::comparison::{NamedSample, SampleSide};
 
 use super::shared::JsonArg;
 use crate::failure::Failure;
@@ -44,13 +44,13 @@ pub fn run_compare(args: &CompareCommand) -> Result<(), Failure> {
     input::records_as_unit(&a);
     let (of_a, of_b) = (a.records(), b.records());
     let found = compare(
-        Named { records: &of_a, values: a.values() },
-        Named { records: &of_b, values: b.values() },
+        NamedSample { records: &of_a, values: a.values() },
+        NamedSample { records: &of_b, values: b.values() },
         args.margin,
     );
     let found = found.map_err(|error| match error.place() {
-        Some((Side::A, place)) => a.error(place, error).into(),
-        Some((Side::B, place)) => b.error(place, error).into(),
+        Some((SampleSide::A, place)) => a.error(place, error).into(),
+        Some((SampleSide::B, place)) => b.error(place, error).into(),
         None => Failure::from(error),
     })?;
     args.json.show(&found)

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use rocking_procedures::contrast;
-use rocking_procedures::contrast::Drawn;
+use rocking_procedures::contrast::ContrastSample;
 
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
 use crate::failure::Failure;
@@ -42,7 +42,7 @@ pub fn run_contrast(args: &ContrastCommand) -> Result<(), Failure> {
     let (of_a, of_b) = (a.censored()?, b.censored()?);
     let (records, events) =
         ([a.records(), b.records()], [a.events(), b.events()]);
-    let drawn = |sample, k: usize| Drawn {
+    let drawn = |sample, k: usize| ContrastSample {
         sample,
         records: &records[k],
         events: &events[k],

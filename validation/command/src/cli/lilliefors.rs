@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::ArgGroup;
 use rocking_procedures::normality::NullSource;
 use rocking_procedures::{NormalityOptions, Shift, test_normality};
-use rocking_statistics::lilliefors::{CriticalValue, NullDistribution, Table};
+use rocking_statistics::lilliefors::{
+    CriticalValue, LillieforsTable, NullDistribution,
+};
 use serde::Serialize;
 
 use super::shared::{JsonArg, ThreadsArg};
@@ -140,13 +142,13 @@ fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
 /// [`Failure`] if the file cannot be written.
 fn write_table(path: &Path) -> Result<(), Failure> {
     let out = Outputs::default().open(path)?;
-    let sizes = Table::sizes();
+    let sizes = LillieforsTable::sizes();
     let progress = progress(sizes.len() as u64);
     let mut csv =
         Csv::headed("n,replicates,level,critical_value,standard_error");
     for (n, replicates) in sizes {
         let null = NullDistribution::simulate(n, replicates, 0)?;
-        for level in Table::LEVELS {
+        for level in LillieforsTable::LEVELS {
             let critical = null.critical_value(level)?;
             csv.row([
                 n.to_string(),

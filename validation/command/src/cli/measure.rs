@@ -8,7 +8,7 @@ use rocking::block::Block;
 use rocking::integrator::uplift_threshold;
 use rocking_exchange::ida::IdaTable;
 use rocking_exchange::read::{no_csv, reader};
-use rocking_procedures::ranking::Candidate;
+use rocking_procedures::ranking::CandidateMeasure;
 use rocking_records::intensity::{
     AtUplift, IntensityMeasure, Measures, Settings,
 };
@@ -172,9 +172,9 @@ impl SuiteMeasures {
     pub fn candidates(
         &self,
         measures: &[IntensityMeasure],
-    ) -> Result<Vec<Candidate>, Failure> {
+    ) -> Result<Vec<CandidateMeasure>, Failure> {
         let candidate = |measure: &IntensityMeasure| {
-            Ok(Candidate {
+            Ok(CandidateMeasure {
                 im: measure.words(),
                 at_uplift: self.at_uplift(measure)?,
                 squared: measure.is_squared(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
-use rocking_procedures::{Exposed, FitOptions, Shift, risk};
+use rocking_procedures::{FitOptions, FragilityInput, Shift, risk};
 use rocking_statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
@@ -166,7 +166,7 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
 const MOST_DRAWN: usize = 6;
 
 /// The hazard curve, the fragilities and the risk by intensity.
-fn svg(hazard: &Hazard, all: &[Exposed]) -> Result<String, Failure> {
+fn svg(hazard: &Hazard, all: &[FragilityInput]) -> Result<String, Failure> {
     ensure!(
         all.len() <= MOST_DRAWN,
         "--plot: {} fragilities: expected at most {MOST_DRAWN}",
@@ -180,13 +180,13 @@ fn given(
     shift: Shift,
     median: f64,
     beta: f64,
-) -> Result<Vec<Exposed>, Failure> {
+) -> Result<Vec<FragilityInput>, Failure> {
     let Shift::Given(shift) = shift else {
         bail!("--shift min or free: expected a number with --median");
     };
     let log_mean = rocking_procedures::fragility::eq5(median, shift)?;
     let law = Lognormal::try_new(shift, log_mean, beta)?;
-    Ok(vec![Exposed::known(kind(&law), law)])
+    Ok(vec![FragilityInput::known(kind(&law), law)])
 }
 
 fn kind(law: &Lognormal) -> &'static str {
@@ -200,7 +200,7 @@ fn of_source(
     source: &FragilitySource,
     mut options: FitOptions,
     hazard: &Hazard,
-) -> Result<Vec<Exposed>, Failure> {
+) -> Result<Vec<FragilityInput>, Failure> {
     // A bootstrap of the smallest value, or of a free shift, is refused.
     if matches!(options.shift, Shift::Given(_)) {
         options.draws = Some(args.bootstrap.draws());
@@ -221,7 +221,7 @@ fn of_source(
             let name = name.map_or(String::new(), |name| name + ", ");
             let fragility = name + kind(&fitted);
             let sampled = sampled.map(|all| all.scaled(unit)).transpose()?;
-            all.push(Exposed { fragility, fitted, sampled });
+            all.push(FragilityInput { fragility, fitted, sampled });
         }
     }
     Ok(all)

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use rocking::capacity::ResponseCurve;
-use rocking_procedures::counts::Outcome;
+use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
@@ -102,7 +102,7 @@ fn outcomes(
     let mut out = Table::of(&OUTCOMES);
     let (records, events) =
         (table.records().collect::<Vec<_>>(), table.events());
-    for found in Outcome::of(curves, levels, edp) {
+    for found in RecordOutcome::from_curves(curves, levels, edp) {
         let event = events.as_ref().map_or("", |all| all[found.record]);
         out.row([
             found.im.to_string(),

@@ -294,7 +294,7 @@ fn fragility(
     // Streams are named by the block, not by the tile.
     let stream = format!("sweep/{}", name.join("/"));
     let clusters = plan.clusters();
-    let draws = Bootstrap::of(&stream, 0, &clusters, REPLICATES);
+    let draws = Bootstrap::of_clusters(&stream, 0, &clusters, REPLICATES);
     let replicates: Vec<Option<[f64; 2]>> = draws.map(|places| {
         let values: Vec<f64> = places.iter().map(|i| sample[*i]).collect();
         of(&values, least(&mut places.iter().map(|i| onsets[*i])))

@@ -3,7 +3,7 @@
 
 use rocking::capacity::ResponseCurve;
 use rocking_procedures::fragility::hazard::{Hazard, HazardMeasure};
-use rocking_procedures::{Exposed, StripeResponses};
+use rocking_procedures::{FragilityInput, StripeResponses};
 use rocking_records::intensity::IntensityMeasure as M;
 
 use super::{
@@ -109,8 +109,8 @@ pub fn stripes_svg(
 }
 
 /// The lines of fragilities at these intensities, with their bands.
-fn lines(all: &[Exposed], levels: &[f64]) -> Vec<Series> {
-    let line = |one: &Exposed| {
+fn lines(all: &[FragilityInput], levels: &[f64]) -> Vec<Series> {
+    let line = |one: &FragilityInput| {
         let label = markup::escape(&one.fragility);
         let y = levels.iter().map(|im| one.fitted.cdf(*im)).collect();
         let line = Series::new(&*label, Mark::Line, levels.to_vec(), y);
@@ -127,7 +127,7 @@ fn lines(all: &[Exposed], levels: &[f64]) -> Vec<Series> {
 /// `marks` says what that is.
 #[must_use]
 pub fn fragilities_svg(
-    all: &[Exposed],
+    all: &[FragilityInput],
     points: &[Vec<(f64, f64)>],
     (intensity, marks): (&str, &str),
 ) -> String {
@@ -154,14 +154,14 @@ pub fn fragilities_svg(
 /// A hazard curve, the fragilities under it, and the annual frequency of
 /// damage by intensity, as SVG.
 #[must_use]
-pub fn risk_svg(hazard: &Hazard, all: &[Exposed]) -> String {
+pub fn risk_svg(hazard: &Hazard, all: &[FragilityInput]) -> String {
     let points = hazard.curve.points();
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     let step = libm::log(last / first) / f64::from(STEPS);
     let at = |k: u32| first * libm::exp(step * f64::from(k));
     let levels: Vec<f64> = (0..=STEPS).map(at).collect();
     let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
-    let part = |(k, one): (usize, &Exposed)| {
+    let part = |(k, one): (usize, &FragilityInput)| {
         let parts = hazard.curve.contributions(&one.fitted);
         let look = Look {
             bins: Some(Fill::tint(Ink::Series(k), 20)),

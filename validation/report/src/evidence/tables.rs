@@ -1,7 +1,7 @@
 //! The checks that a reader asks for first, as tables: pulses against closed
 //! forms, and critical values beside published ones.
 
-use rocking_statistics::lilliefors::{LillieforsError, Table};
+use rocking_statistics::lilliefors::{LillieforsError, LillieforsTable};
 use serde::Deserialize;
 
 use super::Proof;
@@ -147,7 +147,8 @@ pub fn critical_values() -> Result<PlainTable, CaseError> {
     sizes.dedup();
     let mut rows = Vec::new();
     for n in sizes {
-        let Ok((ours, error)) = Table::embedded().critical_value(n, LEVEL)
+        let Ok((ours, error)) =
+            LillieforsTable::embedded().critical_value(n, LEVEL)
         else {
             continue;
         };
@@ -198,7 +199,7 @@ fn case_input<T: Default + serde::de::DeserializeOwned>(
 }
 
 fn level_of(n: usize, value: f64) -> Result<f64, LillieforsError> {
-    Ok(Table::embedded().p_value(n, value)?.value())
+    Ok(LillieforsTable::embedded().p_value(n, value)?.value())
 }
 
 /// Where the formula of Dallal and Wilkinson (American Statistician 40, 1986,

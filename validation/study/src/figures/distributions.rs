@@ -1,6 +1,6 @@
 //! Figures 11, 12 and 14: capacities, and shares of accepted levels.
 
-use rocking_statistics::lilliefors::Assessment;
+use rocking_statistics::lilliefors::LillieforsTest;
 
 use crate::estimates::three_quantiles;
 use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
@@ -395,6 +395,6 @@ fn groups(shares: &[Share], all: usize) -> Vec<Series> {
 }
 
 /// How many levels could be tested.
-fn tested(levels: &[Assessment]) -> usize {
+fn tested(levels: &[LillieforsTest]) -> usize {
     levels.iter().filter(|a| over_critical(a).is_finite()).count()
 }

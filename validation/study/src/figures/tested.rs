@@ -1,7 +1,7 @@
 //! Figure 13: the test along the demand, and histograms at one level.
 
 use rocking_statistics::QuantileType;
-use rocking_statistics::lilliefors::Assessment;
+use rocking_statistics::lilliefors::LillieforsTest;
 use rocking_statistics::normal;
 
 use crate::normality::{accepted_share, over_critical};
@@ -81,13 +81,13 @@ impl Histogram {
     }
 
     /// The logarithms that were tested.
-    fn of(test: &Assessment) -> Self {
+    fn of(test: &LillieforsTest) -> Self {
         let none = || Self::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
         let Some(logs) = &test.tested else { return none() };
         let deviation =
             (logs.sum_of_squares() / (logs.len() as f64 - 1.0)).sqrt();
         let quartile =
-            |p| QuantileType::default().of(logs, p).unwrap_or(f64::NAN);
+            |p| QuantileType::default().quantile(logs, p).unwrap_or(f64::NAN);
         let quartiles = (quartile(0.25), quartile(0.75));
         let mean = logs.mean();
         Self::freedman_diaconis(logs.sorted(), quartiles, mean, deviation)
@@ -132,7 +132,7 @@ struct SampleTests {
 }
 
 impl SampleTests {
-    fn original(tests: &[Assessment]) -> Self {
+    fn original(tests: &[LillieforsTest]) -> Self {
         Self {
             name: "original",
             label: "ln IM",
@@ -144,7 +144,7 @@ impl SampleTests {
         }
     }
 
-    fn shifted(tests: &[Assessment], on_grid: Option<f64>) -> Self {
+    fn shifted(tests: &[LillieforsTest], on_grid: Option<f64>) -> Self {
         Self {
             name: "shifted",
             label: "ln(IM − IM_{R})",

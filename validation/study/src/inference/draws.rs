@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use rocking_statistics::bootstrap::Bootstrap;
-use rocking_statistics::resampling::{Ranked, Subsampling};
+use rocking_statistics::resampling::{RecordRanks, Subsampling};
 use rocking_statistics::{Clusters, Proportion};
 
 use rocking_common::findings::SuiteSet;
@@ -77,7 +77,7 @@ impl Resamples {
             let suite = SuiteKind::ALL[place];
             let own = &clusters[place];
             let name = format!("study/{name}/{suite}");
-            Subsampling::of(&name, 0, own, size(own.records()))
+            Subsampling::of_clusters(&name, 0, own, size(own.records()))
         };
         let nine_tenths =
             |place| rule("nine-tenths", place, |n| n - n.div_ceil(10));
@@ -87,7 +87,8 @@ impl Resamples {
         let bootstrap = |place: usize| -> Vec<Vec<u32>> {
             let name = format!("study/records/{}", SuiteKind::ALL[place]);
             let count = REPLICATES * times;
-            let own = Bootstrap::of(&name, 0, &clusters[place], count);
+            let own =
+                Bootstrap::of_clusters(&name, 0, &clusters[place], count);
             (0..count as u64).map(|i| own.multiplicities(i)).collect()
         };
         let without = |place: usize| {
@@ -167,7 +168,7 @@ impl Resamples {
     pub fn medians(
         &self,
         suite: SuiteKind,
-        samples: Vec<Ranked>,
+        samples: Vec<RecordRanks>,
     ) -> Replicates {
         let of = |draw: Resample<'_>| -> Vec<f64> {
             let counts = draw.of(suite);
@@ -225,7 +226,7 @@ pub struct Replicates {
     /// The cells where they are counts; empty otherwise.
     pub(super) counts: Vec<Proportion>,
     /// The values that the cells are medians of; empty otherwise.
-    pub(super) samples: Vec<Ranked>,
+    pub(super) samples: Vec<RecordRanks>,
 }
 
 impl Replicates {

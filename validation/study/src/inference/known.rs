@@ -264,8 +264,12 @@ pub(super) fn power_of(
 ) -> Option<DecisionPower> {
     let decides = decides(point, region, ends.range);
     let (low, high) = ends.interval.ends();
-    let found =
-        power::Power::of((point, low, high), student, deviations, decides);
+    let found = power::Power::of_measure(
+        (point, low, high),
+        student,
+        deviations,
+        decides,
+    );
     (!deviations.is_empty()).then(|| stored(&found))
 }
 

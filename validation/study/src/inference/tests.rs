@@ -1,4 +1,4 @@
-use rocking_statistics::resampling::Ranked;
+use rocking_statistics::resampling::RecordRanks;
 
 use super::*;
 use rocking_common::findings::Unit;
@@ -24,7 +24,7 @@ fn high(of: &ClaimResult) -> f64 {
 }
 
 /// 80 values about 1 for each cell, and how far each cell is shifted.
-fn cells(shifts: &[f64]) -> (Vec<Cell>, Vec<Ranked>) {
+fn cells(shifts: &[f64]) -> (Vec<Cell>, Vec<RecordRanks>) {
     let ranked = shifts
         .iter()
         .enumerate()
@@ -35,7 +35,7 @@ fn cells(shifts: &[f64]) -> (Vec<Cell>, Vec<Ranked>) {
                     1.0 + shift + 0.1 * libm::sin(phase)
                 })
                 .collect();
-            Ranked::new(&values)
+            RecordRanks::new(&values)
         })
         .collect();
     let cell = |k: usize| Cell { at: format!("cell {k}"), records: 80 };
@@ -240,7 +240,7 @@ fn few(samples: &[Vec<f64>], region: Region) -> ClaimResult {
     for (k, sample) in samples.iter().enumerate() {
         let mut values = sample.clone();
         values.resize(86, f64::NAN);
-        all.push(Ranked::new(&values));
+        all.push(RecordRanks::new(&values));
         cells.push(Cell { at: format!("cell {k}"), records: sample.len() });
     }
     let measured = draws.medians(SuiteKind::Ordinary, all);
@@ -410,7 +410,7 @@ fn a_cell_that_no_replicate_moves_is_open() {
     // All records have the value 1: the bootstrap knows no error.
     let draws = drawn([80, 40]);
     let (cells, ranked) = cells(&[0.0, 0.2]);
-    let constant = Ranked::new(&[1.0; 80]);
+    let constant = RecordRanks::new(&[1.0; 80]);
     let medians = |draw: Resample<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
         vec![constant.median(counts), ranked[1].median(counts)]

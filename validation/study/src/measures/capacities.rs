@@ -18,7 +18,7 @@ use rocking_common::paper::{
     demand_index, position,
 };
 use rocking_statistics::Proportion;
-use rocking_statistics::resampling::Ranked;
+use rocking_statistics::resampling::RecordRanks;
 
 /// Demands at which intensities are compared.
 pub const DEMANDS: [f64; 10] =
@@ -30,13 +30,13 @@ const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
 /// A sample whose quantiles are compared with another's.
 struct SamplePair {
     at: String,
-    own: Ranked,
-    reference: Ranked,
+    own: RecordRanks,
+    reference: RecordRanks,
 }
 
 impl SamplePair {
     fn new(at: String, own: &[f64], reference: &[f64]) -> Self {
-        let [own, reference] = [own, reference].map(Ranked::new);
+        let [own, reference] = [own, reference].map(RecordRanks::new);
         Self { at, own, reference }
     }
 }
@@ -278,7 +278,7 @@ pub(super) fn housner(scope: &Scope<'_>) -> MeasureResult {
         by_slenderness[varied.slenderness] = each.collect::<Vec<f64>>();
     }
     let [slender, .., stocky] = by_slenderness;
-    let ranked = Ranked::new(&ratios(&stocky, &slender, 1.0));
+    let ranked = RecordRanks::new(&ratios(&stocky, &slender, 1.0));
     let at = "p = 3, alpha = 0.25 over 0.05";
     Ok(scope.value(at, ranked.records(), |counts| {
         (ranked.median(counts) - 1.0).abs()
@@ -300,7 +300,7 @@ pub(super) fn uplift(scope: &Scope<'_>) -> MeasureResult {
 pub(super) fn onset(scope: &Scope<'_>) -> MeasureCells {
     let records = &scope.suite().records;
     let onsets = factors(records, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
-    let ranked = Ranked::new(&onsets);
+    let ranked = RecordRanks::new(&onsets);
     scope.value("p = 1", onsets.len(), |counts| {
         ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
     })

@@ -3,7 +3,7 @@
 
 use libm::log;
 use rocking_procedures::fragility::risk::HazardCurve;
-use rocking_statistics::resampling::{Ranked, Subsampling};
+use rocking_statistics::resampling::{RecordRanks, Subsampling};
 use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::scope::{MeasureCells, MeasureResult, Scope};
@@ -27,7 +27,7 @@ pub(crate) struct DemandFits {
 
 /// The thresholds of a block in an intensity measure.
 pub(crate) struct Thresholds {
-    ranked: Vec<Ranked>,
+    ranked: Vec<RecordRanks>,
     /// What the shift is the least of.
     onsets: Vec<f64>,
 }
@@ -38,7 +38,7 @@ impl Thresholds {
         let block = suite.block(scope.arm, intensity, BLOCK)?;
         let ranked = THRESHOLDS
             .iter()
-            .map(|edp| Ranked::new(&block.samples[demand_index(*edp)]))
+            .map(|edp| RecordRanks::new(&block.samples[demand_index(*edp)]))
             .collect();
         let onsets = factors(&suite.records, intensity, block.p_rad_s);
         Ok(Self { ranked, onsets })
@@ -219,7 +219,8 @@ fn sample_rate(at: &DemandFits, k: f64, above: f64) -> f64 {
 /// capacities above the 84 % quantile.
 pub(super) fn tail_rate(scope: &Scope<'_>) -> MeasureResult {
     by_slope(scope, |k, at| {
-        let quantile = QuantileType::default().of_extended(&at.sample, 0.84);
+        let quantile =
+            QuantileType::default().extended_quantile(&at.sample, 0.84);
         let quantile = quantile.unwrap_or(f64::NAN);
         sample_rate(at, k, quantile) / sample_rate(at, k, 0.0)
     })
@@ -284,7 +285,7 @@ pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
     mean_over(scope, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =
             (0..HALVES).map(|index| half(counts, index)).collect();
-        let ratio = |ranked: &Ranked| {
+        let ratio = |ranked: &RecordRanks| {
             let both = halves.iter().map(|half| dispersions(ranked, half));
             let (quantiles, fit): (Vec<f64>, Vec<f64>) = both.unzip();
             (variance(&quantiles) / variance(&fit)).sqrt()
@@ -295,7 +296,7 @@ pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
 
 /// Dispersion of a sample: half the logarithm of its 84 over its 16 %
 /// quantile, and the standard deviation of its logarithms.
-fn dispersions(ranked: &Ranked, counts: &[u32]) -> (f64, f64) {
+fn dispersions(ranked: &RecordRanks, counts: &[u32]) -> (f64, f64) {
     let logs: Vec<f64> =
         ranked.drawn(counts).iter().map(|x| log(*x)).collect();
     let at = |p| log(ranked.quantile(counts, p));

@@ -1,6 +1,6 @@
 //! What the measures read, and what they give.
 
-use rocking_statistics::resampling::Ranked;
+use rocking_statistics::resampling::RecordRanks;
 
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::distances::SuiteDistances;
@@ -144,13 +144,13 @@ impl<'a> Scope<'a> {
 /// The values of the records in one cell.
 pub(super) struct CellValues {
     pub(super) at: String,
-    pub(super) values: Ranked,
+    pub(super) values: RecordRanks,
 }
 
 impl CellValues {
     /// Paired ratios of demands or capacities.
     pub(super) fn ratios(at: String, a: &[f64], b: &[f64]) -> Self {
-        Self { at, values: Ranked::new(&ratios(a, b, 1.0)) }
+        Self { at, values: RecordRanks::new(&ratios(a, b, 1.0)) }
     }
 
     /// The cell.

@@ -7,7 +7,7 @@ use crate::analyses::{Deviation, SuiteResults};
 use crate::estimates::mean;
 use crate::inference::LEAST_DECIDING;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
-use rocking_statistics::resampling::Ranked;
+use rocking_statistics::resampling::RecordRanks;
 
 /// Cells by frequency parameter and intensity: a distance of each record's
 /// histories or peaks, mean over the slendernesses.
@@ -21,7 +21,7 @@ fn at_levels(
             let each = apart.iter().map(|apart| mean(apart.iter().map(&of)));
             cells.push(CellValues {
                 at: format!("p = {p}, intensity {im}"),
-                values: Ranked::new(&each.collect::<Vec<f64>>()),
+                values: RecordRanks::new(&each.collect::<Vec<f64>>()),
             });
         }
     }
@@ -87,12 +87,12 @@ pub(super) fn peaks(scope: &Scope<'_>) -> MeasureCells {
 }
 
 /// Mean |ln| of the ratio of intensities at equal demand, by record.
-fn apart_by_record(suite: &SuiteResults) -> Ranked {
+fn apart_by_record(suite: &SuiteResults) -> RecordRanks {
     let of = |record: usize| {
         let apart = suite.single.iter().flat_map(|s| &s.apart[record]);
         mean(apart.map(|a| a.mean_ln_im))
     };
-    Ranked::new(&(0..suite.records.len()).map(of).collect::<Vec<f64>>())
+    RecordRanks::new(&(0..suite.records.len()).map(of).collect::<Vec<f64>>())
 }
 
 /// Distance of single curves, median over the records.

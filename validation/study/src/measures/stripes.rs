@@ -18,11 +18,11 @@ use rocking_common::paper::{
     closed_form, position,
 };
 use rocking_statistics::Proportion;
-use rocking_statistics::resampling::Ranked;
+use rocking_statistics::resampling::RecordRanks;
 
 /// Whether the notch about the median of a replicate covers 1: McGill, Tukey
 /// and Larsen, Am. Stat. 32 (1978) 12.
-fn notch_covers_1(values: &Ranked, counts: &[u32]) -> bool {
+fn notch_covers_1(values: &RecordRanks, counts: &[u32]) -> bool {
     let n = values.drawn(counts).len() as f64;
     let at = |p| values.quantile(counts, p);
     let half = 1.57 * (at(0.75) - at(0.25)) / n.sqrt();
@@ -47,7 +47,7 @@ fn block_ratios(
         };
         let name = block(frequency, slenderness);
         for (im, a, b) in stripes.compared(frequency, Some(slenderness)) {
-            let values = Ranked::new(&scope::ratios(a, b, scale));
+            let values = RecordRanks::new(&scope::ratios(a, b, scale));
             let at = format!("{name}, intensity {im}");
             cells.push(CellValues { at, values });
         }
@@ -171,7 +171,7 @@ pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
     let stocky = SLENDERNESSES_RAD.len() - 1;
     let lowest = scope.stripes()?.compared(0, Some(stocky)).next();
     let (_, own, reference) = lowest.unwrap_or_default();
-    let middle = Ranked::new(reference).median(&vec![1; reference.len()]);
+    let middle = RecordRanks::new(reference).median(&vec![1; reference.len()]);
     let half = |small: bool| {
         let ratios = scope::ratios(own, reference, 1.0);
         let away = ratios.iter().zip(reference).map(|(ratio, demand)| {
@@ -180,7 +180,7 @@ pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
                 false => f64::NAN,
             }
         });
-        Ranked::new(&away.collect::<Vec<f64>>())
+        RecordRanks::new(&away.collect::<Vec<f64>>())
     };
     let (small, large) = (half(true), half(false));
     let records = small.records() + large.records();

@@ -2,7 +2,7 @@
 
 use rocking::capacity::ResponseCurve;
 use rocking_statistics::ExtendedSample;
-use rocking_statistics::lilliefors::{Assessment, Inapplicable};
+use rocking_statistics::lilliefors::{Inapplicable, LillieforsTest};
 
 use super::answer::{Rows, StudyAnswer, count, number, word};
 use crate::analyses::SuiteResults;
@@ -158,7 +158,7 @@ fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
     of_intervals(&known, &once, shift).map(|f| f.dispersion())
 }
 
-fn tied(assessment: &Assessment) -> bool {
+fn tied(assessment: &LillieforsTest) -> bool {
     matches!(assessment.verdict, Err(Inapplicable::Ties { .. }))
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use rocking_statistics::acceptance::{AcceptedShare, NullBand};
-use rocking_statistics::lilliefors::{Assessment, Inapplicable};
+use rocking_statistics::lilliefors::{Inapplicable, LillieforsTest};
 use rocking_statistics::multiple::{benjamini_hochberg, holm};
 use rocking_statistics::normality::Battery;
 
@@ -91,11 +91,11 @@ struct LevelsRow {
 
 impl LevelsRow {
     fn new(
-        tests: &[Assessment],
+        tests: &[LillieforsTest],
         band: Option<&NullBand>,
         battery: Option<&Battery>,
     ) -> Self {
-        let with_step = |stride: usize| -> Vec<Assessment> {
+        let with_step = |stride: usize| -> Vec<LillieforsTest> {
             every(tests, stride).cloned().collect()
         };
         let accepted = accepted_share(tests);
@@ -106,8 +106,8 @@ impl LevelsRow {
         let below = |adjusted: Vec<f64>| {
             count(adjusted.iter().filter(|p| **p <= LEVEL).count())
         };
-        let counts = AcceptedShare::of(tests);
-        let tied = |t: &&Assessment| {
+        let counts = AcceptedShare::from_tests(tests);
+        let tied = |t: &&LillieforsTest| {
             matches!(t.verdict, Err(Inapplicable::Ties { .. }))
         };
         let share = |x: f64| number(x, 3);
@@ -145,7 +145,7 @@ impl LevelsRow {
 }
 
 /// Accepted shares of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk.
-fn others(tests: &[Assessment], battery: &Battery) -> [f64; 3] {
+fn others(tests: &[LillieforsTest], battery: &Battery) -> [f64; 3] {
     let accepted: Vec<[Option<bool>; 3]> = tests
         .par_iter()
         .map(|test| {

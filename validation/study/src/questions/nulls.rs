@@ -1,6 +1,6 @@
 //! Critical values where the shift is estimated from the same records.
 
-use rocking_statistics::lilliefors::{ShiftedNull, Table};
+use rocking_statistics::lilliefors::{LillieforsTable, ShiftedNull};
 
 use super::answer::{Rows, StudyAnswer, count, number, word};
 use crate::distributions::{BlockSamples, factors};
@@ -83,7 +83,8 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
 
 fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
     let onsets = factors(records, Intensity::Pgv, block.p_rad_s);
-    let tabulated = Table::embedded().critical_value(onsets.len(), LEVEL);
+    let tabulated =
+        LillieforsTable::embedded().critical_value(onsets.len(), LEVEL);
     let mut redrawn: f64 = 0.0;
     let ratios: Vec<f64> = PLACES
         .iter()

@@ -63,7 +63,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     // Records drawn once for all blocks, measures and thresholds.
     let clusters = &results.ordinary.clusters;
     let draws: Vec<Vec<usize>> =
-        Bootstrap::of("study/options", 0, clusters, replicates)
+        Bootstrap::of_clusters("study/options", 0, clusters, replicates)
             .map(<[_]>::to_vec);
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
     for (_, found) in results.common().filter(|(s, _)| s.kind == kind) {

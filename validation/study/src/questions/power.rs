@@ -3,7 +3,7 @@
 use libm::{exp, log1p};
 use rayon::prelude::*;
 use rocking_statistics::Sample;
-use rocking_statistics::lilliefors::{Statistic, Table};
+use rocking_statistics::lilliefors::{LillieforsTable, Statistic};
 use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
@@ -80,7 +80,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
 /// Rejected shares of the four tests.
 fn rejected(n: usize, excess: f64) -> [f64; 4] {
     let streams = Streams::new("study/power", 0);
-    let critical = Table::embedded().critical_value(n, LEVEL).ok();
+    let critical = LillieforsTable::embedded().critical_value(n, LEVEL).ok();
     let found: Vec<[bool; 4]> = (0..TRIALS)
         .into_par_iter()
         .map(|index| {

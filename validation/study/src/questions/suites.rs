@@ -374,7 +374,7 @@ mod tests {
                 let values: Vec<f64> = all.iter().map(value).collect();
                 let sample = ExtendedSample::try_new(&values).expect("sample");
                 QuantileType::default()
-                    .of_extended(&sample, 0.5)
+                    .extended_quantile(&sample, 0.5)
                     .expect("median")
             };
             for (quantity, own) in [

@@ -93,7 +93,7 @@ fn a_steep_segment_is_integrated_in_parts() {
         ),
     ] {
         let law = Lognormal::try_new(shift, log_mean, beta).unwrap();
-        let found = Segment::of(&[from, to]).integral(&law);
+        let found = Segment::between(&[from, to]).integral(&law);
         assert!(
             (found / expected - 1.0).abs() < 1e-10,
             "{found:e} {expected}"
@@ -146,7 +146,7 @@ fn the_closed_form_is_the_quadrature() {
         for (from, to) in [(1e-3, 0.02), (0.3, 0.31), (0.5, 4.0), (3.0, 90.0)]
         {
             let end = 1e-3 * libm::pow(to / from, -k);
-            let segment = Segment::of(&[(from, 1e-3), (to, end)]);
+            let segment = Segment::between(&[(from, 1e-3), (to, end)]);
             let found = |shift| {
                 let law = Lognormal::try_new(shift, 0.1, beta).expect("a law");
                 segment.integral(&law)

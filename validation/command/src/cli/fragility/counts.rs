@@ -6,10 +6,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use indexmap::IndexMap;
-use rocking_procedures::counts::Outcome;
+use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::{
-    CountsFragility, Draws, Exposed, ProcedureError, Sampled, fit_outcomes,
-    fit_stripes, sample_outcomes,
+    BootstrapFits, CountsFragility, Draws, FragilityInput, ProcedureError,
+    fit_outcomes, fit_stripes, sample_outcomes,
 };
 use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::Stripe;
@@ -80,7 +80,7 @@ pub enum CountTable {
     /// Counts alone.
     Stripes(Vec<Stripe>),
     /// What became of each record.
-    Records(Vec<Outcome>, Clusters),
+    Records(Vec<RecordOutcome>, Clusters),
 }
 
 impl CountTable {
@@ -103,7 +103,7 @@ impl CountTable {
         &self,
         shift: f64,
         draws: Draws,
-    ) -> Option<Result<Sampled, ProcedureError>> {
+    ) -> Option<Result<BootstrapFits, ProcedureError>> {
         let Self::Records(outcomes, clusters) = self else { return None };
         Some(sample_outcomes(outcomes, clusters, shift, draws))
     }
@@ -120,7 +120,8 @@ impl CountTable {
             (one.im, f64::from(one.exceeded) / f64::from(one.n))
         };
         let points = self.stripes().iter().map(share).collect();
-        let fit = Exposed { fragility: "fit".to_owned(), fitted, sampled };
+        let fit =
+            FragilityInput { fragility: "fit".to_owned(), fitted, sampled };
         let words = ("intensity", "marks: shares of the records");
         Ok(fragilities_svg(&[fit], &[points], words))
     }
@@ -130,7 +131,7 @@ impl CountTable {
     pub fn stripes(&self) -> Cow<'_, [Stripe]> {
         match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),
-            Self::Records(all, _) => Outcome::stripes(all, |_| 1).into(),
+            Self::Records(all, _) => RecordOutcome::stripes(all, |_| 1).into(),
         }
     }
 }
@@ -193,7 +194,7 @@ fn outcomes<R: Read>(
         }
         let finite = |im: &f64| im.is_finite();
         let one = |count: &u32| *count <= 1;
-        all.push(Outcome {
+        all.push(RecordOutcome {
             im: cells.parsed("intensity", finite, "an intensity")?,
             record: place,
             exceeded: cells.parsed("exceeded", one, "1 or 0")? == 1,

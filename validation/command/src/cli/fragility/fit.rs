@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ArgGroup;
 use rocking_procedures::fit::Band;
 use rocking_procedures::{
-    Draws, Exposed, FitOptions, FragilityFit, LevelFit, Shift, capacities,
-    fit_levels, fit_sample,
+    Draws, FitOptions, FragilityFit, FragilityInput, LevelFit, Shift,
+    capacities, fit_levels, fit_sample,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::lognormal::FitMethod;
@@ -227,7 +227,7 @@ fn svg(
     let (mut fits, mut points) = (Vec::new(), Vec::new());
     for (fragility, sample, fitted) in all {
         let sampled = options.sampled(&sample)?;
-        fits.push(Exposed { fragility, fitted, sampled });
+        fits.push(FragilityInput { fragility, fitted, sampled });
         points.push(sample.points());
     }
     let words = (unit, "marks: capacities of the records");

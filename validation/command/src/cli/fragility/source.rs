@@ -13,7 +13,7 @@ use rocking_exchange::{
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
 use rocking_procedures::{
-    FitOptions, Sampled, Shift, capacities, fit_sample, fit_stripes,
+    BootstrapFits, FitOptions, Shift, capacities, fit_sample, fit_stripes,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
@@ -124,10 +124,10 @@ enum LevelValues {
 }
 
 /// A fragility, and what the draws of its sample make of it.
-pub type SampledFragility = (Lognormal, Option<Sampled>);
+pub type SampledFragility = (Lognormal, Option<BootstrapFits>);
 
 /// The fragilities of a block, and what draws make of each limit state.
-type BlockDraws = (BlockFragility, Vec<Option<Sampled>>);
+type BlockDraws = (BlockFragility, Vec<Option<BootstrapFits>>);
 
 /// Where one limit state comes from.
 struct FragilityLevel {
@@ -421,7 +421,7 @@ impl FragilitySource {
                 );
             }
         }
-        type States = (Vec<LimitState>, Vec<Option<Sampled>>);
+        type States = (Vec<LimitState>, Vec<Option<BootstrapFits>>);
         let blocks: Vec<(Option<Id>, States)> = if is_own {
             let laws = self.levels.iter();
             let laws = laws.map(|level| level.fit(options, None));

@@ -1,6 +1,6 @@
 //! `rocking fragility transform`: Eqs. 5 to 7 of given numbers.
 
-use rocking_procedures::fit::Transformed;
+use rocking_procedures::fit::Transformation;
 
 use crate::cli::shared::JsonArg;
 use crate::failure::Failure;
@@ -39,7 +39,7 @@ pub(super) struct FragilityTransformCommand {
 pub(super) fn run_fragility_transform(
     args: &FragilityTransformCommand,
 ) -> Result<(), Failure> {
-    let found = Transformed::of(
+    let found = Transformation::new(
         (args.im50, args.beta),
         (args.im16, args.im84),
         args.shift,

@@ -9,7 +9,9 @@ use anyhow::{Context as _, Result, bail};
 use libm::{exp, lgamma, log};
 use rocking_statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking_statistics::boxplot::median_interval;
-use rocking_statistics::lilliefors::{ShiftedNull, Statistic, Table};
+use rocking_statistics::lilliefors::{
+    LillieforsTable, ShiftedNull, Statistic,
+};
 use rocking_statistics::lognormal::{FitMethod, fit};
 use rocking_statistics::normal;
 use rocking_statistics::normality::{
@@ -58,7 +60,7 @@ pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     // Of the fully specified distribution, asymptotically.
     let known = (-0.5 * log(0.5 * level) / n as f64).sqrt();
-    let tabled = Table::embedded().critical_value(n, level)?.0;
+    let tabled = LillieforsTable::embedded().critical_value(n, level)?.0;
     let critical = context.or(WrongModel::PlainKolmogorov, known, tabled);
     let judged = rates.len();
     let found = truth.map(&context.case.id, n, trials, |values| {
@@ -203,7 +205,8 @@ fn rejects_above_the_smallest(
     let sample = Sample::try_new(&logs)?;
     let d = Statistic::try_new(&sample)?.d;
     if wrong == Some(WrongModel::KnownShift) {
-        let table = Table::embedded().critical_value(logs.len(), 0.05);
+        let table =
+            LillieforsTable::embedded().critical_value(logs.len(), 0.05);
         return Ok(d > table?.0);
     }
     let simulate = |values: &[f64]| {

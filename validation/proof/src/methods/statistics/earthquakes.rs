@@ -8,10 +8,10 @@
 use anyhow::{Result, anyhow};
 use libm::exp;
 use rayon::prelude::*;
-use rocking_procedures::counts::Outcome;
+use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
 use rocking_procedures::{
-    Draws, Exposed, FitOptions, fit_outcomes, fit_sample, risk,
+    Draws, FitOptions, FragilityInput, fit_outcomes, fit_sample, risk,
 };
 use rocking_statistics::regression::mixed;
 use rocking_statistics::streams::{Streams, standard_normal};
@@ -69,14 +69,15 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
             .iter()
             .enumerate()
             .map(|(record, own)| {
-                let shared = shared[shape.of(record)];
+                let shared = shared[shape.cluster_of(record)];
                 let between = intraclass.sqrt() * shared;
                 DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
             })
             .collect();
         if matches!(measure, RateMeasure::Slope) {
-            let x: Vec<f64> =
-                (0..logs.len()).map(|r| attribute[shape.of(r)]).collect();
+            let x: Vec<f64> = (0..logs.len())
+                .map(|r| attribute[shape.cluster_of(r)])
+                .collect();
             let found = mixed(&x, &logs, &taken)?;
             return Ok(found.p_value < 0.05);
         }
@@ -106,7 +107,7 @@ fn holds(
     let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?;
     if matches!(measure, RateMeasure::Counts) {
         let stripe = |&im: &f64| {
-            let of = move |(record, x): (usize, &f64)| Outcome {
+            let of = move |(record, x): (usize, &f64)| RecordOutcome {
                 im,
                 record,
                 exceeded: *x <= im,
@@ -115,7 +116,8 @@ fn holds(
         };
         let levels = [0.5, 0.75, 1.0, 1.35, 2.0];
         let draws = Draws { replicates: REPLICATES / 2, seed };
-        let outcomes: Vec<Outcome> = levels.iter().flat_map(stripe).collect();
+        let outcomes: Vec<RecordOutcome> =
+            levels.iter().flat_map(stripe).collect();
         let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
         return Ok(holds(found?.median, 1.0));
     }
@@ -129,7 +131,7 @@ fn holds(
     if matches!(measure, RateMeasure::AnnualFrequency) {
         let text = "intensity,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
         let hazard = Hazard::parse("h", text, &HazardOptions::default());
-        let exposed = |fitted, sampled| Exposed {
+        let exposed = |fitted, sampled| FragilityInput {
             fragility: "block".into(),
             fitted,
             sampled,

@@ -82,7 +82,7 @@ pub fn quantiles(context: &Context, answer: &mut Reply) -> Result<()> {
             }
             let size = row.number(0)? as usize;
             let sample = Sample::try_new(&sample[..size])?;
-            let own = quantile_type.of(&sample, row.number(2)?);
+            let own = quantile_type.quantile(&sample, row.number(2)?);
             let quantile = [("quantile", own?)];
             row.put(answer, 3, &quantile)?;
         }
@@ -127,7 +127,7 @@ pub fn paired(context: &Context, answer: &mut Reply) -> Result<()> {
     let margin = context.or(WrongModel::OtherMargin, 0.06, 0.05);
     let mean = equivalence(&ratios, margin)?;
     let median = sign_equivalence(&ratios, margin)?;
-    let sign = SignTest::of(&ratios, 1.0);
+    let sign = SignTest::about(&ratios, 1.0);
     let centre = hodges_lehmann(&ratios)?;
     let own = [
         ("geometric_mean", mean.geometric_mean.value()),

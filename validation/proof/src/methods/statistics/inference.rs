@@ -15,8 +15,8 @@ use rocking_statistics::acceptance::{AcceptedShare, distances};
 use rocking_statistics::bootstrap::{Bootstrap, estimate};
 use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::confidence::Confidence;
-use rocking_statistics::lilliefors::Table;
-use rocking_statistics::resampling::{Ranked, Subsampling};
+use rocking_statistics::lilliefors::LillieforsTable;
+use rocking_statistics::resampling::{RecordRanks, Subsampling};
 use rocking_statistics::step_down::StepDown;
 use rocking_statistics::streams::{Stream, Streams, standard_normal};
 use rocking_statistics::{
@@ -194,13 +194,13 @@ impl Trials {
     fn medians(
         &self,
         trial: u64,
-        cells: &[Ranked],
+        cells: &[RecordRanks],
     ) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
         let of = |counts: &[u32]| -> Vec<f64> {
             cells.iter().map(|r| r.median(counts)).collect()
         };
         let name = format!("coverage/{trial}");
-        let draws = Bootstrap::of(&name, 0, &self.drawn, REPLICATES);
+        let draws = Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES);
         let replicates = (0..REPLICATES as u64)
             .map(|index| of(&draws.multiplicities(index)))
             .collect();
@@ -256,7 +256,7 @@ impl Trials {
                 };
                 let values: Vec<f64> =
                     scores[0].iter().copied().map(ratio(edge)).collect();
-                let cells = [Ranked::new(&values)];
+                let cells = [RecordRanks::new(&values)];
                 let point = cells[0].median(&every);
                 let (replicates, without) = self.medians(trial, &cells);
                 let column = |rows: &[Vec<f64>]| -> Vec<f64> {
@@ -291,7 +291,7 @@ impl Trials {
     fn refuted(&self, trial: u64) -> bool {
         let mut stream = self.streams.stream(trial);
         let n = self.clusters.records();
-        let cell = |stream: &mut Stream| -> Ranked {
+        let cell = |stream: &mut Stream| -> RecordRanks {
             let mut values = vec![0.0; n];
             for event in 0..self.clusters.count() {
                 let shared = sqrt(SHARED) * standard_normal(stream);
@@ -301,9 +301,9 @@ impl Trials {
                         SPREAD * f64::mul_add(sqrt(1.0 - SHARED), own, shared);
                 }
             }
-            Ranked::new(&values)
+            RecordRanks::new(&values)
         };
-        let cells: Vec<Ranked> =
+        let cells: Vec<RecordRanks> =
             (0..BLOCKS * LEVELS).map(|_| cell(&mut stream)).collect();
         let every = vec![1; n];
         let points: Vec<f64> =
@@ -369,7 +369,7 @@ impl Trials {
             inside.count() as f64 / entering.len() as f64
         };
         let truths: Vec<f64> = (0..count).map(truth).collect();
-        let cells: Vec<Ranked> = scores
+        let cells: Vec<RecordRanks> = scores
             .iter()
             .enumerate()
             .map(|(k, cell)| {
@@ -379,7 +379,7 @@ impl Trials {
                     _ => f64::NAN,
                 };
                 let values = cell.iter().enumerate().map(of);
-                Ranked::new(&values.collect::<Vec<f64>>())
+                RecordRanks::new(&values.collect::<Vec<f64>>())
             })
             .collect();
         let every = vec![1; self.clusters.records()];
@@ -411,7 +411,7 @@ impl Trials {
         trial: u64,
         measure: IntervalMeasure,
     ) -> Result<(f64, Option<Interval>)> {
-        let table = Table::embedded();
+        let table = LillieforsTable::embedded();
         let logs: Vec<Vec<f64>> = self
             .scores(trial)
             .into_iter()
@@ -439,7 +439,7 @@ impl Trials {
         let point = of(&(0..n).collect::<Vec<usize>>())?;
         let name = format!("coverage/{trial}");
         if self.wrong == Some(WrongModel::TiedReplicates) {
-            let draws = Bootstrap::of(&name, 0, &self.drawn, 1);
+            let draws = Bootstrap::of_clusters(&name, 0, &self.drawn, 1);
             let values = (0..SUBSAMPLES)
                 .map(|index| of(&draws.draw(index)))
                 .collect::<Result<Vec<_>, _>>()?;
@@ -447,7 +447,7 @@ impl Trials {
             return Ok((point, found.and_then(|e| e.estimate.interval())));
         }
         let size = n - n.div_ceil(10);
-        let rule = Subsampling::of(&name, 0, &self.drawn, size);
+        let rule = Subsampling::of_clusters(&name, 0, &self.drawn, size);
         let values = (0..SUBSAMPLES)
             .map(|index| of(&held(&rule.multiplicities(index))))
             .collect::<Result<Vec<_>, _>>()?;

@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result, bail};
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
-use rocking_statistics::lilliefors::{Statistic, Table};
+use rocking_statistics::lilliefors::{LillieforsTable, Statistic};
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Sample, normal};
 
@@ -107,7 +107,7 @@ pub fn mean(context: &Context, answer: &mut Reply) -> Result<()> {
             (0.5 * std::f64::consts::PI / n as f64).sqrt()
                 * std::f64::consts::LN_2
         } else {
-            Table::embedded().mean(n)?
+            LillieforsTable::embedded().mean(n)?
         };
         for row in MEANS.rows(&n.to_string())? {
             let [known, own] = row.numbers(1)?;
@@ -130,7 +130,7 @@ pub fn table(context: &Context, answer: &mut Reply) -> Result<()> {
         /// By size, then by level.
         errors: Vec<Vec<f64>>,
     }
-    let table = Table::embedded();
+    let table = LillieforsTable::embedded();
     for ((n, values), errors) in n.iter().zip(&values).zip(&errors) {
         for ((level, value), error) in levels.iter().zip(values).zip(errors) {
             let (mut ours, own) = table.critical_value(*n, *level)?;
@@ -157,7 +157,7 @@ fn linear_in_n(n: usize, level: f64) -> Result<f64> {
     let sizes = [4, 5, 6, 7, 8, 9, 10, 15, 20, 30, 50, 100, 200, 400, 900];
     let i = sizes.partition_point(|size| *size < n).clamp(1, sizes.len() - 1);
     let (low, high) = (sizes[i - 1], sizes[i]);
-    let at = |n| Table::embedded().critical_value(n, level);
+    let at = |n| LillieforsTable::embedded().critical_value(n, level);
     let share = (n as f64 - low as f64) / (high as f64 - low as f64);
     let (a, b) = (at(low)?.0, at(high)?.0);
     Ok(f64::mul_add(share, b - a, a))
@@ -176,7 +176,7 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut levels = Vec::new();
     let mut by_interpolation = Vec::new();
     for (n, value) in n.iter().zip(&values) {
-        let p = Table::embedded().p_value(*n, *value)?;
+        let p = LillieforsTable::embedded().p_value(*n, *value)?;
         let known = 2.0 * libm::exp(-2.0 * *n as f64 * value * value);
         let p = context.or(WrongModel::PlainKolmogorov, known, p.value());
         levels.push(p);
@@ -195,7 +195,7 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
 /// least squares, and the largest residual in standard errors.
 pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; levels: Vec<f64>, least_n: usize);
-    let sizes: Vec<usize> = Table::sizes()
+    let sizes: Vec<usize> = LillieforsTable::sizes()
         .into_iter()
         .map(|(n, _)| n)
         .filter(|n| *n >= least_n)
@@ -206,7 +206,7 @@ pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
     for level in levels {
         let known: Vec<(f64, f64)> = sizes
             .iter()
-            .map(|n| Table::embedded().critical_value(*n, level))
+            .map(|n| LillieforsTable::embedded().critical_value(*n, level))
             .collect::<Result<_, _>>()?;
         let row = |i: usize, k: usize| {
             let root = (sizes[i] as f64).sqrt();

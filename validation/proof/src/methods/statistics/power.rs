@@ -55,7 +55,7 @@ pub fn power(context: &Context, answer: &mut Reply) -> Result<()> {
         };
         let point = mean(&(0..values.len()).collect::<Vec<usize>>());
         let name = format!("power/{index}");
-        let draws = Bootstrap::of(&name, 0, &drawn, REPLICATES);
+        let draws = Bootstrap::of_clusters(&name, 0, &drawn, REPLICATES);
         let replicates: Vec<f64> =
             (0..REPLICATES as u64).map(|i| mean(&draws.draw(i))).collect();
         let known = Confidence::new(point, &replicates, &[])?;
@@ -64,7 +64,9 @@ pub fn power(context: &Context, answer: &mut Reply) -> Result<()> {
         let limit = distance.mul_add(error, point);
         let own = (point, ends.low(), ends.high());
         let student = drawn.student_over_normal(level);
-        Some(Power::of(own, student, &deviations, |_, high| high < limit))
+        Some(Power::of_measure(own, student, &deviations, |_, high| {
+            high < limit
+        }))
     };
     let name = match like {
         SuiteShape::Ordinary => "ordinary",

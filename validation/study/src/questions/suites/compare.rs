@@ -42,7 +42,8 @@ pub(super) fn comparison_rows(
         )?;
         let draws = |side: &str, clusters: &Clusters| -> Vec<Vec<usize>> {
             let name = format!("study/suites/{side}/{kind}");
-            Bootstrap::of(&name, 0, clusters, REPLICATES).map(<[_]>::to_vec)
+            Bootstrap::of_clusters(&name, 0, clusters, REPLICATES)
+                .map(<[_]>::to_vec)
         };
         let pair = SuitePair {
             kind: kind.name(),

@@ -92,14 +92,16 @@ macro_rules! named {
 #[cfg(not(feature = "serde"))]
 #[macro_export]
 macro_rules! as_text {
+    (write $type:ty) => {};
     ($type:ty) => {};
 }
 
-/// Serialises a type as the text of its `Display`, which its `FromStr` reads.
+/// Serialises a type as the text of its `Display`, which its `FromStr` reads;
+/// with `write` before the type it is only written.
 #[cfg(feature = "serde")]
 #[macro_export]
 macro_rules! as_text {
-    ($type:ty) => {
+    (write $type:ty) => {
         impl $crate::names::serde::Serialize for $type {
             fn serialize<S: $crate::names::serde::Serializer>(
                 &self,
@@ -108,6 +110,9 @@ macro_rules! as_text {
                 serializer.collect_str(self)
             }
         }
+    };
+    ($type:ty) => {
+        $crate::names::as_text!(write $type);
 
         impl<'de> $crate::names::serde::Deserialize<'de> for $type {
             fn deserialize<D: $crate::names::serde::Deserializer<'de>>(

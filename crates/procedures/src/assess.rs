@@ -489,7 +489,7 @@ pub fn assess(
     Ok(Assessment {
         unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
         units_per_im_unit: ground.unit,
-        level: ground::LEVEL,
+        level: crate::LEVEL,
         im: ground.im,
         records: records.len(),
         drawn: clusters.clone(),

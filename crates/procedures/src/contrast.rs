@@ -6,7 +6,7 @@ use libm::{exp, log};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::{Draws, ProcedureError};
+use super::{Draws, LEVEL, ProcedureError};
 use rocking::accelerogram::are_places;
 use rocking::stop;
 use rocking_statistics::bootstrap::Bootstrap;
@@ -16,9 +16,6 @@ use rocking_statistics::{
     CensoredSample, Clusters, Estimate, ExtendedSample, Interval,
     QuantileType, Range, SampleError, normal,
 };
-
-/// Level of the interval.
-const LEVEL: f64 = 0.95;
 
 /// Most values of a sample: the time of the exact p-value grows with the
 /// product of both numbers.

@@ -4,15 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::fit::BootstrapFits;
-use super::{Draws, ProcedureError};
+use super::{Draws, LEVEL, ProcedureError};
 use rocking::capacity::ResponseCurve;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::lognormal::{Stripe, fit_counts, fit_counts_alone};
 use rocking_statistics::resampling::multiplicities;
 use rocking_statistics::{Clusters, Estimate, Lognormal};
-
-/// Level of the intervals.
-const LEVEL: f64 = 0.95;
 
 /// A lognormal fragility fitted to counts, with intervals.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,21 +132,16 @@ pub fn fit_outcomes(
     draws: Draws,
 ) -> Result<CountsFragility, ProcedureError> {
     let found = fit_stripes(&RecordOutcome::stripes(outcomes, |_| 1), shift)?;
-    let BootstrapFits { clusters, fitted, .. } =
-        sample_outcomes(outcomes, clusters, shift, draws)?;
+    let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
     let estimate = |of: fn(&Lognormal) -> f64, point| {
-        let value =
-            |law: &Option<Lognormal>| law.as_ref().map_or(f64::NAN, of);
-        let column: Vec<f64> = fitted.iter().map(value).collect();
-        let found = clusters.estimate(point, &column, LEVEL);
         let enough = |e: &BootstrapEstimate| 20 * e.used >= 19 * e.replicates;
-        let found = found.filter(enough).map(|found| found.estimate);
-        found.unwrap_or(Estimate::exact(point))
+        let found = drawn.estimate(point, of).filter(enough);
+        found.map_or(Estimate::exact(point), |found| found.estimate)
     };
     Ok(CountsFragility {
         median: estimate(Lognormal::median, found.median.value()),
         dispersion: estimate(Lognormal::dispersion, found.dispersion.value()),
-        intervals: Basis::Drawn(draws, clusters),
+        intervals: Basis::Drawn(draws, drawn.clusters),
         ..found
     })
 }

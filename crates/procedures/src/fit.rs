@@ -13,9 +13,11 @@ pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
 pub use precision::SampleSize;
 pub use remark::FitRemark;
 
-use crate::capacities;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
+use crate::{LEVEL, capacities};
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking::stop;
+use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lilliefors::LillieforsError;
 use rocking_statistics::lognormal::{
     FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
@@ -342,6 +344,21 @@ pub struct BootstrapFits {
 }
 
 impl BootstrapFits {
+    /// A number of a fit, `value` of the sample's own, with the 95 % interval
+    /// of these draws; none where they give none.
+    pub(crate) fn estimate(
+        &self,
+        value: f64,
+        number: impl Fn(&Lognormal) -> f64,
+    ) -> Option<BootstrapEstimate> {
+        let of = |fit: &Option<Lognormal>| {
+            stop::point();
+            fit.as_ref().map_or(f64::NAN, &number)
+        };
+        let drawn: Vec<f64> = self.fitted.iter().map(of).collect();
+        self.clusters.estimate(value, &drawn, LEVEL)
+    }
+
     /// All of them in a unit of which one of theirs has `factor`.
     ///
     /// # Errors

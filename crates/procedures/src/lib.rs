@@ -13,6 +13,9 @@
 
 #![deny(missing_docs)]
 
+/// Level of all intervals.
+const LEVEL: f64 = 0.95;
+
 pub mod assess;
 pub mod capacities;
 pub mod comparison;

@@ -1,8 +1,7 @@
 //! Is a sample normal, or lognormal above a shift?
 
-use std::fmt;
-
 use super::{ProcedureError, Shift};
+use rocking::names::named;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lilliefors::{
@@ -74,35 +73,17 @@ pub struct Normality {
     pub shapiro_wilk: Option<OtherTest>,
 }
 
-/// Where a null distribution comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NullSource {
-    /// The project's own Monte Carlo table.
-    Table,
-    /// A simulation of the same size.
-    Simulation,
-    /// A simulation that takes the smallest value of each draw as its shift.
-    SmallestValue,
-}
-
-impl fmt::Display for NullSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Table => "table",
-            Self::Simulation => "simulation",
-            Self::SmallestValue => "simulation, smallest value as shift",
-        })
-    }
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for NullSource {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
+named! {
+    /// Where a null distribution comes from.
+    #[non_exhaustive]
+    pub enum NullSource: "null distribution" {
+        /// The project's own Monte Carlo table.
+        Table = "table",
+        /// A simulation of the same size.
+        Simulation = "simulation",
+        /// A simulation that takes the smallest value of each draw as its
+        /// shift.
+        SmallestValue = "simulation, smallest value as shift",
     }
 }
 

@@ -2,14 +2,11 @@
 
 use libm::log;
 
-use super::{Draws, ProcedureError};
+use super::{Draws, LEVEL, ProcedureError};
 use rocking_statistics::Clusters;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::lognormal::fit_intervals;
 use rocking_statistics::regression::{Line, mixed};
-
-/// Level of the intervals.
-const LEVEL: f64 = 0.95;
 
 /// An intensity measure, and its values of the records of a suite.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,14 +5,11 @@ use libm::expm1;
 use thiserror::Error;
 
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
-use crate::{Draws, fit::BootstrapFits};
+use crate::{Draws, LEVEL, fit::BootstrapFits};
 use rocking::stop;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::{Clusters, Estimate, Interval, Lognormal, Range};
-
-/// Level of the intervals.
-const LEVEL: f64 = 0.95;
 
 /// Annual frequencies and probabilities of damage under one hazard curve.
 #[derive(Clone, Debug, PartialEq)]

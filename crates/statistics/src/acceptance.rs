@@ -209,20 +209,10 @@ impl NullBand {
                     }
                 }
                 let drawn = isa.run(Mixture { root: &root, own: &own });
-                let mut scratch = Scratch::new(n);
                 let (mut accepted, mut ratios) = (0.0, 0.0);
-                for first in (0..count).step_by(LANES) {
-                    let used = LANES.min(count - first);
-                    for lane in 0..LANES {
-                        // Lanes beyond the last level repeat it.
-                        let level = first + lane.min(used - 1);
-                        scratch.values.copy_from_slice(&drawn[level]);
-                        scratch.put(lane);
-                    }
-                    for d in &scratch.statistics()[..used] {
-                        accepted += f64::from(u8::from(*d <= critical_value));
-                        ratios += d / critical_value;
-                    }
+                for d in distances(&drawn) {
+                    accepted += f64::from(u8::from(d <= critical_value));
+                    ratios += d / critical_value;
                 }
                 (accepted / count as f64, ratios / count as f64)
             })

@@ -41,13 +41,11 @@ impl CensoredSample {
     }
 
     /// The values in their order, infinite where censored.
-    #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// The limits of the values that are censored at a known one.
-    #[must_use]
     pub fn limits(&self) -> &[Option<f64>] {
         &self.limits
     }
@@ -77,7 +75,6 @@ impl CensoredSample {
     }
 
     /// Number of values.
-    #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.values.len()

@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::normal;
 use super::sample::mean;
-use rocking::names::named;
+use rocking::names::{as_text, named};
 
 named! {
     /// What a resampling draws.
@@ -74,19 +74,16 @@ impl Clusters {
     }
 
     /// What a resampling draws.
-    #[must_use]
     pub fn unit(&self) -> SamplingUnit {
         self.unit
     }
 
     /// Number of records.
-    #[must_use]
     pub fn records(&self) -> usize {
         self.of.len()
     }
 
     /// Number of clusters G.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.members.len()
     }
@@ -256,16 +253,7 @@ impl std::fmt::Display for Clusters {
     }
 }
 
-/// In words, as a result says them.
-#[cfg(feature = "serde")]
-impl serde::Serialize for Clusters {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
-    }
-}
+as_text!(write Clusters);
 
 #[cfg(test)]
 mod tests {

@@ -86,7 +86,6 @@ impl Confidence {
     }
 
     /// Whether bias and acceleration are corrected.
-    #[must_use]
     pub fn is_accelerated(&self) -> bool {
         self.accelerated
     }

@@ -34,7 +34,6 @@ pub enum Range {
 
 impl Range {
     /// From the least to the largest number.
-    #[must_use]
     pub fn interval(self) -> Interval {
         let (low, high) = match self {
             Self::Real => (f64::NEG_INFINITY, f64::INFINITY),
@@ -67,6 +66,7 @@ impl Range {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
 pub struct Interval {
     low: f64,
     high: f64,
@@ -91,13 +91,11 @@ impl Interval {
     }
 
     /// The low end; minus infinity where it is open.
-    #[must_use]
     pub fn low(self) -> f64 {
         self.low
     }
 
     /// The high end; infinity where it is open.
-    #[must_use]
     pub fn high(self) -> f64 {
         self.high
     }
@@ -117,13 +115,11 @@ impl Interval {
     /// The part of the interval within the range of its quantity: an end
     /// beyond the range is that end of the range, since the quantity lies in
     /// it.
-    #[must_use]
     pub fn within(self, range: Range) -> Self {
         self.map(|x| range.nearest(x))
     }
 
     /// The interval of f(x), f monotone.
-    #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let (a, b) = (f(self.low), f(self.high));
         if a <= b { Self::rising(a, b) } else { Self::rising(b, a) }
@@ -169,6 +165,7 @@ impl fmt::Display for Interval {
 /// # Ok::<(), rocking_statistics::estimate::EstimateError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Estimate {
     value: f64,
     interval: Option<Interval>,
@@ -177,7 +174,6 @@ pub struct Estimate {
 impl Estimate {
     /// A value without an interval: counted, computed exactly, or of data
     /// that give no interval. NaN where there are no data.
-    #[must_use]
     pub fn exact(value: f64) -> Self {
         Self { value, interval: None }
     }
@@ -227,13 +223,11 @@ impl Estimate {
     }
 
     /// The value.
-    #[must_use]
     pub fn value(&self) -> f64 {
         self.value
     }
 
     /// Its interval.
-    #[must_use]
     pub fn interval(&self) -> Option<Interval> {
         self.interval
     }
@@ -258,7 +252,6 @@ impl Estimate {
     }
 
     /// The estimate of f(x), f monotone.
-    #[must_use]
     pub fn map(&self, f: impl Fn(f64) -> f64) -> Self {
         let interval = self.interval.map(|interval| interval.map(&f));
         Self { value: f(self.value), interval }

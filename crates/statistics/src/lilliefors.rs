@@ -12,14 +12,13 @@ mod shift;
 mod simulation;
 mod table;
 
+use rocking::names::named;
 use thiserror::Error;
 
 pub use assess::{Inapplicable, LillieforsTest, Null, Scale};
 pub use shift::ShiftedNull;
 pub use simulation::{CriticalValue, NullDistribution};
 pub use table::LillieforsTable;
-
-use std::fmt;
 
 use super::{Estimate, Sample, normal};
 
@@ -181,35 +180,16 @@ fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
     Ok(sample.sorted().iter().map(|y| (y - mean) / deviation).collect())
 }
 
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Rejected => "rejected",
-            Self::NotRejected => "not-rejected",
-            Self::Indeterminate => "indeterminate",
-        })
+named! {
+    /// What a test says at a level.
+    pub enum Verdict: "verdict" {
+        /// The interval of p lies below the level.
+        Rejected = "rejected",
+        /// The interval of p lies above the level.
+        NotRejected = "not-rejected",
+        /// The interval of p contains the level: more replicates would tell.
+        Indeterminate = "indeterminate",
     }
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for Verdict {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
-    }
-}
-
-/// What a test says at a level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The interval of p lies below the level.
-    Rejected,
-    /// The interval of p lies above the level.
-    NotRejected,
-    /// The interval of p contains the level: more replicates would tell.
-    Indeterminate,
 }
 
 impl Verdict {

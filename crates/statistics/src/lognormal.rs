@@ -93,19 +93,16 @@ impl Lognormal {
     }
 
     /// The shift r.
-    #[must_use]
     pub fn shift(&self) -> f64 {
         self.shift
     }
 
     /// The logarithmic mean mu, of x - r.
-    #[must_use]
     pub fn log_mean(&self) -> f64 {
         self.log_mean
     }
 
     /// The dispersion beta, of ln(x - r).
-    #[must_use]
     pub fn dispersion(&self) -> f64 {
         self.dispersion
     }

@@ -45,7 +45,6 @@ impl Proportion {
     }
 
     /// Number of trials n.
-    #[must_use]
     pub fn trials(self) -> usize {
         self.trials
     }

@@ -60,7 +60,6 @@ impl QuantileType {
     }
 
     /// The number, 1 to 9.
-    #[must_use]
     pub fn number(self) -> u8 {
         self.0
     }

@@ -235,7 +235,6 @@ impl RecordRanks {
     }
 
     /// Number of records with a value.
-    #[must_use]
     pub fn records(&self) -> usize {
         self.0.len()
     }

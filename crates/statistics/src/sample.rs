@@ -68,13 +68,11 @@ impl Sample {
     }
 
     /// The values in ascending order.
-    #[must_use]
     pub fn sorted(&self) -> &[f64] {
         &self.sorted
     }
 
     /// Number of values, at least 1.
-    #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.sorted.len()
@@ -150,7 +148,6 @@ impl ExtendedSample {
     }
 
     /// All values in ascending order, infinite ones last.
-    #[must_use]
     pub fn sorted(&self) -> &[f64] {
         &self.sorted
     }
@@ -162,7 +159,6 @@ impl ExtendedSample {
     }
 
     /// Number of values, infinite ones included; at least 1.
-    #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.sorted.len()

@@ -1,7 +1,7 @@
 //! What intensities of damage say of an object: fits, intervals and risk.
 
 use super::Answer;
-use super::ground::{AssessmentSuite, LEVEL};
+use super::ground::AssessmentSuite;
 use crate::fit::BootstrapFits;
 use crate::fragility::hazard::Hazard;
 use crate::{
@@ -105,13 +105,9 @@ impl AssessmentSuite<'_> {
     ) -> Answer {
         let at = |p: f64| {
             let point = fitted.quantile(p);
-            let found = sampled.as_ref().and_then(|all| {
-                let of = |law: &Option<Lognormal>| {
-                    law.as_ref().map_or(f64::NAN, |law| law.quantile(p))
-                };
-                let drawn: Vec<f64> = all.fitted.iter().map(of).collect();
-                all.clusters.estimate(point, &drawn, LEVEL)
-            });
+            let drawn = sampled.as_ref();
+            let found =
+                drawn.and_then(|all| all.estimate(point, |x| x.quantile(p)));
             found.map_or(Estimate::exact(point), |found| found.estimate)
         };
         let (median_im, small_im) = (at(0.5), at(SMALL));

@@ -25,9 +25,6 @@ use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
 use rocking_statistics::lognormal::{Stripe, fit_counts_alone};
 use rocking_statistics::{Clusters, Estimate, Interval, Range};
 
-/// Level of the intervals.
-pub(super) const LEVEL: f64 = 0.95;
-
 /// Intensities at which a curve is drawn.
 const POINTS: usize = 40;
 
@@ -260,24 +257,21 @@ impl<'a> AssessmentSuite<'a> {
         let threshold = uplift_threshold(&object.block, analyses[0].model);
         let moved = self.under(object);
         let per_pga = self.per_pga(moved, &self.im);
-        let of = |curves: &[IdaCurve]| {
+        let onset = |curves: &[IdaCurve]| {
             let own = response(curves)?;
             let edp = damage.edp();
             let all = capacities::intervals(&own, edp, InversionRule::Median);
-            let all = all.map_err(refused)?.into_iter().zip(&per_pga);
-            let scaled = all.map(|((low, high), per)| {
-                let scale = |im: f64| self.scaled(im * threshold, *per);
-                (scale(low), scale(high))
-            });
-            Ok::<Vec<(f64, f64)>, AssessError>(scaled.collect())
+            all.map_err(refused)
         };
-        let onset = capacities::intervals(
-            &response(&made[0])?,
-            damage.edp(),
-            InversionRule::Median,
-        );
-        let onset = onset.map_err(refused)?;
-        let intervals = of(&made[0])?;
+        let scaled = |onset: &[(f64, f64)]| -> Vec<(f64, f64)> {
+            let scale = |((low, high), per): (&(f64, f64), &f64)| {
+                let scale = |im: f64| self.scaled(im * threshold, *per);
+                (scale(*low), scale(*high))
+            };
+            onset.iter().zip(&per_pga).map(scale).collect()
+        };
+        let own_onset = onset(&made[0])?;
+        let intervals = scaled(&own_onset);
         let shift = match self.im {
             IntensityMeasure::PGA if object.floor.is_none() => threshold,
             _ => 0.0,
@@ -292,7 +286,7 @@ impl<'a> AssessmentSuite<'a> {
         for (curves, analysis) in made.iter().zip(analyses).skip(1) {
             let eta = analysis.restitution.velocity_ratio();
             let assumption = Assumption::Restitution(eta);
-            let fitted = Self::fitted(&of(curves)?, shift);
+            let fitted = Self::fitted(&scaled(&onset(curves)?), shift);
             let fitted = fitted.map_err(|source| {
                 AssessError::Alternative { id: id.clone(), assumption, source }
             })?;
@@ -332,7 +326,7 @@ impl<'a> AssessmentSuite<'a> {
                 &made[0],
                 &analyses[0],
                 mu,
-                &onset,
+                &own_onset,
             )?),
         };
         let mut resolution = ResolutionCounts::default();

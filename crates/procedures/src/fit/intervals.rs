@@ -2,6 +2,7 @@
 //! intensity.
 
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
+use crate::LEVEL;
 use crate::fragility::FragilityError;
 use rocking::stop;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
@@ -9,9 +10,6 @@ use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
-
-/// Level of all intervals.
-const LEVEL: f64 = 0.95;
 
 /// Bootstrap intervals (95 %) of one number.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,14 +207,9 @@ impl BootstrapFits {
     #[must_use]
     pub fn band(&self, fitted: &Lognormal, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
-            stop::point();
-            let at = |fit: &Option<Lognormal>| {
-                fit.map_or(f64::NAN, |fit| fit.cdf(intensity))
-            };
-            let column: Vec<f64> = self.fitted.iter().map(at).collect();
             let probability = fitted.cdf(intensity);
             let delta = Estimate::exact(probability);
-            let found = self.clusters.estimate(probability, &column, LEVEL);
+            let found = self.estimate(probability, |fit| fit.cdf(intensity));
             let probability = found.map_or(delta, |found| found.estimate);
             BandPoint { intensity, probability, delta }
         };

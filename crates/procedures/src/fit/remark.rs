@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use rocking::names::as_text;
 use rocking_statistics::CensoredSample;
 
 /// A weakness of a fit.
@@ -52,12 +53,4 @@ impl fmt::Display for FitRemark {
     }
 }
 
-#[cfg(feature = "serde")]
-impl serde::Serialize for FitRemark {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
-    }
-}
+as_text!(write FitRemark);

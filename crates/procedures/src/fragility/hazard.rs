@@ -8,6 +8,7 @@ use libm::{asin, cos, hypot, log1p, sin, sqrt};
 use thiserror::Error;
 
 use super::risk::{HazardCurve, HazardError};
+use rocking::names::as_text;
 use rocking::stop;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 
@@ -145,15 +146,7 @@ impl fmt::Display for HazardRemark {
     }
 }
 
-#[cfg(feature = "serde")]
-impl serde::Serialize for HazardRemark {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_str(self)
-    }
-}
+as_text!(write HazardRemark);
 
 /// What a hazard curve's file may leave open.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -150,7 +150,6 @@ impl HazardCurve {
     }
 
     /// The points (intensity, annual frequency in 1/year).
-    #[must_use]
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }

@@ -136,13 +136,11 @@ impl NullDistribution {
     }
 
     /// Size of the samples.
-    #[must_use]
     pub fn n(&self) -> usize {
         self.n
     }
 
     /// The simulated statistics, ascending.
-    #[must_use]
     pub fn sorted(&self) -> &[f64] {
         &self.sorted
     }

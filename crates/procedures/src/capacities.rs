@@ -19,16 +19,7 @@ pub fn sample(
     edp: f64,
     rule: InversionRule,
 ) -> Result<CensoredSample, ProcedureError> {
-    let (mut values, mut limits) = (Vec::new(), Vec::new());
-    for curve in curves {
-        let capacity = curve.capacity(edp, rule)?;
-        values.push(capacity.im());
-        limits.push(match capacity {
-            Capacity::Reached(_) => None,
-            Capacity::Censored { above } => Some(above),
-        });
-    }
-    Ok(CensoredSample::try_new(&values, &limits)?)
+    Ok(CensoredSample::from_intervals(&intervals(curves, edp, rule)?)?)
 }
 
 /// The capacities of all curves at one EDP level as intervals, which

@@ -40,6 +40,22 @@ impl CensoredSample {
         Ok(Self { values: values.to_vec(), limits })
     }
 
+    /// A sample of values known by intervals (low, high): censored at `low`
+    /// where `high` is infinite, and otherwise `high`.
+    ///
+    /// # Errors
+    /// [`SampleError`] as of [`Self::try_new`].
+    pub fn from_intervals(
+        intervals: &[(f64, f64)],
+    ) -> Result<Self, SampleError> {
+        let limit = |(low, high): &(f64, f64)| {
+            (*high, high.is_infinite().then_some(*low))
+        };
+        let (values, limits): (Vec<_>, Vec<_>) =
+            intervals.iter().map(limit).unzip();
+        Self::try_new(&values, &limits)
+    }
+
     /// The values in their order, infinite where censored.
     pub fn values(&self) -> &[f64] {
         &self.values

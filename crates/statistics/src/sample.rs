@@ -171,21 +171,6 @@ impl ExtendedSample {
     }
 }
 
-impl From<Sample> for ExtendedSample {
-    fn from(sample: Sample) -> Self {
-        let finite = sample.sorted.len();
-        Self { sorted: sample.sorted, finite }
-    }
-}
-
-impl TryFrom<&ExtendedSample> for Sample {
-    type Error = SampleError;
-
-    fn try_from(sample: &ExtendedSample) -> Result<Self, SampleError> {
-        Self::try_new(&sample.sorted)
-    }
-}
-
 /// Values whose sorting takes long enough to be stopped.
 const LONG: usize = 1 << 20;
 

@@ -17,17 +17,6 @@ const SMALL: f64 = 0.05;
 const POINTS: usize = 40;
 
 impl AssessmentSuite<'_> {
-    fn sample(
-        values: &[(f64, f64)],
-    ) -> Result<CensoredSample, ProcedureError> {
-        let highs: Vec<f64> = values.iter().map(|v| v.1).collect();
-        let limits: Vec<Option<f64>> = values
-            .iter()
-            .map(|(low, high)| high.is_infinite().then_some(*low))
-            .collect();
-        Ok(CensoredSample::try_new(&highs, &limits)?)
-    }
-
     fn options(&self, shift: f64, clusters: &Clusters) -> FitOptions {
         FitOptions {
             shift: Shift::Given(shift),
@@ -43,7 +32,7 @@ impl AssessmentSuite<'_> {
         shift: f64,
         last: f64,
     ) -> Result<FragilityFit, ProcedureError> {
-        let sample = Self::sample(values)?;
+        let sample = CensoredSample::from_intervals(values)?;
         let step = (last - shift) / POINTS as f64;
         let grid = (0..=POINTS).map(|k| shift + step * k as f64);
         let hazard = self.options.hazard.into_iter();
@@ -62,7 +51,8 @@ impl AssessmentSuite<'_> {
     ) -> Result<Lognormal, ProcedureError> {
         let shift = Shift::Given(shift);
         let options = FitOptions { shift, ..FitOptions::default() };
-        Ok(fit_sample(&Self::sample(values)?, &options)?.fitted)
+        Ok(fit_sample(&CensoredSample::from_intervals(values)?, &options)?
+            .fitted)
     }
 
     /// What a fragility says, without an interval.
@@ -80,7 +70,8 @@ impl AssessmentSuite<'_> {
     ) -> Result<(Answer, Vec<f64>), ProcedureError> {
         let fitted = Self::fitted(values, shift)?;
         let options = self.options(shift, clusters);
-        let sampled = options.sampled(&Self::sample(values)?)?;
+        let sampled =
+            options.sampled(&CensoredSample::from_intervals(values)?)?;
         let small = |law: &Option<Lognormal>| {
             law.as_ref().map_or(f64::NAN, |law| law.quantile(SMALL))
         };

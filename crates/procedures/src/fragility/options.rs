@@ -141,18 +141,15 @@ impl Recipe {
             let value = quantile_type.extended_quantile(sample, p);
             value.unwrap_or(f64::NAN)
         };
-        match *self {
-            Self::Unshifted(method) => Ok(unshifted(method)?),
+        let (log_mean, dispersion) = match *self {
+            Self::Unshifted(method) => return Ok(unshifted(method)?),
             Self::Shifted(method) => {
-                Ok(fit(sample, shift, method)?.distribution)
+                return Ok(fit(sample, shift, method)?.distribution);
             }
             Self::Quantiles(quantile_type) => {
                 let [low, median, high] =
                     [0.16, 0.5, 0.84].map(|p| at(quantile_type, p));
-                let log_mean = eq5(median, shift)?;
-                let dispersion = eq6(low, high, shift)?;
-                Ok(Lognormal::try_new(shift, log_mean, dispersion)
-                    .map_err(FragilityError::from)?)
+                (eq5(median, shift)?, eq6(low, high, shift)?)
             }
             Self::Transformed { method, centre, c } => {
                 let usfl = unshifted(method)?;
@@ -160,12 +157,12 @@ impl Recipe {
                     Centre::FittedMedian => usfl.median(),
                     Centre::SampleMedian => at(QuantileType::default(), 0.5),
                 };
-                let log_mean = eq5(median, shift)?;
-                let dispersion = eq7(median, usfl.dispersion(), shift, c)?;
-                Ok(Lognormal::try_new(shift, log_mean, dispersion)
-                    .map_err(FragilityError::from)?)
+                let beta = eq7(median, usfl.dispersion(), shift, c)?;
+                (eq5(median, shift)?, beta)
             }
-        }
+        };
+        let found = Lognormal::try_new(shift, log_mean, dispersion);
+        Ok(found.map_err(FragilityError::from)?)
     }
 }
 

@@ -186,7 +186,7 @@ fn transformed(
         });
     }
     Ok(match scale {
-        Scale::Linear => Sample::try_from(sample)?,
+        Scale::Linear => Sample::try_new(sample.sorted())?,
         Scale::Logarithmic { shift } => {
             Sample::try_new(&shifted_finite(sample, shift)?)?
         }

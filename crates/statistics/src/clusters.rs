@@ -258,6 +258,7 @@ as_text!(write Clusters);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bootstrap::Bootstrap;
     use crate::resampling::Subsampling;
 
     #[test]
@@ -273,9 +274,11 @@ mod tests {
         let clusters = Clusters::from_labels(["a", "b", "c", "d"]);
         assert!(clusters.is_singletons());
         assert_eq!(clusters.unit(), SamplingUnit::Earthquake);
-        let drawn = clusters.multiplicities("test", 0, 5);
         let records = Clusters::singletons(4);
-        assert_eq!(drawn, records.multiplicities("test", 0, 5));
+        let drawn = |of: &Clusters| {
+            Bootstrap::of_clusters("test", 0, of, 1).multiplicities(5)
+        };
+        assert_eq!(drawn(&clusters), drawn(&records));
         assert_eq!(clusters.half_width(0.95), records.half_width(0.95));
     }
 

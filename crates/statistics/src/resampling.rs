@@ -32,40 +32,19 @@ impl Bootstrap {
     ///
     /// ```
     /// use rocking_statistics::bootstrap::Bootstrap;
+    /// use rocking_statistics::clusters::Clusters;
     /// let counts = Bootstrap::new("doc", 0, 5, 10).multiplicities(3);
     /// assert_eq!(counts.iter().sum::<u32>(), 5);
+    /// // All records of a cluster come together.
+    /// let clusters = Clusters::from_labels(["a", "b", "a"]);
+    /// let drawn = Bootstrap::of_clusters("doc", 0, &clusters, 10);
+    /// let counts = drawn.multiplicities(1);
+    /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
     /// ```
     #[must_use]
     pub fn multiplicities(&self, index: u64) -> Vec<u32> {
         let places = self.draw(index);
         multiplicities(&places, self.clusters.records())
-    }
-}
-
-impl Clusters {
-    /// How often replicate `index` of a bootstrap holds each record: G of G
-    /// clusters with replacement, with all their records. Of clusters of one
-    /// record these are the multiplicities of [`Bootstrap::new`].
-    ///
-    /// ```
-    /// use rocking_statistics::bootstrap::Bootstrap;
-    /// use rocking_statistics::clusters::Clusters;
-    /// let clusters = Clusters::from_labels(["a", "b", "a"]);
-    /// let counts = clusters.multiplicities("doc", 0, 1);
-    /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
-    /// assert_eq!(
-    ///     Clusters::singletons(5).multiplicities("doc", 0, 3),
-    ///     Bootstrap::new("doc", 0, 5, 10).multiplicities(3)
-    /// );
-    /// ```
-    #[must_use]
-    pub fn multiplicities(
-        &self,
-        name: &str,
-        seed: u64,
-        index: u64,
-    ) -> Vec<u32> {
-        Bootstrap::of_clusters(name, seed, self, 1).multiplicities(index)
     }
 }
 

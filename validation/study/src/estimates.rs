@@ -9,7 +9,6 @@ pub(crate) const LEVEL: f64 = 0.95;
 
 /// Median with its exact order-statistic interval; what was never reached
 /// counts as infinite, what is NaN does not count.
-#[must_use]
 pub fn median(values: &[f64]) -> Estimate {
     let there: Vec<f64> =
         values.iter().copied().filter(|x| !x.is_nan()).collect();

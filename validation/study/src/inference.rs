@@ -88,7 +88,6 @@ pub fn judge(
 }
 
 /// A share of cells with its interval, and on which side of a region it is.
-#[must_use]
 pub fn judged_share(
     draws: &Resamples,
     tested: SuiteSet,

@@ -175,7 +175,6 @@ impl NullDistribution {
 
     /// The p-value of a statistic, (b + 1)/(N + 1) with b the number of
     /// replicates not below it, and the 95 % Clopper-Pearson interval of b.
-    #[must_use]
     pub fn p_value(&self, d: f64) -> Estimate {
         let below = self.sorted.partition_point(|&x| x < d);
         let count = self.sorted.len();

@@ -24,7 +24,6 @@ impl Lognormal {
     /// ```
     ///
     /// Lehmann and Casella, Theory of Point Estimation, 1998, section 1.8.
-    #[must_use]
     pub fn estimate_of_cdf(&self, n: usize, x: f64, level: f64) -> Estimate {
         let z = self.score(x);
         if !z.is_finite() {

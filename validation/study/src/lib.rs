@@ -23,5 +23,6 @@ pub mod sensitivities;
 mod stripes;
 mod ties;
 mod whole;
+mod words;
 
 pub use whole::Study;

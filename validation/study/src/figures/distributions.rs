@@ -5,6 +5,7 @@ use rocking_statistics::lilliefors::LillieforsTest;
 use crate::estimates::three_quantiles;
 use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
 use crate::results::StudyResults;
+use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
 };
@@ -14,7 +15,7 @@ use rocking_draw::axis::{Axis, Tick};
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Of, Series,
+    Chart, ChartPanel, Figure, Layout, Look, Mark, Of, Series,
 };
 use rocking_draw::grid::Grid;
 use rocking_draw::legend::{Entry, Sample};
@@ -125,15 +126,7 @@ pub(super) fn inverted(
         ends =
             format!(" {cut} records never overturn: their curves end early.");
     }
-    let heading = Heading::numbered(
-        11,
-        "Intensity given demand, original and shifted",
-        "A pale curve for each record of the intensity that reaches a \
-         demand, by median point, with median and band of 16 to 84 % of the \
-         records; rows PGA and PGV, columns as inverted and above IM_R; \
-         logarithmic intensity.",
-        Some(arm),
-    );
+    let heading = paper_heading(11, Some(arm));
     let layout = Layout {
         grid: Some(Grid::new(panels.len(), 2).plot(SIZE_PX.0, SIZE_PX.1)),
         legend,
@@ -323,17 +316,7 @@ pub(super) fn shares(
     } else {
         format!("All {levels} levels were tested for every block.")
     };
-    let heading = Heading::numbered(
-        number,
-        format!(
-            "Share of demand levels at which lognormality is accepted, {}",
-            intensity.name().to_uppercase()
-        ),
-        "Percent of the demand levels accepted by Lilliefors' test at 5 %, \
-         for 15 blocks and the arms drawn, with a band for each mark of one \
-         arm; original and shifted samples, ordinary and pulse-type.",
-        None,
-    );
+    let heading = paper_heading(number, None);
     Ok(Chart { heading, panels, columns: 2 }.laid_out(
         &layout,
         format!(

@@ -12,12 +12,11 @@ use curves::{KEYS, NUMBERS, along, empirical, exceedance, fitted, most_of};
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
 use crate::measures::{DemandFits, to_ssfl};
 use crate::results::StudyResults;
+use crate::words::paper_heading;
 use rocking_common::paper::{Arm, Intensity, demand_index};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Ink, Pen};
-use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Mark, Series,
-};
+use rocking_draw::figures::{Chart, ChartPanel, Figure, Layout, Mark, Series};
 use rocking_draw::grid::Grid;
 
 /// Figure 18: demand 0.15, PGA. Its caption has the distances that the claims
@@ -83,13 +82,7 @@ pub(super) fn constants(
         grid: Some(Grid::new(panels.len(), 2).plot(440.0, 230.0)),
         ..Layout::of(&KEYS, &NUMBERS[..2])
     };
-    let heading = Heading::numbered(
-        18,
-        "The constant c of Eq. 7",
-        "USFL7 for four constants against the SSFL, demand 0.15, PGA; \
-         untrimmed and trimmed.",
-        Some(arm),
-    );
+    let heading = paper_heading(18, Some(arm));
     let chart = Chart { heading, panels, columns: 2 };
     Ok(chart.thinned((440.0, 230.0)).laid_out(
         &layout,

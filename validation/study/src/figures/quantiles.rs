@@ -7,6 +7,7 @@ use super::single::demand;
 use crate::analyses::SuiteResults;
 use crate::estimates::three_quantiles;
 use crate::runs::curves_of;
+use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
@@ -58,13 +59,7 @@ pub(super) fn slendernesses(
             .collect()
     })?;
     let words = spread_in_words(&panels);
-    let heading = Heading::numbered(
-        8,
-        "16/50/84 % demand given intensity, five slendernesses",
-        "Three quantile curves for each slenderness, one panel a frequency \
-         parameter; a curve ends where its quantile is overturned.",
-        Some(arm),
-    );
+    let heading = paper_heading(8, Some(arm));
     Ok(figure(heading, &panels, words))
 }
 
@@ -189,14 +184,7 @@ pub(super) fn adjusted(
         ])
     })?;
     let words = overturning_in_words(&panels);
-    let heading = Heading::numbered(
-        10,
-        "16/50/84 % demand given intensity: scaled records and adjusted \
-         slenderness",
-        "Three quantile curves for each procedure, one panel a frequency \
-         parameter; alpha = 0.10 for the scaled records.",
-        Some(arm),
-    );
+    let heading = paper_heading(10, Some(arm));
     let words = format!(
         "The median demand becomes overturning {words}, by procedure."
     );

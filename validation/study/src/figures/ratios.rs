@@ -6,13 +6,14 @@ use crate::analyses::{StripeDemands, SuiteResults};
 use crate::estimates::median;
 use crate::inference::LEAST_DECIDING;
 use crate::stripes::adjusted_slenderness;
+use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
     STRIPES, closed_form, position,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
-use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe};
+use rocking_draw::figures::{BoxPanel, Boxplots, Stripe};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4).
 pub(super) fn slendernesses(
@@ -37,16 +38,8 @@ pub(super) fn slendernesses(
             }
         }
     }
-    let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
     let reading = medians_in_words(&panels);
-    let heading = Heading::numbered(
-        number,
-        format!("Paired ratios of demands to alpha = 0.10, {p}"),
-        "Notched boxplots of the ratio of peak rotation over slenderness to \
-         that of the block with alpha = 0.10 under the same record, by stripe \
-         of intensity; the share of usable ratios stands at the right.",
-        Some(arm),
-    );
+    let heading = paper_heading(number, Some(arm));
     let ratio_label = "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into();
     let boxes = Boxplots { ratio_label, panels, columns: 4 };
     Ok(boxes.figure(&heading, reading))
@@ -63,14 +56,7 @@ pub(super) fn adjusted(
         .map(|(p_rad_s, stripes)| BoxPanel { p_rad_s, alpha_rad, stripes })
         .collect();
     let reading = medians_in_words(&panels);
-    let heading = Heading::numbered(
-        9,
-        "Slenderness adjustment against record scaling",
-        "Notched boxplots of the ratio of demands: unscaled record on a \
-         block of adjusted slenderness over scaled record on the block with \
-         alpha = 0.10, by stripe of intensity.",
-        Some(arm),
-    );
+    let heading = paper_heading(9, Some(arm));
     let ratio_label = "*θ̃*_{adjusted} / *θ̃*_{scaled}".into();
     let boxes = Boxplots { ratio_label, panels, columns: 3 };
     Ok(boxes.figure(&heading, reading))

@@ -1,6 +1,7 @@
 //! Figures 1 to 5: the block, and single records.
 
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
+use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
@@ -8,21 +9,14 @@ use rocking_common::table::number as cell;
 use rocking_draw::axis::Axis;
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    BlockSketch, Chart, ChartPanel, Column, Figure, Heading, History,
-    HistoryPanel, Layout, Mark, Of, Series, histories,
+    BlockSketch, Chart, ChartPanel, Column, Figure, History, HistoryPanel,
+    Layout, Mark, Of, Series, histories,
 };
 use rocking_draw::grid::Grid;
 
 pub(super) fn sketch() -> Figure {
     BlockSketch {
-        heading: Heading::numbered(
-            1,
-            "The rocking block",
-            "A rectangular block of width 2b and height 2h, rotated about one \
-             base corner; R is half its diagonal and alpha the angle between \
-             diagonal and side.",
-            None,
-        ),
+        heading: paper_heading(1, None),
         alpha_rad: 0.35,
         rotation_rad: 0.15,
     }
@@ -55,17 +49,7 @@ pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
             )
         })
         .collect();
-    let title = format!(
-        "Response histories under three {} motions at equal intensity",
-        suite.kind
-    );
-    let heading = Heading::numbered(
-        number,
-        title,
-        "Rotation over slenderness against time, five slendernesses in each \
-         panel; rows by frequency parameter, columns by record.",
-        Some(arm),
-    );
+    let heading = paper_heading(number, Some(arm));
     histories(heading, &panels, 3, apart_in_words(suite))
 }
 
@@ -156,17 +140,7 @@ pub(super) fn curves(
             format!("{:.2} % at p = {p}", 100.0 * apart)
         })
         .collect();
-    let heading = Heading::numbered(
-        number,
-        format!(
-            "IDA curves of three {} motions, five slendernesses",
-            suite.kind
-        ),
-        "Peak rotation over slenderness against dimensionless intensity up \
-         to first overturning; rows by frequency parameter, columns by \
-         record.",
-        Some(arm),
-    );
+    let heading = paper_heading(number, Some(arm));
     let grid = Grid::new(panels.len(), 3).plot(WIDTH_PX, HEIGHT_PX);
     let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let chart = Chart { heading, panels, columns: 3 };

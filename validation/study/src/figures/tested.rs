@@ -7,6 +7,7 @@ use rocking_statistics::normal;
 use crate::normality::{accepted_share, over_critical};
 use crate::results::StudyResults;
 use crate::ties::critical_on_grid;
+use crate::words::paper_heading;
 use rocking_common::paper::{Arm, Intensity, demand_index, demands};
 use rocking_common::table::number;
 use rocking_common::words::percent;
@@ -14,7 +15,7 @@ use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Of, Series,
+    Chart, ChartPanel, Figure, Layout, Look, Mark, Of, Series,
 };
 use rocking_draw::legend::{Entry, Sample};
 use rocking_draw::panel::Marker;
@@ -292,14 +293,7 @@ pub(super) fn along(
             &[("at", Of::X), ("value", Of::Y)],
         )
     };
-    let heading = Heading::numbered(
-        13,
-        "Lilliefors' test along the demand, p = 3",
-        "Test statistic over its critical value along the demand, and \
-         histograms of the logarithm of the capacity at demand 0.50, original \
-         and shifted; alpha = 0.05 and 0.20.",
-        Some(arm),
-    );
+    let heading = paper_heading(13, Some(arm));
     Ok(Chart { heading, panels, columns: 3 }.laid_out(
         &layout,
         format!(

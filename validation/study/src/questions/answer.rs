@@ -1,5 +1,6 @@
 //! Answers, and the tables behind them.
 
+use crate::words::{TableWords, table_words};
 use rocking_common::table::{PlainTable, Table};
 use rocking_draw::figures::Figure;
 
@@ -56,49 +57,33 @@ impl Rows {
         self.csv.map_or_else(String::new, Table::finish)
     }
 
-    /// The answer to a question, with these rows under a title.
-    pub fn answer(
-        self,
-        id: &'static str,
-        question: &'static str,
-        answer: String,
-        title: &str,
-        reading: &str,
-    ) -> StudyAnswer {
-        let reading = format!("{answer}\n{reading}");
-        let part = self.part(id, answer, title, &reading);
-        StudyAnswer { question, ..part }
-    }
-
-    /// A part of an answer, with these rows under a title.
-    pub fn part(
-        self,
-        id: &'static str,
-        answer: String,
-        title: &str,
-        reading: &str,
-    ) -> StudyAnswer {
-        let reading = format!("{reading} All rows: {id}.csv.");
+    /// An answer, or a part of one, with these rows; `words.toml` has the
+    /// other words.
+    pub fn answer(self, id: &'static str, answer: String) -> StudyAnswer {
+        let TableWords { question, reading, .. } = table_words(id);
+        let above = match question.as_str() {
+            "" => String::new(),
+            _ => format!("{answer}\n"),
+        };
+        let mut table = self.table(id);
+        table.reading = format!("{above}{reading} All rows: {id}.csv.");
         StudyAnswer {
             id,
+            question,
             answer,
-            tables: vec![self.table(format!("table-{id}"), title, reading)],
+            tables: vec![table],
             files: vec![(format!("{id}.csv"), self.csv())],
             ..StudyAnswer::default()
         }
     }
 
-    /// A table of the page with the rows shown.
-    pub fn table(
-        &self,
-        name: impl Into<String>,
-        title: &str,
-        reading: impl Into<String>,
-    ) -> PlainTable {
+    /// A table of the page with the rows shown; `words.toml` has its words.
+    pub fn table(&self, id: &str) -> PlainTable {
+        let TableWords { title, reading, .. } = table_words(id);
         PlainTable {
-            name: name.into(),
-            title: title.into(),
-            reading: reading.into(),
+            name: format!("table-{id}"),
+            title: title.clone(),
+            reading: reading.clone(),
             header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
             rows: self.shown.clone(),
         }

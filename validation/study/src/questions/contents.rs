@@ -12,14 +12,12 @@ use crate::fits::of_intervals;
 use crate::inference::{Replicates, Resample, Resamples};
 use crate::results::StudyResults;
 use crate::runs::overturning;
+use crate::words::{caption, heading};
 use rocking_common::paper::SuiteKind;
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Mark, Series,
 };
-
-const QUESTION: &str = "Do FEMA P-58's fragilities of bookcases and filing \
-                        cabinets agree with those of blocks of that size?";
 
 /// Items of one depth, with which FEMA P-58's medians are read.
 const BOOKCASES: usize = 5;
@@ -117,19 +115,7 @@ pub(super) fn answer(
             ("pulse_type_dispersion", number(ours[1].dispersion(k), 2)),
         ]);
     }
-    let answer = table.answer(
-        "contents",
-        QUESTION,
-        words(&ours),
-        "Overturning of contents: FEMA P-58 and blocks of the same size",
-        "A comparison of practice, no validation. FEMA P-58's demand is the \
-         peak velocity of the floor, ours that of the ground motion; shelves \
-         and cabinets slide and bend; FEMA P-58 says that its medians depend \
-         on the period of the building. Our dispersion is between records \
-         alone, FEMA P-58's holds all uncertainties. Fits are unshifted \
-         lognormals of PGV at first overturning; intervals are the central \
-         95 % of 2000 draws of the records.",
-    );
+    let answer = table.answer("contents", words(&ours));
     Ok(StudyAnswer { figures: vec![figure(&ours)], ..answer })
 }
 
@@ -230,16 +216,6 @@ fn figure(ours: &[ItemFits; 2]) -> Figure {
             (axis(scaled, (0.0, 0.4)), scaled_s),
         ),
     ];
-    let heading = Heading::new(
-        "figure-contents",
-        "Overturning of contents: FEMA P-58 and blocks of the same size",
-        "Median PGV at overturning against the height of five bookcases, and \
-         the same over g depth/height against half the diagonal of nine \
-         items: FEMA P-58's fragilities and blocks of their sizes under both \
-         suites.",
-    );
-    Chart { heading, panels, columns: 2 }.figure(
-        "Bars are 95 % intervals from resampled records. On the right FEMA \
-         P-58's bookcases are level: they have no effect of size.",
-    )
+    let heading = heading("contents");
+    Chart { heading, panels, columns: 2 }.figure(caption("contents"))
 }

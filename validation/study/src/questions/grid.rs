@@ -9,12 +9,13 @@ use crate::analyses::SuiteResults;
 use crate::fits::{Fits, of_intervals};
 use crate::results::StudyResults;
 use crate::ties::grid_alone;
+use crate::words::{caption, heading};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{capital, percent};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Mark, Series,
 };
 
 /// One block of a suite.
@@ -89,18 +90,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
         ));
         by_suite.push((suite.kind.name(), rows));
     }
-    let answer = table.answer(
-        "grid",
-        "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?",
-        words.join(" "),
-        "The grid of 0.01 g and the test",
-        "Arm A is the paper's grid, B bisects the first overturning, C uses \
-         the same dimensionless steps for every slenderness; by the grid \
-         alone: rejected at overturning if the capacities were exactly \
-         shifted lognormal and put on the grid. Dispersions of ln(IM - 1) at \
-         overturning: the interval likelihood of the grid's brackets is the \
-         alternative to bisecting them.",
-    );
+    let answer = table.answer("grid", words.join(" "));
     Ok(StudyAnswer { figures: vec![figure(&by_suite)], ..answer })
 }
 
@@ -180,22 +170,8 @@ fn figure(suites: &[(&str, Vec<GridRow>)]) -> Figure {
             })
         })
         .collect();
-    Chart {
-        heading: Heading::new(
-            "figure-grid",
-            "Rejections and the grid of 0.01 g",
-            "Share of demand levels at which the shifted sample is rejected, \
-             by slenderness, in three arms of the grid; ordinary and \
-             pulse-type records, PGA.",
-        ),
-        panels,
-        columns: 3,
-    }
-    .figure(
-        "Rejected share of the demand levels, shifted PGA, in \
-                  three arms of the grid; dashed: what the grid of 0.01 g \
-                  alone does to a shifted lognormal sample at overturning.",
-    )
+    Chart { heading: heading("grid"), panels, columns: 3 }
+        .figure(caption("grid"))
 }
 
 /// One frequency parameter: the first rows are its blocks.

@@ -70,15 +70,7 @@ pub(super) fn levels_part(results: &StudyResults) -> StudyAnswer {
             found.intensity.name().to_uppercase(),
         ));
     }
-    table.part(
-        "levels",
-        words.join(" "),
-        "Accepted shares, their null bands and adjusted counts",
-        "Band: central 95 % of the Gaussian-score bootstrap; effective \
-         levels: (sum of eigenvalues)^2 over the sum of their squares, of \
-         the correlation between levels; Holm and Benjamini-Hochberg at \
-         5 % over 200 levels; the other tests at 5 % by simulation.",
-    )
+    table.answer("levels", words.join(" "))
 }
 
 /// One sample of a block: its cells, the p-value of its accepted share, and

@@ -71,14 +71,7 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
             median(&changes).value(),
         ));
     }
-    table.part(
-        "null",
-        words.join(" "),
-        "Figure 14 under the null of an estimated shift",
-        "Shifted PGV; the null draws onset and capacity jointly and takes \
-         the lowest onset of the draw as its shift. A level without a null \
-         counts as not tested.",
-    )
+    table.answer("null", words.join(" "))
 }
 
 fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {

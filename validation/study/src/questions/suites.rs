@@ -12,6 +12,7 @@ use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
 use crate::kept::KeptResults;
 use crate::results::StudyResults;
+use crate::words::table_words;
 use rocking_common::findings::StudySettings;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
@@ -22,8 +23,6 @@ use rocking_statistics::{Estimate, Interval};
 /// The comparison with 86 ordinary and 44 pulse-type recorded motions:
 /// medians, dispersions and intervals alone.
 const COMMITTED: &str = rocking_fixtures::text("comparison/suites.csv");
-
-const QUESTION: &str = "What can the embedded suites show, and what not?";
 
 /// Medians and dispersions are alike within this share of the recorded ones:
 /// the smallest effect of interest, as for the claims.
@@ -55,7 +54,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
         figures.push(drawing::capacities(&rows, kinds));
     }
     let files = vec![("suites.csv".into(), row::to_csv(&rows))];
-    let (id, question) = ("suites", QUESTION);
+    let (id, question) = ("suites", &table_words("suites").question);
     Ok(StudyAnswer { id, question, answer, tables, figures, files })
 }
 
@@ -188,21 +187,14 @@ fn motions(rows: &[QuantityRow], answer: &str, origin: &str) -> PlainTable {
         cells.push(("p-value", number(r.p_value, 3)));
         table.row(cells);
     }
-    table.table(
-        "table-suites",
-        "Embedded motions beside recorded ones",
-        format!(
-            "{answer} {origin} Study components; dispersion is half the \
-             logarithm of the 84 over the 16 % quantile; intervals are of 95 \
-             %, from 2000 bootstrap draws of the records of both suites. Two \
-             numbers are shown to agree where the whole interval lies within \
-             {:.0} % of the recorded one, and to differ where it leaves out \
-             equality and does not lie there; an interval that holds \
-             equality shows no agreement. D is Kolmogorov's and Smirnov's \
-             distance of the two samples. All rows: suites.csv.",
-            100.0 * LIMIT
-        ),
-    )
+    let mut table = table.table("suites");
+    let limit = format!("{:.0}", 100.0 * LIMIT);
+    for (name, words) in
+        [("{answer}", answer), ("{origin}", origin), ("{limit}", &limit)]
+    {
+        table.reading = table.reading.replace(name, words);
+    }
+    table
 }
 
 fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> PlainTable {
@@ -223,12 +215,7 @@ fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> PlainTable {
             }
         }
     }
-    table.table(
-        "table-suites-capacities",
-        "Overturning capacities, block by block",
-        "At demand 1.00, with equal dimensionless steps; demands 0.15 and \
-         0.35 are in suites.csv.",
-    )
+    table.table("suites-capacities")
 }
 
 fn accepted(rows: &[QuantityRow]) -> PlainTable {
@@ -265,14 +252,7 @@ fn accepted(rows: &[QuantityRow]) -> PlainTable {
             ("recorded below its band", below(|r| r.recorded)),
         ]);
     }
-    table.table(
-        "table-suites-accepted",
-        "Accepted shares of both",
-        "Share of the demand levels at which a block's capacities pass as \
-         lognormal: medians over blocks, the median of the differences with \
-         its interval over blocks, and the number of blocks whose share lies \
-         below the null band of its own suite. Block by block: suites.csv.",
-    )
+    table.table("suites-accepted")
 }
 
 #[cfg(test)]

@@ -84,15 +84,7 @@ pub(super) fn trimming_part(
         percent(truth[3].share(), 0),
         percent(truth[0].share(), 0),
     ));
-    Ok(table.part(
-        "trimming",
-        words.join(" "),
-        "Trimming and Eq. 7",
-        "USFL7 from the trimmed sample's moments against that from the \
-         whole sample's maximum likelihood, both with the fitted median, by \
-         Kolmogorov distance, by the skewness of ln(x - IM_R); 15 blocks, \
-         20 demands.",
-    ))
+    Ok(table.answer("trimming", words.join(" ")))
 }
 
 #[derive(Clone, Copy)]

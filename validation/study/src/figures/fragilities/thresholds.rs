@@ -12,6 +12,7 @@ use crate::measures::{
     ClaimMeasure, DemandFits, Scope, Thresholds, by_demand, to_ssfl,
 };
 use crate::results::StudyResults;
+use crate::words::paper_heading;
 use anyhow::Context as _;
 use rocking_common::findings::SuiteSet;
 use rocking_common::paper::{Arm, Intensity};
@@ -19,7 +20,7 @@ use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::span;
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
+    Chart, ChartPanel, Figure, Layout, Look, Mark, Series,
 };
 use rocking_draw::grid::Grid;
 use rocking_statistics::{Estimate, Interval};
@@ -47,14 +48,6 @@ impl FitPair {
             15 => Self::Shifted,
             16 => Self::Trimmed,
             _ => Self::Untrimmed,
-        }
-    }
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Shifted => "Fragilities: USFL and SSFL, untrimmed",
-            Self::Trimmed => "Fragilities: USFL and USFL7, trimmed, c = 1",
-            Self::Untrimmed => "Fragilities: USFL and USFL7, untrimmed, c = 1",
         }
     }
 
@@ -158,15 +151,7 @@ pub(in super::super) fn thresholds(
         }
         .into(),
     );
-    let heading = Heading::numbered(
-        number,
-        pair.title(),
-        "Six panels, PGA above and PGV below, demands 0.15, 0.35 and 1.00 \
-         from left to right: probability of exceedance against intensity as \
-         dots of the sample, two fitted curves and 95 % bands; p = 3, alpha \
-         = 0.20.",
-        Some(arm),
-    );
+    let heading = paper_heading(number, Some(arm));
     let columns = THRESHOLDS.len();
     let grid = Grid::new(panels.len(), columns);
     let grid = grid.plot(grid.width, 170.0);

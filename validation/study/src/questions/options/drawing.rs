@@ -6,10 +6,11 @@ use rocking_statistics::lognormal::FitMethod;
 
 use super::RecipeSummary;
 use crate::fits::{MLE, trimmed};
+use crate::words::heading;
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::words::range;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Mark, Series,
 };
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
@@ -70,14 +71,7 @@ pub(super) fn figure(summaries: &[RecipeSummary], arm: Arm) -> Figure {
         })
     });
     Chart {
-        heading: Heading::new(
-            "figure-options",
-            "Options 1, 2 and 3 compared",
-            "Median over 15 blocks and three demands of the Kolmogorov \
-             distance to the empirical fragility, against the constant of Eq. \
-             7, for each option; PGA and PGV, ordinary records.",
-        )
-        .of(arm),
+        heading: heading("options").of(arm),
         panels: panels.into(),
         columns: 2,
     }

@@ -2,6 +2,7 @@
 
 use super::row::{MOTIONS, QuantityRow, RowGroup, of_group, of_motion};
 use crate::facts::SPECTRUM_PERIODS_S;
+use crate::words::{caption, heading};
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
@@ -22,24 +23,11 @@ pub(super) fn motions(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
     Chart {
-        heading: Heading {
-            place: Place::Suites,
-            ..Heading::new(
-                "figure-suites",
-                "Embedded motions beside recorded ones",
-                "Above, the ratio of the embedded to the recorded median of \
-                 eight measures with its 95 % interval; below, median and 16 \
-                 to 84 % of the response spectra at 5 % damping; ordinary and \
-                 pulse-type suites.",
-            )
-        },
+        heading: Heading { place: Place::Suites, ..heading("suites") },
         panels,
         columns: 2,
     }
-    .figure(
-        "Where a bar does not reach the dashed line the embedded median \
-         differs from the recorded one; bands are 16 to 84 % of the motions.",
-    )
+    .figure(caption("suites"))
 }
 
 fn ratios(rows: &[QuantityRow], kind: &str) -> ChartPanel {
@@ -107,22 +95,12 @@ pub(super) fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
     Chart {
         heading: Heading {
             place: Place::SuitesByBlock,
-            ..Heading::new(
-                "figure-suites-capacities",
-                "Capacities under embedded and recorded motions",
-                "Ratio of the embedded to the recorded median capacity with \
-                 its 95 % interval, block by block, at demands 0.15 and 1.00, \
-                 for PGA and PGV, ordinary and pulse-type suites.",
-            )
+            ..heading("suites-capacities")
         },
         panels,
         columns: 2,
     }
-    .figure(
-        "Ratio of median capacities, embedded over recorded; a bar \
-                  that does not reach the dashed line is a difference of \
-                  the suites that records alone don't explain.",
-    )
+    .figure(caption("suites-capacities"))
 }
 
 fn blocks(

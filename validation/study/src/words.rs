@@ -1,0 +1,82 @@
+//! Words of the figures and of the answers, which `words.toml` holds.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use rocking_common::paper::Arm;
+use rocking_draw::figures::Heading;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Words {
+    /// Figures of the paper, by number.
+    paper: BTreeMap<String, FigureWords>,
+    /// Other figures, by name.
+    beyond: BTreeMap<String, FigureWords>,
+    /// Tables behind the answers, by name.
+    table: BTreeMap<String, TableWords>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FigureWords {
+    title: String,
+    description: String,
+    #[serde(default)]
+    caption: String,
+}
+
+/// Words of a table behind an answer.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TableWords {
+    /// The question, where the table alone answers it.
+    #[serde(default)]
+    pub question: String,
+    /// Title of the table.
+    pub title: String,
+    /// How the table is read.
+    pub reading: String,
+}
+
+static WORDS: LazyLock<Words> = LazyLock::new(|| {
+    toml::from_str(include_str!("../words.toml"))
+        .unwrap_or_else(|error| panic!("words.toml: {error}"))
+});
+
+/// The heading of a figure of the paper.
+pub(crate) fn paper_heading(number: u32, arm: Option<Arm>) -> Heading {
+    let FigureWords { title, description, .. } =
+        &WORDS.paper[&number.to_string()];
+    Heading::numbered(number, title, description, arm)
+}
+
+/// The heading of a figure beyond the paper.
+pub(crate) fn heading(name: &str) -> Heading {
+    let FigureWords { title, description, .. } = &WORDS.beyond[name];
+    Heading::new(format!("figure-{name}"), title, description)
+}
+
+/// The caption of a figure whose caption has no numbers of the run.
+pub(crate) fn caption(name: &str) -> &'static str {
+    &WORDS.beyond[name].caption
+}
+
+/// The words of a table behind an answer.
+pub(crate) fn table_words(name: &str) -> &'static TableWords {
+    &WORDS.table[name]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_figure_of_the_paper_has_words() {
+        let titles: Vec<String> =
+            (1..=18).map(|k| paper_heading(k, None).title).collect();
+        assert_eq!(titles.len(), WORDS.paper.len());
+        assert!(titles.iter().all(|title| !title.is_empty()));
+    }
+}

@@ -4,6 +4,7 @@ pub mod export;
 pub mod inputs;
 pub mod remarks;
 
+use crate::findings::RecordName;
 use crate::paper::SuiteKind;
 use std::fmt;
 use std::path::Path;
@@ -165,10 +166,10 @@ impl StudySuite {
 
     /// The study components: names, and SHA-256 over interval and samples.
     #[must_use]
-    pub fn list(&self) -> Vec<(String, String)> {
-        let one = |motion: &StudyMotion| {
-            let sum = hash(&motion.study, Sha256::new()).finalize();
-            (motion.study.name().to_owned(), hex(&sum))
+    pub fn list(&self) -> Vec<RecordName> {
+        let one = |motion: &StudyMotion| RecordName {
+            name: motion.study.name().to_owned(),
+            sha256: hex(&hash(&motion.study, Sha256::new()).finalize()),
         };
         self.motions.iter().map(one).collect()
     }
@@ -203,10 +204,7 @@ pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
 }
 
 /// Sampling interval and samples, added to a hash.
-fn hash(
-    record: &rocking::accelerogram::Accelerogram,
-    mut sum: Sha256,
-) -> Sha256 {
+fn hash(record: &Accelerogram, mut sum: Sha256) -> Sha256 {
     sum.update(record.dt_s().to_le_bytes());
     for a in record.samples_g() {
         sum.update(a.to_le_bytes());

@@ -8,7 +8,7 @@ use rocking_common::findings::{Findings, SuiteSummary};
 use rocking_common::words::{percent, rounded};
 use rocking_draw::figures::{DIGITS, Figure, Motions};
 use rocking_study::Study;
-use rocking_study::kept::{self, KeptResults};
+use rocking_study::kept;
 use serde_json::Value;
 
 /// The paper's figures that draw a history of rotation. From a history the
@@ -27,7 +27,7 @@ pub(crate) struct FindingSets<'a> {
     pub here: &'a Findings,
     /// Whether its suites are the embedded ones.
     pub embedded: bool,
-    kept: Option<KeptResults>,
+    kept: Option<Findings>,
 }
 
 impl<'a> FindingSets<'a> {
@@ -37,7 +37,7 @@ impl<'a> FindingSets<'a> {
     /// For kept results that cannot be read.
     pub fn of(embedded: bool, here: &'a Findings) -> anyhow::Result<Self> {
         let kept = match embedded {
-            true => KeptResults::of(&here.settings)?,
+            true => kept::findings_of(&here.settings)?,
             false => None,
         };
         Ok(Self { here, embedded, kept })
@@ -45,7 +45,7 @@ impl<'a> FindingSets<'a> {
 
     /// The kept findings of the recorded suites.
     pub fn recorded(&self) -> Option<&Findings> {
-        self.kept.as_ref().map(KeptResults::findings)
+        self.kept.as_ref()
     }
 
     /// The findings that answer.
@@ -72,7 +72,7 @@ impl<'a> FindingSets<'a> {
         if !self.embedded || self.kept.is_some() {
             return Ok(None);
         }
-        let kept = kept::settings()?.named();
+        let kept = kept::findings()?.settings.named();
         let other: Vec<String> = kept
             .into_iter()
             .zip(self.here.settings.named())
@@ -136,7 +136,7 @@ impl<'a> FindingSets<'a> {
             return Ok(drawn.to_vec());
         }
         let kept: Vec<Figure> = match &self.kept {
-            Some(kept) => serde_json::from_str(kept.figures())
+            Some(_) => serde_json::from_str(kept::FIGURES)
                 .context("fixtures/recorded/figures.json")?,
             None => Vec::new(),
         };
@@ -200,9 +200,7 @@ fn round(value: &mut Value) {
 /// The kept findings, whatever the settings of a run.
 #[cfg(test)]
 pub(crate) fn recorded() -> Findings {
-    let own = kept::settings().expect("settings");
-    let kept = KeptResults::of(&own).expect("findings").expect("its settings");
-    kept.findings().clone()
+    kept::findings().expect("findings")
 }
 
 #[cfg(test)]
@@ -211,11 +209,8 @@ mod tests {
 
     #[test]
     fn kept_figures_are_those_without_histories() {
-        let own = kept::settings().expect("settings");
-        let kept =
-            KeptResults::of(&own).expect("findings").expect("its settings");
         let kept: Vec<Figure> =
-            serde_json::from_str(kept.figures()).expect("form");
+            serde_json::from_str(kept::FIGURES).expect("form");
         let numbers = kept.iter().filter_map(|f| f.heading.number);
         let mut numbers: Vec<u32> = numbers.collect();
         numbers.dedup();

@@ -21,7 +21,6 @@ use crate::contents::{Furnishing, items};
 use crate::distributions::suite_distributions;
 use crate::facts::{Facts, facts};
 use crate::runs::curves_of;
-use rocking_common::findings::RecordName;
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
 use rocking_common::suites::StudySuite;
 
@@ -76,7 +75,6 @@ impl Plan {
             stripes::stripe_demands(&self.setup, &records, &arms, &adjusted)?;
         let distributions =
             suite_distributions(suite.kind, &facts, &arms, self.common())?;
-        let names = suite.list().into_iter();
         Ok(SuiteResults {
             kind: suite.kind,
             source: suite.source.clone(),
@@ -84,9 +82,7 @@ impl Plan {
             remarks: suite.remarks.words(),
             set_aside: suite.set_aside.clone(),
             sha256: suite.sha256(),
-            list: names
-                .map(|(name, sha256)| RecordName { name, sha256 })
-                .collect(),
+            list: suite.list(),
             work,
             records: facts,
             clusters: suite.clusters.clone(),

@@ -5,26 +5,45 @@
 //! replicate takes the same earthquakes everywhere and recomputes the whole
 //! measure of a claim. The two suites are resampled independently of each other.
 
-mod drawn;
 mod draws;
-mod known;
+mod intervals;
 mod many;
-mod refuted;
-mod rule;
+mod refutation;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet,
+    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet, Unit,
 };
 use rocking_common::paper::{Arm, ClaimVerdict};
 use rocking_statistics::{Estimate, Range};
 
-pub use drawn::by_cell;
 pub use draws::{
     LEAST_DECIDING, MORE, REPLICATES, Replicates, Resample, Resamples,
     SUBSAMPLES, Scheme,
 };
-use known::{Caution, CellIntervals, p_of};
-pub use rule::{Cell, ClaimRule};
+pub use intervals::by_cell;
+use intervals::{CAUTION, CellIntervals, Ends, p_of};
+
+/// Where the cells of a claim have to lie, and how many of them.
+#[derive(Clone, Copy, Debug)]
+pub struct ClaimRule {
+    /// How many of them.
+    pub quantifier: Quantifier,
+    /// Where they have to lie.
+    pub region: Region,
+    /// Unit of a cell.
+    pub unit: Unit,
+    /// The numbers that a cell can have: from 0 to 1 for a share.
+    pub range: Range,
+}
+
+/// A cell's name, and how many records are in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Where it is: `p = 3, alpha = 0.20`.
+    pub at: String,
+    /// Records whose values are in it.
+    pub records: usize,
+}
 
 /// A result. Where an end that decides lies within four errors of the draws
 /// from its limit, the verdict is inconclusive.
@@ -46,7 +65,7 @@ pub fn judge(
     measured: &Replicates,
 ) -> Ruling {
     let known = CellIntervals::new(draws, tested, rule.range, measured);
-    let by = |caution| {
+    let by = |caution: f64| {
         let mut result = ClaimResult {
             suite: tested,
             arm,
@@ -75,15 +94,15 @@ pub fn judge(
         }
         result
     };
-    let result = by(Caution::FULL);
-    let settled = |caution: Caution| {
+    let result = by(CAUTION);
+    let settled = |caution: f64| {
         let verdict = |caution| by(caution).by_equivalence;
-        verdict(caution) == verdict(caution.inwards())
+        verdict(caution) == verdict(-caution)
     };
     // More subsamples are not drawn: they cost too much.
     let more = measured.scheme == Scheme::Bootstrap
-        && !settled(Caution::FULL)
-        && settled(Caution::FULL.with(MORE));
+        && !settled(CAUTION)
+        && settled(CAUTION / (MORE as f64).sqrt());
     Ruling { result, more }
 }
 
@@ -97,16 +116,31 @@ pub fn judged_share(
     let known = CellIntervals::new(draws, tested, Range::Share, measured);
     let ends = known.drawn(0, LEVEL);
     let verdict = ends.map_or(ClaimVerdict::Inconclusive, |ends| {
-        ends.verdict(region, Caution::FULL)
+        ends.verdict(region, CAUTION)
     });
     (known.shown(0, ends), verdict)
 }
 
+/// Fills in the verdict, with the value and the interval that decide.
+fn decide(
+    result: &mut ClaimResult,
+    value: f64,
+    ends: &Ends,
+    region: Region,
+    verdict: ClaimVerdict,
+) {
+    result.estimate = ends.beside(value);
+    result.monte_carlo_error = ends.deciding_error(region);
+    result.interval = Some(ends.way);
+    result.by_equivalence = Some(verdict);
+}
+
+/// Fills in a result of one value.
 fn judge_one(
     rule: &ClaimRule,
     cells: &[Cell],
     known: &CellIntervals<'_>,
-    caution: Caution,
+    caution: f64,
     result: &mut ClaimResult,
 ) {
     let measured = known.measured;
@@ -118,12 +152,9 @@ fn judge_one(
     result.at.clone_from(&cell.at);
     let of = |level| known.drawn(0, level);
     if let Some(ends) = of(LEVEL) {
-        result.estimate = ends.beside(*value);
-        result.monte_carlo_error = ends.deciding_error(rule.region);
-        result.interval = Some(ends.way);
         let verdict = ends.verdict(rule.region, caution);
-        result.by_equivalence = Some(verdict);
-        if caution == Caution::FULL {
+        decide(result, *value, &ends, rule.region, verdict);
+        if caution == CAUTION {
             result.p = p_of(of, rule.region, verdict);
             if verdict == ClaimVerdict::Inconclusive {
                 result.power = known.power(0, &ends, LEVEL, rule.region);

@@ -10,60 +10,36 @@ use rocking_common::findings::{Findings, StudySettings};
 /// made.
 const FINDINGS: &str = rocking_fixtures::text("recorded/findings.json");
 
-/// Figures of the recorded suites: peaks, capacities and statistics of them
-/// as they are drawn, and no sample of a record.
-const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
+/// Figures of the recorded suites as JSON: peaks, capacities and statistics as
+/// they are drawn, and no sample of a record.
+pub const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
 
-/// The kept results, for a run that has their settings.
-#[derive(Clone, Debug)]
-pub struct KeptResults {
-    findings: Findings,
-}
-
-impl KeptResults {
-    /// The kept results, if these are their settings.
-    ///
-    /// # Errors
-    /// What the reader found instead of findings of this schema.
-    ///
-    /// ```
-    /// use rocking_study::kept::{self, KeptResults};
-    /// # fn main() -> anyhow::Result<()> {
-    /// let mut settings = kept::settings()?;
-    /// assert!(KeptResults::of(&settings)?.is_some());
-    /// settings.eta = 0.90;
-    /// assert!(KeptResults::of(&settings)?.is_none());
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn of(settings: &StudySettings) -> anyhow::Result<Option<Self>> {
-        let findings = findings()?;
-        let same = findings.settings == *settings;
-        Ok(same.then_some(Self { findings }))
-    }
-
-    /// What was found.
-    #[must_use]
-    pub fn findings(&self) -> &Findings {
-        &self.findings
-    }
-
-    /// The figures, as JSON.
-    #[must_use]
-    pub fn figures(&self) -> &'static str {
-        FIGURES
-    }
-}
-
-/// The settings of the kept results.
+/// The kept findings, if these are their settings.
 ///
 /// # Errors
-/// As [`KeptResults::of`].
-pub fn settings() -> anyhow::Result<StudySettings> {
-    Ok(findings()?.settings)
+/// What the reader found instead of findings of this schema.
+///
+/// ```
+/// use rocking_study::kept;
+/// # fn main() -> anyhow::Result<()> {
+/// let mut settings = kept::findings()?.settings;
+/// assert!(kept::findings_of(&settings)?.is_some());
+/// settings.eta = 0.90;
+/// assert!(kept::findings_of(&settings)?.is_none());
+/// # Ok(())
+/// # }
+/// ```
+pub fn findings_of(
+    settings: &StudySettings,
+) -> anyhow::Result<Option<Findings>> {
+    Ok(Some(findings()?).filter(|kept| kept.settings == *settings))
 }
 
-fn findings() -> anyhow::Result<Findings> {
+/// The kept findings.
+///
+/// # Errors
+/// As [`findings_of`].
+pub fn findings() -> anyhow::Result<Findings> {
     Findings::parse(FINDINGS)
         .map_err(anyhow::Error::msg)
         .context("fixtures/recorded/findings.json")
@@ -77,11 +53,11 @@ mod tests {
 
     #[test]
     fn any_other_setting_leaves_the_kept_results_out() {
-        let own = settings().expect("settings");
+        let own = findings().expect("findings").settings;
         let is_kept = |change: &dyn Fn(&mut StudySettings)| {
             let mut other = own.clone();
             change(&mut other);
-            KeptResults::of(&other).expect("findings").is_some()
+            findings_of(&other).expect("findings").is_some()
         };
         assert!(is_kept(&|_| ()));
         assert!(!is_kept(&|s| s.eta = 0.90));

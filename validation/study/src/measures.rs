@@ -21,14 +21,6 @@ pub use stripes::without_closed_form;
 use rocking_common::findings::Unit;
 use rocking_statistics::Range;
 
-/// A measure as it is registered.
-struct MeasureRow {
-    unit: Unit,
-    /// The numbers that a value can be.
-    range: Range,
-    prepare: fn(&Scope<'_>) -> MeasureResult,
-}
-
 /// The registry: what a measure is, its name, the unit of a cell, its range
 /// and its function.
 macro_rules! measures {
@@ -47,14 +39,23 @@ macro_rules! measures {
             /// All of them, in the order of the paper.
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
-            fn row(self) -> MeasureRow {
+            /// Unit of a cell, and the range of its values.
+            #[must_use]
+            pub fn unit(self) -> (Unit, Range) {
                 match self {
-                    $(Self::$name => MeasureRow {
-                        unit: Unit::$unit,
-                        range: Range::$range,
-                        prepare: $of,
-                    },)+
+                    $(Self::$name => (Unit::$unit, Range::$range),)+
                 }
+            }
+
+            /// The cells of the measure.
+            ///
+            /// # Errors
+            /// Where a curve cannot be read, or an arm was not run.
+            pub fn prepare(self, scope: &Scope<'_>) -> MeasureResult {
+                let prepare: fn(&Scope<'_>) -> MeasureResult = match self {
+                    $(Self::$name => $of,)+
+                };
+                prepare(scope)
             }
         }
     };
@@ -174,21 +175,4 @@ measures! {
     /// Scatter of the dispersion by quantiles over its scatter by the standard
     /// deviation.
     QuantileScatter: One, Real, fragilities::scatter;
-}
-
-impl ClaimMeasure {
-    /// Unit of a cell, and the ends that no value can cross.
-    #[must_use]
-    pub fn unit(self) -> (Unit, Range) {
-        let row = self.row();
-        (row.unit, row.range)
-    }
-
-    /// The cells of the measure.
-    ///
-    /// # Errors
-    /// Where a curve cannot be read, or an arm was not run.
-    pub fn prepare(self, scope: &Scope<'_>) -> MeasureResult {
-        (self.row().prepare)(scope)
-    }
 }

@@ -6,11 +6,12 @@
 //! *Most* and *almost all*: by the interval of the share of the cells that
 //! lie in the region.
 
-use super::draws::LEAST_DECIDING;
-use super::draws::Scheme;
-use super::known::{Caution, CellIntervals, Ends, p_of, p_value, power_of};
-use super::refuted::refuted;
-use super::rule::{Cell, ClaimRule};
+use super::draws::{LEAST_DECIDING, Scheme};
+use super::intervals::{
+    CAUTION, CellIntervals, Ends, p_of, p_value, power_of,
+};
+use super::refutation::refuted_cells;
+use super::{Cell, ClaimRule, decide};
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, ERROR, IntervalMethod, LEVEL, Quantifier,
     Region, Unit,
@@ -30,18 +31,15 @@ pub(super) fn judge_many(
     rule: &ClaimRule,
     cells: &[Cell],
     known: &CellIntervals<'_>,
-    caution: Caution,
+    caution: f64,
     result: &mut ClaimResult,
 ) {
     let deciding = deciding(cells, known);
     if deciding.is_empty() {
         result.at = "no cell has an interval".into();
-        result.cells = Some(CellCounts {
-            deciding: 0,
-            inside: 0,
-            outside: 0,
-            too_few: cells.len(),
-        });
+        let (inside, outside, too_few) = (0, 0, cells.len());
+        let deciding = 0;
+        result.cells = Some(CellCounts { deciding, inside, outside, too_few });
         return;
     }
     let mut shown = vec![false; cells.len()];
@@ -52,7 +50,7 @@ pub(super) fn judge_many(
     let among = |k: usize| deciding.iter().any(|cell| cell.k == k);
     let left_out: Vec<bool> =
         (0..cells.len()).map(|k| shown[k] || !among(k)).collect();
-    let refuted = refuted(known, rule.region, &left_out, caution);
+    let refuted = refuted_cells(known, rule.region, &left_out, caution);
     let outside = refuted.out.iter().filter(|out| **out).count();
     let mut counts = CellCounts {
         deciding: deciding.len(),
@@ -61,12 +59,10 @@ pub(super) fn judge_many(
         too_few: cells.len() - deciding.len(),
     };
     if rule.quantifier == Quantifier::All {
-        let verdict = if outside > 0 {
-            ClaimVerdict::NotConfirmed
-        } else if counts.inside == deciding.len() {
-            ClaimVerdict::Confirmed
-        } else {
-            ClaimVerdict::Inconclusive
+        let verdict = match counts {
+            _ if outside > 0 => ClaimVerdict::NotConfirmed,
+            _ if counts.inside == deciding.len() => ClaimVerdict::Confirmed,
+            _ => ClaimVerdict::Inconclusive,
         };
         let bears = |cell: &&DecidingCell| match verdict {
             ClaimVerdict::NotConfirmed => refuted.out[cell.k],
@@ -81,12 +77,10 @@ pub(super) fn judge_many(
             return;
         };
         let ends = ends_of(worst);
-        result.estimate = ends.beside(known.measured.points[worst.k]);
-        result.monte_carlo_error = ends.deciding_error(rule.region);
-        result.interval = Some(ends.way);
+        let value = known.measured.points[worst.k];
+        decide(result, value, &ends, rule.region, verdict);
         result.at = named(&cells[worst.k], known);
-        result.by_equivalence = Some(verdict);
-        if caution == Caution::FULL {
+        if caution == CAUTION {
             // All cells are shown to lie inside where the last one is.
             let inside = |caution| {
                 let each = deciding.iter().map(|cell| {
@@ -98,10 +92,10 @@ pub(super) fn judge_many(
                 each.fold(0.0, |most, p| if p > most { p } else { most })
             };
             result.p = match verdict {
-                ClaimVerdict::Confirmed => inside(Caution::NONE),
+                ClaimVerdict::Confirmed => inside(0.0),
                 ClaimVerdict::NotConfirmed => refuted.p,
                 ClaimVerdict::Inconclusive => {
-                    let p = inside(Caution::FULL);
+                    let p = inside(CAUTION);
                     if p < refuted.p { p } else { refuted.p }
                 }
             };
@@ -154,9 +148,7 @@ fn drawn<'a>(
 
 /// The name of a cell; of few records, whose they are.
 fn named(cell: &Cell, known: &CellIntervals<'_>) -> String {
-    let few = cell.records < LEAST_DECIDING
-        && known.measured.scheme != Scheme::Counted;
-    match few {
+    match known.are_few(cell.records) {
         true => format!("{}, of the {} survivors", cell.at, cell.records),
         false => cell.at.clone(),
     }
@@ -215,7 +207,7 @@ fn judge_share(
     rule: &ClaimRule,
     deciding: &[&DecidingCell],
     known: &CellIntervals<'_>,
-    caution: Caution,
+    caution: f64,
     result: &mut ClaimResult,
 ) {
     let total = deciding.len() as f64;
@@ -249,12 +241,9 @@ fn judge_share(
         Quantifier::Most => Region::Above(0.5),
         _ => Region::Within(0.9, 1.0),
     };
-    result.estimate = own.beside(value);
-    result.monte_carlo_error = own.deciding_error(region);
-    result.interval = Some(own.way);
     let verdict = own.verdict(region, caution);
-    result.by_equivalence = Some(verdict);
-    if caution == Caution::FULL {
+    decide(result, value, &own, region, verdict);
+    if caution == CAUTION {
         result.p = p_of(ends, region, verdict);
         if verdict == ClaimVerdict::Inconclusive {
             let deviations = known.clusters.deviations(value, &values);
@@ -294,10 +283,9 @@ fn details(
             let range = Range::NotNegative;
             Estimate::beside(value, reflected.within(range), range).ok()
         });
+        let words = "over the cells of the distance from";
         result.details.push(Detail {
-            name: format!(
-                "{name} over the cells of the distance from {middle}"
-            ),
+            name: format!("{name} {words} {middle}"),
             estimate: estimate.unwrap_or(Estimate::exact(value)),
         });
     }

@@ -10,7 +10,7 @@ use row::{Agreement, MOTIONS, QuantityRow, RowGroup, of_group, of_motion};
 
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
-use crate::kept::KeptResults;
+use crate::kept::findings_of;
 use crate::results::StudyResults;
 use crate::words::table_words;
 use rocking_common::findings::StudySettings;
@@ -62,7 +62,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
 /// setting changes, the motions.
 fn kept(settings: &StudySettings) -> anyhow::Result<Vec<QuantityRow>> {
     let mut rows = row::from_csv(COMMITTED);
-    if KeptResults::of(settings)?.is_none() {
+    if findings_of(settings)?.is_none() {
         rows.retain(|r| {
             matches!(r.group, RowGroup::Source | RowGroup::Motion)
         });
@@ -327,7 +327,8 @@ mod tests {
 
     #[test]
     fn kept_capacities_are_shown_for_their_own_settings_only() {
-        let mut settings = crate::kept::settings().expect("settings");
+        let kept_findings = crate::kept::findings().expect("findings");
+        let mut settings = kept_findings.settings;
         let all = row::from_csv(COMMITTED).len();
         assert_eq!(kept(&settings).expect("rows").len(), all);
         settings.eta = 0.90;

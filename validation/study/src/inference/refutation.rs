@@ -1,12 +1,11 @@
-//! Which of many cells are shown to lie outside their region, all of them at
-//! once.
+//! Which of many cells are shown to lie outside their region, all cells
+//! considered at once.
 
 use rocking_statistics::step_down::StepDown;
 use rocking_statistics::{Interval, normal};
 
 use super::draws::{Replicates, Scheme};
-use super::known::Ends;
-use super::known::{Caution, CellIntervals, p_value};
+use super::intervals::{CellIntervals, Ends, p_value};
 use rocking_common::findings::{ERROR, IntervalMethod, LEVEL, Region};
 use rocking_common::paper::ClaimVerdict;
 
@@ -22,6 +21,18 @@ pub(super) struct Refutation {
     pub(super) p: f64,
 }
 
+impl Refutation {
+    /// No cell of so many.
+    fn none(count: usize) -> Self {
+        Self {
+            out: vec![false; count],
+            ends: vec![None; count],
+            level: vec![LEVEL; count],
+            p: 1.0,
+        }
+    }
+}
+
 /// Refutes cells with a family-wise error of [`ERROR`]: at most that is the
 /// probability that any cell is refuted although it lies in the region.
 ///
@@ -33,11 +44,11 @@ pub(super) struct Refutation {
 /// level (declared cases `family-on-the-edge`). Cells that are `shown` to lie
 /// inside cannot be refuted and leave the maximum (Romano, Shaikh and Wolf,
 /// Econometrica 82 (2014) 1979).
-pub(super) fn refuted(
+pub(super) fn refuted_cells(
     known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
-    caution: Caution,
+    caution: f64,
 ) -> Refutation {
     match known.measured.scheme {
         Scheme::Bootstrap => by_maximum(known, region, shown, caution),
@@ -50,15 +61,10 @@ fn by_holm(
     known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
-    caution: Caution,
+    caution: f64,
 ) -> Refutation {
     let count = shown.len();
-    let mut found = Refutation {
-        out: vec![false; count],
-        ends: vec![None; count],
-        level: vec![LEVEL; count],
-        p: 1.0,
-    };
+    let mut found = Refutation::none(count);
     let wanted = ClaimVerdict::NotConfirmed;
     let first = ERROR / count as f64;
     let p_of = |k: usize, caution| {
@@ -87,7 +93,7 @@ fn by_holm(
         found.level[*k] = level;
     }
     if let Some((p, k)) = all.first() {
-        let p = if found.out[*k] { p_of(*k, Caution::NONE) } else { *p };
+        let p = if found.out[*k] { p_of(*k, 0.0) } else { *p };
         let adjusted = p * count as f64;
         found.p = if adjusted < 1.0 { adjusted } else { 1.0 };
     }
@@ -133,17 +139,12 @@ fn by_maximum(
     known: &CellIntervals<'_>,
     region: Region,
     shown: &[bool],
-    caution: Caution,
+    caution: f64,
 ) -> Refutation {
     let scale = CellScale::of(region);
     let Replicates { points, replicates, .. } = known.measured;
     let count = points.len();
-    let mut found = Refutation {
-        out: vec![false; count],
-        ends: vec![None; count],
-        level: vec![LEVEL; count],
-        p: 1.0,
-    };
+    let mut found = Refutation::none(count);
     let active: Vec<(usize, f64)> = (0..count)
         .filter(|k| !shown[*k])
         .filter_map(|k| Some((k, spread(known.measured, k, scale)?)))
@@ -165,13 +166,13 @@ fn by_maximum(
         let by = scale.on(replicates[row][k]) - scale.on(points[k]);
         wider * by.abs() / s
     };
-    let of = |caution: Caution| {
+    let of = |caution: f64| {
         let rows = replicates.len();
-        StepDown::new(&statistics, rows, deviation, ERROR, caution.errors())
+        StepDown::new(&statistics, rows, deviation, ERROR, caution)
     };
     let steps = of(caution);
     found.p = match steps.rejected.contains(&true) {
-        true => of(Caution::NONE).p,
+        true => of(0.0).p,
         false => steps.p,
     };
     for (place, (k, s)) in active.iter().enumerate() {

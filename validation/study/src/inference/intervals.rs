@@ -1,5 +1,5 @@
-//! What is known of the cells of a measure: intervals at any level, and how
-//! far other draws would move their ends.
+//! Intervals of the cells of a measure at any level, and how far other draws
+//! would move their ends.
 
 use rayon::prelude::*;
 use rocking_statistics::boxplot::median_interval;
@@ -54,9 +54,9 @@ impl Ends {
     pub(super) fn verdict(
         &self,
         region: Region,
-        caution: Caution,
+        caution: f64,
     ) -> ClaimVerdict {
-        let (low, high) = self.moved(caution.errors());
+        let (low, high) = self.moved(caution);
         region.verdict(low, high)
     }
 
@@ -70,32 +70,12 @@ impl Ends {
     }
 }
 
-/// By how many errors of the draws ends are moved outwards: what is decided
-/// then stays so with other draws. Inwards: what other draws may decide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Caution(f64);
+/// By how many errors of the draws the ends of a verdict are moved outwards:
+/// what is decided then stays so with other draws. A negative number moves
+/// them inwards, to what other draws may decide.
+pub(super) const CAUTION: f64 = 4.0;
 
-impl Caution {
-    /// That of a verdict.
-    pub(super) const FULL: Self = Self(4.0);
-    /// That of the p-value of what is decided.
-    pub(super) const NONE: Self = Self(0.0);
-
-    /// The same where so many times as many are drawn.
-    pub(super) fn with(self, times: usize) -> Self {
-        Self(self.0 / (times as f64).sqrt())
-    }
-
-    pub(super) fn inwards(self) -> Self {
-        Self(-self.0)
-    }
-
-    pub(super) fn errors(self) -> f64 {
-        self.0
-    }
-}
-
-/// The cells of a measure with what is needed for their intervals.
+/// The cells of a measure with everything that their intervals need.
 pub(super) struct CellIntervals<'a> {
     pub(super) measured: &'a Replicates,
     pub(super) clusters: &'a Clusters,
@@ -166,12 +146,9 @@ impl<'a> CellIntervals<'a> {
                 let width = |of: Interval| of.high() - of.low();
                 let scale = width(plain) / width(ends.interval);
                 // What one earthquake carries moves with no draw.
-                let error = |moves: bool, error: f64| {
-                    if moves && scale.is_finite() {
-                        scale * error
-                    } else {
-                        0.0
-                    }
+                let error = |moves: bool, error: f64| match moves {
+                    true if scale.is_finite() => scale * error,
+                    _ => 0.0,
                 };
                 let errors = (
                     error(found.low() == plain.low(), ends.high_error),
@@ -195,14 +172,13 @@ impl<'a> CellIntervals<'a> {
         let values: Vec<f64> = ranked.each().map(|(x, _)| x).collect();
         let sample = ExtendedSample::try_new(&values).ok()?;
         let interval = median_interval(&sample, level)?.interval;
-        (interval.low().is_finite() && interval.high().is_finite()).then_some(
-            Ends {
-                interval,
-                errors: (0.0, 0.0),
-                range: self.range,
-                way: IntervalMethod::Exact,
-            },
-        )
+        let (low, high) = interval.ends();
+        (low.is_finite() && high.is_finite()).then_some(Ends {
+            interval,
+            errors: (0.0, 0.0),
+            range: self.range,
+            way: IntervalMethod::Exact,
+        })
     }
 
     /// The interval by which a cell of so many records is judged.
@@ -212,9 +188,16 @@ impl<'a> CellIntervals<'a> {
         records: usize,
         level: f64,
     ) -> Option<Ends> {
-        let few = records < LEAST_DECIDING
-            && self.measured.scheme != Scheme::Counted;
-        if few { self.exact(k, level) } else { self.drawn(k, level) }
+        match self.are_few(records) {
+            true => self.exact(k, level),
+            false => self.drawn(k, level),
+        }
+    }
+
+    /// Whether so many records are too few for replicates.
+    pub(super) fn are_few(&self, records: usize) -> bool {
+        let drawn = self.measured.scheme != Scheme::Counted;
+        drawn && records < LEAST_DECIDING
     }
 
     /// What a suite like this one is able to decide where the truth is the
@@ -301,11 +284,11 @@ pub(super) fn p_of(
         |wanted, caution| p_value(&ends, region, wanted, ERROR, caution);
     match verdict {
         ClaimVerdict::Inconclusive => {
-            let inside = side(ClaimVerdict::Confirmed, Caution::FULL);
-            let outside = side(ClaimVerdict::NotConfirmed, Caution::FULL);
+            let inside = side(ClaimVerdict::Confirmed, CAUTION);
+            let outside = side(ClaimVerdict::NotConfirmed, CAUTION);
             if inside < outside { inside } else { outside }
         }
-        decided => side(decided, Caution::NONE),
+        decided => side(decided, 0.0),
     }
 }
 
@@ -317,7 +300,7 @@ pub(super) fn p_value(
     region: Region,
     wanted: ClaimVerdict,
     error: f64,
-    caution: Caution,
+    caution: f64,
 ) -> f64 {
     let lies = |p: f64| {
         let ends = ends(1.0 - 2.0 * p);
@@ -340,4 +323,17 @@ pub(super) fn p_value(
         if lies(middle) { yes = middle } else { no = middle }
     }
     yes
+}
+
+/// Each cell of a measure with the interval by which a claim on it is judged.
+#[must_use]
+pub fn by_cell(
+    draws: &Resamples,
+    tested: SuiteSet,
+    range: Range,
+    measured: &Replicates,
+) -> Vec<Estimate> {
+    let known = CellIntervals::new(draws, tested, range, measured);
+    let count = measured.points.len();
+    (0..count).map(|k| known.shown(k, known.drawn(k, LEVEL))).collect()
 }

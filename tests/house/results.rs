@@ -1,13 +1,101 @@
-//! The results in README, docs and paper are those of the committed report.
+//! The results in README, docs and paper are those of the committed report:
+//! they stand between marks.
 
 use std::fs;
 
+use anyhow::{Context as _, bail};
 use rocking_common::findings::Findings;
+use rocking_common::table::PlainTable;
 use rocking_report::evidence::Proof;
-use rocking_report::marked::{PAGES, PageResults};
+use rocking_report::output::{AnswerRow, first_table};
+use rocking_report::scored::codes_table;
+use rocking_report::timings::Timings;
+use rocking_study::kept::KeptResults;
 
 use super::super::compare::{accepting, committed};
 use super::{read, root};
+
+/// The pages.
+const PAGES: [&str; 3] = ["README.md", "docs/tour.md", "paper.md"];
+
+/// What opens a mark, before its name, and what closes it, behind it.
+const OPENS: [&str; 2] = ["<!-- results: ", " -->"];
+/// What ends the results.
+const END: &str = "<!-- end of results -->";
+
+/// The text of a page with these results between its marks.
+fn renewed(
+    findings: &Findings,
+    proof: &Proof,
+    page: &str,
+    text: &str,
+) -> anyhow::Result<String> {
+    let mut parts = text.split(OPENS[0]);
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    let mut marks = 0;
+    for part in parts {
+        let split = || {
+            let (name, rest) = part.split_once(OPENS[1])?;
+            let (old, after) = rest.split_once(END)?;
+            Some((name, old, after))
+        };
+        let (name, old, after) =
+            split().with_context(|| format!("{page}: no {END:?}"))?;
+        let new = match name {
+            "answers" => answers(findings, proof)?,
+            "accuracy" => Timings::kept()?.error(),
+            "contents" => {
+                let recorded = KeptResults::of(&findings.settings)?;
+                let recorded = recorded.context("other settings")?;
+                format!(
+                    "\nRecorded motions:\n{}\nEmbedded motions:\n{}",
+                    listed(recorded.findings(), name)?,
+                    listed(findings, name)?
+                )
+            }
+            // `.ci/accept` runs `rocking assess` for it.
+            "assessment" => old.to_owned(),
+            _ => bail!("{page}: results {name:?}"),
+        };
+        out += &[OPENS[0], name, OPENS[1], &new, END, after].concat();
+        marks += 1;
+    }
+    anyhow::ensure!(marks > 0, "{page}: no mark");
+    Ok(out)
+}
+
+fn answers(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
+    let (rows, other) = first_table(true, findings, Some(proof))?;
+    let line = |row: &AnswerRow| {
+        let AnswerRow { question, answer, effect, .. } = row;
+        let effect = effect.replace('|', "\\|");
+        format!("| {question} | {answer} | {effect} |\n")
+    };
+    let lines: String = rows.iter().map(line).collect();
+    let codes = codes_table(&["best"])?;
+    Ok(format!(
+        "\n| question | answer | numbers (90 % interval) |\n|---|---|---|\n\
+         {lines}\n{}\n\n**{}** {}\n\n{}",
+        other.unwrap_or_default(),
+        codes.title,
+        codes.reading,
+        markdown(&codes)
+    ))
+}
+
+/// The answer to a question beyond the paper, a list of its sentences.
+fn listed(findings: &Findings, id: &str) -> anyhow::Result<String> {
+    let own = findings.questions.iter().find(|question| question.id == id);
+    let own = own.with_context(|| format!("findings without {id}"))?;
+    Ok(format!("\n- {}\n", own.answer.replace(". ", ".\n- ")))
+}
+
+fn markdown(table: &PlainTable) -> String {
+    let line = |cells: &Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let rule = vec!["---".into(); table.header.len()];
+    let lines = [&table.header, &rule].into_iter().chain(&table.rows);
+    lines.map(line).collect()
+}
 
 #[test]
 fn pages_show_the_committed_results() {
@@ -18,21 +106,19 @@ fn pages_show_the_committed_results() {
     // Without its claims it is another report.
     let mut other = findings.clone();
     other.claims.retain(|claim| claim.results.is_empty());
-    let renewed = |findings, page, text: &str| {
-        PageResults { findings, proof: &proof }.renewed(page, text)
-    };
     for page in PAGES {
         let text = read(page);
-        let expected = renewed(&findings, page, &text).unwrap();
+        let expected = renewed(&findings, &proof, page, &text).unwrap();
         let kept = committed(page, &expected).unwrap_or(expected.clone());
         assert!(
             kept == expected,
             "{page}: other results than those of reports/, expected as \
              `.ci/accept` writes it:\n{expected}"
         );
-        let cut = text.replace("<!-- end of results -->", "");
-        assert!(renewed(&findings, page, &cut).is_err(), "{page}");
+        let cut = text.replace(END, "");
+        assert!(renewed(&findings, &proof, page, &cut).is_err(), "{page}");
     }
     let readme = read("README.md");
-    assert_ne!(renewed(&other, "README.md", &readme).unwrap(), readme);
+    let other = renewed(&other, &proof, "README.md", &readme).unwrap();
+    assert_ne!(other, readme);
 }

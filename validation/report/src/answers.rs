@@ -259,7 +259,7 @@ impl ReaderQuestion {
 }
 
 /// A row of the first table.
-pub(super) struct AnswerRow {
+pub struct AnswerRow {
     /// What is asked.
     pub question: String,
     /// The answer: a sentence of 25 words at most.

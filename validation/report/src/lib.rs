@@ -9,14 +9,13 @@ mod findings;
 pub mod head;
 pub mod lab;
 mod ledger;
-pub mod marked;
 pub mod output;
 mod page;
 mod quantity;
 pub mod scored;
 pub mod speed;
 pub mod stale;
-mod timings;
+pub mod timings;
 mod verdicts;
 mod words;
 

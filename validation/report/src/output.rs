@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use crate::answers::{self, AnswerRow};
+use crate::answers;
+pub use crate::answers::AnswerRow;
 use crate::basis::{self, FindingSets};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
@@ -253,26 +254,38 @@ fn single_csv(results: &StudyResults) -> String {
     table.finish()
 }
 
-/// The answers of the page as text for a terminal.
+/// The first table of a page on embedded suites or others, and in a sentence
+/// where other motions answer otherwise.
 ///
 /// # Errors
 /// Where the kept timings or results cannot be read.
+pub fn first_table(
+    embedded: bool,
+    findings: &Findings,
+    proof: Option<&Proof>,
+) -> anyhow::Result<(Vec<AnswerRow>, Option<String>)> {
+    let basis = FindingSets::of(embedded, findings)?;
+    let rows = answers::rows(&basis, &Timings::kept()?, proof, &[])?;
+    Ok((rows, answers::otherwise(&basis)?))
+}
+
+/// The answers of the page as text for a terminal.
+///
+/// # Errors
+/// As [`first_table`].
 pub fn answers_text(
     study: &Study,
     proof: Option<&Proof>,
 ) -> anyhow::Result<String> {
-    let basis = FindingSets::of(study.results.embedded(), &study.findings)?;
-    let rows = answers::rows(&basis, &Timings::kept()?, proof, &[])?;
+    let (embedded, findings) = (study.results.embedded(), &study.findings);
+    let (rows, otherwise) = first_table(embedded, findings, proof)?;
+    let done = answers::done(&FindingSets::of(embedded, findings)?);
     let text = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;
         format!("{question}\n  {answer}\n  {effect}.\n")
     };
-    let mut out = answers::done(&basis) + "\n";
-    out.extend(rows.iter().map(text));
-    if let Some(words) = answers::otherwise(&basis)? {
-        out += &format!("{words}\n");
-    }
-    Ok(out)
+    let rows = rows.iter().map(text).chain(otherwise.map(|w| w + "\n"));
+    Ok([done + "\n"].into_iter().chain(rows).collect())
 }
 
 /// The findings among the claims as a table for people.

@@ -5,7 +5,8 @@
 use std::collections::BTreeMap;
 
 use rocking::excitation::{Pulse, PulseName};
-use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
+use rocking_common::table::{Table, digits};
+use rocking_proof::cases::pinned::{COUNTERS, expect_counters};
 use rocking_proof::cases::{
     Bound, Case, CaseError, CaseFault, Cost, Status, ToleranceBasis, load_all,
     load_family,
@@ -329,6 +330,22 @@ fn refuses_nan_and_missing_values() {
     assert!(judge(&BTreeMap::new(), &some, &some, None).is_err());
     assert!(judge(&bounds, &none, &none, None).is_err());
     assert!(judge(&bounds, &some, &none, None).is_err());
+}
+
+/// What was counted in each case of work counters, as the CSV that
+/// [`expect_counters`] reads: one row for each trajectory.
+fn counters_csv(found: &[(&Case, Quantities)]) -> String {
+    let names: Vec<&str> = found[0].1.keys().map(String::as_str).collect();
+    let mut table = Table::new(&[&["trajectory"], &names[..]].concat());
+    for (case, counts) in found {
+        let entries = case.input["entries"].as_array().unwrap();
+        for (k, entry) in entries.iter().enumerate() {
+            let counts = names.iter().map(|name| digits(counts[*name][k], 17));
+            let entry = entry.as_str().unwrap().to_owned();
+            table.row([entry].into_iter().chain(counts));
+        }
+    }
+    table.finish()
 }
 
 #[test]

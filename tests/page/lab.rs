@@ -3,11 +3,17 @@
 
 use std::fs;
 
-use rocking_report::lab::{LAB, engine_of, page};
+use rocking_report::lab::{LAB, page};
 use serde_json::{Value, json};
 
 use super::super::compare::committed;
 use super::{AXE, CHECKS, SCHEMES, WIDTHS_PX, axe, lines, root, started};
+
+/// The engine that a page holds.
+fn engine_of(page: &str) -> Option<&str> {
+    let (_, rest) = page.split_once("id=\"engine\">")?;
+    Some(rest.split_once("</script>")?.0)
+}
 
 /// Waits until a script says that something is so.
 fn until(what: &str) -> String {

@@ -93,13 +93,6 @@ pub fn page(engine: &str) -> Result<String> {
     }))
 }
 
-/// The engine that a page holds.
-#[must_use]
-pub fn engine_of(page: &str) -> Option<&str> {
-    let (_, rest) = page.split_once("id=\"engine\">")?;
-    Some(rest.split_once("</script>")?.0)
-}
-
 /// Base64 (RFC 4648, section 4), as a content security policy names hashes.
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] =

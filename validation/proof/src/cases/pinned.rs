@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::case::{Case, Values};
-use rocking_common::table::{Table, cells, digits};
+use rocking_common::table::cells;
 
 /// The method whose cases expect them.
 pub const COUNTERS: &str = "work-counters";
@@ -37,27 +37,4 @@ pub fn expect_counters(cases: &mut [Case], csv: &str) {
         }
         case.expect.values = values;
     }
-}
-
-/// What was counted in each case of work counters, as the CSV that
-/// [`expect_counters`] reads: one row for each trajectory.
-#[must_use]
-pub fn counters_csv(found: &[(&Case, BTreeMap<String, Vec<f64>>)]) -> String {
-    let names: Vec<&str> = found
-        .first()
-        .iter()
-        .flat_map(|(_, counts)| counts.keys().map(String::as_str))
-        .collect();
-    let mut table = Table::new(&[&["trajectory"], &names[..]].concat());
-    for (case, counts) in found {
-        for (k, entry) in entries(case).enumerate() {
-            let count = |name: &&str| {
-                let count = counts.get(*name).and_then(|list| list.get(k));
-                digits(count.copied().unwrap_or(f64::NAN), 17)
-            };
-            let counts = names.iter().map(count);
-            table.row([entry.to_owned()].into_iter().chain(counts));
-        }
-    }
-    table.finish()
 }

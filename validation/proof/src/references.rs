@@ -127,14 +127,14 @@ pub(crate) struct Trajectory {
     eta: Decimal,
     g: Decimal,
     forcing: ReferenceForcing,
-    pub expected: Expected,
+    pub expected: TrajectoryResult,
     /// What a careful double-precision code was off by.
     pub attainable_float64: BTreeMap<String, Value>,
 }
 
 /// What the block does.
 #[derive(Deserialize)]
-pub(crate) struct Expected {
+pub(crate) struct TrajectoryResult {
     pub n_uplifts: f64,
     pub uplifts: Vec<Uplift>,
     pub impacts: Vec<Hit>,
@@ -171,7 +171,7 @@ pub(crate) struct Checkpoint {
     pub theta_dot: Decimal,
 }
 
-impl Expected {
+impl TrajectoryResult {
     /// When the block overturns by a criterion.
     pub fn overturned(&self, criterion: Overturning) -> Option<Decimal> {
         match criterion {
@@ -340,12 +340,12 @@ pub(crate) struct LinearPulse {
     #[serde(flatten)]
     ground: ReferenceForcing,
     eta: Decimal,
-    pub expected: LinearExpected,
+    pub expected: LinearResult,
 }
 
 /// What the block does.
 #[derive(Deserialize)]
-pub(crate) struct LinearExpected {
+pub(crate) struct LinearResult {
     pub uplift_tau: Decimal,
     pub side: f64,
     pub state_at_pulse_end: Option<LinearEnd>,
@@ -386,12 +386,12 @@ pub(crate) struct FreeReference {
     pub p: Decimal,
     pub eta: Decimal,
     pub theta0: Decimal,
-    pub nonlinear: FreeExpected,
-    pub linear: FreeExpected,
+    pub nonlinear: FreeResult,
+    pub linear: FreeResult,
 }
 
 #[derive(Deserialize)]
-pub(crate) struct FreeExpected {
+pub(crate) struct FreeResult {
     pub impacts: Vec<Hit>,
     pub settling_time: Decimal,
 }

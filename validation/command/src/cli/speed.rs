@@ -22,7 +22,7 @@ use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
 use rocking_report::speed::throughput::{
-    self, AgainstLoop, CurveJob, Throughput, analyses, on_threads,
+    self, AgainstLoop, CurveWork, Throughput, analyses, on_threads,
 };
 use rocking_report::speed::{export, many};
 
@@ -76,7 +76,7 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         let threads = rayon::current_num_threads();
         let way = Execution::default();
         let job =
-            CurveJob { analyses: &analyses, records: &records, way, threads };
+            CurveWork { analyses: &analyses, records: &records, way, threads };
         let (_, found) = job.measure("")?;
         for (analysis, found) in analyses.iter().zip(&found) {
             let block = &analysis.block;

@@ -12,7 +12,7 @@ use crate::scene::{CaseScene, Engine, Forcing, Model, PulseName, Trace};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Transform {
+enum SceneChange {
     /// The record times -1.
     Mirror,
     /// 64 exact zeros and a ramp's foot before the record.
@@ -33,7 +33,7 @@ const SHIFT: usize = 64;
 /// A record and its changed twin on several blocks.
 pub fn invariance(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        change: Transform, equation: Model, record: String,
+        change: SceneChange, equation: Model, record: String,
         /// PGA over the uplift threshold.
         intensity: f64,
         /// Samples kept; the record then ends with a jump.
@@ -54,8 +54,8 @@ pub fn invariance(context: &Context, answer: &mut Reply) -> Result<()> {
         let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
         let (shift_s, mirror) = match change {
-            Transform::Shift => (SHIFT as f64 * dt_s, 1.0),
-            Transform::Mirror => (0.0, -1.0),
+            SceneChange::Shift => (SHIFT as f64 * dt_s, 1.0),
+            SceneChange::Mirror => (0.0, -1.0),
             _ => (0.0, 1.0),
         };
         let speed_ratio = alpha / twin.slenderness_rad;
@@ -94,7 +94,7 @@ fn compare(
 
 fn twin(
     scene: &CaseScene,
-    change: Transform,
+    change: SceneChange,
     peak_m_s2: f64,
 ) -> Result<CaseScene> {
     let mut twin = scene.clone();
@@ -104,11 +104,11 @@ fn twin(
     };
     let a = acceleration_m_s2;
     match change {
-        Transform::Mirror => a.iter_mut().for_each(|x| *x = -*x),
-        Transform::Shift => {
+        SceneChange::Mirror => a.iter_mut().for_each(|x| *x = -*x),
+        SceneChange::Shift => {
             a.splice(0..0, std::iter::repeat_n(0.0, SHIFT));
         }
-        Transform::Resample => {
+        SceneChange::Resample => {
             let mut fine = Vec::with_capacity(2 * a.len());
             for pair in a.windows(2) {
                 fine.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
@@ -117,12 +117,12 @@ fn twin(
             *a = fine;
             *dt_s *= 0.5;
         }
-        Transform::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
-        Transform::Unit => {
+        SceneChange::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
+        SceneChange::Unit => {
             a.iter_mut().for_each(|x| *x *= 100.0);
             twin.gravity_m_s2 *= 100.0;
         }
-        Transform::Adjust => {
+        SceneChange::Adjust => {
             // The record as it was, on the block that it moves as much.
             let factor =
                 peak_m_s2 / a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));

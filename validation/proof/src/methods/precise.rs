@@ -10,7 +10,9 @@ use rocking::number::{Number as _, Real as _};
 use super::cells::{Csv, csv};
 use super::method::{Context, Reply, WrongModel};
 use crate::engine::{Precision, WideTrace};
-use crate::references::{self, Decimal, Expected, LINEAR_PULSES, RECT_PULSE};
+use crate::references::{
+    self, Decimal, LINEAR_PULSES, RECT_PULSE, TrajectoryResult,
+};
 use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
 /// Largest error of each quantity; infinite where something is missing.
@@ -116,7 +118,7 @@ pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
 
 fn put_trajectory(
     errors: &mut LargestErrors,
-    due: &Expected,
+    due: &TrajectoryResult,
     scene: &CaseScene,
     trace: &WideTrace,
 ) {

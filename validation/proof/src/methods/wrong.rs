@@ -70,17 +70,17 @@ impl WrongModel {
     pub fn engine<'a>(self, right: &'a dyn Engine) -> Box<dyn Engine + 'a> {
         match self.rules() {
             Some(rules) => Box::new(Naive(rules)),
-            None => Box::new(Changed { right, model: self }),
+            None => Box::new(InputMistake { right, model: self }),
         }
     }
 }
 
-struct Changed<'a> {
+struct InputMistake<'a> {
     right: &'a dyn Engine,
     model: WrongModel,
 }
 
-impl Engine for Changed<'_> {
+impl Engine for InputMistake<'_> {
     fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
         let mut scene = scene.clone();
         self.model.alter(&mut scene);

@@ -27,7 +27,7 @@ pub struct CaseResult {
     /// Quantities by name.
     pub quantities: BTreeMap<String, QuantityResult>,
     /// Wrong models that the case rejected.
-    pub rejected: BTreeMap<String, Rejected>,
+    pub rejected: BTreeMap<String, RejectionResult>,
     /// The verdict.
     pub verdict: CaseVerdict,
 }
@@ -51,7 +51,7 @@ pub struct QuantityResult {
 /// How a wrong model was rejected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Rejected {
+pub struct RejectionResult {
     /// Largest error over bound.
     pub margin: Extended,
     /// The quantity that shows it best.
@@ -94,7 +94,7 @@ fn entry(case: &Case, outcome: &CaseOutcome) -> CaseResult {
     let rejected = outcome.rejections.iter().map(|rejection| {
         let margin = Extended(rounded(rejection.margin, 1));
         let quantity = rejection.quantity.clone();
-        (rejection.model.to_owned(), Rejected { margin, quantity })
+        (rejection.model.to_owned(), RejectionResult { margin, quantity })
     });
     CaseResult {
         kind: case.kind,

@@ -7,7 +7,7 @@ use rocking::integrator::{Model, Order};
 
 use super::singles::ORDERS;
 use super::throughput::{
-    CurveJob, Throughput, analyses, kernel, lilliefors, moved, samples_of,
+    CurveWork, Throughput, analyses, kernel, lilliefors, moved, samples_of,
 };
 use rocking_common::curves::Execution;
 use rocking_common::paper::BLOCKS;
@@ -75,7 +75,7 @@ fn whole(
     if threads > 1 {
         let work = format!("15 blocks, {words}, in lanes");
         let way = Execution::default();
-        let job = CurveJob { analyses: &shipped, records, way, threads };
+        let job = CurveWork { analyses: &shipped, records, way, threads };
         all.push(job.measure_thrice(&work)?.0);
     }
     let samples = samples_of(records, &shipped, &base)?;
@@ -106,5 +106,5 @@ fn make(
 ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
     let lanes = how == WAYS[0];
     let way = if lanes { Execution::default() } else { Execution::OneByOne };
-    CurveJob { analyses, records, way, threads: 1 }.measure_thrice(work)
+    CurveWork { analyses, records, way, threads: 1 }.measure_thrice(work)
 }

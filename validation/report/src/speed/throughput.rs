@@ -57,7 +57,7 @@ impl Throughput {
 
 /// Analyses and how they are made.
 #[derive(Clone, Copy)]
-pub struct CurveJob<'a> {
+pub struct CurveWork<'a> {
     /// The analyses, each of every record.
     pub analyses: &'a [Analysis],
     /// The records.
@@ -99,7 +99,7 @@ pub fn on_threads<T: Send>(
     }))
 }
 
-impl CurveJob<'_> {
+impl CurveWork<'_> {
     /// Makes the curves three times, and says how long that took in the
     /// median: one of four took up to 1.5 times as long as the others.
     ///
@@ -253,7 +253,7 @@ impl LaneKernel {
         let Self { record, chains, samples } = self;
         let way = Execution::Lanes(isa);
         let job =
-            CurveJob { analyses: chains, records: record, way, threads: 1 };
+            CurveWork { analyses: chains, records: record, way, threads: 1 };
         let samples = Some(*samples);
         Ok(Throughput { samples, ..job.measure(work)?.0 })
     }

@@ -17,18 +17,13 @@ use crate::work::{self, refuse};
 
 /// An object.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct GivenObject {
-    #[pyo3(item)]
     id: String,
-    #[pyo3(item)]
     block: (f64, f64),
-    #[pyo3(item)]
     eta: f64,
-    #[pyo3(item)]
     friction: Option<f64>,
-    #[pyo3(item)]
     limit_ratio: Option<f64>,
-    #[pyo3(item)]
     floor: Option<(String, f64, f64, f64)>,
 }
 
@@ -53,16 +48,12 @@ impl GivenObject {
 
 /// How objects are assessed.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct Options {
-    #[pyo3(item)]
     years: f64,
-    #[pyo3(item)]
     certify: bool,
-    #[pyo3(item)]
     replicates: usize,
-    #[pyo3(item)]
     seed: u64,
-    #[pyo3(item)]
     gravity: f64,
 }
 

@@ -39,20 +39,14 @@ pub enum OriginInput {
 /// The fragilities of a block in the unit of their samples: name, law and
 /// source of each limit state.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct FragilityInput {
-    #[pyo3(item)]
     block: (f64, f64),
-    #[pyo3(item)]
     limit_states: Vec<(String, LognormalInput, OriginInput)>,
-    #[pyo3(item)]
     im: String,
-    #[pyo3(item)]
     id: Option<String>,
-    #[pyo3(item)]
     eta: Option<f64>,
-    #[pyo3(item)]
     model: String,
-    #[pyo3(item)]
     origin: Option<String>,
 }
 

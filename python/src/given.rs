@@ -56,12 +56,10 @@ pub fn unit(text: &str) -> PyResult<AccelerationUnit> {
 /// Equation of motion, overturning criterion and restitution, as Python
 /// names them; no `eta` is Housner's.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct Physics {
-    #[pyo3(item)]
     eta: Option<f64>,
-    #[pyo3(item)]
     model: String,
-    #[pyo3(item)]
     overturn: String,
 }
 

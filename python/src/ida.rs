@@ -34,18 +34,13 @@ use crate::work::{self, refuse};
 
 /// Levels and how they are reached.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct GridInput {
-    #[pyo3(item)]
     step_g: Option<f64>,
-    #[pyo3(item)]
     step_im: Option<f64>,
-    #[pyo3(item)]
     refine: Option<f64>,
-    #[pyo3(item)]
     by: String,
-    #[pyo3(item)]
     certify: bool,
-    #[pyo3(item)]
     highest_im: f64,
 }
 
@@ -586,7 +581,8 @@ impl IdaCurves {
     }
 }
 
-fn table(
+/// A table of these rows and columns.
+pub fn table(
     py: Python<'_>,
     shape: (usize, usize),
     values: Vec<f64>,

@@ -1,7 +1,5 @@
 //! Single responses, and excitations at a level.
 
-use numpy::PyArray2;
-use numpy::ndarray::Array2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking::accelerogram::Accelerogram;
@@ -15,6 +13,7 @@ use rocking::{Excitation, Response, Scene, integrator};
 use crate::given::{
     ExcitationInput, Physics, RecordOrPulse, block_of, choose,
 };
+use crate::ida::table;
 use crate::work::{self, refuse};
 
 /// What is scaled to a level.
@@ -181,21 +180,13 @@ fn to_python<'py>(
     out.set_item("overturning_side", side)?;
     let impacts = response.impacts.iter();
     let impacts = impacts.flat_map(|i| [i.time_s, i.speed_before_rad_s]);
-    out.set_item("impacts", rows(py, impacts.collect(), 2)?)?;
+    let shape = (response.impacts.len(), 2);
+    out.set_item("impacts", table(py, shape, impacts.collect())?)?;
     let history = response.history.iter();
     let history =
         history.flat_map(|h| [h.time_s, h.rotation_rad, h.velocity_rad_s]);
-    out.set_item("history", rows(py, history.collect(), 3)?)?;
+    let shape = (response.history.len(), 3);
+    out.set_item("history", table(py, shape, history.collect())?)?;
     out.set_item("certified_by", py.None())?;
     Ok(out)
-}
-
-fn rows(
-    py: Python<'_>,
-    values: Vec<f64>,
-    columns: usize,
-) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    Array2::from_shape_vec((values.len() / columns, columns), values)
-        .map(|table| PyArray2::from_owned_array(py, table))
-        .map_err(refuse)
 }

@@ -49,20 +49,14 @@ pub fn clusters_of((_, _, events, _): &SampleInput<'_>) -> Option<Clusters> {
 
 /// The options of a fit.
 #[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub struct Fit {
-    #[pyo3(item)]
     shift: String,
-    #[pyo3(item)]
     method: String,
-    #[pyo3(item)]
     quantile_type: u8,
-    #[pyo3(item)]
     c: f64,
-    #[pyo3(item)]
     n_resamples: usize,
-    #[pyo3(item)]
     seed: u64,
-    #[pyo3(item)]
     band: Vec<f64>,
 }
 

@@ -164,9 +164,4 @@ impl Layout {
         }
         Ok(places)
     }
-
-    /// Whether a row's cell behind the table's own says this schema, or none.
-    pub fn is_current(&self, cell: Option<&str>) -> bool {
-        cell.is_none_or(|cell| cell == SCHEMA.to_string())
-    }
 }

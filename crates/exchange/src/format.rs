@@ -125,12 +125,9 @@ pub struct ExchangeFormat {
     pub name: &'static str,
     /// What its files hold, for the help.
     pub help: &'static str,
-    /// What reads the files, for the documentation, as the next two.
-    pub reader: &'static str,
-    /// Intensity measures that it holds.
-    pub measures: &'static str,
-    /// What becomes of a lognormal with a shift.
-    pub shifted: &'static str,
+    /// Cells of its row in `docs/exchange.md`: the program that reads its
+    /// files, intensity measures, and what becomes of a shift.
+    pub cells: &'static str,
     /// Extension of the main file.
     pub extension: &'static str,
     /// Extension of a second file beside it.
@@ -152,9 +149,7 @@ impl ExchangeFormat {
     const BASE: Self = Self {
         name: "",
         help: "",
-        reader: "",
-        measures: "",
-        shifted: "",
+        cells: "",
         extension: "csv",
         beside: None,
         in_assessment: false,

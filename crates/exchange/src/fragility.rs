@@ -31,12 +31,6 @@ pub struct Id(String);
 
 as_text!(Id);
 
-impl AsRef<str> for Id {
-    fn as_ref(&self) -> &str {
-        &self.0
-    }
-}
-
 impl FromStr for Id {
     type Err = String;
 

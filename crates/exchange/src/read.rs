@@ -166,7 +166,9 @@ pub fn rows<'a, R: Read>(
         let cells = Cells { path, layout, line, fields };
         let schema = layout.columns.len();
         let cell = cells.fields.get(schema);
-        if layout.is_current(cell.filter(|_| places[schema].is_some())) {
+        let cell = cell.filter(|_| places[schema].is_some());
+        // A table without the column is read.
+        if cell.is_none_or(|cell| cell == SCHEMA.to_string()) {
             return Ok(cells);
         }
         let expected = format_args!("{SCHEMA}, the schema of this program");

@@ -114,7 +114,8 @@ pub struct SampleFile {
     events: Vec<Option<String>>,
     /// What the values are, where the file says it.
     of: Option<String>,
-    setting: SampleSetting,
+    /// The block and model that the file says.
+    pub setting: SampleSetting,
 }
 
 impl SampleFile {
@@ -284,12 +285,6 @@ impl SampleFile {
             }
             _ => Ok(found.or(given.cloned())),
         }
-    }
-
-    /// The block and model that the file says.
-    #[must_use]
-    pub fn setting(&self) -> SampleSetting {
-        self.setting
     }
 
     /// The values in the order of the lines, infinite where censored.

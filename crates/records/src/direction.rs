@@ -73,36 +73,18 @@ impl Direction {
         }
     }
 
-    /// The direction by the last word of a header's text that names one, in a
-    /// format whose numbers are no azimuths.
-    pub(super) fn of_words(words: &str) -> Self {
-        Self::of_last(words, Self::of_word)
-    }
-
-    /// As [`Direction::of_words`], or as [`Direction::of_azimuth`] where
-    /// numbers are azimuths.
+    /// The direction by the last word of a header's text that names one;
+    /// numbers from 0 to 360 are azimuths (degrees) in some formats.
     pub(super) fn of_label(label: &str, azimuths: bool) -> Self {
-        if azimuths { Self::of_azimuth(label) } else { Self::of_words(label) }
-    }
-
-    /// As [`Direction::of_words`], in a format whose numbers from 0 to 360
-    /// are azimuths (degrees).
-    pub(super) fn of_azimuth(words: &str) -> Self {
-        Self::of_last(words, |word| {
-            let number = word.trim_end_matches("deg");
-            match is_azimuth(number) {
-                true => Self::Horizontal,
-                false => Self::of_word(word),
-            }
-        })
-    }
-
-    fn of_last(words: &str, direction: impl Fn(&str) -> Self) -> Self {
-        if text::contains(words, "vert") {
+        if text::contains(label, "vert") {
             return Self::Vertical;
         }
-        let words = words.split([' ', ',', ':']).rev();
-        let mut known = words.map(direction).filter(|d| *d != Self::Unknown);
+        let words = label.split([' ', ',', ':']).rev();
+        let of = |word: &str| match word.trim_end_matches("deg") {
+            number if azimuths && is_azimuth(number) => Self::Horizontal,
+            _ => Self::of_word(word),
+        };
+        let mut known = words.map(of).filter(|d| *d != Self::Unknown);
         known.next().unwrap_or(Self::Unknown)
     }
 

@@ -38,20 +38,6 @@ pub struct RecordError {
     pub fault: Fault,
 }
 
-impl RecordError {
-    /// The error of a file whose bytes could not be had.
-    #[must_use]
-    pub fn unreadable(file: &str, reason: String) -> Self {
-        Fault::Unreadable(reason).whole(file)
-    }
-
-    /// The error of a file of an archive whose name leads out of it.
-    #[must_use]
-    pub fn outside(file: &str) -> Self {
-        Fault::Outside.whole(file)
-    }
-}
-
 /// Line and column, each after a colon.
 fn place(line: Option<usize>, column: Option<usize>) -> String {
     let known = line.into_iter().chain(column);

@@ -272,7 +272,7 @@ impl Forms {
         let (Some(before), Some(last)) = (self.before, self.last) else {
             return Ok(Vec::new());
         };
-        if text.is_ended() {
+        if text.is_ended {
             return Ok(Vec::new());
         }
         let refuse = |expected: String| {

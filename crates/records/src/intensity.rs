@@ -19,6 +19,7 @@ pub mod velocity_pulse;
 
 pub use measure::{
     AtUplift, Intensity, IntensityMeasure, IntensityRow, ScalarMeasure,
+    ScalarRow,
 };
 pub(crate) use settings::LEAST_PERIOD_S;
 pub use settings::{DEFAULT_PERIODS_S, Settings};
@@ -189,7 +190,7 @@ impl Measures {
     ) -> Result<Self, IntensityError> {
         let (samples, dt_s) = (record.samples_g(), record.dt_s());
         let direct = Direct::of(samples, dt_s);
-        let period = Spectrum::of(samples, dt_s).mean_period_s();
+        let period = Spectrum::of(samples, dt_s).mean_period_s(None);
         let oscillators = settings.oscillators(dt_s);
         let spectrum = oscillators.iter().map(|o| o.peak(samples)).collect();
         let number = |scalar: fn(&Direct) -> Option<f64>| scalar(&direct);

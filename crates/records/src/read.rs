@@ -229,7 +229,7 @@ fn complete(
     several: bool,
     options: &ReadOptions,
 ) -> Result<Agreement, RecordError> {
-    let fail = |fault: Fault| fault.whole(text.file());
+    let fail = |fault: Fault| fault.whole(text.file);
     let given =
         Fallback { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
     let dt = match (channel.dt, options.dt_s) {
@@ -261,7 +261,7 @@ fn complete(
     for sample in &mut samples {
         *sample /= per_gravity;
     }
-    let mut name = stem(text.file()).to_owned();
+    let mut name = stem(text.file).to_owned();
     // The name of a file of several channels tells of none of them.
     let label = channel.label.as_deref().unwrap_or("");
     let stated = channel.direction;

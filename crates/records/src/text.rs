@@ -9,12 +9,13 @@ use rocking::units::AccelerationUnit;
 
 /// Lines of one file; faults are built here, so that each carries its place.
 pub(super) struct Text<'a> {
-    file: &'a str,
+    pub(super) file: &'a str,
     text: &'a str,
     /// Byte offset at which each line begins, and the end of the last line.
     /// A `&str` per line would cost 16 bytes for lines as short as 2.
     starts: Vec<u32>,
-    ended: bool,
+    /// Whether the text ends with the end of a line.
+    pub(super) is_ended: bool,
 }
 
 /// Bytes as text: UTF-16 with its mark, UTF-8, else Latin-1 (station names);
@@ -92,7 +93,8 @@ fn latin_1(bytes: &[u8]) -> String {
 
 impl Fault {
     /// The fault of a file as a whole.
-    pub(super) fn whole(self, file: &str) -> RecordError {
+    #[must_use]
+    pub fn whole(self, file: &str) -> RecordError {
         let file = file.to_owned();
         RecordError { file, line: None, column: None, fault: self }
     }
@@ -128,13 +130,8 @@ impl<'a> Text<'a> {
         let end = rest.iter().position(|b| *b == separator);
         let end = kept.len() + end.map_or(rest.len(), |at| at + 1);
         starts.extend(u32::try_from(end));
-        let ended = text.ends_with(['\n', '\r']);
-        Ok(Self { file, text, starts, ended })
-    }
-
-    /// Name of the file.
-    pub(super) fn file(&self) -> &'a str {
-        self.file
+        let is_ended = text.ends_with(['\n', '\r']);
+        Ok(Self { file, text, starts, is_ended })
     }
 
     /// Number of lines; blank lines at the end of the file are left out.
@@ -183,11 +180,6 @@ impl<'a> Text<'a> {
         };
         let last = (first..self.len()).rev().find(number);
         last.map_or(self.len(), |index| index + 1)
-    }
-
-    /// Whether the text ends with the end of a line.
-    pub(super) fn is_ended(&self) -> bool {
-        self.ended
     }
 
     /// A fault on the line of index `index`.
@@ -259,18 +251,9 @@ impl<'a> Text<'a> {
         AccelerationUnit::parse(named).ok_or_else(refuse)
     }
 
-    /// The number of samples found in the file against the stated one.
-    pub(super) fn check_count(
-        &self,
-        found: usize,
-        expected: usize,
-    ) -> Result<(), RecordError> {
-        self.check_count_at(self.len() - 1, found, expected)
-    }
-
     /// The number of samples found up to the line of index `index` against
     /// the stated one.
-    pub(super) fn check_count_at(
+    pub(super) fn check_count(
         &self,
         index: usize,
         found: usize,

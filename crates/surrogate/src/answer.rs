@@ -115,7 +115,7 @@ impl Surrogate {
             });
         }
         Ok(SurfaceFragility {
-            im_unit: Intensity::Pga.words(),
+            im_unit: Intensity::Pga.row().words,
             alpha_rad,
             p_rad_s,
             eta: RESTITUTION,

@@ -9,9 +9,7 @@ use crate::table::{Table, number, optional};
 pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     name: "csv",
     help: "All parameters, any measure",
-    reader: "any program",
-    measures: "all",
-    shifted: "a column",
+    cells: "any program | all | a column",
     may_cross: true,
     texts,
     ..ExchangeFormat::BASE

@@ -24,9 +24,7 @@ use crate::table::number;
 pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     name: "nrml",
     help: "OpenQuake's NRML 0.5: PGA, SA, AvgSA in g, PGV in cm/s",
-    reader: "OpenQuake 3.26",
-    measures: "PGA, PGV, SA, AvgSA (NRML does not state its periods)",
-    shifted: "as points of the curve",
+    cells: "OpenQuake 3.26 | PGA, PGV, SA, AvgSA (NRML does not state its periods) | as points of the curve",
     extension: "xml",
     in_assessment: true,
     texts,

@@ -11,9 +11,7 @@ use crate::table::{Table, number};
 pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     name: "pact",
     help: "Median and dispersion, not shifted: g, m/s",
-    reader: "PACT",
-    measures: "PGA, PGV",
-    shifted: "refused",
+    cells: "PACT | PGA, PGV | refused",
     texts,
     ..ExchangeFormat::BASE
 };

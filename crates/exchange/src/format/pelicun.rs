@@ -23,9 +23,7 @@ use crate::table::{Table, number};
 pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     name: "pelicun",
     help: "CSV, and JSON beside it: PGA, SA in g, PGV in m/s",
-    reader: "pelicun 3.10; a JSON lies beside the CSV",
-    measures: "PGA, PGV, SA",
-    shifted: "as points of the curve",
+    cells: "pelicun 3.10; a JSON lies beside the CSV | PGA, PGV, SA | as points of the curve",
     beside: Some("json"),
     in_assessment: true,
     texts,

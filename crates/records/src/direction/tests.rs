@@ -21,7 +21,7 @@ fn words_name_directions() {
         ("360 Deg", Unknown),
     ];
     for (word, expected) in words {
-        assert_eq!(Direction::of_words(word), expected, "{word}");
+        assert_eq!(Direction::of_label(word, false), expected, "{word}");
     }
     for (word, expected) in [
         ("90", Horizontal),
@@ -30,7 +30,7 @@ fn words_name_directions() {
         ("361", Unknown),
         ("Up", Vertical),
     ] {
-        assert_eq!(Direction::of_azimuth(word), expected, "{word}");
+        assert_eq!(Direction::of_label(word, true), expected, "{word}");
     }
 }
 

@@ -50,7 +50,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         text.at_end(Fault::Ends("a line `N-S E-W U-D` before the samples"))
     })?;
     let columns = samples(text, head + 1)?;
-    text.check_count(columns[0].len(), count)?;
+    text.check_count(text.len() - 1, columns[0].len(), count)?;
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     let channel = |((samples, name), peak): ((Vec<f64>, &str), f64)| {
         // Header and samples have the same decimals.

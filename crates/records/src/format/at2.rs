@@ -61,7 +61,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let end = text.end_of_numbers(first);
     let layout = fields::infer(text, first, end, 0);
     let samples = fields::read(text, first, end, layout)?;
-    text.check_count_at(end - 1, samples.len(), count)?;
+    text.check_count(end - 1, samples.len(), count)?;
     let label = component(text);
     Ok(vec![Channel { dt, unit, samples, label, ..Channel::default() }])
 }

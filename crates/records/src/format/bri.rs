@@ -98,7 +98,7 @@ fn channel(
     let first = index + 1;
     let end = first.saturating_add(rows).min(text.len());
     let samples = fields::read(text, first, end, Some(LAYOUT))?;
-    text.check_count_at(end - 1, samples.len(), head.count)?;
+    text.check_count(end - 1, samples.len(), head.count)?;
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     let found = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
     let expected = peak.abs();
@@ -115,7 +115,7 @@ fn channel(
         samples,
         label: Some(label.to_owned()),
         site: Some(site).filter(|_| known),
-        direction: Some(Direction::of_azimuth(azimuth)),
+        direction: Some(Direction::of_label(azimuth, true)),
         ..Channel::default()
     })
 }

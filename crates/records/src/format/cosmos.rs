@@ -109,7 +109,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let block = announced(text, index)?;
         let end = block.end(text, index)?;
         let samples = fields::read(text, index + 1, end, Some(block.layout))?;
-        text.check_count_at(end - 1, samples.len(), block.count)?;
+        text.check_count(end - 1, samples.len(), block.count)?;
         after_block(text, end)?;
         let header = ChannelHeader { text, head, announced: index };
         header.check_count(block.count)?;
@@ -122,7 +122,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 false => header.of_csmip(&series)?,
             };
             let (label, name) = label(header.lines(), channels.len() + 1);
-            let direction = Direction::of_azimuth(&name)
+            let direction = Direction::of_label(&name, true)
                 .or(|| stated::oriented(&std::mem::take(&mut integers)));
             channels.push(Channel {
                 dt,

@@ -164,7 +164,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         }
         samples
     };
-    text.check_count_at(end - 1, samples.len(), count)?;
+    text.check_count(end - 1, samples.len(), count)?;
     // EMOD3D: station, component, and what the writer adds.
     let component = text.line(0).filter(|_| numbers == EMOD3D);
     let component = component.and_then(|l| l.split_ascii_whitespace().nth(1));

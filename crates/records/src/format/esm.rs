@@ -40,7 +40,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let lines = text.lines().enumerate().skip(header);
     let (samples, forms) = fields::column(text, lines)?;
     let remarks = forms.check_ended(text)?;
-    text.check_count(samples.len(), count)?;
+    text.check_count(text.len() - 1, samples.len(), count)?;
     let peak = "PGA_CM/S^2";
     let gal = unit == AccelerationUnit::CentimetrePerSecondSquared;
     if gal && keys::find(text, peak).is_some_and(|(_, v)| !v.is_empty()) {

@@ -131,7 +131,7 @@ fn component(
             return Err(text.at_end(fault));
         }
         let values = fields::read_varied(text, start, end, LAYOUT)?;
-        text.check_count_at(end.max(1) - 1, values.len(), count)?;
+        text.check_count(end.max(1) - 1, values.len(), count)?;
         blocks.push(values);
     }
     let mut samples = blocks.swap_remove(0);
@@ -161,7 +161,7 @@ fn component(
 /// `E90N` or `N`.
 fn direction(component: &str) -> Direction {
     let bearing = component.starts_with(['N', 'E', 'S', 'W']);
-    match Direction::of_words(component) {
+    match Direction::of_label(component, false) {
         Direction::Unknown if bearing => Direction::Horizontal,
         direction => direction,
     }

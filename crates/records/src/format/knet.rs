@@ -6,7 +6,6 @@
 //! without its mean, and is checked.
 
 use super::{Channel, Format};
-use crate::direction::Direction;
 use crate::error::RecordError;
 use crate::number;
 use crate::text::Text;
@@ -42,36 +41,34 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let found = format!("{frequency_hz} Hz for {duration_s} s");
         return Err(text.differs(memo, found, "a whole number of samples"));
     }
-    text.check_count(samples.len(), expected as usize)?;
+    text.check_count(text.len() - 1, samples.len(), expected as usize)?;
     for count in &mut samples {
         *count *= scale;
     }
     check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     let (dt, dir) = (Some(1.0 / frequency_hz), keys::find(text, "Dir."));
-    let (label, direction, borehole) = sensor(dir.map_or("", |(_, dir)| dir));
+    let (label, borehole) = sensor(dir.map_or("", |(_, dir)| dir));
     let rest = Channel::default();
-    Ok(vec![Channel { dt, unit, samples, label, direction, borehole, ..rest }])
+    Ok(vec![Channel { dt, unit, samples, label, borehole, ..rest }])
 }
 
-/// Label and direction of a sensor by the header's `Dir.`, and whether it is
-/// in a borehole.
+/// Label of a sensor by the header's `Dir.`, and whether it is in a borehole.
 ///
 /// K-NET names the direction. KiK-net numbers its six channels: 1 to 3 are
 /// those of the sensor in the borehole, 4 to 6 those of the one at the
 /// surface, each in the order N-S, E-W, U-D.
-fn sensor(dir: &str) -> (Option<String>, Option<Direction>, bool) {
-    let (label, direction, borehole) = match dir {
-        "1" => ("N-S borehole", Direction::Horizontal, true),
-        "2" => ("E-W borehole", Direction::Horizontal, true),
-        "3" => ("U-D borehole", Direction::Vertical, true),
-        "4" => ("N-S surface", Direction::Horizontal, false),
-        "5" => ("E-W surface", Direction::Horizontal, false),
-        "6" => ("U-D surface", Direction::Vertical, false),
-        word => (word, Direction::of_words(word), false),
+fn sensor(dir: &str) -> (Option<String>, bool) {
+    let (label, borehole) = match dir {
+        "1" => ("N-S borehole", true),
+        "2" => ("E-W borehole", true),
+        "3" => ("U-D borehole", true),
+        "4" => ("N-S surface", false),
+        "5" => ("E-W surface", false),
+        "6" => ("U-D surface", false),
+        word => (word, false),
     };
-    let label = (!label.is_empty()).then(|| label.to_owned());
-    (label, Some(direction), borehole)
+    ((!label.is_empty()).then(|| label.to_owned()), borehole)
 }
 
 /// The header's maximum acceleration against the samples less their mean.

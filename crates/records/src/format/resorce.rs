@@ -42,7 +42,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let unit = text.unit(title, named)?;
     let end = text.len();
     let samples = fields::read(text, title + 1, end, Some(LAYOUT))?;
-    text.check_count(samples.len(), count)?;
+    text.check_count(text.len() - 1, samples.len(), count)?;
     let peak = "PGA (m/s/s)";
     let si = unit == AccelerationUnit::MetrePerSecondSquared;
     if si && keys::find(text, peak).is_some() {

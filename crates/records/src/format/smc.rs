@@ -86,7 +86,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         return Err(text.at_end(Fault::Count { found: 0, expected }));
     }
     let samples = fields::read(text, first, text.len(), Some(SAMPLES))?;
-    text.check_count(samples.len(), expected)?;
+    text.check_count(text.len() - 1, samples.len(), expected)?;
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     check_peak(text, &samples, &reals, unit)?;
     let (label, site) = component(text);

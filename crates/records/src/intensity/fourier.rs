@@ -36,13 +36,9 @@ impl Spectrum {
         Self { hz, coefficients }
     }
 
-    /// Mean period, in s.
-    pub(super) fn mean_period_s(&self) -> Option<f64> {
-        self.rotated_period_s(None)
-    }
-
-    /// Mean period of `cos` times this motion plus `sin` times `other`.
-    pub(super) fn rotated_period_s(
+    /// Mean period in s of this motion, or of `cos` times this motion plus
+    /// `sin` times another.
+    pub(super) fn mean_period_s(
         &self,
         rotation: Option<(&Self, f64, f64)>,
     ) -> Option<f64> {

@@ -58,12 +58,6 @@ impl Intensity {
         }
     }
 
-    /// The dimensionless measure as the paper writes it.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        self.row().words
-    }
-
     /// The measure by PGA and PGV, with or without units.
     ///
     /// ```
@@ -115,11 +109,13 @@ named! {
 }
 
 /// The row of a measure of a record.
-struct ScalarRow {
+#[non_exhaustive]
+pub struct ScalarRow {
     /// The measure in text.
     symbol: &'static str,
-    /// A few letters, for the tick of a figure.
-    short: &'static str,
+    /// A few letters for the tick of a figure; a measure that grows with the
+    /// square of the acceleration by its root.
+    pub short: &'static str,
     unit: &'static str,
     /// Whether it grows with the square of the acceleration.
     is_squared: bool,
@@ -127,7 +123,9 @@ struct ScalarRow {
 }
 
 impl ScalarMeasure {
-    const fn row(self) -> ScalarRow {
+    /// The row of the measure.
+    #[must_use]
+    pub const fn row(self) -> ScalarRow {
         match self {
             Self::Pgd => ScalarRow {
                 symbol: "PGD",
@@ -160,13 +158,6 @@ impl ScalarMeasure {
                 },
             },
         }
-    }
-
-    /// A few letters for the tick of a figure; a measure that grows with the
-    /// square of the acceleration by its root.
-    #[must_use]
-    pub fn short(self) -> &'static str {
-        self.row().short
     }
 }
 
@@ -374,7 +365,7 @@ impl IntensityMeasure {
     #[must_use]
     pub fn words(&self) -> String {
         let symbol = match self {
-            Self::Axis(intensity) => return intensity.words().to_owned(),
+            Self::Axis(intensity) => return intensity.row().words.to_owned(),
             Self::Column(name) => return format!("column {name}"),
             Self::Scalar(scalar) => scalar.row().symbol.to_owned(),
             Self::Sa(period_s) => format!("SA({period_s} s)"),

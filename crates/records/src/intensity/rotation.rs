@@ -40,7 +40,7 @@ pub(super) fn rotd50(
     };
     let spectra = (Spectrum::of(&a, dt_s), Spectrum::of(&b, dt_s));
     let periods = turned.iter().filter_map(|(cos, sin)| {
-        spectra.0.rotated_period_s(Some((&spectra.1, *cos, *sin)))
+        spectra.0.mean_period_s(Some((&spectra.1, *cos, *sin)))
     });
     let mut spectrum = Vec::new();
     for oscillator in settings.oscillators(dt_s) {

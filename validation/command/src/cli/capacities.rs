@@ -250,7 +250,7 @@ fn suite(
         ensure!(
             !args.ground.is_given(),
             "--suite is not used for {}, which the table holds",
-            intensity.words()
+            intensity.row().words
         );
         let (table, curves) = input::ida(path, intensity)?;
         return Ok((table, curves, None));

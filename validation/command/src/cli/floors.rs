@@ -92,7 +92,7 @@ pub fn of_rows(
         let Some(name) = &row.floor else { return Ok(None) };
         let found = floors.get(name).copied();
         found.map(Some).ok_or_else(|| {
-            let names: Vec<&str> = floors.keys().map(Id::as_ref).collect();
+            let names: Vec<_> = floors.keys().map(Id::to_string).collect();
             let expected = match path {
                 None => "--floors with a table that has it".to_owned(),
                 Some(path) => {

@@ -41,7 +41,7 @@ pub fn overturning() -> impl TypedValueParser<Value = Overturning> {
 
 /// Dimensionless intensity measures.
 pub fn intensity() -> impl TypedValueParser<Value = Intensity> {
-    let help = Intensity::ALL.map(Intensity::words);
+    let help = Intensity::ALL.map(|intensity| intensity.row().words);
     named(Intensity::ALL, Intensity::name, help)
 }
 

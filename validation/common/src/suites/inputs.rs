@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
-    MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
-    RecordError, Suite, SuiteError, SuiteMember, Survey,
+    Fault, MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
+    Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 
@@ -187,7 +187,7 @@ pub fn visit_zip<K, E: From<SuiteError>>(
     let (base, names) = contents(names);
     let unpacked = |name: &str| {
         if name.split('/').any(|part| part == "..") {
-            return Err(RecordError::outside(&format!("{shown}/{name}")));
+            return Err(Fault::Outside.whole(&format!("{shown}/{name}")));
         }
         let limit = if name == SEARCH_RESULTS { index_limit } else { left };
         let mut bytes = Vec::new();
@@ -196,7 +196,7 @@ pub fn visit_zip<K, E: From<SuiteError>>(
         // What is refused was read, too: a thousand such take no longer.
         left = left.saturating_sub(bytes.len() as u64);
         done.map(|()| bytes).map_err(|reason| {
-            RecordError::unreadable(&format!("{shown}/{name}"), reason)
+            Fault::Unreadable(reason).whole(&format!("{shown}/{name}"))
         })
     };
     Survey::of_files(shown, &names, options, unpacked, keep)

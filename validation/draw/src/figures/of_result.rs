@@ -277,7 +277,7 @@ fn short(measure: &IntensityMeasure) -> String {
     use IntensityMeasure as M;
     match measure {
         M::Axis(intensity) => intensity.row().symbol.to_owned(),
-        M::Scalar(scalar) => scalar.short().to_owned(),
+        M::Scalar(scalar) => scalar.row().short.to_owned(),
         M::Sa(period_s) => format!("SA({period_s})"),
         M::AverageSa(periods_s) => {
             let (first, last) = (periods_s.first(), periods_s.last());

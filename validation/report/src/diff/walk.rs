@@ -288,7 +288,7 @@ fn topic_of(name: &str) -> Option<Topic> {
 
 /// A place of a table in words, with its intensity measure and suite.
 fn placed(at: &RowPlace) -> String {
-    let intensity = at.intensity.map(|im| im.words().to_owned());
+    let intensity = at.intensity.map(|im| im.row().words.to_owned());
     let suite = at.suite.map(|suite| suite.to_string());
     let rest = Some(at.to_string()).filter(|rest| !rest.is_empty());
     let parts = [intensity, suite, rest].into_iter().flatten();

@@ -200,7 +200,7 @@ fn of_levels(
     let found =
         args.threads.run(|| fit_levels(&curves, at, rule, &options))?;
     let levels = found.at(path.display())?;
-    let unit = measure.words().to_owned();
+    let unit = measure.row().words.to_owned();
     let level = |level: &LevelFit| {
         let sample = capacities::sample(&curves, level.edp, rule)?;
         let name = match level.edp.is_finite() {

@@ -198,7 +198,7 @@ impl SourceArgs {
     fn sample(&self, path: &Path) -> Result<FragilityLevel, Failure> {
         let file = input::sample(path)?;
         let place = path.display().to_string();
-        let setting = file.setting();
+        let setting = file.setting;
         let n = file.values().len();
         let im = file.im(self.im.as_ref())?.ok_or_else(|| match file.of() {
             Some(of) => format!(

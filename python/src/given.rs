@@ -174,9 +174,12 @@ pub fn pulse_of(
     Pulse::try_new(kind).map_err(refuse)
 }
 
-/// The pulses, and for each its keys with their values where none is given.
+/// The name of a pulse, and its keys with their values where none is given.
+type PulseKeys = (&'static str, Vec<(&'static str, Option<f64>)>);
+
+/// The pulses with their keys.
 #[pyfunction]
-pub fn pulses() -> Vec<(&'static str, Vec<(&'static str, Option<f64>)>)> {
+pub fn pulses() -> Vec<PulseKeys> {
     let pulses = PulseName::ALL.into_iter().map(|pulse| {
         let keys = pulse.parameters().iter();
         let keys = keys.map(|p| (p.name_over_gravity(), p.default_value()));

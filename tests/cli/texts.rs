@@ -42,7 +42,8 @@ fn help_of_every_command() {
         assert_eq!((status, error.as_str()), (0, ""), "{command}");
         let lines = text.lines().count();
         let is_long = LONGER.contains(&command.as_str());
-        let most = LINES_OF_A_SCREEN + if is_long { LINES_OF_A_SCREEN / 4 } else { 0 };
+        let most = LINES_OF_A_SCREEN
+            + if is_long { LINES_OF_A_SCREEN / 4 } else { 0 };
         assert!(lines <= most, "{command}: {lines} lines");
         let name = format!("help-{}", command.replace(' ', "-"));
         settings().bind(|| assert_snapshot!(name, text));

@@ -98,7 +98,7 @@ fn mistake(name: &str) -> Mistake {
 
 /// An answer, and how far it may scatter.
 #[derive(Clone)]
-struct AnswerError {
+struct Residual {
     item: &'static Item,
     value: Value,
     condition: f64,
@@ -137,13 +137,13 @@ struct Hypothesis {
 struct Scatter(f64, f64);
 
 impl Hypothesis {
-    fn new(given: &[AnswerError], left: Vec<f64>, moved: Vec<f64>) -> Self {
+    fn new(given: &[Residual], left: Vec<f64>, moved: Vec<f64>) -> Self {
         let numbers = given.iter().filter(|g| g.value.number().is_some());
         let ln_conditions = numbers.clone().map(|g| libm::log(g.condition));
         let (count, sum) =
             (numbers.count() as f64, ln_conditions.sum::<f64>());
         let fits = POWERS.into_iter().flat_map(|power| {
-            let own = |(g, left): (&AnswerError, &f64)| {
+            let own = |(g, left): (&Residual, &f64)| {
                 left / g.allowed(Scatter(1.0, power))
             };
             let own: Vec<f64> = given.iter().zip(&left).map(own).collect();
@@ -165,7 +165,7 @@ impl Hypothesis {
     }
 
     /// Answers that deviate or should, and those that it explains.
-    fn account(&self, given: &[AnswerError]) -> (usize, usize) {
+    fn account(&self, given: &[Residual]) -> (usize, usize) {
         let sizes = given.iter().zip(&self.left).zip(&self.moved);
         let deviating = sizes.filter_map(|((given, left), moved)| {
             let size = given.error.max(*moved);
@@ -176,14 +176,14 @@ impl Hypothesis {
         (all.len(), all.iter().filter(|good| **good).count())
     }
 
-    fn explains(&self, given: &[AnswerError]) -> bool {
+    fn explains(&self, given: &[Residual]) -> bool {
         let (all, good) = self.account(given);
         let enough = good as f64 >= SHARE * all as f64;
         good >= 3 && enough && self.scatter.0 <= COARSEST
     }
 }
 
-impl AnswerError {
+impl Residual {
     /// How the value moves with an input; a release is no ground motion, of
     /// whose size one may be wrong.
     fn rate(&self, input: usize) -> f64 {
@@ -200,7 +200,7 @@ impl AnswerError {
 
 /// The answers given, with their conditions; that of a fate or a count is the
 /// largest of its scene.
-fn given(answers: &Answers) -> Vec<AnswerError> {
+fn given(answers: &Answers) -> Vec<Residual> {
     let set = reference();
     let mut worst = vec![1.0_f64; set.scenes.len()];
     for item in &set.items {
@@ -213,7 +213,7 @@ fn given(answers: &Answers) -> Vec<AnswerError> {
         let whole = value.number().is_none();
         let condition = if whole { worst[item.scene] } else { own };
         let error = apart(item, &value, Some(&item.value));
-        Some(AnswerError { item, value, condition, error })
+        Some(Residual { item, value, condition, error })
     });
     found.collect()
 }
@@ -259,7 +259,7 @@ impl Hypotheses {
 
     fn into_parts(
         self,
-        given: &[AnswerError],
+        given: &[Residual],
     ) -> (Vec<Explanation>, Option<f64>) {
         let scatter = self.0.first().map(|(_, _, first)| first.scatter.0);
         let explanations = self.0.into_iter().map(|(names, factor, one)| {
@@ -273,7 +273,7 @@ impl Hypotheses {
     /// The best ones: those that explain, and as few mistakes as explain.
     fn of(
         mut all: Vec<(Vec<String>, Option<f64>, Hypothesis)>,
-        given: &[AnswerError],
+        given: &[Residual],
         least: f64,
     ) -> Self {
         let best = all.iter().map(|(_, _, h)| h.likelihood);
@@ -289,13 +289,13 @@ impl Hypotheses {
 }
 
 /// The wrong models that explain the answers.
-fn models(given: &[AnswerError], withheld: &[&str], least: f64) -> Hypotheses {
+fn models(given: &[Residual], withheld: &[&str], least: f64) -> Hypotheses {
     let names = reference().models.iter().enumerate();
     let names = names.filter(|(_, name)| {
         !name.split('+').any(|name| withheld.contains(&name))
     });
     let all = names.map(|(model, name)| {
-        let of = |g: &AnswerError| g.item.wrong[model].clone();
+        let of = |g: &Residual| g.item.wrong[model].clone();
         let left = given.iter().map(|g| {
             let predicted = of(g);
             apart(g.item, &g.value, predicted.as_ref())
@@ -309,15 +309,14 @@ fn models(given: &[AnswerError], withheld: &[&str], least: f64) -> Hypotheses {
 }
 
 /// The inputs of which one factor explains the answers.
-fn inputs(all: &[AnswerError]) -> Hypotheses {
+fn inputs(all: &[Residual]) -> Hypotheses {
     let found = (0..INPUTS.len()).flat_map(|input| {
         let Some(by) = factor_less_one(all, input) else {
             return Hypotheses(Vec::new()).0;
         };
         // Where a straight line holds, which must be most of the answers.
-        let holds = |g: &&AnswerError| by.abs() * g.condition < STRAIGHT;
-        let given: Vec<AnswerError> =
-            all.iter().filter(holds).cloned().collect();
+        let holds = |g: &&Residual| by.abs() * g.condition < STRAIGHT;
+        let given: Vec<Residual> = all.iter().filter(holds).cloned().collect();
         if 2 * given.len() < all.len() {
             return Hypotheses(Vec::new()).0;
         }
@@ -330,7 +329,7 @@ fn inputs(all: &[AnswerError]) -> Hypotheses {
 }
 
 /// The factor on an input that the answers say, less one: the weighted median.
-fn factor_less_one(given: &[AnswerError], input: usize) -> Option<f64> {
+fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
     let says = given.iter().filter_map(|g| {
         let (x, c) = g.value.number().zip(g.item.value.number())?;
         let rate = g.rate(input);
@@ -349,7 +348,7 @@ fn factor_less_one(given: &[AnswerError], input: usize) -> Option<f64> {
 }
 
 /// The answers explained by a factor on one input, if they are.
-fn input_off(given: &[AnswerError], input: usize, by: f64) -> Hypotheses {
+fn input_off(given: &[Residual], input: usize, by: f64) -> Hypotheses {
     let moved: Vec<f64> = given
         .iter()
         .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by))

@@ -27,7 +27,7 @@ pub use answers::Answers;
 pub use diagnosis::{CodeVerdict, Diagnosis, Explanation, Mistake, diagnose};
 pub use own::{OwnResponse, answers_of, own_answers};
 pub use reference::{
-    INPUTS, Item, Reference, ReferenceScene, SCENES, SceneExcitation, Value,
+    INPUTS, Item, Problem, Reference, SCENES, SceneExcitation, Value,
     reference,
 };
 pub use score::{Code, LevelScore, QuantityScore, Score, codes, score};

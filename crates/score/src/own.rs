@@ -8,7 +8,7 @@ use rocking::integrator::{
 use rocking::number::Real;
 
 use crate::answers::Answers;
-use crate::reference::{ReferenceScene, SceneExcitation, Value, reference};
+use crate::reference::{Problem, SceneExcitation, Value, reference};
 
 /// Rotations are asked at multiples of this, s.
 const GRID_S: f64 = 1.0 / 64.0;
@@ -26,7 +26,7 @@ impl OwnResponse<f64> {
     ///
     /// # Errors
     /// Why the core refused the scene.
-    pub fn double(scene: &ReferenceScene) -> Result<Self, String> {
+    pub fn double(scene: &Problem) -> Result<Self, String> {
         Self::run(scene, respond)
     }
 }
@@ -36,12 +36,12 @@ impl<N: Real> OwnResponse<N> {
     ///
     /// # Errors
     /// Why the core refused the scene.
-    pub fn precise(scene: &ReferenceScene) -> Result<Self, String> {
+    pub fn precise(scene: &Problem) -> Result<Self, String> {
         Self::run(scene, respond_precise::<N>)
     }
 
     fn run(
-        scene: &ReferenceScene,
+        scene: &Problem,
         by: impl FnOnce(
             &rocking::Scene<'_>,
             &Observe,
@@ -60,10 +60,8 @@ impl<N: Real> OwnResponse<N> {
                 Excitation::Pulse(pulse.insert(made.map_err(|e| refused(&e))?))
             }
             SceneExcitation::Samples { dt_s, samples_m_s2 } => {
-                Excitation::Record(
-                    ScaledRecord::try_new_si(samples_m_s2, *dt_s, g)
-                        .map_err(|e| refused(&e))?,
-                )
+                let made = ScaledRecord::try_new_si(samples_m_s2, *dt_s, g);
+                Excitation::Record(made.map_err(|e| refused(&e))?)
             }
         };
         let theta = scene.initial_theta_rad;
@@ -97,7 +95,7 @@ impl<N: Real> OwnResponse<N> {
 
     /// A quantity that is a number; none where the run has none.
     #[must_use]
-    pub fn number(&self, scene: &ReferenceScene, quantity: &str) -> Option<N> {
+    pub fn number(&self, scene: &Problem, quantity: &str) -> Option<N> {
         let found = &self.response;
         let falls = found.outcome.is_overturned();
         let numbered = |before: &str, after: &str| {
@@ -128,7 +126,7 @@ impl<N: Real> OwnResponse<N> {
         }
     }
 
-    fn value(&self, scene: &ReferenceScene, quantity: &str) -> Option<Value> {
+    fn value(&self, scene: &Problem, quantity: &str) -> Option<Value> {
         match quantity {
             "fate" => Some(Value::Fate(self.fate().into())),
             "impacts" => {
@@ -154,7 +152,7 @@ pub fn own_answers() -> Result<Answers, String> {
 /// # Errors
 /// Those of the runs.
 pub fn answers_of<N: Real>(
-    run: impl Fn(&ReferenceScene) -> Result<OwnResponse<N>, String>,
+    run: impl Fn(&Problem) -> Result<OwnResponse<N>, String>,
 ) -> Result<Answers, String> {
     let set = reference();
     let runs: Vec<OwnResponse<N>> =

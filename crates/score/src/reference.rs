@@ -21,7 +21,7 @@ pub const INPUTS: [&str; 5] = ["alpha", "p", "eta", "size", "clock"];
 
 /// A block, what moves it, and what is asked; inputs in SI units.
 #[derive(Clone, Debug, Deserialize)]
-pub struct ReferenceScene {
+pub struct Problem {
     /// Its name, unique in the set.
     pub name: String,
     /// Level of difficulty, 1 to 5.
@@ -196,7 +196,7 @@ pub struct Item {
 #[derive(Debug)]
 pub struct Reference {
     /// Scenes by level.
-    pub scenes: Vec<ReferenceScene>,
+    pub scenes: Vec<Problem>,
     /// Quantities, scene after scene.
     pub items: Vec<Item>,
     /// Names of the wrong models; `+` joins two mistakes.
@@ -208,7 +208,7 @@ pub struct Reference {
 
 #[derive(Deserialize)]
 struct SceneFile {
-    scenes: Vec<ReferenceScene>,
+    scenes: Vec<Problem>,
 }
 
 /// The data set, read once.
@@ -266,7 +266,7 @@ impl Reference {
 
     /// The scene of an item.
     #[must_use]
-    pub fn scene(&self, item: &Item) -> &ReferenceScene {
+    pub fn scene(&self, item: &Item) -> &Problem {
         &self.scenes[item.scene]
     }
 }

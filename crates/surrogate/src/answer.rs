@@ -7,7 +7,7 @@ use rocking_statistics::Lognormal;
 use serde::{Serialize, Serializer};
 
 use super::{
-    RESTITUTION, Recorded, Sampling, SurfaceErrors, Surrogate, SurrogateError,
+    Errors, RESTITUTION, Recorded, Sampling, Surrogate, SurrogateError,
     ToRecorded,
 };
 use rocking_synthesis::SuiteKind;
@@ -62,7 +62,7 @@ pub struct SuiteFragility {
     pub median_pga_g: f64,
     /// From the surface to analyses under the same suite, at blocks that it
     /// was not fitted to.
-    pub surface_to_analyses: SurfaceErrors,
+    pub surface_to_analyses: Errors,
     /// What the choice of the suite's records leaves open.
     pub half_95_of_records: Sampling,
     /// From the surface to recorded motions at the study's blocks; the

@@ -6,7 +6,7 @@ use rocking_statistics::{QuantileType, Sample, normal};
 use serde::{Deserialize, Serialize};
 
 use super::blocks::rows;
-use super::{Fitted, SHIFT, Size, SurfaceModel, Surrogate, SurrogateError};
+use super::{Fitted, SHIFT, Size, Surface, Surrogate, SurrogateError};
 use rocking_synthesis::SuiteKind;
 
 /// The study's blocks under embedded and recorded motions.
@@ -140,7 +140,7 @@ pub struct ToRecorded {
     pub probability: Size,
 }
 
-impl SurfaceModel {
+impl Surface {
     /// The error at blocks under recorded motions of its kind.
     ///
     /// # Errors

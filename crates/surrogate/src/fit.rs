@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use rocking_statistics::Lognormal;
 use serde::Serialize;
 
-use super::model::{self, Degrees, SurfaceModel};
+use super::model::{self, Degrees, Surface};
 use super::{Fitted, SHIFT, SurrogateError};
 use rocking_synthesis::SuiteKind;
 
@@ -51,7 +51,7 @@ fn attempt(
     suite: SuiteKind,
     blocks: &[Fitted],
     degrees: Degrees,
-) -> Result<(SurfaceModel, Vec<f64>), SurrogateError> {
+) -> Result<(Surface, Vec<f64>), SurrogateError> {
     let own: Vec<&Fitted> =
         blocks.iter().filter(|b| b.suite == suite).collect();
     let terms = degrees.terms();
@@ -75,7 +75,7 @@ fn attempt(
         let off = off.unwrap_or(f64::NAN);
         squares.push(off * off);
     }
-    Ok((SurfaceModel { suite, terms, coefficients: [mu, beta] }, squares))
+    Ok((Surface { suite, terms, coefficients: [mu, beta] }, squares))
 }
 
 /// The surfaces of both suites, and all that were tried in the order of
@@ -92,7 +92,7 @@ fn attempt(
 /// suite.
 pub fn fit(
     blocks: &[Fitted],
-) -> Result<(Vec<SurfaceModel>, Vec<Choice>), SurrogateError> {
+) -> Result<(Vec<Surface>, Vec<Choice>), SurrogateError> {
     let mut tried = Vec::new();
     for p in 1..=MOST.p {
         for alpha in 0..=MOST.alpha.min(p) {

@@ -29,7 +29,7 @@ pub use beside::{Recorded, Sampling, ToRecorded};
 pub use blocks::{Fitted, read_table};
 pub use design::point;
 pub use fit::{Choice, fit};
-pub use model::{Degrees, Size, SurfaceErrors, SurfaceModel, Surrogate};
+pub use model::{Degrees, Errors, Size, Surface, Surrogate};
 
 /// Range of p in rad/s: from the paper's largest block, whose diagonal is
 /// 14.7 m, to contents with a diagonal of 0.41 m. Below 1 some records would

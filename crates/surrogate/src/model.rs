@@ -65,7 +65,7 @@ fn legendre(n: usize, x: f64) -> f64 {
 
 /// Surfaces of mu and ln beta for one suite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceModel {
+pub struct Surface {
     /// The suite.
     pub suite: SuiteKind,
     /// Degrees of the terms.
@@ -74,7 +74,7 @@ pub struct SurfaceModel {
     pub coefficients: [Vec<f64>; 2],
 }
 
-impl SurfaceModel {
+impl Surface {
     /// The fragility of a block within the range.
     ///
     /// # Errors
@@ -109,11 +109,8 @@ impl SurfaceModel {
     ///
     /// # Errors
     /// [`SurrogateError`] for a block outside the range or no fragility.
-    pub fn errors(
-        &self,
-        blocks: &[Fitted],
-    ) -> Result<SurfaceErrors, SurrogateError> {
-        let mut errors = SurfaceErrors::default();
+    pub fn errors(&self, blocks: &[Fitted]) -> Result<Errors, SurrogateError> {
+        let mut errors = Errors::default();
         let mut inside = 0.0;
         for block in blocks.iter().filter(|b| b.suite == self.suite) {
             let found = self.at(block.alpha_rad, block.p_rad_s)?;
@@ -166,7 +163,7 @@ impl Size {
 
 /// How far a surface is from analyses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct SurfaceErrors {
+pub struct Errors {
     /// Blocks with analyses.
     pub blocks: usize,
     /// Of the median, relative.
@@ -198,7 +195,7 @@ struct Coefficient {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surrogate {
     /// Each suite's, with its error.
-    pub models: Vec<(SurfaceModel, SurfaceErrors)>,
+    pub models: Vec<(Surface, Errors)>,
     /// The blocks of the errors.
     pub unseen: Vec<Fitted>,
 }
@@ -221,8 +218,8 @@ impl Surrogate {
         unseen: &str,
     ) -> Result<Self, SurrogateError> {
         let unseen = read_table("unseen.csv", unseen)?;
-        let mut models: Vec<SurfaceModel> = SuiteKind::ALL
-            .map(|suite| SurfaceModel {
+        let mut models: Vec<Surface> = SuiteKind::ALL
+            .map(|suite| Surface {
                 suite,
                 terms: Vec::new(),
                 coefficients: [Vec::new(), Vec::new()],
@@ -238,7 +235,7 @@ impl Surrogate {
                 model.coefficients[1].push(row.ln_dispersion);
             }
         }
-        let with = |model: SurfaceModel| {
+        let with = |model: Surface| {
             let errors = model.errors(&unseen)?;
             Ok((model, errors))
         };
@@ -251,7 +248,7 @@ impl Surrogate {
 
     /// The coefficients as CSV.
     #[must_use]
-    pub fn coefficients(models: &[SurfaceModel]) -> String {
+    pub fn coefficients(models: &[Surface]) -> String {
         let mut table =
             Table::headed("suite,degree_p,degree_alpha,mu,ln_dispersion");
         for model in models {

@@ -75,7 +75,7 @@ fn unseen_blocks_are_others_and_the_error_there_is_small() {
         assert!(errors.probability.rms < 0.025, "{errors:?}");
         assert!(errors.median.rms < 0.02, "{errors:?}");
         // A surface without p is far off.
-        let flat = SurfaceModel {
+        let flat = Surface {
             suite: model.suite,
             terms: vec![(0, 0)],
             coefficients: model.coefficients.each_ref().map(|c| vec![c[0]]),

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use rocking_statistics::streams::{self, Streams};
 
 /// A stream of random numbers, found by name and index alone.
-pub(super) struct MotionStream(streams::Stream);
+pub(super) struct Deviates(streams::Stream);
 
-impl MotionStream {
+impl Deviates {
     /// Stream number `index` of the suite `name`.
     pub(super) fn new(name: &str, index: u64) -> Self {
         Self(Streams::new(name, 0).stream(index))
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn normals_have_the_moments_of_the_normal_distribution() {
-        let z = MotionStream::new("moments", 3).normals(200_000);
+        let z = Deviates::new("moments", 3).normals(200_000);
         let n = z.len() as f64;
         let moment = |k: i32| {
             z.iter().fold(0.0, |s, x| s + libm::pow(*x, f64::from(k))) / n
@@ -85,8 +85,7 @@ mod tests {
 
     #[test]
     fn streams_differ_by_index_and_by_name() {
-        let first =
-            |name, index| MotionStream::new(name, index).uniform(0.0, 1.0);
+        let first = |name, index| Deviates::new(name, index).uniform(0.0, 1.0);
         assert_eq!(first("a", 0), first("a", 0));
         assert_ne!(first("a", 0), first("a", 1));
         assert_ne!(first("a", 0), first("b", 0));

@@ -55,7 +55,7 @@ pub(super) fn corner_hz(mw: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draws::MotionStream;
+    use crate::draws::Deviates;
 
     #[test]
     fn high_pass_answers_a_step_as_the_closed_form_does() {
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn settled_samples_end_at_rest_and_read_back() {
-        let mut samples = MotionStream::new("settle", 0).normals(4000);
+        let mut samples = Deviates::new("settle", 0).normals(4000);
         settle(&mut samples);
         let ends = 0.5 * (samples[0] + samples[3999]);
         let velocity = samples.iter().fold(-ends, |s, a| s + a) * DT_S;

@@ -13,7 +13,7 @@ const DAMPING: f64 = 0.05;
 pub(super) enum Peak {
     Acceleration,
     Velocity,
-    RecursiveOscillator(RecursiveOscillator),
+    Resonator(Resonator),
 }
 
 /// The largest value of an answer.
@@ -31,9 +31,7 @@ impl Peak {
         match k {
             0 => Self::Acceleration,
             PGV => Self::Velocity,
-            _ => Self::RecursiveOscillator(RecursiveOscillator::new(
-                PERIODS_S[k],
-            )),
+            _ => Self::Resonator(Resonator::new(PERIODS_S[k])),
         }
     }
 
@@ -41,7 +39,7 @@ impl Peak {
     pub(super) fn highest_hz(&self) -> f64 {
         match self {
             Self::Acceleration | Self::Velocity => f64::INFINITY,
-            Self::RecursiveOscillator(oscillator) => 8.0 / oscillator.period_s,
+            Self::Resonator(oscillator) => 8.0 / oscillator.period_s,
         }
     }
 
@@ -57,7 +55,7 @@ impl Peak {
                     velocity
                 }))
             }
-            Self::RecursiveOscillator(oscillator) => {
+            Self::Resonator(oscillator) => {
                 let mut state = [0.0; 4];
                 let step = |x: &f64| oscillator.step(&mut state, *x);
                 largest(samples.iter().map(step))
@@ -76,7 +74,7 @@ impl Peak {
                 weights[found.at] *= 0.5;
                 weights
             }
-            Self::RecursiveOscillator(oscillator) => {
+            Self::Resonator(oscillator) => {
                 let mut state = [0.0; 4];
                 let last = oscillator.memory.min(found.at);
                 let mut weights: Vec<f64> = (0..=last)
@@ -110,7 +108,7 @@ fn largest(values: impl Iterator<Item = f64>) -> SamplePeak {
 /// samples (Nigam and Jennings 1969). The largest value at a sample is below
 /// the true peak by 5 % at most at 0.1 s and less at longer periods: enough
 /// for corrections, which is why the core's slower measures are not asked.
-pub(super) struct RecursiveOscillator {
+pub(super) struct Resonator {
     period_s: f64,
     back: [f64; 2],
     push: [f64; 3],
@@ -118,7 +116,7 @@ pub(super) struct RecursiveOscillator {
     memory: usize,
 }
 
-impl RecursiveOscillator {
+impl Resonator {
     fn new(period_s: f64) -> Self {
         let w = 2.0 * PI / period_s;
         let ratio = (1.0 - DAMPING * DAMPING).sqrt();

@@ -9,7 +9,7 @@ use coefficients::{CORRELATION, DEVIATION, REGRESSION};
 
 use rocking_statistics::normal;
 
-use crate::draws::{MotionStream, cholesky, correlate, dot};
+use crate::draws::{Deviates, cholesky, correlate, dot};
 use crate::noise::DT_S;
 use crate::pair::{GRAVITY_M_S2, Scenario};
 use crate::special::beta_quantile;
@@ -21,7 +21,7 @@ const CUT: f64 = 2.0;
 /// Kiureghian 2014): the pulse of 2003 less a bump that takes its residual
 /// displacement away.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct VelocityPulse {
+pub(super) struct PulseModel {
     amplitude_m_s: f64,
     /// Period, in s.
     pub(super) period_s: f64,
@@ -34,10 +34,10 @@ pub(super) struct VelocityPulse {
     angle_rad: f64,
 }
 
-impl VelocityPulse {
+impl PulseModel {
     /// The pulse of a scenario, along two perpendicular directions that make
     /// a random angle with it.
-    pub(super) fn draw(scenario: &Scenario, draws: &mut MotionStream) -> Self {
+    pub(super) fn draw(scenario: &Scenario, draws: &mut Deviates) -> Self {
         // Definite for these constants; a test holds it.
         let factor = cholesky(&CORRELATION).unwrap_or_default();
         let errors = correlate(&factor, &draws.normals(CORRELATION.len()));

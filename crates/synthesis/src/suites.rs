@@ -7,13 +7,13 @@ use crate::pair::{
     MOST_DRAWS, ORDINARY_SEED, PULSE_SEED, Pair, Role, SynthesisError,
     finished, stream_index,
 };
-use crate::targets::{self, SuiteModel, Target};
+use crate::targets::{self, Design, Target};
 use crate::waves;
 
 /// Ordinary motions. Earthquakes and distances follow the record list: how
 /// many pairs it has of each earthquake, magnitude, reverse faulting.
 #[rustfmt::skip]
-pub(super) const ORDINARY: SuiteModel = SuiteModel {
+pub(super) const ORDINARY: Design = Design {
     name: "ordinary",
     seed: ORDINARY_SEED,
     earthquakes: &[
@@ -39,7 +39,7 @@ pub(super) const ORDINARY: SuiteModel = SuiteModel {
 /// Pulse-type motions. Earthquakes follow the record list; distances are
 /// chosen.
 #[rustfmt::skip]
-pub(super) const PULSE: SuiteModel = SuiteModel {
+pub(super) const PULSE: Design = Design {
     name: "pulse",
     seed: PULSE_SEED,
     earthquakes: &[
@@ -56,7 +56,7 @@ pub(super) const PULSE: SuiteModel = SuiteModel {
 /// All pairs of a suite. Its targets are drawn together, because they are
 /// conditioned together; each motion then has streams of its own. A motion
 /// with PGA of at most 0.14 g takes the noise of the next streams.
-pub(super) fn pairs(suite: &SuiteModel) -> Result<Vec<Pair>, SynthesisError> {
+pub(super) fn pairs(suite: &Design) -> Result<Vec<Pair>, SynthesisError> {
     let targets = targets::conditioned(suite)?;
     let made = |(i, target): (usize, &Target)| {
         let pair = i as u64 + 1;

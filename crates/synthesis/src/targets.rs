@@ -3,13 +3,13 @@
 use crate::attenuation::{
     PGV, QUANTITIES, between_components, correlation, deviation, median,
 };
-use crate::draws::{MotionStream, cholesky, correlate};
+use crate::draws::{Deviates, cholesky, correlate};
 use crate::moments::{Conditioning, Moments};
 use crate::pair::{
     LEAST_PGA_G, MOST_DRAWS, Role, Scenario, SynthesisError, stream_index,
 };
 use crate::peaks::Peak;
-use crate::pulse::VelocityPulse;
+use crate::pulse::PulseModel;
 
 /// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and
 /// the ends at which it is cut. The list has no sites: these are chosen, for
@@ -17,7 +17,7 @@ use crate::pulse::VelocityPulse;
 const VS30_M_S: [f64; 4] = [380.0, 0.43, 180.0, 1000.0];
 
 /// What a suite is drawn from.
-pub(super) struct SuiteModel {
+pub(super) struct Design {
     /// Start of the names of its components.
     pub(super) name: &'static str,
     /// Name of its random streams.
@@ -38,7 +38,7 @@ pub(super) struct SuiteModel {
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     pub(super) scenario: Scenario,
-    pub(super) pulse: Option<VelocityPulse>,
+    pub(super) pulse: Option<PulseModel>,
     pub(super) components: [[f64; QUANTITIES]; 2],
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Target {
 /// that the first components have the recorded moments. A pair whose PGA is
 /// not above 0.14 g then is drawn again, until all are.
 pub(super) fn conditioned(
-    suite: &SuiteModel,
+    suite: &Design,
 ) -> Result<Vec<Target>, SynthesisError> {
     let counts = suite.earthquakes.iter().enumerate();
     let pairs: Vec<usize> =
@@ -87,15 +87,13 @@ pub(super) fn conditioned(
 /// One pair of an earthquake without conditions. Deviations have a part that
 /// all pairs of the earthquake share.
 pub(super) fn draw(
-    suite: &SuiteModel,
+    suite: &Design,
     earthquake: usize,
     pair: u64,
     attempt: u64,
 ) -> Target {
-    let mut draws = MotionStream::new(
-        suite.seed,
-        stream_index(pair, attempt, Role::Scenario),
-    );
+    let mut draws =
+        Deviates::new(suite.seed, stream_index(pair, attempt, Role::Scenario));
     let rrup_km = quantile(suite.distances_km, draws.uniform(0.0, 1.0));
     let [vs30, spread, softest, hardest] = VS30_M_S;
     let vs30 = vs30 * libm::exp(spread * draws.normals(1)[0]);
@@ -115,8 +113,7 @@ pub(super) fn draw(
     };
     let factor = factor();
     let of_earthquake = stream_index(earthquake, 0, Role::Earthquake);
-    let common =
-        MotionStream::new(suite.seed, of_earthquake).normals(QUANTITIES);
+    let common = Deviates::new(suite.seed, of_earthquake).normals(QUANTITIES);
     let common = correlate(&factor, &common);
     let first = correlate(&factor, &draws.normals(QUANTITIES));
     let own = correlate(&factor, &draws.normals(QUANTITIES));
@@ -131,11 +128,9 @@ pub(super) fn draw(
         components[0][k] += between * common[k] + within * first[k];
         components[1][k] += between * common[k] + within * second;
     }
-    let pulse =
-        suite.pulses.then(|| VelocityPulse::draw(&scenario, &mut draws));
-    for (out, samples) in components
-        .iter_mut()
-        .zip(pulse.iter().flat_map(VelocityPulse::samples))
+    let pulse = suite.pulses.then(|| PulseModel::draw(&scenario, &mut draws));
+    for (out, samples) in
+        components.iter_mut().zip(pulse.iter().flat_map(PulseModel::samples))
     {
         for (k, x) in out.iter_mut().enumerate().take(PGV + 1) {
             // Peaks of pulse and other waves do not meet.

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rocking::stop;
 
 use crate::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
-use crate::draws::{MotionStream, cholesky, dot};
+use crate::draws::{Deviates, cholesky, dot};
 use crate::noise::{DT_S, corner_hz, high_pass};
 use crate::pair::Role;
 use crate::peaks::{Peak, SamplePeak};
@@ -81,7 +81,7 @@ pub(super) fn pair(
     target: &Target,
     stream: impl Fn(Role) -> u64,
 ) -> [Vec<f64>; 2] {
-    let mut shared = MotionStream::new(seed, stream(Role::Parameters));
+    let mut shared = Deviates::new(seed, stream(Role::Parameters));
     let [middle, spread, low, high] = SHAPE;
     let shape = middle * libm::exp(spread * shared.normals(1)[0]);
     let shape = shape.clamp(low, high);
@@ -118,7 +118,7 @@ pub(super) fn pair(
     let common = shared.normals(nodes);
     let from = ((lead_s + pulse_s) / DT_S).round() as usize;
     let component = |k: usize, role: Role| {
-        let mut draws = MotionStream::new(seed, stream(role));
+        let mut draws = Deviates::new(seed, stream(role));
         let noise = Noise {
             envelope: &envelopes[k],
             common: &common,
@@ -199,7 +199,7 @@ struct Noise<'a> {
 
 impl Noise<'_> {
     /// The bands, cut into packets.
-    fn packets(&self, draws: &mut MotionStream) -> Vec<Packet> {
+    fn packets(&self, draws: &mut Deviates) -> Vec<Packet> {
         let sample = |share| {
             let t = self.lead_s + self.envelope.time_s(share);
             (t / DT_S).round() as usize
@@ -237,7 +237,7 @@ impl Noise<'_> {
 
     /// Noise of each band with a mean square of 1: white noise under the
     /// envelope and both fluctuations, filtered, high-passed.
-    fn bands(&self, draws: &mut MotionStream) -> Vec<Vec<f64>> {
+    fn bands(&self, draws: &mut Deviates) -> Vec<Vec<f64>> {
         let n = self.samples;
         let time_s = |i: usize| i as f64 * DT_S - self.lead_s;
         let envelope: Vec<f64> =

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bits::Bits;
 
-type LabAnswer<T> = Result<T, Box<dyn Error>>;
+type Answer<T> = Result<T, Box<dyn Error>>;
 
 /// A block by its two parameters, or by its lengths.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -31,7 +31,7 @@ pub enum LabBlock {
 }
 
 impl LabBlock {
-    fn block(&self) -> LabAnswer<Block> {
+    fn block(&self) -> Answer<Block> {
         Ok(match *self {
             Self::Parameters { alpha_rad, p_rad_s } => {
                 Block::try_new(alpha_rad, p_rad_s)?
@@ -47,17 +47,11 @@ impl LabBlock {
 
 /// What moves the ground, before it is scaled.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum LabGround {
-    Record {
-        dt_s: f64,
-        samples_g: Vec<f64>,
-    },
-    Pulse {
-        kind: String,
-        #[serde(flatten)]
-        numbers: BTreeMap<String, f64>,
-    },
+pub struct LabGround {
+    kind: String,
+    samples_g: Option<Vec<f64>>,
+    #[serde(flatten)]
+    numbers: BTreeMap<String, f64>,
 }
 
 /// A record file as a page reads it, and what the caller knows of it.
@@ -91,7 +85,7 @@ impl LabComponent {
 }
 
 /// The components of a file, by the readers of the core.
-pub fn read(file: &LabFile) -> LabAnswer<Vec<LabComponent>> {
+pub fn read(file: &LabFile) -> Answer<Vec<LabComponent>> {
     let unit = file.unit.as_deref().map(|unit| {
         AccelerationUnit::parse(unit).ok_or_else(|| format!("unit {unit}"))
     });
@@ -119,7 +113,7 @@ enum LabMotion {
 }
 
 impl LabMotion {
-    fn record(&self) -> LabAnswer<&NormalisedRecord> {
+    fn record(&self) -> Answer<&NormalisedRecord> {
         match self {
             Self::Record(record) => Ok(record),
             Self::Pulse(_) => Err("an IDA needs a record".into()),
@@ -128,7 +122,7 @@ impl LabMotion {
 }
 
 /// The embedded pulse-type motions, first components: those of the study.
-pub fn motions() -> LabAnswer<Vec<LabComponent>> {
+pub fn motions() -> Answer<Vec<LabComponent>> {
     let pairs = rocking_synthesis::pulse()?;
     Ok(pairs
         .iter()
@@ -137,27 +131,24 @@ pub fn motions() -> LabAnswer<Vec<LabComponent>> {
 }
 
 impl LabGround {
-    fn motion(&self) -> LabAnswer<LabMotion> {
-        let (kind, numbers) = match self {
-            Self::Record { dt_s, samples_g } => {
-                let samples_g = samples_g.clone();
-                let own = Accelerogram::try_new("ground", *dt_s, samples_g)?;
-                return Ok(LabMotion::Record(NormalisedRecord::new(&own)));
-            }
-            Self::Pulse { kind, numbers } => (kind, numbers),
+    fn motion(&self) -> Answer<LabMotion> {
+        let number = |key: &str| {
+            let value = self.numbers.get(key).copied();
+            value.ok_or_else(|| format!("{}: no number {key}", self.kind))
         };
-        let name = match kind.as_str() {
+        if let Some(samples_g) = self.samples_g.clone() {
+            let dt_s = number("dt_s")?;
+            let own = Accelerogram::try_new("ground", dt_s, samples_g)?;
+            return Ok(LabMotion::Record(NormalisedRecord::new(&own)));
+        }
+        let name = match self.kind.as_str() {
             "ricker" => PulseName::RickerSymmetric,
             kind => kind.parse()?,
         };
         let pulse = name.kind(|parameter| match parameter {
             PulseParameter::Amplitude | PulseParameter::Velocity => Ok(1.0),
             PulseParameter::Cycles => Ok(2.0),
-            _ => {
-                let key = parameter.name().replace('-', "_");
-                let value = numbers.get(&key).copied();
-                value.ok_or_else(|| format!("{name} needs {key}"))
-            }
+            _ => number(&parameter.name().replace('-', "_")),
         })?;
         Ok(LabMotion::Pulse(Pulse::try_new(pulse)?))
     }
@@ -207,8 +198,8 @@ impl LabScene {
         block: Block,
         motion: &LabMotion,
         intensity: Option<f64>,
-        work: impl FnOnce(&rocking::Scene<'_>, f64) -> LabAnswer<T>,
-    ) -> LabAnswer<T> {
+        work: impl FnOnce(&rocking::Scene<'_>, f64) -> Answer<T>,
+    ) -> Answer<T> {
         let restitution = Restitution::constant(self.eta)?;
         let onset_g = uplift_threshold(&block, Model::Nonlinear);
         let pga_g = intensity.map(|intensity| intensity * onset_g);
@@ -230,7 +221,7 @@ impl LabScene {
     }
 
     /// The response of the block, its fate in the precision that it needs.
-    pub fn response(&self) -> LabAnswer<LabResponse> {
+    pub fn response(&self) -> Answer<LabResponse> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
         let lengths = block.dimensions(STANDARD_GRAVITY_M_S2)?;
@@ -283,7 +274,7 @@ impl LabScene {
 
     /// The IDA of the record: levels of a tenth of the uplift threshold, the
     /// first overturning bisected.
-    pub fn ida(&self) -> LabAnswer<LabCurve> {
+    pub fn ida(&self) -> Answer<LabCurve> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
         let restitution = Restitution::constant(self.eta)?;
@@ -310,7 +301,7 @@ impl LabScene {
         &self,
         intensities: &[f64],
         p_rad_s: &[f64],
-    ) -> LabAnswer<FateGrid> {
+    ) -> Answer<FateGrid> {
         let alpha_rad = self.block.block()?.slenderness_rad();
         let motion = self.ground.motion()?;
         let solver = Solver { peak_only: true, ..Solver::default() };
@@ -345,7 +336,7 @@ pub struct LabFragility {
 }
 
 /// Overturning fragilities of the block by the surrogate.
-pub fn fragility(shape: &LabBlock, intensity: f64) -> LabAnswer<LabFragility> {
+pub fn fragility(shape: &LabBlock, intensity: f64) -> Answer<LabFragility> {
     let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
     let own = fragility.suites.iter();
     let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));

@@ -9,7 +9,7 @@ fn the_published_correlation_is_definite() {
 
 #[test]
 fn the_pulse_leaves_neither_velocity_nor_displacement() {
-    let pulse = VelocityPulse {
+    let pulse = PulseModel {
         amplitude_m_s: 0.8,
         period_s: 2.0,
         gamma: 2.3,

@@ -13,7 +13,7 @@ use crate::attenuation::{
 use crate::moments::{Moments, moments};
 use crate::pair::{Pair, Scenario, SynthesisError};
 use crate::peaks::Peak;
-use crate::targets::{self, SuiteModel};
+use crate::targets::{self, Design};
 use crate::waves::Envelope;
 
 /// Pairs of both suites, and logarithms of the quantities of the study
@@ -122,10 +122,8 @@ fn pairs_of_an_earthquake_are_alike_beyond_their_scenario() {
     // Cauzzi et al. have it; independent pairs would have nothing in common.
     let many: Vec<f64> = (0..400)
         .flat_map(|earthquake: u64| {
-            let suite = SuiteModel {
-                earthquakes: &[(2, 7.0, false); 400],
-                ..ORDINARY
-            };
+            let suite =
+                Design { earthquakes: &[(2, 7.0, false); 400], ..ORDINARY };
             let [x, y] = [1, 2].map(|pair| {
                 let pair = 2 * earthquake + pair;
                 let t = targets::draw(&suite, earthquake as usize, pair, 0);
@@ -179,7 +177,7 @@ fn a_suite_that_cannot_be_strong_is_refused() {
         weak[0][0] = 0.05;
         weak
     });
-    let suite = SuiteModel { recorded: &WEAK, ..ORDINARY };
+    let suite = Design { recorded: &WEAK, ..ORDINARY };
     let error = targets::conditioned(&suite).expect_err("too weak");
     assert!(matches!(error, SynthesisError::Weak { .. }), "{error}");
     assert!(error.to_string().contains("in 100 draws"), "{error}");

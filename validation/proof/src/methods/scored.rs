@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow};
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking_score::{
-    Answers, CodeVerdict, Diagnosis, Item, OwnResponse, ReferenceScene,
+    Answers, CodeVerdict, Diagnosis, Item, OwnResponse, Problem,
     SceneExcitation, Value, answers_of, diagnose, reference,
 };
 use rocking_statistics::streams::{Streams, standard_normal};
@@ -17,7 +17,7 @@ use crate::engine::Core;
 use crate::scene::{CaseScene, Forcing, Trace};
 
 /// The scene as a wrong model of the input has it.
-fn mistaken(context: &Context, scene: &ReferenceScene) -> ReferenceScene {
+fn mistaken(context: &Context, scene: &Problem) -> Problem {
     let mut scene = scene.clone();
     if context.is(WrongModel::EtaSquared) {
         scene.eta *= scene.eta;
@@ -44,10 +44,7 @@ pub fn certified(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-fn errors<N: Wide>(
-    index: usize,
-    scene: &ReferenceScene,
-) -> Result<(f64, f64)> {
+fn errors<N: Wide>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
     let run = OwnResponse::<N>::precise(scene).map_err(|e| anyhow!(e))?;
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
     let items = reference().items.iter();
@@ -151,7 +148,7 @@ fn names(found: &Diagnosis) -> Vec<String> {
 }
 
 /// A scene of the data set as the harness has it.
-fn scene_of(asked: &ReferenceScene) -> CaseScene {
+fn scene_of(asked: &Problem) -> CaseScene {
     let forcing = match &asked.excitation {
         SceneExcitation::Free => {
             Forcing::Free { rotation_rad: asked.initial_theta_rad }
@@ -168,7 +165,7 @@ fn scene_of(asked: &ReferenceScene) -> CaseScene {
 }
 
 /// What a trace of the harness says of a quantity; nothing of rotations.
-fn seen(asked: &ReferenceScene, trace: &Trace, item: &Item) -> Option<Value> {
+fn seen(asked: &Problem, trace: &Trace, item: &Item) -> Option<Value> {
     let falls = trace.overturned_s.is_some();
     let quantity = item.quantity.as_str();
     let number = match quantity {

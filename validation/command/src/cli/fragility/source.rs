@@ -120,7 +120,7 @@ impl IdaArgs {
 enum LevelValues {
     Sample(CensoredSample, Clusters),
     Counts(CountTable),
-    Surface(rocking_surrogate::SurfaceModel),
+    Surface(rocking_surrogate::Surface),
 }
 
 /// A fragility, and what the draws of its sample make of it.

@@ -106,16 +106,16 @@ impl ResponseCurve {
         }
         let mut crossings = Vec::new();
         for pair in self.vertices.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            if (a.edp >= level) != (b.edp >= level) {
+            let [(a, edp_a), (b, edp_b)] = [pair[0], pair[1]];
+            if (edp_a >= level) != (edp_b >= level) {
                 // A vertex on the level is its crossing, unrounded.
-                crossings.push(if level == a.edp {
-                    a.im
-                } else if level == b.edp {
-                    b.im
+                crossings.push(if level == edp_a {
+                    a
+                } else if level == edp_b {
+                    b
                 } else {
-                    let share = (level - a.edp) / (b.edp - a.edp);
-                    f64::mul_add(share, b.im - a.im, a.im)
+                    let share = (level - edp_a) / (edp_b - edp_a);
+                    f64::mul_add(share, b - a, a)
                 });
             }
         }

@@ -62,13 +62,6 @@ pub enum CapacityError {
     Factor(f64),
 }
 
-/// A vertex: an intensity and the response there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Vertex {
-    pub im: f64,
-    pub edp: f64,
-}
-
 /// EDP against IM of one record: linear between vertices, which begin at the
 /// onset of rocking (EDP 0), up to the intensity of first overturning.
 ///
@@ -86,7 +79,8 @@ pub(super) struct Vertex {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResponseCurve {
-    pub(super) vertices: Vec<Vertex>,
+    /// Intensity and EDP of each vertex.
+    pub(super) vertices: Vec<(f64, f64)>,
     pub(super) overturning_im: Option<f64>,
 }
 
@@ -125,9 +119,7 @@ impl ResponseCurve {
                 last: previous,
             });
         }
-        let vertices =
-            vertices.iter().map(|&(im, edp)| Vertex { im, edp }).collect();
-        Ok(Self { vertices, overturning_im })
+        Ok(Self { vertices: vertices.to_vec(), overturning_im })
     }
 
     /// The same responses against another intensity measure, proportional
@@ -139,7 +131,7 @@ impl ResponseCurve {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(CapacityError::Factor(factor));
         }
-        let scale = |v: &Vertex| Vertex { im: factor * v.im, edp: v.edp };
+        let scale = |&(im, edp): &(f64, f64)| (factor * im, edp);
         Ok(Self {
             vertices: self.vertices.iter().map(scale).collect(),
             overturning_im: self.overturning_im.map(|im| factor * im),
@@ -149,13 +141,13 @@ impl ResponseCurve {
     /// Intensity of the onset of rocking, the first vertex.
     #[must_use]
     pub fn onset_im(&self) -> f64 {
-        self.vertices[0].im
+        self.vertices[0].0
     }
 
     /// Intensity of the last vertex, the last one that stood.
     #[must_use]
     pub fn last_im(&self) -> f64 {
-        self.vertices[self.vertices.len() - 1].im
+        self.vertices[self.vertices.len() - 1].0
     }
 
     /// Intensity of first overturning; none if the record never overturned.
@@ -166,7 +158,7 @@ impl ResponseCurve {
 
     /// The vertices (IM, EDP), overturning not among them.
     pub fn vertices(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.vertices.iter().map(|v| (v.im, v.edp))
+        self.vertices.iter().copied()
     }
 
     /// EDP at an intensity, by the curve: 0 up to the onset, infinite from
@@ -193,13 +185,13 @@ impl ResponseCurve {
             return Some(0.0);
         }
         self.vertices.windows(2).find_map(|pair| {
-            let (a, b) = (pair[0], pair[1]);
-            if im == b.im {
-                return Some(b.edp);
+            let [(a, edp_a), (b, edp_b)] = [pair[0], pair[1]];
+            if im == b {
+                return Some(edp_b);
             }
-            let share = (im - a.im) / (b.im - a.im);
-            (im > a.im && im < b.im)
-                .then(|| f64::mul_add(share, b.edp - a.edp, a.edp))
+            let share = (im - a) / (b - a);
+            (im > a && im < b)
+                .then(|| f64::mul_add(share, edp_b - edp_a, edp_a))
         })
     }
 }

@@ -67,8 +67,11 @@ impl Pulse {
     /// # Errors
     /// [`PulseError`] for an amplitude or phase that is not finite, and for a
     /// frequency, period, duration or count that is not positive.
-    pub fn try_new(kind: PulseKind) -> Result<Self, PulseError> {
-        Ok(Self { kind: kind.checked()?, divisor: 1.0 })
+    pub fn try_new(mut kind: PulseKind) -> Result<Self, PulseError> {
+        for (parameter, value) in kind.parameters_mut() {
+            parameter.check(*value)?;
+        }
+        Ok(Self { kind, divisor: 1.0 })
     }
 
     /// A pulse with its acceleration in m/s2, or its velocity in m/s, where
@@ -104,7 +107,7 @@ impl Pulse {
     /// The same pulse with every acceleration times `factor`.
     ///
     /// # Errors
-    /// [`PulseError::NotFinite`] if the product is not finite.
+    /// [`PulseError::Parameter`] if the product is not finite.
     pub fn scaled(&self, factor: f64) -> Result<Self, PulseError> {
         let kind = self.kind();
         Self::try_new(kind.with_amplitude(kind.amplitude() * factor))
@@ -114,7 +117,7 @@ impl Pulse {
     /// amplitude is the peak, to the last bit.
     ///
     /// # Errors
-    /// [`PulseError::NotFinite`] if the amplitude is not finite, as for a
+    /// [`PulseError::Parameter`] if the amplitude is not finite, as for a
     /// pulse of amplitude zero.
     pub fn with_pga(&self, pga_g: f64) -> Result<Self, PulseError> {
         let own = self.pga_g();

@@ -91,7 +91,7 @@ type Matrix = [[f64; 2]; 2];
 
 /// A step, as the errors see it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FlightErrors {
+pub(crate) struct Leg {
     /// Its length.
     pub tau: f64,
     /// Derivative of u'' by u.
@@ -150,8 +150,8 @@ impl Accuracy {
     }
 
     /// A step, and the errors made in it.
-    pub fn step(&mut self, by: &FlightErrors) {
-        let FlightErrors { tau, curvature, sizes: [u, w], left, .. } = *by;
+    pub fn step(&mut self, by: &Leg) {
+        let Leg { tau, curvature, sizes: [u, w], left, .. } = *by;
         let half = 0.5 * curvature * tau * tau;
         self.apply(&[
             [1.0 + half, tau * (1.0 + half / 3.0)],

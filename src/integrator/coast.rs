@@ -50,7 +50,7 @@ pub(crate) struct Coast<'a, N> {
 }
 
 /// How it ends.
-pub(crate) struct CoastFate<N> {
+pub(crate) struct CoastEnd<N> {
     pub overturned: Option<(N, Side)>,
     /// Smallest distance of a decision taken here from the other one, where
     /// the criterion is decided by the saddle.
@@ -64,7 +64,7 @@ pub(crate) fn coast<N: Real>(
     ask: &Coast<'_, N>,
     motion: BlockMotion<N>,
     record: &mut RunTrace<N>,
-) -> CoastFate<N> {
+) -> CoastEnd<N> {
     let d = ask.dynamics;
     let BlockMotion { side, u, w } = motion;
     let zero = N::zero();
@@ -128,7 +128,7 @@ pub(crate) fn coast<N: Real>(
         return fly_out(&later, motion, next, margin, record);
     }
     hops(ask, record, impact_s, level, (u, motion.w), errors);
-    CoastFate {
+    CoastEnd {
         overturned: None,
         margin: margin_of(d, margin),
         nearest: margin,
@@ -288,14 +288,14 @@ fn fly_out<N: Real>(
     level: Energy<N>,
     margin: f64,
     record: &mut RunTrace<N>,
-) -> CoastFate<N> {
+) -> CoastEnd<N> {
     let BlockMotion { side, u, w } = motion;
     let time = time_out(ask.dynamics, (u, w), level);
     let time_s = ask.start_s + time / ask.dynamics.p;
     for tracker in record.trackers() {
         tracker.overturned();
     }
-    CoastFate {
+    CoastEnd {
         overturned: Some((time_s, side)),
         margin: Some(margin),
         nearest: margin,

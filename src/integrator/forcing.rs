@@ -22,7 +22,7 @@ use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
 
-pub(crate) use ground::GroundForcing;
+pub(crate) use ground::Shaking;
 pub(crate) use remainder::Remainder;
 pub(crate) use stretch::pieces_of;
 

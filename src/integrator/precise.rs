@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use crate::integrator::driver::{Driver, Step};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::GroundForcing;
+use crate::integrator::forcing::Shaking;
 use crate::integrator::roots::MOST;
 use crate::integrator::run::{index_of, own_index};
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
@@ -115,13 +115,10 @@ impl<N: Real> SeriesWork for PreciseRunKernel<'_, N> {
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let own = own_index(scene);
         let isa = Isa::best();
-        let ground =
-            GroundForcing::of(scene, index_of(scene, own.as_ref()), isa);
+        let ground = Shaking::of(scene, index_of(scene, own.as_ref()), isa);
         let short = match &ground {
-            GroundForcing::Record(record) => {
-                is_short::<N>(record.step(), SHORT)
-            }
-            GroundForcing::Pulse(_) | GroundForcing::Silence(_) => false,
+            Shaking::Record(record) => is_short::<N>(record.step(), SHORT),
+            Shaking::Pulse(_) | Shaking::Silence(_) => false,
         };
         let driver = Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa)
             .for_peak_if(peak_only);

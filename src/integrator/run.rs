@@ -4,7 +4,7 @@ use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::{Again, Driver};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::{GroundForcing, RecordForcing};
+use crate::integrator::forcing::{RecordForcing, Shaking};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
 use crate::number::dispatch::Kernel;
 
@@ -77,8 +77,7 @@ impl Kernel for RunKernel<'_> {
                 }
             }
             (_, index) => {
-                let ground =
-                    GroundForcing::of(self.scene, index, self.solver.isa);
+                let ground = Shaking::of(self.scene, index, self.solver.isa);
                 Driver::<_, _, LONGEST, LONGEST>::new(
                     dynamics,
                     ground,

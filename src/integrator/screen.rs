@@ -57,7 +57,7 @@ pub(crate) struct Screen<N> {
 }
 
 /// A step in flight, as the estimate sees it.
-pub(crate) struct ScreenFlight<N> {
+pub(crate) struct ScreenLeg<N> {
     /// Its length.
     pub tau: N,
     /// Derivative of u'' by u at its start.
@@ -110,9 +110,9 @@ impl<N: Number> Screen<N> {
     /// a step counts as a variance of (`last` tau/n)^2 T/tau. T = n^2, 25 or
     /// more, makes this `last`^2 tau.
     #[inline(always)]
-    pub fn fly(self, step: &ScreenFlight<N>) -> Self {
+    pub fn fly(self, step: &ScreenLeg<N>) -> Self {
         let Self { uu, uw, ww, .. } = self;
-        let ScreenFlight { tau, curvature, u, w, size, last } = *step;
+        let ScreenLeg { tau, curvature, u, w, size, last } = *step;
         let push = curvature * tau;
         let pushed = push.mul_add(uu, uw);
         let ww = push.mul_add(uw + pushed, ww);
@@ -216,14 +216,14 @@ impl<N: Real> Screen<N> {
 
 #[cfg(test)]
 mod tests {
-    use super::{DOUBTFUL, Landing, Screen, ScreenFlight};
+    use super::{DOUBTFUL, Landing, Screen, ScreenLeg};
 
     /// Flies so long in many short steps, at a curvature, without rounding.
     fn flown(start: Screen<f64>, time: f64, curvature: f64) -> Screen<f64> {
         let steps = 1000;
         let tau = time / f64::from(steps);
         let (u, w, size) = (0.0, 0.0, 0.0);
-        let step = ScreenFlight { tau, curvature, u, w, size, last: None };
+        let step = ScreenLeg { tau, curvature, u, w, size, last: None };
         (0..steps).fold(start, |screen, _| screen.fly(&step))
     }
 
@@ -268,7 +268,7 @@ mod tests {
     fn truncation_errors_of_a_fixed_order_add_up() {
         let (tau, last, coefficients) = (0.01, 1e-9, 5.0);
         let (u, w, size, last) = (0.0, 0.0, 0.0, Some(last));
-        let step = ScreenFlight { tau, curvature: 1.0, u, w, size, last };
+        let step = ScreenLeg { tau, curvature: 1.0, u, w, size, last };
         for steps in [1, 10, 100, 500, 2500] {
             let mut screen = Screen::<f64>::at_rest();
             let [mut by_u, mut by_w] = [0.0; 2];
@@ -337,12 +337,11 @@ mod tests {
         let mut flight = Screen::<f64>::at_rest().start();
         let w = -fastest * alpha;
         let (u, size, last) = (0.0, alpha, None);
-        let step =
-            ScreenFlight { tau: 0.02, curvature: 1.0, u, w, size, last };
+        let step = ScreenLeg { tau: 0.02, curvature: 1.0, u, w, size, last };
         for _ in 0..99 {
             flight = flight.fly(&step);
         }
-        flight.fly(&ScreenFlight { w: speed, ..step }).land(&at).doubt.sqrt()
+        flight.fly(&ScreenLeg { w: speed, ..step }).land(&at).doubt.sqrt()
     }
 
     /// At rest there is no error. So all of that of a first hop is what the

@@ -80,18 +80,16 @@ impl PulseParameter {
         }
     }
 
-    fn check(self, value: f64) -> Result<(), PulseError> {
-        let what = self.quantity();
-        match self {
-            Self::Amplitude | Self::Velocity | Self::Phase
-                if !value.is_finite() =>
-            {
-                Err(PulseError::NotFinite { what, found: value })
-            }
-            Self::Amplitude | Self::Velocity | Self::Phase => Ok(()),
-            _ if value > 0.0 && value.is_finite() => Ok(()),
-            _ => Err(PulseError::NotPositive { what, found: value }),
+    /// Refuses a value out of range.
+    pub(super) fn check(self, value: f64) -> Result<(), PulseError> {
+        let is_signed =
+            matches!(self, Self::Amplitude | Self::Velocity | Self::Phase);
+        if value.is_finite() && (is_signed || value > 0.0) {
+            return Ok(());
         }
+        let expected = if is_signed { "finite" } else { "positive" };
+        let what = self.quantity();
+        Err(PulseError::Parameter { what, found: value, expected })
     }
 }
 
@@ -124,14 +122,6 @@ macro_rules! pulses {
             pub fn amplitude_mut(&mut self) -> &mut f64 {
                 match self {
                     $(Self::$kind { $first, .. } => $first,)+
-                }
-            }
-
-            /// Its name.
-            #[must_use]
-            pub fn name(&self) -> PulseName {
-                match self {
-                    $(Self::$kind { .. } => PulseName::$kind,)+
                 }
             }
 
@@ -277,21 +267,16 @@ pulses! {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PulseError {
-    /// Amplitudes and phases must be finite.
-    #[error("pulse {what} {found}: expected a finite number")]
-    NotFinite {
+    /// Amplitudes and phases must be finite; frequencies, periods, durations
+    /// and cycles must be positive.
+    #[error("pulse {what} {found}: expected a {expected} number")]
+    Parameter {
         /// The quantity.
         what: &'static str,
         /// The value.
         found: f64,
-    },
-    /// Frequencies, periods, durations and cycles must be positive.
-    #[error("pulse {what} {found}: expected a positive number")]
-    NotPositive {
-        /// The quantity.
-        what: &'static str,
-        /// The value.
-        found: f64,
+        /// What the number has to be.
+        expected: &'static str,
     },
     /// Gravity must be positive and finite.
     #[error("gravity {0} m/s2: expected a positive number")]
@@ -325,14 +310,6 @@ fn ricker_beta<N: Real>() -> N {
 }
 
 impl PulseKind {
-    /// Refuses parameters out of range.
-    pub(super) fn checked(mut self) -> Result<Self, PulseError> {
-        for (parameter, value) in self.parameters_mut() {
-            parameter.check(*value)?;
-        }
-        Ok(self)
-    }
-
     /// The amplitude.
     pub(super) fn amplitude(mut self) -> f64 {
         *self.amplitude_mut()
@@ -350,16 +327,18 @@ impl PulseKind {
         let half = N::ratio(1, 2);
         let half_turn = N::from_f64(2.0) * N::right_angle();
         let full_turn = N::from_f64(4.0) * N::right_angle();
+        let closed = |stretches, peak_velocity| PulseForm {
+            stretches,
+            is_peak: true,
+            velocity: Velocity::Peak(peak_velocity),
+        };
         // `share` is the peak velocity times omega over the amplitude.
         let sine = |turn: N, omega_rad_s: f64, phase_rad, share: f64| {
             let rate_rad_s = N::from_f64(omega_rad_s);
             let sine = PulseSine { amplitude, rate_rad_s, phase_rad };
             let only = [sine, PulseSine::silent(), PulseSine::silent()];
-            PulseForm {
-                stretches: vec![(turn / rate_rad_s, PulseShape::Sines(only))],
-                is_peak: true,
-                velocity: Velocity::Peak(share * size.abs() / omega_rad_s),
-            }
+            let stretch = (turn / rate_rad_s, PulseShape::Sines(only));
+            closed(vec![stretch], share * size.abs() / omega_rad_s)
         };
         // `integral` is the integral by x of the polynomial times the bell.
         let bell = |[end, rate, scale, beta]: [N; 4],
@@ -393,11 +372,8 @@ impl PulseKind {
             Self::Rectangle { duration_s, .. } => {
                 let (at_zero, slope) = (amplitude, N::zero());
                 let level = PulseShape::Line { at_zero, slope };
-                PulseForm {
-                    stretches: vec![(N::from_f64(duration_s), level)],
-                    is_peak: true,
-                    velocity: Velocity::Peak(size.abs() * duration_s),
-                }
+                let end = N::from_f64(duration_s);
+                closed(vec![(end, level)], size.abs() * duration_s)
             }
             Self::Triangle { duration_s, .. } => {
                 let end = N::from_f64(duration_s);
@@ -405,11 +381,8 @@ impl PulseKind {
                 let slope = twice / end;
                 let up = PulseShape::Line { at_zero: N::zero(), slope };
                 let down = PulseShape::Line { at_zero: twice, slope: -slope };
-                PulseForm {
-                    stretches: vec![(half * end, up), (end, down)],
-                    is_peak: true,
-                    velocity: Velocity::Peak(0.5 * size.abs() * duration_s),
-                }
+                let stretches = vec![(half * end, up), (end, down)];
+                closed(stretches, 0.5 * size.abs() * duration_s)
             }
             Self::RickerSymmetric { period_s, cycles, .. } => {
                 let [period, cycles] = [period_s, cycles].map(N::from_f64);

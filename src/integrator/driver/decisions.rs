@@ -1,7 +1,7 @@
 //! What a run decides, held against the error of its state.
 
 use crate::integrator::ImpactError;
-use crate::integrator::accuracy::{Accuracy, FlightErrors};
+use crate::integrator::accuracy::{Accuracy, Leg};
 use crate::integrator::certificate::{CLEARANCE, Decision, LARGEST_ERROR};
 use crate::integrator::coast::{gap, gap_gradient};
 use crate::integrator::driver::Driver;
@@ -22,7 +22,7 @@ const FAR_BEYOND: f64 = 1e4;
 const SLACK: f64 = 1e-14;
 
 /// A step as the tracked errors see it.
-pub(super) struct StepErrors<N> {
+pub(super) struct Stride<N> {
     /// Motion before and after, (u, w).
     pub ends: [(N, N); 2],
     /// Its length, in units of 1/p.
@@ -49,7 +49,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         x: N,
-        step: &StepErrors<N>,
+        step: &Stride<N>,
         drive: &Drive<N, F>,
         place: Moment<N>,
     ) {
@@ -203,12 +203,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// A step as the errors see it.
-    fn flown(
-        &self,
-        step: &StepErrors<N>,
-        drive: &Drive<N, F>,
-    ) -> FlightErrors {
-        let StepErrors { ends: [from, to], tau, left } = step;
+    fn flown(&self, step: &Stride<N>, drive: &Drive<N, F>) -> Leg {
+        let Stride { ends: [from, to], tau, left } = step;
         let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
         let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
         let (u, w) = (to.0.to_f64(), to.1.to_f64());
@@ -226,7 +222,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let shift = rate * self.forcing.span();
         // The forcing itself carries a roundoff: the threshold's size.
         let size = size + threshold + shift.abs();
-        FlightErrors {
+        Leg {
             tau,
             curvature,
             sizes: [u.abs().max(u0.abs()), w.abs().max(w0.abs()) + size * tau],
@@ -384,7 +380,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 self.expand((u, w), tau, &drive);
             let end = series.end();
             let left = N::zero();
-            let step = StepErrors { ends: [(u, w), end], tau, left };
+            let step = Stride { ends: [(u, w), end], tau, left };
             tracker.step(&self.flown(&step, &drive));
             (u, w) = end;
             let mut v = series.v;

@@ -1,12 +1,12 @@
 //! One step of the driver: its series, and how much that leaves.
 
-use crate::integrator::driver::decisions::StepErrors;
+use crate::integrator::driver::decisions::Stride;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Advance, Driver, Flight, Step};
 use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
-use crate::integrator::screen::ScreenFlight;
+use crate::integrator::screen::ScreenLeg;
 use crate::integrator::taylor::{TaylorSeries, expand, slope, value};
 use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
@@ -138,7 +138,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 _ => left * power(x, LEN - 1),
             };
             let ends = [(u, w), (end_u, end_w)];
-            let stepped = StepErrors { ends, tau, left };
+            let stepped = Stride { ends, tau, left };
             self.assess(series, x, &stepped, drive, step.place);
         }
         self.turning_points(series, x, (step.place, length));
@@ -147,7 +147,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let size = self.dynamics.alpha + drive.f[0].abs();
             let (u, w) = (end_u, end_w);
             let last = self.fixed.then_some(v[LEN - 1]);
-            let flown = ScreenFlight { tau, curvature, u, w, size, last };
+            let flown = ScreenLeg { tau, curvature, u, w, size, last };
             *screen = screen.fly(&flown);
         }
         if self.watched {

@@ -13,7 +13,7 @@ use crate::integrator::certificate::CLEARANCE;
 use crate::integrator::coast::last;
 use crate::integrator::driver::{Driver, Flight, Stage, Step};
 use crate::integrator::forcing::{
-    Exceedance, Forcing, GroundForcing, Moment, NEAR_THRESHOLD,
+    Exceedance, Forcing, Moment, NEAR_THRESHOLD, Shaking,
 };
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
@@ -195,8 +195,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// What steps through the free motion after the excitation.
-    fn free(&self) -> Driver<N, GroundForcing<'static, N>, HARD, HARD> {
-        let silence = GroundForcing::endless(self.end_s(), self.dynamics.p);
+    fn free(&self) -> Driver<N, Shaking<'static, N>, HARD, HARD> {
+        let silence = Shaking::endless(self.end_s(), self.dynamics.p);
         let mut free = Driver::new(self.dynamics, silence, self.isa);
         free.interval_s = self.interval_s;
         free.watched = self.watched;
@@ -205,7 +205,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 }
 
-impl<N: Real, const LEN: usize> Driver<N, GroundForcing<'_, N>, LEN, LEN> {
+impl<N: Real, const LEN: usize> Driver<N, Shaking<'_, N>, LEN, LEN> {
     /// Flies from the start on to the end of the flight, or to the limit of
     /// work.
     fn fly_free(&mut self, motion: BlockMotion<N>) -> Flight<N> {

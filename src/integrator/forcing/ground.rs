@@ -12,7 +12,7 @@ use crate::number::dispatch::Isa;
 
 /// A ground motion of any kind. Its series has as many coefficients as a
 /// pulse needs; those that a record lacks are zero.
-pub(crate) enum GroundForcing<'a, N> {
+pub(crate) enum Shaking<'a, N> {
     /// A record.
     Record(RecordForcing<'a, N>),
     /// A pulse.
@@ -21,7 +21,7 @@ pub(crate) enum GroundForcing<'a, N> {
     Silence(Silence<N>),
 }
 
-impl<'a, N: Real> GroundForcing<'a, N> {
+impl<'a, N: Real> Shaking<'a, N> {
     /// What moves the ground of a scene; a record comes with its index.
     pub fn of(
         scene: &Scene<'a>,
@@ -69,7 +69,7 @@ impl<N: Real> Silence<N> {
     }
 }
 
-impl<N: Real, const F: usize> Forcing<N, F> for GroundForcing<'_, N> {
+impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
     fn pieces(&self) -> usize {
         match self {
             Self::Record(record) => record.pieces(),

@@ -13,7 +13,7 @@ use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, LaneQueue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
-use crate::integrator::screen::{Landing, PROPAGATION, Screen, ScreenFlight};
+use crate::integrator::screen::{Landing, PROPAGATION, Screen, ScreenLeg};
 use crate::integrator::taylor::{TaylorSeries, expand, total, value};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -281,7 +281,7 @@ impl LaneBatch {
         let size = alpha + forcing[0].abs();
         let last = is_fixed(LEN, HARD).then_some(v[LEN - 1]);
         let fly = |tau, (u, w), out: &mut BatchSolution| {
-            let flown = ScreenFlight { tau, curvature, u, w, size, last };
+            let flown = ScreenLeg { tau, curvature, u, w, size, last };
             let there = screen.fly(&flown);
             there.uu.store(&mut out.uu);
             there.uw.store(&mut out.uw);

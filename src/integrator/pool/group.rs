@@ -12,7 +12,7 @@ use crate::integrator::dynamics::{Drive, Model, curvature};
 use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
-use crate::integrator::screen::{PROPAGATION, Screen, ScreenFlight};
+use crate::integrator::screen::{PROPAGATION, Screen, ScreenLeg};
 use crate::integrator::taylor::{TaylorSeries, expand};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -273,7 +273,7 @@ impl<'a> LaneGroup<'a> {
             ww: V::load(&self.ww),
             ..Screen::at_rest()
         };
-        let flown = ScreenFlight {
+        let flown = ScreenLeg {
             tau: h,
             curvature: curvature(model, &drive, small),
             u: end.0,

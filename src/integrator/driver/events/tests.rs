@@ -2,12 +2,12 @@ use super::{Event, is_clear_of_base};
 use crate::block::{Block, Restitution};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::forcing::{GroundForcing, Moment};
+use crate::integrator::forcing::{Moment, Shaking};
 use crate::integrator::taylor::TaylorSeries;
 use crate::number::dispatch::Isa;
 
 /// A block that overturns at 0.5.
-fn driver() -> Driver<f64, GroundForcing<'static, f64>, 1, 4> {
+fn driver() -> Driver<f64, Shaking<'static, f64>, 1, 4> {
     let block = Block::try_new(0.5, 1.0).unwrap();
     let restitution = Restitution::constant(0.9).unwrap();
     let dynamics = Dynamics::new(
@@ -16,7 +16,7 @@ fn driver() -> Driver<f64, GroundForcing<'static, f64>, 1, 4> {
         Model::Linearized,
         Overturning::Alpha,
     );
-    Driver::new(dynamics, GroundForcing::nothing(), Isa::best())
+    Driver::new(dynamics, Shaking::nothing(), Isa::best())
 }
 
 /// First event in a step, and after which part of it.

@@ -10,7 +10,7 @@ use rocking_report::evidence::Proof;
 use rocking_report::output::{AnswerRow, first_table};
 use rocking_report::scored::codes_table;
 use rocking_report::timings::Timings;
-use rocking_study::kept::KeptResults;
+use rocking_study::kept::findings_of;
 
 use super::super::compare::{accepting, committed};
 use super::{read, root};
@@ -45,11 +45,11 @@ fn renewed(
             "answers" => answers(findings, proof)?,
             "accuracy" => Timings::kept()?.error(),
             "contents" => {
-                let recorded = KeptResults::of(&findings.settings)?;
+                let recorded = findings_of(&findings.settings)?;
                 let recorded = recorded.context("other settings")?;
                 format!(
                     "\nRecorded motions:\n{}\nEmbedded motions:\n{}",
-                    listed(recorded.findings(), name)?,
+                    listed(&recorded, name)?,
                     listed(findings, name)?
                 )
             }

@@ -1,8 +1,8 @@
 //! The smallest effects of interest: a change that is smaller leads to no
 //! other decision of an engineer.
 
-use super::unit::Unit;
 use super::claims::Region;
+use super::unit::Unit;
 
 /// A smallest effect of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -33,7 +33,7 @@ pub const PAGE: &str = "index.html";
 /// The files that are put into place last: where they are, all others are.
 pub const LAST: [&str; 2] = [PAGE, SUMS];
 
-/// StudyResults of the declared cases, which `rocking validate` writes.
+/// Results of the declared cases, which `rocking validate` writes.
 pub(super) const CASES: [&str; 2] =
     ["data/precision.csv", "data/validation.json"];
 
@@ -46,7 +46,7 @@ pub const FIGURES: &str = "data/figures.json";
 /// What of a folder no study wrote, if it holds such a thing: a report there
 /// would replace it, or stand among it.
 ///
-/// A study's folder is known by its findings and its page. StudyResults of the
+/// A study's folder is known by its findings and its page. Results of the
 /// declared cases alone, which a study shows, are no hindrance; hidden files
 /// are none either.
 pub fn foreign(folder: &Path) -> Option<String> {

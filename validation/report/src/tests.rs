@@ -45,12 +45,12 @@ fn plan(way: Execution) -> Plan {
     Plan { setup, arms: vec![Arm::A, Arm::B, Arm::C], full: false }
 }
 
-/// StudyResults of nothing on the embedded suites.
+/// Results of nothing on the embedded suites.
 pub fn on_embedded_suites() -> StudyResults {
     empty(&SuiteSource::Embedded { streams: "x" })
 }
 
-/// StudyResults of nothing, on two suites from there.
+/// Results of nothing, on two suites from there.
 fn empty(source: &SuiteSource) -> StudyResults {
     let suite = |kind| SuiteResults {
         kind,

@@ -26,7 +26,7 @@ pub struct StripeDemands {
     pub stands_again: Vec<Vec<Vec<bool>>>,
 }
 
-/// StudyResults of one suite.
+/// Results of one suite.
 #[derive(Clone, Debug)]
 pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.

@@ -1,4 +1,4 @@
-//! Resamples of the records, and what a measure gives in them.
+//! Resamples of the records, and the values of a measure in them.
 
 use rayon::prelude::*;
 use rocking_statistics::bootstrap::Bootstrap;

@@ -6,7 +6,7 @@ use rocking_common::findings::{ERROR, IntervalMethod};
 use rocking_common::paper::SuiteKind;
 use rocking_statistics::{Clusters, Proportion};
 
-/// Resamples of suites without earthquakes.
+/// Draws of suites without earthquakes.
 fn drawn(sizes: [usize; 2]) -> Resamples {
     Resamples::new(sizes.map(Clusters::singletons), 1)
 }

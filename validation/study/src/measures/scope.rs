@@ -19,7 +19,7 @@ pub struct Scope<'a> {
     pub results: &'a StudyResults,
     /// The draws that all claims share.
     pub draws: &'a Resamples,
-    /// SuiteDistances from a lognormal of all draws, by suite and arm.
+    /// Distances from a lognormal of all draws, by suite and arm.
     pub distances: &'a [SuiteDistances],
     /// The suite, or both.
     pub tested: SuiteSet,

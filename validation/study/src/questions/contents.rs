@@ -151,7 +151,7 @@ fn words(ours: &[ItemFits; 2]) -> String {
     format!(
         "{}. FEMA P-58's five bookcases have medians of {a:.3} to {b:.3} s \
          times g depth/height, whatever their size, its four cabinets {c:.3} \
-         to {d:.3} s. ItemFits go from the lowest bookcase to the highest from \
+         to {d:.3} s. Ours go from the lowest bookcase to the highest from \
          {}.",
         compared.join(". "),
         grown.join(", and from "),

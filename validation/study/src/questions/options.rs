@@ -23,7 +23,7 @@ use rocking_common::paper::{
 use rocking_common::table::digits;
 use rocking_common::words::range;
 
-/// Resamples of the bootstrap, by default and with all blocks and choices.
+/// Draws of the bootstrap, by default and with all blocks and choices.
 const REPLICATES: [usize; 2] = [100, 1000];
 
 /// One recipe for one block, measure and threshold.
@@ -38,7 +38,7 @@ struct RecipeFit<'a> {
     distances: [f64; 2],
     /// Their intervals.
     intervals: [(f64, f64); 2],
-    /// Resamples of the bootstrap in which the recipe is defined.
+    /// Draws of the bootstrap in which the recipe is defined.
     used: usize,
 }
 
@@ -131,7 +131,7 @@ fn entries<'a>(
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
     let recipes = Recipe::all(QuantileType::default());
-    // SuiteDistances of fragilities made from a draw to the benchmark, which is
+    // Distances of fragilities made from a draw to the benchmark, which is
     // the empirical fragility of the records themselves.
     let mut drawn: Vec<[Vec<f64>; 2]> =
         recipes.iter().map(|_| [Vec::new(), Vec::new()]).collect();

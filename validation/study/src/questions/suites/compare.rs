@@ -18,7 +18,7 @@ use crate::results::StudyResults;
 use rocking_common::paper::{BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 
-/// Resamples of the bootstrap.
+/// Draws of the bootstrap.
 const REPLICATES: usize = 2000;
 
 /// All rows: both suites of the study against the embedded ones of the same

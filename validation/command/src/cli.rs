@@ -70,42 +70,37 @@ fn entry<C: Args + 'static>(
     }
 }
 
-const ANALYSE: &str = "Analyse";
-const DECIDE: &str = "Decide";
-const PROVE: &str = "Prove";
-const DEVELOP: &str = "Develop";
-
 /// The commands, as `rocking --help` lists them.
 fn entries() -> Vec<CommandEntry> {
     vec![
-        entry(ANALYSE, "respond", respond::run_respond),
-        entry(ANALYSE, "ida", ida::run_ida),
-        entry(ANALYSE, "records", |args| {
+        entry("Analyse", "respond", respond::run_respond),
+        entry("Analyse", "ida", ida::run_ida),
+        entry("Analyse", "records", |args| {
             with_threads(None, || records::run_records(args)).flatten()
         }),
-        entry(ANALYSE, "suite", suite::run_suite),
-        entry(ANALYSE, "capacities", capacities::run_capacities),
-        entry(ANALYSE, "sweep", sweep::run_sweep),
-        entry(DECIDE, "assess", assess::run_assess),
-        entry(DECIDE, "stripes", stripes::run_stripes),
-        entry(DECIDE, "fragility", fragility::run_fragility),
-        entry(DECIDE, "risk", risk::run_risk),
-        entry(DECIDE, "rank", rank::run_rank),
-        entry(DECIDE, "sample", sample::run_sample),
-        entry(DECIDE, "compare", compare::run_compare),
-        entry(DECIDE, "contrast", contrast::run_contrast),
-        entry(DECIDE, "lilliefors", lilliefors::run_lilliefors),
-        entry(PROVE, "study", study::run_study),
-        entry(PROVE, "validate", |args| {
+        entry("Analyse", "suite", suite::run_suite),
+        entry("Analyse", "capacities", capacities::run_capacities),
+        entry("Analyse", "sweep", sweep::run_sweep),
+        entry("Decide", "assess", assess::run_assess),
+        entry("Decide", "stripes", stripes::run_stripes),
+        entry("Decide", "fragility", fragility::run_fragility),
+        entry("Decide", "risk", risk::run_risk),
+        entry("Decide", "rank", rank::run_rank),
+        entry("Decide", "sample", sample::run_sample),
+        entry("Decide", "compare", compare::run_compare),
+        entry("Decide", "contrast", contrast::run_contrast),
+        entry("Decide", "lilliefors", lilliefors::run_lilliefors),
+        entry("Prove", "study", study::run_study),
+        entry("Prove", "validate", |args| {
             with_threads(None, || validate::run_validate(args)).flatten()
         }),
-        entry(PROVE, "score", score::run_score),
-        entry(PROVE, "diff", diff::run_diff),
-        entry(PROVE, "speed", |args| {
+        entry("Prove", "score", score::run_score),
+        entry("Prove", "diff", diff::run_diff),
+        entry("Prove", "speed", |args| {
             with_threads(None, || speed::run_speed(args)).flatten()
         }),
-        entry(DEVELOP, "completions", completions::run_completions),
-        entry(DEVELOP, "man", man::run_man),
+        entry("Develop", "completions", completions::run_completions),
+        entry("Develop", "man", man::run_man),
     ]
 }
 

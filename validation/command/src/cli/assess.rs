@@ -19,7 +19,7 @@ use super::reading::ReadArgs;
 use super::risk::SiteArgs;
 use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ThreadsArg};
-use crate::failure::{Failure, bail, ensure};
+use crate::failure::{Failure, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
@@ -218,13 +218,9 @@ impl AssessCommand {
             self.reading.judge(&suite.set_aside, &suite.remarks)?;
             return Ok(suite);
         }
-        match self.reading.given().or(self.processing.given()) {
-            None => {
-                let [ordinary, _] = StudySuite::embedded()?;
-                Ok(ordinary)
-            }
-            Some(flag) => bail!("{flag} is not used without --suite"),
-        }
+        self.reading.refuse_unused(self.processing, "--suite")?;
+        let [ordinary, _] = StudySuite::embedded()?;
+        Ok(ordinary)
     }
 
     fn found(

@@ -160,10 +160,8 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
     let plot = args.plot.open(&mut outputs)?;
     let chosen = args.chosen(&suite)?;
-    let remarked: Vec<RemarkInput<'_>> =
-        chosen.iter().map(|member| RemarkInput::from(*member)).collect();
-    let remarks = Remarks::of(&remarked);
-    drop(remarked);
+    let remarked = chosen.iter().map(|member| RemarkInput::from(*member));
+    let remarks = Remarks::of(&remarked.collect::<Vec<_>>());
     args.reading.judge(suite.set_aside(), &remarks)?;
     let events = chosen
         .iter()
@@ -193,24 +191,15 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         work.run(&std::mem::take(&mut block))
     })?;
     work.run(&block)?;
-    let IdaRun {
-        out,
-        forces_out,
-        curves,
-        mut summary,
-        pivot,
-        bar,
-        processing,
-        ..
-    } = work;
-    bar.finish_and_clear();
-    out.finish()?;
-    if let Some(out) = forces_out {
+    work.bar.finish_and_clear();
+    work.out.finish()?;
+    if let Some(out) = work.forces_out {
         out.finish()?;
     }
     if let Some(out) = plot {
-        out.write(svg(&curves.unwrap_or_default(), &analysis)?)?;
+        out.write(svg(&work.curves.unwrap_or_default(), &analysis)?)?;
     }
+    let mut summary = work.summary;
     let as_json = args.json.json && !outputs.take_standard_output();
     if !as_json {
         summary.curves.clear();
@@ -219,13 +208,13 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         suite: suite.name(),
         earthquakes: earthquakes(&clusters(&chosen)),
         study_components: suite.study_rule().to_string(),
-        processing: processing.as_deref(),
+        processing: work.processing.as_deref(),
         remarks: &remarks,
         set_aside: suite.set_aside(),
         highest_im: HIGHEST_IM,
         order: args.order,
         summary,
-        pivot,
+        pivot: work.pivot,
     };
     print_beside(&outputs, &shown(as_json, &found)?)
 }

@@ -3,7 +3,7 @@
 use clap_mangen::Man;
 
 use super::command;
-use crate::failure::Failure;
+use crate::failure::{Failure, bail};
 use crate::terminal::print;
 
 /// The manual page of the program, or of one of its commands, on standard
@@ -27,19 +27,15 @@ pub fn run_man(args: &ManCommand) -> Result<(), Failure> {
     let mut command = command();
     // Names every command in full, as `rocking-ida`.
     command.build();
-    let shown = match &args.of {
-        None => command,
-        Some(name) => {
-            let found = command.find_subcommand(name).cloned();
-            found.ok_or_else(|| {
-                Failure::input(format!(
-                    "man {name}: expected a command that `rocking --help` \
-                     names"
-                ))
-            })?
-        }
-    };
+    if let Some(name) = &args.of {
+        let Some(found) = command.find_subcommand(name).cloned() else {
+            bail!(
+                "man {name}: expected a command that `rocking --help` names"
+            );
+        };
+        command = found;
+    }
     let mut page = Vec::new();
-    Man::new(shown).render(&mut page)?;
+    Man::new(command).render(&mut page)?;
     print(&String::from_utf8_lossy(&page))
 }

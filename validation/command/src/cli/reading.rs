@@ -4,7 +4,8 @@
 use rocking::units::AccelerationUnit;
 use rocking_records::{ReadOptions, SetAside};
 
-use crate::failure::{Failure, ensure};
+use super::processing::ProcessingArgs;
+use crate::failure::{Failure, bail, ensure};
 use crate::terminal::note;
 use rocking_common::suites::remarks::Remarks;
 
@@ -62,6 +63,22 @@ impl ReadArgs {
             Some("--recursive")
         } else {
             self.strict.then_some("--strict")
+        }
+    }
+
+    /// Refuses flags of records, these and those of the processing, where no
+    /// record is read without another flag.
+    ///
+    /// # Errors
+    /// [`Failure`] with the flag and the other one.
+    pub fn refuse_unused(
+        self,
+        processing: ProcessingArgs,
+        without: &str,
+    ) -> Result<(), Failure> {
+        match self.given().or(processing.given()) {
+            None => Ok(()),
+            Some(flag) => bail!("{flag} is not used without {without}"),
         }
     }
 

@@ -139,10 +139,8 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
     if let Some(out) = plot {
         out.write(response_svg(&scene, &response, &excitation, pga_g))?;
     }
-    let certified = args
-        .certify
-        .then(|| certified(&scene, args.until, work_limit))
-        .transpose()?;
+    let certified = || certified(&scene, args.until, work_limit);
+    let certified = args.certify.then(certified).transpose()?;
     // The history has its file; text has the number of impacts alone.
     response.history.clear();
     let as_json = args.json.json && !outputs.take_standard_output();
@@ -150,13 +148,6 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
         response.impacts.clear();
         response.input_certificate = None;
     }
-    let certified = certified.map(|found| {
-        let outcome = match found.resolved {
-            true => found.outcome.name(),
-            false => "unresolved",
-        };
-        NamedOutcome { outcome, found }
-    });
     let outcome = response.outcome_name();
     let result = RespondSummary {
         response: NamedOutcome { outcome, found: response },
@@ -183,7 +174,7 @@ fn certified(
     scene: &Scene<'_>,
     until_s: Option<f64>,
     work_limit: WorkLimit,
-) -> Result<CertifiedFate, Failure> {
+) -> Result<NamedOutcome<CertifiedFate>, Failure> {
     let place = Mutex::new((Arithmetic::Double, 0.0));
     let end_s = match scene.excitation {
         Excitation::Record(record) => {
@@ -202,7 +193,11 @@ fn certified(
         *place.lock().unwrap_or_else(PoisonError::into_inner) = (by, time_s);
     };
     let ask = Certify { until_s, work_limit, progress: &progress };
-    patiently(&words, || certify(scene, &ask)).map_err(refused)
+    let found = patiently(&words, || certify(scene, &ask));
+    let found = found.map_err(refused)?;
+    let own = found.outcome.name();
+    let outcome = if found.resolved { own } else { "unresolved" };
+    Ok(NamedOutcome { outcome, found })
 }
 
 /// The history as a table, one row a point.

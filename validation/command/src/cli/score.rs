@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rocking_common::files::Outputs;
 use rocking_report::scored::page;
-use rocking_score::{Answers, Score, own_answers, score};
+use rocking_score::{Answers, own_answers, score};
 
 use super::shared::JsonArg;
 use crate::failure::Failure;
@@ -58,13 +58,13 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
     let Some(path) = &args.answers else { return Ok(()) };
     let out = outputs.open_some(args.out.as_ref())?;
     let answers = Answers::parse(&input::text(path)?, path)?;
-    let found = score(&answers);
+    let mut found = score(&answers);
     if let Some(out) = out {
         out.write(page(&found))?;
     }
-    if args.json.json {
-        return args.json.show(&found);
-    }
     // Every quantity is in the JSON and on the page.
-    args.json.show(&Score { quantities: Vec::new(), ..found })
+    if !args.json.json {
+        found.quantities.clear();
+    }
+    args.json.show(&found)
 }

@@ -6,8 +6,9 @@ use rocking_common::files::{Output, Outputs};
 use rocking_procedures::Draws;
 use serde::Serialize;
 
-use super::show::show;
+use super::show::shown;
 use crate::failure::Failure;
+use crate::terminal::print;
 use crate::threads::with_threads;
 
 /// The value of a flag that is positive and finite.
@@ -31,15 +32,15 @@ impl JsonArg {
     /// Prints a result.
     ///
     /// # Errors
-    /// As [`show()`].
+    /// As [`shown`] and [`print()`].
     pub fn show<T: Serialize>(self, result: &T) -> Result<(), Failure> {
-        show(self.json, result)
+        print(&shown(self.json, result)?)
     }
 
     /// Prints a result, unless an output takes standard output.
     ///
     /// # Errors
-    /// As [`show()`].
+    /// As [`JsonArg::show`].
     pub fn show_beside<T: Serialize>(
         self,
         outputs: &Outputs,

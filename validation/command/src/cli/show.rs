@@ -5,7 +5,7 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::terminal::{COMMIT, print};
+use crate::terminal::COMMIT;
 use rocking_common::table::columns::SCHEMA;
 use rocking_common::words::columns;
 
@@ -19,15 +19,7 @@ struct JsonEnvelope<'a, T> {
     result: &'a T,
 }
 
-/// Prints a result: JSON if asked for, text otherwise.
-///
-/// # Errors
-/// As [`print()`].
-pub fn show<T: Serialize>(json: bool, result: &T) -> Result<(), Failure> {
-    print(&shown(json, result)?)
-}
-
-/// What [`show`] prints.
+/// A result as JSON or as text.
 ///
 /// # Errors
 /// [`Failure`] where the result cannot be serialized.

@@ -123,7 +123,7 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         ratios_to: BASE.join(", "),
         set_aside,
         singles: &singles,
-        throughput: many.iter().map(Rate::from).collect(),
+        throughput: many.iter().map(rate).collect(),
         kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
     })
@@ -185,9 +185,7 @@ struct Rate<'a> {
     sample_ns: Option<f64>,
 }
 
-impl<'a> From<&'a Throughput> for Rate<'a> {
-    fn from(of: &'a Throughput) -> Self {
-        let (rate_per_cpu_s, sample_ns) = (of.rate_per_s(), of.sample_ns());
-        Self { of, rate_per_cpu_s, sample_ns }
-    }
+fn rate(of: &Throughput) -> Rate<'_> {
+    let (rate_per_cpu_s, sample_ns) = (of.rate_per_s(), of.sample_ns());
+    Rate { of, rate_per_cpu_s, sample_ns }
 }

@@ -127,13 +127,12 @@ fn suites(args: &StudyCommand) -> Result<[StudySuite; 2], Failure> {
             read(SuiteKind::Ordinary, ordinary)?,
             read(SuiteKind::PulseType, pulse)?,
         ]),
-        _ => match args.reading.given().or(args.processing.given()) {
-            None => Ok(StudySuite::embedded()?),
-            Some(flag) => bail!(
-                "{flag} is not used without --ordinary and --pulse, but for \
-                 the records of a suite"
-            ),
-        },
+        _ => {
+            let unused = "--ordinary and --pulse, but for the records of a \
+                          suite";
+            args.reading.refuse_unused(args.processing, unused)?;
+            Ok(StudySuite::embedded()?)
+        }
     }
 }
 
@@ -153,21 +152,18 @@ fn computed(plan: Plan, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
 
 fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
     let plan = plan(args)?;
-    if !args.check {
-        refuse_foreign(&args.out)?;
-    }
     // Refused before the suites are made and minutes are spent.
-    if args.check {
+    let folder = if args.check {
         let place = args.out.display();
-        let place = format_args!("no folder of a report at {place}");
-        std::fs::read_dir(&args.out).at(place)?;
+        std::fs::read_dir(&args.out)
+            .at(format_args!("no folder of a report at {place}"))?;
         if is_interrupted(&args.out) {
-            return Err(FolderError::Interrupted).at(args.out.display());
+            return Err(FolderError::Interrupted).at(place);
         }
-    }
-    let folder = match args.check {
-        true => None,
-        false => Some(OutputFolder::open(&args.out)?),
+        None
+    } else {
+        refuse_foreign(&args.out)?;
+        Some(OutputFolder::open(&args.out)?)
     };
     let proof = match &args.proof {
         Some(folder) => Some(Proof::read(folder)?),

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::show::text;
-use crate::failure::{Failure, bail};
+use crate::failure::Failure;
 use crate::terminal::say;
 use crate::threads::with_threads;
 use rocking_common::files::OutputFolder;
@@ -92,13 +92,8 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
             shown.set_aside = Some(suite.set_aside().clone());
         }
         None => {
-            let given = args.reading.given().or(args.processing.given());
-            if let Some(flag) = given {
-                bail!(
-                    "{flag} is not used without --suite: the embedded \
-                     suites need no correction"
-                );
-            }
+            let without = "--suite: the embedded suites need no correction";
+            args.reading.refuse_unused(args.processing, without)?;
             let ordinary = with_threads(None, rocking_synthesis::ordinary)??;
             let pulse = with_threads(None, rocking_synthesis::pulse)??;
             add("ordinary", export::pairs(&ordinary))?;

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use crate::failure::{AtPlace as _, Failure, bail};
+use crate::failure::{AtPlace as _, Failure, ensure};
 use crate::input;
 use crate::terminal::say;
 use rocking_common::files::Outputs;
@@ -88,14 +88,12 @@ pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
 fn selected(args: &ValidateCommand) -> Result<Vec<Case>, Failure> {
     let mut cases = load_all()?;
     if let Some(family) = &args.family {
-        if FAMILIES.iter().all(|(name, _)| name != family) {
-            let names: Vec<&str> =
-                FAMILIES.iter().map(|(name, _)| *name).collect();
-            bail!(
-                "no family `{family}`: expected one of {}",
-                names.join(", ")
-            );
-        }
+        let names: Vec<&str> = FAMILIES.iter().map(|f| f.0).collect();
+        ensure!(
+            names.contains(&family.as_str()),
+            "no family `{family}`: expected one of {}",
+            names.join(", ")
+        );
         cases.retain(|case| case.family == *family);
     }
     cases.retain(|case| args.full || case.cost == Cost::Quick);

@@ -50,11 +50,10 @@ impl WayArgs {
 
 fn isa(name: &str) -> Result<Isa, Failure> {
     let available = Isa::available();
+    if let Some(isa) = available.iter().find(|isa| isa.name() == name) {
+        return Ok(*isa);
+    }
     let names: Vec<&str> = available.iter().map(|i| i.name()).collect();
-    available.iter().find(|isa| isa.name() == name).copied().ok_or_else(|| {
-        Failure::input(format!(
-            "--isa {name}: not on this machine, expected one of {}",
-            names.join(", ")
-        ))
-    })
+    let names = names.join(", ");
+    bail!("--isa {name}: not on this machine, expected one of {names}")
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use rocking::accelerogram::Accelerogram;
 use rocking_records::intensity::velocity_pulse::{Candidate, candidates};
 use rocking_records::intensity::{
     IntensityError, Measures, PairMeasures, Settings,
@@ -118,8 +119,7 @@ impl MeasureArgs {
                 let single = found.take(&listed.file, single);
                 found.add(&listed.file, OWN, single);
             }
-            let both = |(_, [a, b]): &(String, [usize; 2])| {
-                let (a, b) = (&records[*a].motion, &records[*b].motion);
+            let both = |(_, [a, b]): &NamedPair<'_>| {
                 PairMeasures::of(a, b, &settings)
             };
             let measures: Vec<_> = pairs.par_iter().map(both).collect();
@@ -130,10 +130,8 @@ impl MeasureArgs {
             }
         }
         if self.pulses {
-            let all = |(_, [a, b]): &(String, [usize; 2])| {
-                let (a, b) = (&records[*a].motion, &records[*b].motion);
-                candidates(a, b, gravity_m_s2)
-            };
+            let all =
+                |(_, [a, b]): &NamedPair<'_>| candidates(a, b, gravity_m_s2);
             let all: Vec<_> = pairs.par_iter().map(all).collect();
             for ((name, _), all) in pairs.iter().zip(all) {
                 for candidate in found.take(name, all).into_iter().flatten() {
@@ -193,34 +191,34 @@ impl RecordMeasures {
     }
 }
 
+/// The name of a pair, and its components.
+type NamedPair<'a> = (String, [&'a Accelerogram; 2]);
+
 /// Pairs by name, the study's component first; two records alone are one.
-fn pairs(records: &[RecordListing]) -> Vec<(String, [usize; 2])> {
-    let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+fn pairs(records: &[RecordListing]) -> Vec<NamedPair<'_>> {
+    let mut by_name: BTreeMap<&str, Vec<&Accelerogram>> = BTreeMap::new();
     let mut names = Vec::new();
-    for (i, listed) in records.iter().enumerate() {
+    for listed in records {
         if let Some(pair) = &listed.pair {
             let places = by_name.entry(pair).or_insert_with(|| {
                 names.push(pair.as_str());
                 Vec::new()
             });
-            let at = if listed.study_component == Some(true) {
-                0
-            } else {
-                places.len()
-            };
-            places.insert(at, i);
+            let is_first = listed.study_component == Some(true);
+            let at = if is_first { 0 } else { places.len() };
+            places.insert(at, &listed.motion);
         }
     }
     let suite = records.iter().any(|listed| listed.study_component.is_some());
     if let ([first, second], false) = (records, suite) {
         let name = format!("{} + {}", first.file, second.file);
-        return vec![(name, [0, 1])];
+        return vec![(name, [&first.motion, &second.motion])];
     }
     names
         .into_iter()
         .filter_map(|name| {
             let places = by_name.get(name)?.as_slice();
-            let both = <[usize; 2]>::try_from(places).ok()?;
+            let both = <[&Accelerogram; 2]>::try_from(places).ok()?;
             Some((name.to_owned(), both))
         })
         .collect()

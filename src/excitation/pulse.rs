@@ -5,7 +5,7 @@ mod kind;
 
 pub use kind::{PulseError, PulseKind, PulseName, PulseParameter};
 
-use crate::number::{Number, Real};
+use crate::number::Real;
 use kind::{PulseForm, Velocity};
 
 /// An analytic pulse, checked.
@@ -47,13 +47,6 @@ pub(crate) struct PulseSine<N> {
     pub amplitude: N,
     pub rate_rad_s: N,
     pub phase_rad: N,
-}
-
-impl<N: Number> PulseSine<N> {
-    fn silent() -> Self {
-        let zero = N::zero();
-        Self { amplitude: zero, rate_rad_s: zero, phase_rad: zero }
-    }
 }
 
 /// exp(-x^2/2).

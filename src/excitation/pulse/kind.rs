@@ -336,8 +336,9 @@ impl PulseKind {
         let sine = |turn: N, omega_rad_s: f64, phase_rad, share: f64| {
             let rate_rad_s = N::from_f64(omega_rad_s);
             let sine = PulseSine { amplitude, rate_rad_s, phase_rad };
-            let only = [sine, PulseSine::silent(), PulseSine::silent()];
-            let stretch = (turn / rate_rad_s, PulseShape::Sines(only));
+            let silent = PulseSine { amplitude: N::zero(), ..sine };
+            let sines = PulseShape::Sines([sine, silent, silent]);
+            let stretch = (turn / rate_rad_s, sines);
             closed(vec![stretch], share * size.abs() / omega_rad_s)
         };
         // `integral` is the integral by x of the polynomial times the bell.

@@ -37,7 +37,7 @@ mod wrong;
 
 #[cfg(not(target_family = "wasm"))]
 pub use digits::{DIGITS_HEADER, DigitsRow, Reach, digits, digits_csv};
-pub use method::{Context, Quantities, Reply};
+pub use method::{Context, Method, Quantities, Reply};
 
 use anyhow::{Context as _, Result};
 
@@ -45,9 +45,6 @@ use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
 use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
-
-/// A method under its name in the files of cases.
-pub type Method = (&'static str, fn(&Context, &mut Reply) -> Result<()>);
 
 /// Methods that a page runs; `statistics` has more.
 const METHODS: &[Method] = &[

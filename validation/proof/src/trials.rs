@@ -16,14 +16,14 @@ mod search;
 mod summary;
 
 pub use compare::{
-    CertificateReading, DoubleRun, Finding, WideTruth, compare, truth,
+    CertificateReading, DoubleRun, Finding, Trial, WideTruth, compare, truth,
 };
 pub use summary::{Judgement, SHARES, TrialSummary};
 
 use rayon::prelude::*;
 use rocking_statistics::streams::Streams;
 
-use crate::scene::{CaseScene, EngineError};
+use crate::scene::EngineError;
 pub(crate) use draw::Draw;
 use rocking::names::named;
 
@@ -45,15 +45,6 @@ named! {
         /// Scenes whose first hop after rest grazes the base.
         FirstHop = "first-hop",
     }
-}
-
-/// A scene with its address.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trial {
-    /// Stratum, index and kind of the excitation.
-    pub name: String,
-    /// The scene.
-    pub scene: CaseScene,
 }
 
 /// The scene of an address.

@@ -25,6 +25,9 @@ macro_rules! input {
     };
 }
 
+/// A method under its name in the files of cases.
+pub type Method = (&'static str, fn(&Context, &mut Reply) -> Result<()>);
+
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
 

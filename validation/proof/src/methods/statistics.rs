@@ -15,7 +15,7 @@ mod risk;
 mod truths;
 mod two_samples;
 
-use super::Method;
+use super::method::Method;
 
 /// Methods that a page runs.
 pub(super) const METHODS: &[Method] = &[

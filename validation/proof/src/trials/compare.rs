@@ -7,11 +7,19 @@ use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
-use super::Trial;
 use crate::arithmetic::Wide;
 use crate::cases::WrongModel;
 use crate::engine::{Quotient, respond, respond_in};
-use crate::scene::EngineError;
+use crate::scene::{CaseScene, EngineError};
+
+/// A scene with its address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Stratum, index and kind of the excitation.
+    pub name: String,
+    /// The scene.
+    pub scene: CaseScene,
+}
 
 /// What a run says of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,10 +2,9 @@
 //! the paper prints a number, and a credibility assessment with its gaps.
 
 use rocking::block::{BlockError, Restitution};
-use serde::Deserialize;
 
 use crate::evidence::{NOT_RUN, Proof};
-use crate::words::Words;
+use crate::words::{Factor, Words};
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
@@ -253,19 +252,6 @@ fn synthetic(recorded: Option<&Findings>) -> (String, &'static str) {
         "The recorded motions are not part of this run and may not be passed \
          on: only who has them can repeat their results.",
     )
-}
-
-/// A factor of the assessment.
-#[derive(Clone, Deserialize)]
-pub struct Factor {
-    /// `Verification`.
-    pub name: String,
-    /// Level of 0 to 4.
-    pub level: String,
-    /// Evidence for it.
-    pub evidence: String,
-    /// What is missing.
-    pub gaps: String,
 }
 
 /// After NASA-STD-7009B, by our own judgement.

@@ -10,7 +10,7 @@ pub use crate::answers::AnswerRow;
 use crate::basis::{self, FindingSets};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
-use crate::page::{Page, TITLE, annexes};
+use crate::page::{Page, TITLE, annexes, html};
 use crate::quantity::{rule_text, value_text};
 use crate::scored;
 use crate::timings::Timings;
@@ -144,8 +144,8 @@ pub fn files(
         titles.insert(table.name.clone(), table.title.clone());
     }
     let listed = list(&files, proof, &titles);
-    let html = page.html(&annexes, &listed)?;
-    files.insert(PAGE.into(), html.into_bytes());
+    let text = html(&page, &annexes, &listed)?;
+    files.insert(PAGE.into(), text.into_bytes());
     let mut files = laid_out(files);
     files.insert(SUMS.into(), sums(&files));
     Ok(files)

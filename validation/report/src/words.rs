@@ -3,8 +3,6 @@
 use anyhow::Context as _;
 use serde::Deserialize;
 
-use crate::credibility::Factor;
-
 const WORDS: &str = include_str!("../words.toml");
 
 /// What the file has, in its order.
@@ -29,6 +27,19 @@ pub struct Words {
     pub verified: Factor,
     /// The row of the input, where the user gave the suites.
     pub given: Factor,
+}
+
+/// A factor of the credibility assessment.
+#[derive(Clone, Deserialize)]
+pub struct Factor {
+    /// `Verification`.
+    pub name: String,
+    /// Level of 0 to 4.
+    pub level: String,
+    /// Evidence for it.
+    pub evidence: String,
+    /// What is missing.
+    pub gaps: String,
 }
 
 /// The words.

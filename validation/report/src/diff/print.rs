@@ -1,8 +1,8 @@
 //! A comparison for people: the cause first.
 
+use super::change::{Change, Difference, Subject};
 use super::effect::RecordSets;
 use super::number::NumberChange;
-use super::{Change, Difference, Subject};
 use rocking_common::paper::SuiteKind;
 
 /// Lines of a list that are shown unless all are wanted.

@@ -5,9 +5,9 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use super::change::{Change, Difference, Subject};
 use super::input::{bounded, text};
 use super::number::NumberPair;
-use super::{Change, Difference, Subject};
 use rocking_common::findings::{
     ClaimResult, Effect, Quantifier, Quantity, Region, RowPlace, SuiteSet,
     TableRow, Topic, Unit,

@@ -4,7 +4,7 @@
 use rocking_statistics::lilliefors::{LillieforsError, LillieforsTable};
 use serde::Deserialize;
 
-use super::Proof;
+use super::proof::Proof;
 use rocking_common::table::{PlainTable, digits};
 use rocking_common::words::percent;
 use rocking_proof::cases::{Case, CaseError, load_all};

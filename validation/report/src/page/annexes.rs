@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 use rocking::block::{BlockError, Restitution};
 
-use super::Page;
 use super::chapter::{drawings, tables};
+use super::content::Page;
 use crate::credibility;
 use crate::evidence::{self, Proof};
 use crate::ledger;

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::Page;
 use super::chapter::{drawings, folded, labels};
+use super::content::Page;
 use crate::basis::FindingColumn;
 use crate::findings::identities;
 use crate::quantity::{remarks, rule_text, value_text};

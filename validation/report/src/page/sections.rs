@@ -2,8 +2,10 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::annexes::Annex;
 use super::chapter::{columns, drawings, folded, folded_table, list};
-use super::{Annex, Page, TITLE, cases, findings};
+use super::content::{Page, TITLE};
+use super::{cases, findings};
 use crate::answers::{self, AnswerRow};
 use crate::credibility;
 use crate::evidence::{NOT_RUN, Proof};

@@ -1,12 +1,18 @@
 //! The page of a study without records.
 
 use super::*;
-use crate::basis;
+use crate::basis::{self, FindingSets};
+use crate::evidence::Proof;
+use crate::head::Signatures;
 use crate::tests::on_embedded_suites;
+use crate::timings::Timings;
 use crate::words::words;
+use rocking_common::paper::Arm;
 use rocking_draw::colour;
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{BlockSketch, Heading};
 use rocking_draw::page::STYLE;
+use rocking_study::Study;
 use rocking_study::questions::StudyAnswer;
 
 fn sketches() -> [Figure; 3] {
@@ -70,7 +76,7 @@ fn page_of(names: Names) -> String {
         lab: false,
     };
     let annexes = annexes(&page).expect("annexes");
-    page.html(&annexes, &PlainTable::default()).expect("page")
+    html(&page, &annexes, &PlainTable::default()).expect("page")
 }
 
 /// Writes the page where `ROCKING_FIGURES` says, to be looked at.

@@ -1,4 +1,4 @@
-//! StudyResults of recorded suites that an earlier run found and that are kept:
+//! Results of recorded suites that an earlier run found and that are kept:
 //! the recorded motions may not be passed on. A run on the embedded suites
 //! shows them beside its own results if both runs have the same settings.
 

@@ -176,8 +176,8 @@ impl Output {
 impl Write for Output {
     fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
         match &mut self.sink {
-            OutputSink::Standard(part) | OutputSink::Stream(_, part) => {
-                part.write(piece)
+            OutputSink::Standard(held) | OutputSink::Stream(_, held) => {
+                held.write(piece)
             }
             OutputSink::File { part, .. } => {
                 system::add(part.as_file(), piece)
@@ -266,7 +266,7 @@ impl OutputSink {
     }
 }
 
-/// Refuses to overwrite what is read.
+/// Refuses to overwrite an input.
 fn refuse_input(path: &Path, inputs: &[PathBuf]) -> io::Result<()> {
     let path = fs::canonicalize(path)?;
     let is_read = |input: &&PathBuf| {

@@ -1,5 +1,5 @@
-//! What a study found, in its types: what `findings.json` holds, and what the
-//! terminal and the comparison of two studies read.
+//! The findings of a study in their types: `findings.json` holds them, and the
+//! terminal and the comparison of two studies read them.
 //!
 //! The file is one object of [`Findings`]. Numbers have nine significant
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
@@ -41,7 +41,7 @@ pub struct Findings {
     pub schema: u32,
     /// Version of that program.
     pub version: String,
-    /// What the study was asked to do.
+    /// Settings of the study.
     pub settings: StudySettings,
     /// The suites, and the work on them.
     pub suites: Vec<SuiteSummary>,
@@ -53,7 +53,7 @@ pub struct Findings {
     pub questions: Vec<Question>,
 }
 
-/// What the study was asked to do.
+/// Settings of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudySettings {
@@ -111,7 +111,7 @@ pub struct SuiteSummary {
     /// Remarks on records, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub remarks: Option<String>,
-    /// What was set aside when the suite was read, for each reason.
+    /// Files that were set aside when the suite was read, by reason.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<AsideFiles>,
     /// Analyses made.
@@ -219,11 +219,11 @@ impl Topic {
     }
 }
 
-/// Rows of the same quantities at different places.
+/// Rows of some quantities at different places.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, try_from = "Columns")]
 pub struct FindingsTable {
-    /// What it is about.
+    /// Its topic.
     pub topic: Topic,
     /// The quantities, one for each value of a row.
     pub quantities: Vec<Quantity>,
@@ -260,13 +260,13 @@ impl TryFrom<Columns> for FindingsTable {
     }
 }
 
-/// What a number of a table is.
+/// Meaning of a number of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
     /// Short name.
     pub name: String,
-    /// What it is, in words.
+    /// The quantity in words.
     pub words: String,
     /// Its unit.
     pub unit: Unit,
@@ -283,7 +283,7 @@ pub struct TableRow {
     pub values: Vec<Estimate>,
 }
 
-/// What distinguishes a row of a table from the others.
+/// Place of a row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RowPlace {
@@ -350,9 +350,9 @@ impl fmt::Display for RowPlace {
 pub struct Question {
     /// Short name.
     pub id: String,
-    /// What is asked.
+    /// The question.
     pub question: String,
-    /// What came out.
+    /// The answer.
     pub answer: String,
     /// File with the numbers.
     pub data: String,

@@ -1,4 +1,4 @@
-//! What all crates of the harness share.
+//! Common parts of the crates of the harness.
 
 pub mod curves;
 #[cfg(not(target_family = "wasm"))]

@@ -1,4 +1,4 @@
-//! What the paper fixes: blocks, gravity, restitution, stripes, demand
+//! Constants of the paper: blocks, gravity, restitution, stripes, demand
 //! levels, arms of the grid, intensity measures, its sections, and the
 //! verdicts on its claims.
 
@@ -64,7 +64,7 @@ pub fn position(frequency: usize, slenderness: usize) -> usize {
     frequency * SLENDERNESSES_RAD.len() + slenderness
 }
 
-/// What the small-rotation limit of Eq. 1 makes of a ratio to the reference
+/// Small-rotation limit by Eq. 1 of a ratio to the reference
 /// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
 #[must_use]
 pub fn closed_form(alpha_rad: f64) -> f64 {
@@ -93,7 +93,7 @@ named! {
         A = "A",
         /// The paper's steps, first overturning bracket bisected.
         B = "B",
-        /// The same dimensionless steps for every slenderness, bisected.
+        /// Equal dimensionless steps for every slenderness, bisected.
         C = "C",
     }
 }
@@ -117,11 +117,11 @@ impl Arm {
 pub struct PaperSection {
     /// The section.
     pub number: u8,
-    /// What shows it.
+    /// The table or figures.
     pub shown: Exhibit,
 }
 
-/// What of the paper shows a claim.
+/// Part of the paper that shows a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exhibit {
@@ -173,7 +173,7 @@ impl fmt::Display for PaperSection {
 }
 
 named! {
-    /// What a measure says about a claim.
+    /// Result of a measure for a claim.
     pub enum ClaimVerdict: "verdict" {
         /// The whole interval lies where the claim says.
         Confirmed = "confirmed",

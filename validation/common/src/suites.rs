@@ -31,7 +31,7 @@ pub enum SuiteSource {
     Files {
         /// Name of the folder or index.
         name: String,
-        /// What was done to the records.
+        /// Processing of the records.
         processing: Processing,
     },
 }
@@ -78,9 +78,9 @@ pub struct StudySuite {
     pub source: SuiteSource,
     /// Who chose the study component, in words.
     pub component_rule: String,
-    /// What is suspicious about the records; nothing for an embedded suite.
+    /// Remarks on suspicious records; nothing for an embedded suite.
     pub remarks: Remarks,
-    /// What the folder or archive holds beside the records.
+    /// Files of the folder or archive that are no records.
     pub set_aside: SetAside,
     /// The motions, in the suite's order.
     pub motions: Vec<StudyMotion>,

@@ -13,7 +13,7 @@ pub struct PlainTable {
     pub name: String,
     /// Title: `Table 1. The 15 blocks`.
     pub title: String,
-    /// What it says, in a sentence.
+    /// How it is read, in a sentence.
     pub reading: String,
     /// Column heads with units.
     pub header: Vec<String>,

@@ -10,7 +10,7 @@ use rocking::integrator::{
 };
 use rocking_common::findings::Reevaluation;
 
-/// What is known of outcomes and peaks.
+/// Certainty of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certainty {
     /// Levels and refined ends that double precision does not resolve.

@@ -117,7 +117,7 @@ impl Declaration {
         Ok(Self { claim: table.try_into()?, test: test.transpose()? })
     }
 
-    /// What a claim of its kind must have, and nothing else.
+    /// Refuses a claim that lacks something of its kind, or has too much.
     fn check(&self) -> Result<(), &'static str> {
         let Claim { quantifier, region, reason, plain, case, .. } =
             &self.claim;
@@ -179,7 +179,7 @@ impl Declaration {
 }
 
 impl ClaimTest {
-    /// The verdict by the draws of a scope.
+    /// The verdict by the draws of the scope.
     fn judged(
         &self,
         rule: &ClaimRule,

@@ -15,7 +15,7 @@ const INCH_M: f64 = 0.0254;
 pub struct Furnishing {
     /// Name in FEMA P-58.
     pub id: String,
-    /// What it is.
+    /// Kind of furniture.
     pub item: String,
     depth_in: f64,
     height_in: f64,

@@ -29,7 +29,7 @@ pub(crate) const SLENDER: (usize, usize) = (1, 0);
 /// Earliest overturnings that the paper's explanation of Figure 13 blames.
 const EARLIEST: usize = 3;
 
-/// What is tested of each block.
+/// A series of tests along the demand, made for each block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub(crate) enum TestSeries {
@@ -60,7 +60,7 @@ pub(crate) const WITHOUT_EARLIEST: usize = TestSeries::ALL.len() * COUNT;
 /// First place of the accepted shares: `TestSeries` by block.
 const SHARES: usize = WITHOUT_EARLIEST + 1;
 
-/// What Lilliefors' test says of all blocks of a suite in an arm, over all
+/// Results of Lilliefors' test for all blocks of a suite in an arm, over all
 /// draws.
 pub struct SuiteDistances {
     pub(crate) suite: SuiteKind,

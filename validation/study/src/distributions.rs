@@ -138,14 +138,14 @@ fn samples(
     Ok((0..levels.len()).map(of).collect())
 }
 
-/// The same sample in another measure: each capacity times its record's
+/// A sample in another measure: each capacity times its record's
 /// factor.
 #[must_use]
 pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
     sample.iter().zip(factors).map(|(x, f)| x * f).collect()
 }
 
-/// What turns PGA/(g tan alpha) into the measure, record by record: 1, or
+/// Factors from PGA/(g tan alpha) to the measure, record by record: 1, or
 /// p PGV/PGA. The least of them is IM_R: at uplift PGA/(g tan alpha) is 1.
 #[must_use]
 pub fn factors(
@@ -157,7 +157,7 @@ pub fn factors(
     ratios_s.map(|ratio_s| intensity.of(1.0, p_rad_s * ratio_s)).collect()
 }
 
-/// The least of some numbers; infinite if there is none.
+/// The least of some numbers; infinite without any.
 #[must_use]
 pub fn least(values: &[f64]) -> f64 {
     values.iter().fold(f64::INFINITY, |m, x| if *x < m { *x } else { m })

@@ -92,7 +92,7 @@ fn suite(suite: &SuiteResults) -> SuiteSummary {
     }
 }
 
-/// What a suite set aside, by reason.
+/// Files that a suite set aside, by reason.
 #[must_use]
 pub fn set_aside(found: &SetAside) -> Vec<AsideFiles> {
     let reason = |count: AsideCount<'_>| AsideFiles {

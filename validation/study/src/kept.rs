@@ -17,7 +17,7 @@ pub const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
 /// The kept findings, if these are their settings.
 ///
 /// # Errors
-/// What the reader found instead of findings of this schema.
+/// For a file that does not hold findings of this schema.
 ///
 /// ```
 /// use rocking_study::kept;

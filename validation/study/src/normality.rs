@@ -44,7 +44,7 @@ pub fn accepted_share(assessments: &[LillieforsTest]) -> f64 {
     AcceptedShare::from_tests(assessments).share().unwrap_or(f64::NAN)
 }
 
-/// Every so many levels enter the null band, which a denser choice does not
+/// One level in eight enters the null band, which a denser choice does not
 /// move.
 pub const BAND_STRIDE: usize = 8;
 

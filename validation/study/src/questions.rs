@@ -1,4 +1,4 @@
-//! What the paper's procedure does: questions that the paper leaves open,
+//! Effects of the paper's procedure: questions that the paper leaves open,
 //! answered with figures beside its claims.
 
 mod answer;

@@ -1,4 +1,5 @@
-//! What the analyses gave: what claims, questions, figures and findings read.
+//! Results of the analyses, from which claims, questions, figures and findings
+//! are made.
 
 use crate::analyses::{Plan, SuiteResults};
 use crate::distributions::Distributions;
@@ -10,7 +11,7 @@ use rocking_common::paper::{SuiteKind, position};
 /// The analyses of both suites.
 #[derive(Clone, Debug)]
 pub struct StudyResults {
-    /// What was run.
+    /// The analyses that were run.
     pub plan: Plan,
     /// The ordinary suite.
     pub ordinary: SuiteResults,

@@ -15,7 +15,7 @@ use crate::certainty::{Certainty, certainty};
 use rocking_common::curves::Execution;
 use rocking_common::paper::Arm;
 
-/// What holds for every analysis of a study.
+/// Settings of every analysis of a study.
 #[derive(Clone, Debug)]
 pub struct Setup {
     /// Restitution: constant for the paper's study.
@@ -29,7 +29,7 @@ pub struct Setup {
     pub way: Execution,
 }
 
-/// What the chains of a suite took.
+/// Work that the chains of a suite took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainWork {
     /// Analyses, bisection included.

@@ -1,4 +1,4 @@
-//! What other choices would do to the capacities: restitution, criterion,
+//! Effects of other choices on the capacities: restitution, criterion,
 //! component.
 
 use indicatif::ProgressBar;

@@ -1,4 +1,4 @@
-//! What the grid of 0.01 g alone does to Lilliefors' test: capacities of a
+//! Effect of the grid of 0.01 g alone on Lilliefors' test: capacities of a
 //! shifted lognormal, each put on the next level of the grid.
 
 use libm::{exp, log, tan};
@@ -52,7 +52,7 @@ fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
     count as f64 / DRAWS as f64
 }
 
-/// What the shifted test says of samples of `n` capacities of a shifted
+/// Results of the shifted test for samples of `n` capacities of a shifted
 /// lognormal, each put on the next multiple of `step`.
 fn on_grid<T: Send>(
     truth: &Lognormal,

@@ -14,11 +14,11 @@ use rocking_draw::figures::Figure;
 
 /// A finished study.
 pub struct Study {
-    /// What the analyses gave.
+    /// Results of the analyses.
     pub results: StudyResults,
     /// The figures, those of the answers at the end.
     pub figures: Vec<Figure>,
-    /// What was found.
+    /// The findings.
     pub findings: Findings,
     /// Answers to the questions beyond the paper; their figures are among
     /// the others.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Words {
+struct StudyWords {
     /// Figures of the paper, by number.
     paper: BTreeMap<String, FigureWords>,
     /// Other figures, by name.
@@ -40,7 +40,7 @@ pub(crate) struct TableWords {
     pub reading: String,
 }
 
-static WORDS: LazyLock<Words> = LazyLock::new(|| {
+static WORDS: LazyLock<StudyWords> = LazyLock::new(|| {
     toml::from_str(include_str!("../words.toml"))
         .unwrap_or_else(|error| panic!("words.toml: {error}"))
 });

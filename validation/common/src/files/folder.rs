@@ -247,7 +247,7 @@ impl OutputFolder {
 /// Where files are made in an unfinished folder.
 const FILES: &str = "files";
 
-/// What earlier runs put into a folder.
+/// Files that earlier runs put into a folder.
 struct Earlier {
     /// Sums of their files.
     text: String,

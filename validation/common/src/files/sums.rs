@@ -41,7 +41,7 @@ pub enum FolderError {
     File {
         /// Its path below the folder.
         name: String,
-        /// What is there.
+        /// Its SHA-256, or the error of the system.
         found: String,
     },
     /// A line of the manifest has another form.

@@ -28,9 +28,9 @@ pub(super) const LEFT_BEHIND: Duration = Duration::from_secs(10);
 #[derive(Debug, Error)]
 #[error("cannot write {}: {source}", path.display())]
 pub struct WriteError {
-    /// The file asked for.
+    /// The requested file.
     pub path: PathBuf,
-    /// What the system said, or why it was refused.
+    /// The error of the system, or the reason of the refusal.
     #[source]
     pub source: io::Error,
 }

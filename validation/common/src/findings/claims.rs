@@ -18,9 +18,9 @@ use rocking_statistics::Estimate;
 pub struct Claim {
     /// Unique name: `ratios-p1`.
     pub id: String,
-    /// What sort of statement it is.
+    /// Kind of the statement.
     pub kind: Kind,
-    /// What it is about.
+    /// Its theme.
     pub theme: Theme,
     /// Section of the paper, with the table or the figures.
     pub section: PaperSection,
@@ -29,7 +29,7 @@ pub struct Claim {
     /// The statement in plain words: what the verdicts speak of; empty
     /// unless it is a finding.
     pub plain: String,
-    /// What is measured, in words; empty for a description.
+    /// The measure in words; empty for a description.
     pub measure: String,
     /// Blocks measured.
     pub blocks: String,
@@ -44,9 +44,9 @@ pub struct Claim {
     pub criterion: String,
     /// Declared case that checks an identity; empty otherwise.
     pub case: String,
-    /// What else a reader must know; may be empty.
+    /// A further remark for the reader; may be empty.
     pub note: String,
-    /// What came out, by suite and arm; none for a description.
+    /// Results by suite and arm; none for a description.
     pub results: Vec<ClaimResult>,
 }
 
@@ -63,7 +63,7 @@ pub enum Kind {
     Description,
 }
 
-/// What a statement is about, in the order of the page.
+/// Theme of a statement, in the order of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Theme {
@@ -77,7 +77,7 @@ pub enum Theme {
     Lognormality,
     /// Do Eqs. 5 to 7 give the fragility?
     Fragilities,
-    /// What the study adds to the paper.
+    /// Additions of the study to the paper.
     Beyond,
 }
 
@@ -251,7 +251,7 @@ impl From<SuiteKind> for SuiteSet {
     }
 }
 
-/// What came out on one suite and arm.
+/// Result on one suite and arm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimResult {
@@ -288,14 +288,14 @@ pub struct ClaimResult {
     pub cells: Option<CellCounts>,
     /// Of "most" and "almost all", the cell that bears the verdict.
     pub deciding_cell: Option<Detail>,
-    /// What else was measured, by name.
+    /// Further numbers, by name.
     pub details: Vec<Detail>,
     /// Of an inconclusive result, what such a suite is able to decide.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub power: Option<DecisionPower>,
 }
 
-/// What a suite like this one is able to decide, were the truth as estimated.
+/// Power of a suite of this kind, were the truth as estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DecisionPower {
@@ -376,7 +376,7 @@ pub struct CellCounts {
 /// A further number of a result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Detail {
-    /// What it is.
+    /// Its name.
     pub name: String,
     /// The value, with its interval where it has one.
     #[serde(flatten, with = "estimate")]

@@ -20,7 +20,7 @@ const SEARCH_RESULTS: &str = "_SearchResults.csv";
 /// by 3 to 4, zero-padded ones by up to 6.
 const LARGEST_RATIO: u64 = 6;
 
-/// What an archive of any size may unpack to, in bytes.
+/// Bytes to which an archive of any size may unpack.
 const SMALLEST_LIMIT: u64 = 1 << 20;
 
 /// The part of that which is left to an index, whose cells take more memory

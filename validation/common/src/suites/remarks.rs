@@ -1,4 +1,4 @@
-//! What is suspicious about the records of a command, reported wherever its
+//! Remarks on suspicious records of a command, reported wherever its
 //! results are.
 
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ pub struct Remarks {
     records: usize,
     /// Records whose interval, and whose unit, the caller gave.
     given: (usize, usize),
-    /// Name of a record and what is remarked, each code once, in the
+    /// Name of a record and the remarks on it, each code once, in the
     /// records' order.
     found: Vec<(String, Vec<Remark>)>,
     /// Where the remarks on a record are.

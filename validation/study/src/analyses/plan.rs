@@ -1,13 +1,13 @@
-//! What a study runs.
+//! The analyses of a study.
 
 use crate::runs::Setup;
 use rocking_common::findings::StudySettings;
 use rocking_common::paper::Arm;
 
-/// What a study runs.
+/// The analyses of a study.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// What holds for every analysis.
+    /// Settings of every analysis.
     pub setup: Setup,
     /// Arms in the order A, B, C.
     pub arms: Vec<Arm>,

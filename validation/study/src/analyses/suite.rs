@@ -1,4 +1,4 @@
-//! What the analyses of a suite gave.
+//! Results of the analyses of a suite.
 
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
@@ -35,15 +35,15 @@ pub struct SuiteResults {
     pub source: SuiteSource,
     /// Who chose the study component, in words.
     pub component_rule: String,
-    /// What is suspicious about the records.
+    /// Remarks on suspicious records.
     pub remarks: Option<String>,
-    /// What the folder or archive holds beside the records.
+    /// Files of the folder or archive that are no records.
     pub set_aside: SetAside,
     /// Hash of the input.
     pub sha256: String,
     /// The records' names and hashes.
     pub list: Vec<RecordName>,
-    /// What the chains took.
+    /// Work that the chains took.
     pub work: ChainWork,
     /// The records.
     pub records: Vec<Facts>,
@@ -135,7 +135,7 @@ pub struct SingleRecords {
     pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Deviation>>,
-    /// The same at each of `LEVELS_IM`, for comparisons of the suites.
+    /// The deviations at each of `LEVELS_IM`, for comparisons of the suites.
     pub by_level: Vec<(f64, Vec<Vec<Deviation>>)>,
 }
 
@@ -152,7 +152,7 @@ pub struct Deviation {
 }
 
 impl SingleRecords {
-    /// Median over records and slendernesses of what is defined.
+    /// Median over records and slendernesses of the defined values.
     pub(crate) fn median_of(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
         let mut values: Vec<f64> = self
             .apart

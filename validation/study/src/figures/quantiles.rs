@@ -36,7 +36,7 @@ const NUMBERS: [Column; 4] = [
     ("q84", Of::High),
 ];
 
-/// Quantile curves of what is compared at one frequency parameter.
+/// Quantile curves that are compared at one frequency parameter.
 struct QuantilePanel {
     p_rad_s: f64,
     groups: Vec<Series>,

@@ -108,7 +108,7 @@ impl Histogram {
         normal::pdf(z) / self.deviation * (self.records() as f64 * bin)
     }
 
-    /// What the histogram and its normal reach.
+    /// Highest count of the histogram and its normal.
     fn top(&self) -> f64 {
         let most = self.counts.iter().max().copied().unwrap_or(0) as f64;
         let peak = self.density(self.mean);
@@ -120,7 +120,7 @@ impl Histogram {
 /// The original or the shifted sample of a block.
 struct SampleTests {
     name: &'static str,
-    /// What is tested, as an axis label.
+    /// The tested quantity, as an axis label.
     label: &'static str,
     ink: Ink,
     marker: Marker,

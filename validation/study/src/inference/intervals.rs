@@ -28,7 +28,7 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// The ends, each moved outwards by so many errors.
+    /// The ends, each moved outwards by `by` times its error.
     fn moved(&self, by: f64) -> (f64, f64) {
         // Not moved by no error: an error may be infinite.
         let away = |error: f64| if by == 0.0 { 0.0 } else { by * error };
@@ -181,7 +181,7 @@ impl<'a> CellIntervals<'a> {
         })
     }
 
-    /// The interval by which a cell of so many records is judged.
+    /// The interval by which a cell with this number of records is judged.
     pub(super) fn cell(
         &self,
         k: usize,
@@ -194,7 +194,7 @@ impl<'a> CellIntervals<'a> {
         }
     }
 
-    /// Whether so many records are too few for replicates.
+    /// Whether this number of records is too small for replicates.
     pub(super) fn are_few(&self, records: usize) -> bool {
         let drawn = self.measured.scheme != Scheme::Counted;
         drawn && records < LEAST_DECIDING

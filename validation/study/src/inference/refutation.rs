@@ -22,7 +22,7 @@ pub(super) struct Refutation {
 }
 
 impl Refutation {
-    /// No cell of so many.
+    /// None of `count` cells.
     fn none(count: usize) -> Self {
         Self {
             out: vec![false; count],

@@ -28,7 +28,7 @@ pub(crate) struct DemandFits {
 /// The thresholds of a block in an intensity measure.
 pub(crate) struct Thresholds {
     ranked: Vec<RecordRanks>,
-    /// What the shift is the least of.
+    /// Intensities at uplift by record; the shift is the least of them.
     onsets: Vec<f64>,
 }
 
@@ -226,7 +226,7 @@ pub(super) fn tail_rate(scope: &Scope<'_>) -> MeasureResult {
     })
 }
 
-/// Annual frequency of overturning by a fit over that of the sample.
+/// Annual frequency of overturning by a fit over the frequency by the sample.
 fn rate_of(fit: Option<Lognormal>, k: f64, at: &DemandFits) -> f64 {
     // One segment, so wide that nothing lies outside.
     let end = |x: f64| (x, libm::exp(-k * log(x)));

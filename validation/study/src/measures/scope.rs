@@ -1,4 +1,4 @@
-//! What the measures read, and what they give.
+//! Input and result of the measures.
 
 use rocking_statistics::resampling::RecordRanks;
 
@@ -12,7 +12,7 @@ use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
 
-/// What a measure reads: results, draws, suite, arm and intensity measure.
+/// Input of a measure: results, draws, suite, arm and intensity measure.
 #[derive(Clone, Copy)]
 pub struct Scope<'a> {
     /// The analyses.

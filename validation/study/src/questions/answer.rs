@@ -94,7 +94,7 @@ impl Rows {
 pub enum TableCell {
     Word(String),
     Count(usize),
-    /// A number with so many decimals on the page.
+    /// A number, and its decimals on the page.
     Number(f64, usize),
 }
 

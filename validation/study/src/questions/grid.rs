@@ -138,8 +138,8 @@ fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
     Fits::new(&sample, shift).ssfl.map(|f| f.dispersion())
 }
 
-/// The same share for first overturnings that are known by their brackets: above
-/// the last level that stood, up to the first that did not.
+/// Dispersion by maximum likelihood from intervals: above the last level at
+/// which the block stood, up to the first at which it overturned.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
     let high = |c: &ResponseCurve| c.overturning_im().unwrap_or(f64::INFINITY);
     let known = curves.iter().map(|c| (c.last_im(), high(c)));

@@ -32,7 +32,7 @@ struct RecipeFit<'a> {
     intensity: Intensity,
     block: &'a BlockSamples,
     edp: f64,
-    /// The fragility, or why there is none.
+    /// The fragility, or the reason for its absence.
     fragility: Result<Lognormal, String>,
     /// Kolmogorov and area distance to the empirical fragility.
     distances: [f64; 2],

@@ -6,7 +6,9 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{Agreement, MOTIONS, QuantityRow, RowGroup, of_group, of_motion};
+use row::{
+    MOTIONS, QuantityRow, RowGroup, SuiteAgreement, of_group, of_motion,
+};
 
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::estimates::median;
@@ -85,7 +87,7 @@ fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
             .collect();
         let apart: Vec<String> = found
             .iter()
-            .filter(|(row, _)| row.medians(LIMIT) == Agreement::Apart)
+            .filter(|(row, _)| row.medians(LIMIT) == SuiteAgreement::Apart)
             .map(|(row, label)| {
                 let label = markup::plain(label);
                 format!("{label} {:.2}", row.ratio.value())
@@ -128,15 +130,15 @@ fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
     out.join(" ")
 }
 
-/// In how many comparisons what is shown, without what is shown in none: `all
+/// Number of comparisons by agreement; a number of 0 is left out: `all
 /// 45 open`, or `of 45 5 shown to differ, 40 open`.
-fn counted(all: impl Iterator<Item = Agreement>) -> String {
-    let all: Vec<Agreement> = all.collect();
+fn counted(all: impl Iterator<Item = SuiteAgreement>) -> String {
+    let all: Vec<SuiteAgreement> = all.collect();
     let agree = format!("agree within {:.0} %", 100.0 * LIMIT);
     let said = [
-        (Agreement::Apart, "shown to differ"),
-        (Agreement::Alike, agree.as_str()),
-        (Agreement::Open, "open"),
+        (SuiteAgreement::Apart, "shown to differ"),
+        (SuiteAgreement::Alike, agree.as_str()),
+        (SuiteAgreement::Open, "open"),
     ];
     let found: Vec<(usize, &str)> = said
         .into_iter()
@@ -155,7 +157,7 @@ fn counted(all: impl Iterator<Item = Agreement>) -> String {
     }
 }
 
-/// Medians and dispersions of both, with what is between them.
+/// Medians and dispersions of both suites, with ratio and difference.
 fn compared(
     r: &QuantityRow,
     decimals: usize,

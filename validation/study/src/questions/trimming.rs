@@ -13,7 +13,7 @@ use crate::results::StudyResults;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 
-/// Every so many demand levels enter.
+/// One demand level in ten enters.
 const STRIDE: usize = 10;
 
 /// Edges between the classes of skewness of ln(x - IM_R).

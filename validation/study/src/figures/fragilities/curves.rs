@@ -1,4 +1,4 @@
-//! What the fragilities' figures draw, and the columns of their CSV.
+//! Curves of the fragilities' figures, and the columns of their CSV.
 
 use rocking_statistics::Lognormal;
 
@@ -75,7 +75,7 @@ pub(super) fn fitted(
     curve.keyed(keys(at, &plain(name), fit))
 }
 
-/// What 97 % of the data do not exceed, or the last finite datum below.
+/// The 97 % quantile of the data, or the last finite datum below it.
 pub(super) fn most_of(sample: &[f64]) -> Option<f64> {
     let mut sorted = sample.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -165,7 +165,7 @@ fn band(pen: Pen) -> Fill {
     Fill::tint(pen.ink, 26)
 }
 
-/// What a panel shows.
+/// Contents of a panel.
 struct ThresholdPanel<'a> {
     edp: f64,
     place: usize,
@@ -281,7 +281,7 @@ fn three(x: f64) -> String {
     format!("{x:.3}").replace('-', "−")
 }
 
-/// What shifting gains, in a sentence.
+/// The gain by shifting, in a sentence.
 fn gain_in_words(name: &str, gain: Option<&Estimate>, limit: f64) -> String {
     let Some(gain) = gain else { return String::new() };
     let Some((low, high)) = gain.interval().map(Interval::ends) else {

@@ -5,7 +5,7 @@ use rocking_common::table::{Table, digits};
 use rocking_statistics::{Estimate, Interval, Range};
 
 named! {
-    /// What kind of quantity a row holds.
+    /// Kind of quantity in a row.
     pub(super) enum RowGroup: "group" {
         /// Hash of the recorded suite, as the quantity's name.
         Source = "source",
@@ -38,22 +38,24 @@ impl Quantiles {
 
 /// What the interval of an estimate shows of two numbers that are equal where
 /// the value is `equal`, and alike where it is at most `limit` from there.
-fn agreement(estimate: &Estimate, equal: f64, limit: f64) -> Agreement {
-    let Some(interval) = estimate.interval() else { return Agreement::Open };
+fn agreement(estimate: &Estimate, equal: f64, limit: f64) -> SuiteAgreement {
+    let Some(interval) = estimate.interval() else {
+        return SuiteAgreement::Open;
+    };
     let (low, high) = (interval.low() - equal, interval.high() - equal);
     if low >= -limit && high <= limit {
-        Agreement::Alike
+        SuiteAgreement::Alike
     } else if low > 0.0 || high < 0.0 {
-        Agreement::Apart
+        SuiteAgreement::Apart
     } else {
-        Agreement::Open
+        SuiteAgreement::Open
     }
 }
 
 /// What an interval shows of two numbers. One that holds equality shows no
 /// agreement: it may be wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Agreement {
+pub(super) enum SuiteAgreement {
     /// They differ, and perhaps by more than the limit.
     Apart,
     /// They differ by less than the limit.
@@ -83,15 +85,15 @@ pub(super) struct QuantityRow {
 }
 
 impl QuantityRow {
-    /// What is shown of the medians, alike within `limit` of the recorded
+    /// Agreement of the medians, alike within `limit` of the recorded
     /// one.
-    pub(super) fn medians(&self, limit: f64) -> Agreement {
+    pub(super) fn medians(&self, limit: f64) -> SuiteAgreement {
         agreement(&self.ratio, 1.0, limit)
     }
 
-    /// What is shown of the dispersions, alike within `limit` of the
+    /// Agreement of the dispersions, alike within `limit` of the
     /// recorded one.
-    pub(super) fn dispersions(&self, limit: f64) -> Agreement {
+    pub(super) fn dispersions(&self, limit: f64) -> SuiteAgreement {
         agreement(&self.spread, 0.0, limit * self.recorded.dispersion())
     }
 }
@@ -135,7 +137,7 @@ pub(super) fn to_csv(rows: &[QuantityRow]) -> String {
     table.finish()
 }
 
-/// Rows of a CSV that [`to_csv`] wrote; lines that are none are left out.
+/// Rows of a CSV that [`to_csv`] wrote; other lines are left out.
 pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
     let line = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();

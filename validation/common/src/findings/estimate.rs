@@ -75,7 +75,7 @@ pub fn deserialize<'de, D: Deserializer<'de>>(
 
 /// A list of estimates.
 pub mod list {
-    use super::*;
+    use crate::findings::estimate::*;
 
     /// Writes a list.
     ///
@@ -104,9 +104,9 @@ pub mod list {
 /// An estimate whose ends are written in any case: `null` where there is no
 /// interval.
 pub mod complete {
-    use super::*;
+    use crate::findings::estimate::*;
 
-    pub use super::deserialize;
+    pub use crate::findings::estimate::deserialize;
 
     /// Writes an estimate.
     ///

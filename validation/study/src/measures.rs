@@ -63,13 +63,13 @@ macro_rules! measures {
 
 measures! {
     /// First overturning by the other criterion over the study's, paired.
-    FirstOverturningByCriterion: One, Real, capacities::criterion;
+    FirstOverturningByCriterion: One, NotNegative, capacities::criterion;
     /// Overturning with another restitution over the study's, paired.
-    RestitutionEffect: One, Real, capacities::restitution;
+    RestitutionEffect: One, NotNegative, capacities::restitution;
     /// Effect of restitution on overturning over the effect of size.
     RestitutionBesideSize: Share, NotNegative, capacities::restitution_beside_size;
     /// Capacities of the other component over the study's, paired.
-    ComponentEffect: One, Real, capacities::component;
+    ComponentEffect: One, NotNegative, capacities::component;
     /// Change of the excess of D by the geometric mean's intensity.
     GeometricMeanDistance: Probability, Difference, distances::geometric_mean;
     /// Share of records that uplift the stockiest block unscaled.
@@ -77,13 +77,13 @@ measures! {
     /// Probability of overturning without minus with resurrections.
     ResurrectionProbability: Probability, Share, stripes::probabilities;
     /// Median overturning with over without resurrections.
-    ResurrectionMedian: One, Real, stripes::median_again;
+    ResurrectionMedian: One, NotNegative, stripes::median_again;
     /// Share of resurrections, large minus small blocks.
     ResurrectionsBySize: Points, Difference, stripes::again_by_size;
     /// Share of resurrections, stocky minus slender blocks.
     ResurrectionsBySlenderness: Points, Difference, stripes::again_by_slenderness;
     /// Mean capacity by median-point over monotone inversion.
-    InversionBias: One, Real, capacities::inversion;
+    InversionBias: One, NotNegative, capacities::inversion;
     /// Paired ratio stocky over slender with Housner's restitution.
     HousnerSpread: One, NotNegative, capacities::housner;
     /// Share of histories further than 5 % from the reference's.
@@ -101,35 +101,35 @@ measures! {
     /// Difference of single IDA curves, ordinary over pulse-type motions.
     CurveContrast: One, NotNegative, |s| Ok(single::curve_contrast(s));
     /// Median paired ratios on stripes, p = 1, all but the exception.
-    StripeRatiosLarge: One, Real, |s| stripes::ratios(s, &[0]);
+    StripeRatiosLarge: One, NotNegative, |s| stripes::ratios(s, &[0]);
     /// The paper's exception: alpha = 0.25 on the lowest stripe.
-    StripeRatioException: One, Real, stripes::only_exception;
+    StripeRatioException: One, NotNegative, stripes::only_exception;
     /// Deviation of the smaller over the deviation of the larger demands, in the
     /// cell of the paper's exception.
     SmallAmplitudes: One, NotNegative, stripes::small_amplitudes;
     /// Median paired ratios on stripes, p = 3 and 4.
-    StripeRatiosSmall: One, Real, |s| stripes::ratios(s, &[1, 2]);
+    StripeRatiosSmall: One, NotNegative, |s| stripes::ratios(s, &[1, 2]);
     /// Median paired ratios on stripes of all blocks, the closed form divided out.
-    StripeRatiosCorrected: One, Real, stripes::corrected;
+    StripeRatiosCorrected: One, NotNegative, stripes::corrected;
     /// Share of ratios far from 1.
     StripeOutliers: Share, Share, stripes::outliers;
     /// Median paired ratios of intensities at equal demand.
-    DemandRatios: One, Real, capacities::demand_ratios;
+    DemandRatios: One, NotNegative, capacities::demand_ratios;
     /// 16, 50 and 84 % quantiles over those of the reference.
-    Quantiles: One, Real, capacities::quantiles;
+    Quantiles: One, NotNegative, capacities::quantiles;
     /// Median paired ratios, slenderness adjusted over records scaled.
-    AdjustmentRatios: One, Real, |s| stripes::adjusted(s, None);
+    AdjustmentRatios: One, NotNegative, |s| stripes::adjusted(s, None);
     /// Median paired ratios where the adjusted slenderness is at most 0.25.
-    AdjustmentRatiosSlender: One, Real, |s| stripes::adjusted(s, Some(true));
+    AdjustmentRatiosSlender: One, NotNegative, |s| stripes::adjusted(s, Some(true));
     /// Median paired ratios where the adjusted slenderness is above 0.25.
-    AdjustmentRatiosStocky: One, Real, |s| stripes::adjusted(s, Some(false));
+    AdjustmentRatiosStocky: One, NotNegative, |s| stripes::adjusted(s, Some(false));
     /// Median paired ratios of Figure 9, the closed form divided out record by
     /// record.
-    AdjustmentRatiosCorrected: One, Real, stripes::adjusted_corrected;
+    AdjustmentRatiosCorrected: One, NotNegative, stripes::adjusted_corrected;
     /// 16, 50 and 84 % quantiles, adjusted over scaled.
-    AdjustmentQuantiles: One, Real, capacities::adjusted_quantiles;
+    AdjustmentQuantiles: One, NotNegative, capacities::adjusted_quantiles;
     /// 84 over 16 % quantile of the onset in PGV.
-    OnsetSpreadPgv: One, Real, |s| Ok(capacities::onset(s));
+    OnsetSpreadPgv: One, NotNegative, |s| Ok(capacities::onset(s));
     /// Distance from a lognormal (Lilliefors' D less its mean for a lognormal),
     /// original samples.
     DistanceOriginal: Probability, Difference, distances::original;
@@ -171,8 +171,8 @@ measures! {
     /// Distance of trimmed USFL7 for c = 0.25 to USFL7 for c = 1.
     ConstantSpread: Probability, Share, fragilities::constant_spread;
     /// Dispersion of the whole sample over the dispersion of the trimmed one.
-    TailInflation: One, Real, fragilities::tail_inflation;
+    TailInflation: One, NotNegative, fragilities::tail_inflation;
     /// Scatter of the dispersion by quantiles over its scatter by the standard
     /// deviation.
-    QuantileScatter: One, Real, fragilities::scatter;
+    QuantileScatter: One, NotNegative, fragilities::scatter;
 }

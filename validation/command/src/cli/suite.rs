@@ -47,14 +47,14 @@ struct SuiteExportCommand {
 
 /// What was written.
 #[derive(Serialize)]
-struct SuiteSummary {
-    suites: Vec<SuiteFiles>,
+struct SuiteFiles {
+    suites: Vec<SuiteFile>,
     /// What was set aside of a suite of the user's.
     set_aside: Option<SetAside>,
 }
 
 #[derive(Serialize)]
-struct SuiteFiles {
+struct SuiteFile {
     suite: String,
     records: usize,
     index: String,
@@ -67,9 +67,9 @@ struct SuiteFiles {
 pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let SuiteAction::Export(args) = &args.action;
     let mut files = Vec::new();
-    let mut shown = SuiteSummary { suites: Vec::new(), set_aside: None };
+    let mut shown = SuiteFiles { suites: Vec::new(), set_aside: None };
     let mut add = |name: &str, rows: Vec<export::ExportRow<'_>>| {
-        shown.suites.push(SuiteFiles {
+        shown.suites.push(SuiteFile {
             suite: name.to_owned(),
             records: rows.len(),
             index: args.out.join(format!("{name}.csv")).display().to_string(),

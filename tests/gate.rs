@@ -27,6 +27,8 @@ mod readers;
 mod records;
 #[path = "reproducibility.rs"]
 mod reproducibility;
+#[path = "results.rs"]
+mod results;
 #[path = "samples.rs"]
 mod samples;
 #[path = "stop.rs"]

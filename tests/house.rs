@@ -14,8 +14,6 @@ mod fixtures;
 mod layers;
 #[path = "house/links.rs"]
 mod links;
-#[path = "house/results.rs"]
-mod results;
 
 use layers::tokens;
 
@@ -33,11 +31,11 @@ const FUSED: [&str; 3] = ["src", "crates", "python/src"];
 /// limit may hold two.
 const MOST_LINES: usize = 600;
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-fn read(path: &str) -> String {
+pub fn read(path: &str) -> String {
     fs::read_to_string(root().join(path))
         .unwrap_or_else(|error| panic!("{path}: {error}"))
 }

@@ -132,25 +132,40 @@ pub fn motions() -> Answer<Vec<LabComponent>> {
 
 impl LabGround {
     fn motion(&self) -> Answer<LabMotion> {
-        let number = |key: &str| {
-            let value = self.numbers.get(key).copied();
-            value.ok_or_else(|| format!("{}: no number {key}", self.kind))
+        let kind = self.kind.as_str();
+        let mut numbers = self.numbers.clone();
+        let mut number = |key: &str| {
+            let value = numbers.remove(key);
+            value.ok_or_else(|| format!("{kind}: no number {key}"))
         };
-        if let Some(samples_g) = self.samples_g.clone() {
-            let dt_s = number("dt_s")?;
-            let own = Accelerogram::try_new("ground", dt_s, samples_g)?;
-            return Ok(LabMotion::Record(NormalisedRecord::new(&own)));
+        let motion = match (kind, self.samples_g.clone()) {
+            ("record", Some(samples_g)) => {
+                let dt_s = number("dt_s")?;
+                let own = Accelerogram::try_new("ground", dt_s, samples_g)?;
+                LabMotion::Record(NormalisedRecord::new(&own))
+            }
+            (_, Some(_)) => {
+                return Err(format!("{kind}: unknown samples_g").into());
+            }
+            (_, None) => {
+                let name = match kind {
+                    "ricker" => PulseName::RickerSymmetric,
+                    kind => kind.parse()?,
+                };
+                let pulse = name.kind(|parameter| match parameter {
+                    PulseParameter::Amplitude | PulseParameter::Velocity => {
+                        Ok(1.0)
+                    }
+                    PulseParameter::Cycles => Ok(2.0),
+                    _ => number(&parameter.name().replace('-', "_")),
+                })?;
+                LabMotion::Pulse(Pulse::try_new(pulse)?)
+            }
+        };
+        match numbers.into_keys().next() {
+            Some(key) => Err(format!("{kind}: unknown {key}").into()),
+            None => Ok(motion),
         }
-        let name = match self.kind.as_str() {
-            "ricker" => PulseName::RickerSymmetric,
-            kind => kind.parse()?,
-        };
-        let pulse = name.kind(|parameter| match parameter {
-            PulseParameter::Amplitude | PulseParameter::Velocity => Ok(1.0),
-            PulseParameter::Cycles => Ok(2.0),
-            _ => number(&parameter.name().replace('-', "_")),
-        })?;
-        Ok(LabMotion::Pulse(Pulse::try_new(pulse)?))
     }
 }
 

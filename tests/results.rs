@@ -12,8 +12,8 @@ use rocking_report::scored::codes_table;
 use rocking_report::timings::Timings;
 use rocking_study::kept::findings_of;
 
-use super::super::compare::{accepting, committed};
-use super::{read, root};
+use super::compare::{accepting, committed};
+use super::house::{read, root};
 
 /// The pages.
 const PAGES: [&str; 3] = ["README.md", "docs/tour.md", "paper.md"];

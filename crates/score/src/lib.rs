@@ -7,11 +7,11 @@
 //!
 //! ```
 //! use std::path::Path;
-//! use rocking_score::{Answers, Verdict, own_answers, score};
+//! use rocking_score::{Answers, CodeVerdict, own_answers, score};
 //! let csv = "scene,quantity,value\nfree-half,fate,rocked\n";
 //! let few = Answers::parse(csv, Path::new("answers.csv"))?;
-//! assert_eq!(score(&few).diagnosis.verdict, Verdict::TooFew);
-//! assert_eq!(score(&own_answers()?).diagnosis.verdict, Verdict::None);
+//! assert_eq!(score(&few).diagnosis.verdict, CodeVerdict::TooFew);
+//! assert_eq!(score(&own_answers()?).diagnosis.verdict, CodeVerdict::None);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

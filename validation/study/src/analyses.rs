@@ -21,13 +21,8 @@ use crate::contents::{Furnishing, items};
 use crate::distributions::suite_distributions;
 use crate::facts::{Facts, facts};
 use crate::runs::curves_of;
-use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
+use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S};
 use rocking_common::suites::StudySuite;
-
-/// The block of the reference slenderness for each frequency parameter.
-fn references() -> [Block; FREQUENCIES_RAD_S.len()] {
-    std::array::from_fn(|frequency| BLOCKS[position(frequency, REFERENCE)])
-}
 
 /// Study components as analyses take them.
 pub(crate) fn normalised(suite: &StudySuite) -> Vec<NormalisedRecord> {
@@ -70,7 +65,8 @@ impl Plan {
             })
             .collect::<Result<_, _>>()?;
         let adjusting = Adjust::SlendernessAdjustment;
-        let (adjusted, _) = chains(&references(), &self.drawn(), adjusting)?;
+        let (adjusted, _) =
+            chains(&stripes::references(), &self.drawn(), adjusting)?;
         let stripes =
             stripes::stripe_demands(&self.setup, &records, &arms, &adjusted)?;
         let distributions =

@@ -11,7 +11,7 @@ mod many;
 mod refutation;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet, Unit,
+    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet,
 };
 use rocking_common::paper::{Arm, ClaimVerdict};
 use rocking_statistics::{Estimate, Range};
@@ -21,29 +21,9 @@ pub use draws::{
     SUBSAMPLES, Scheme,
 };
 pub use intervals::by_cell;
-use intervals::{CAUTION, CellIntervals, Ends, p_of};
-
-/// Where the cells of a claim have to lie, and how many of them.
-#[derive(Clone, Copy, Debug)]
-pub struct ClaimRule {
-    /// How many of them.
-    pub quantifier: Quantifier,
-    /// Where they have to lie.
-    pub region: Region,
-    /// Unit of a cell.
-    pub unit: Unit,
-    /// The numbers that a cell can have: from 0 to 1 for a share.
-    pub range: Range,
-}
-
-/// A cell's name, and how many records are in it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// Where it is: `p = 3, alpha = 0.20`.
-    pub at: String,
-    /// Records whose values are in it.
-    pub records: usize,
-}
+use intervals::{CAUTION, CellIntervals, p_of};
+use many::decide;
+pub use many::{Cell, ClaimRule};
 
 /// A result. Where an end that decides lies within four errors of the draws
 /// from its limit, the verdict is inconclusive.
@@ -119,20 +99,6 @@ pub fn judged_share(
         ends.verdict(region, CAUTION)
     });
     (known.shown(0, ends), verdict)
-}
-
-/// Fills in the verdict, with the value and the interval that decide.
-fn decide(
-    result: &mut ClaimResult,
-    value: f64,
-    ends: &Ends,
-    region: Region,
-    verdict: ClaimVerdict,
-) {
-    result.estimate = ends.beside(value);
-    result.monte_carlo_error = ends.deciding_error(region);
-    result.interval = Some(ends.way);
-    result.by_equivalence = Some(verdict);
 }
 
 /// Fills in a result of one value.

@@ -6,12 +6,16 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use super::references;
 use super::suite::StripeDemands;
 use crate::runs::{ArmCurves, Setup, curves_of};
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };
+
+/// The block of the reference slenderness for each frequency parameter.
+pub(super) fn references() -> [Block; FREQUENCIES_RAD_S.len()] {
+    std::array::from_fn(|frequency| BLOCKS[position(frequency, REFERENCE)])
+}
 
 /// Numbers by block, then by stripe, then by record.
 type OnStripes<T> = Vec<Vec<Vec<T>>>;

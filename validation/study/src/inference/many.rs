@@ -11,7 +11,6 @@ use super::intervals::{
     CAUTION, CellIntervals, Ends, p_of, p_value, power_of,
 };
 use super::refutation::refuted_cells;
-use super::{Cell, ClaimRule, decide};
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, ERROR, IntervalMethod, LEVEL, Quantifier,
     Region, Unit,
@@ -19,6 +18,42 @@ use rocking_common::findings::{
 use rocking_common::paper::ClaimVerdict;
 use rocking_statistics::confidence::Confidence;
 use rocking_statistics::{Estimate, Range};
+
+/// Where the cells of a claim have to lie, and how many of them.
+#[derive(Clone, Copy, Debug)]
+pub struct ClaimRule {
+    /// How many of them.
+    pub quantifier: Quantifier,
+    /// Where they have to lie.
+    pub region: Region,
+    /// Unit of a cell.
+    pub unit: Unit,
+    /// The numbers that a cell can have: from 0 to 1 for a share.
+    pub range: Range,
+}
+
+/// A cell's name, and how many records are in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Where it is: `p = 3, alpha = 0.20`.
+    pub at: String,
+    /// Records whose values are in it.
+    pub records: usize,
+}
+
+/// Fills in the verdict, with the value and the interval that decide.
+pub(super) fn decide(
+    result: &mut ClaimResult,
+    value: f64,
+    ends: &Ends,
+    region: Region,
+    verdict: ClaimVerdict,
+) {
+    result.estimate = ends.beside(value);
+    result.monte_carlo_error = ends.deciding_error(region);
+    result.interval = Some(ends.way);
+    result.by_equivalence = Some(verdict);
+}
 
 /// A cell that decides: its place, and its own interval.
 struct DecidingCell {

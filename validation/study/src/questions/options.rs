@@ -12,6 +12,7 @@ use rocking_procedures::fragility::options::{Centre, Recipe};
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 
+use self::drawing::RecipeSummary;
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
@@ -40,19 +41,6 @@ struct RecipeFit<'a> {
     intervals: [(f64, f64); 2],
     /// Draws of the bootstrap in which the recipe is defined.
     used: usize,
-}
-
-/// One recipe over all blocks and thresholds.
-struct RecipeSummary {
-    recipe: Recipe,
-    intensity: Intensity,
-    /// Share of the fits that are defined.
-    defined: f64,
-    /// Median and largest Kolmogorov distance.
-    ks: f64,
-    largest: f64,
-    /// Median area distance.
-    area: f64,
 }
 
 pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {

@@ -4,7 +4,6 @@ use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
 use rocking_statistics::QuantileType;
 use rocking_statistics::lognormal::FitMethod;
 
-use super::RecipeSummary;
 use crate::fits::{MLE, trimmed};
 use crate::words::heading;
 use rocking_common::paper::{Arm, Intensity};
@@ -12,6 +11,19 @@ use rocking_common::words::range;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Mark, Series,
 };
+
+/// One recipe over all blocks and thresholds.
+pub(super) struct RecipeSummary {
+    pub(super) recipe: Recipe,
+    pub(super) intensity: Intensity,
+    /// Share of the fits that are defined.
+    pub(super) defined: f64,
+    /// Median and largest Kolmogorov distance.
+    pub(super) ks: f64,
+    pub(super) largest: f64,
+    /// Median area distance.
+    pub(super) area: f64,
+}
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
 pub(super) fn figure(summaries: &[RecipeSummary], arm: Arm) -> Figure {

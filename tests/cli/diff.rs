@@ -191,8 +191,7 @@ fn equal_intensities_are_unchanged() {
     let place =
         sides("unchanged", &[("\"eta\": 0.92", "\"eta\": 0.919")], &[]);
     let (_, out, _) = run(&place, "diff old new");
-    let words = "Effect: median overturning intensities unchanged \
-                 (PGA/(g tan alpha), ordinary unchanged).\n";
+    let words = "Effect: no overturning intensity changed.\n";
     assert!(out.contains(words), "{out}");
 }
 

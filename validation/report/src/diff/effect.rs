@@ -67,9 +67,15 @@ impl OverturningChange {
     /// The effect in a sentence, where overturning intensities are known;
     /// records count where both runs have them.
     pub fn sentence(&self, both: &[String]) -> Option<String> {
-        let mut parts = Vec::new();
-        let change = |own: &[f64]| percent(median(own).value());
         let all: Vec<f64> = self.medians.values().flatten().copied().collect();
+        let own = both.iter().filter_map(|name| self.records.get(name));
+        let own: Vec<f64> = own.copied().collect();
+        let mut known = all.iter().chain(&own).filter(|x| !x.is_nan());
+        if known.clone().count() > 0 && known.all(|change| *change == 0.0) {
+            return Some("Effect: no overturning intensity changed.".into());
+        }
+        let change = |own: &[f64]| percent(median(own).value());
+        let mut parts = Vec::new();
         if all.iter().any(|change| !change.is_nan()) {
             let groups = self.medians.iter();
             let groups: Vec<String> = groups
@@ -81,8 +87,6 @@ impl OverturningChange {
                 groups.join("; ")
             ));
         }
-        let own = both.iter().filter_map(|name| self.records.get(name));
-        let own: Vec<f64> = own.copied().collect();
         let median = median(&own);
         if let Some((low, high)) = median.interval().map(Interval::ends) {
             parts.push(format!(

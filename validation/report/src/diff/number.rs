@@ -74,6 +74,7 @@ impl NumberPair {
             None => (f64::INFINITY, signed(change, factor, points)),
         };
         let over = change.abs() / (limit * (1.0 + LAST_DIGIT));
+        let over = if over.is_nan() { f64::INFINITY } else { over };
         let half =
             |e: Estimate| e.interval().map(|i| 0.5 * (i.high() - i.low()));
         let [a, b] = self.estimates;
@@ -84,11 +85,7 @@ impl NumberPair {
             values: (3..17).map(at).find(differ).unwrap_or_else(|| at(17)),
             change,
             change_text: if is_known { change_text } else { String::new() },
-            change_over_limit: if over.is_nan() {
-                f64::INFINITY
-            } else {
-                over
-            },
+            change_over_limit: over,
             change_over_uncertainty: u.filter(|u| u.is_finite()),
             n: self.n,
         })

@@ -75,17 +75,15 @@ impl Difference {
                 some(self.changes_of(Subject::Case))
             ));
         }
+        let moved = |relevant: bool| {
+            let all = self.changes_of(Subject::Number);
+            some(all.filter(|change| change.relevant == relevant))
+        };
         out.push(format!(
             "Numbers: {} of {numbers} moved by more than the smallest effect \
              of interest or their tolerance, {} by less.",
-            some(
-                self.changes_of(Subject::Number)
-                    .filter(|change| change.relevant)
-            ),
-            some(
-                self.changes_of(Subject::Number)
-                    .filter(|change| !change.relevant)
-            )
+            moved(true),
+            moved(false)
         ));
         out
     }

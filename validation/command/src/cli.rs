@@ -1,4 +1,4 @@
-//! The command line: one file a command, each of which is an [`CommandEntry`].
+//! The command line: one file a command, each of which is a row of `entries`.
 
 use std::process::ExitCode;
 

@@ -1,8 +1,8 @@
 //! What a declared case puts before an engine.
 //!
 //! The equation, the criterion and the kind of a pulse are the core's types,
-//! which are data alone. [`pulse`](crate::pulse) computes the acceleration and
-//! the end of a pulse anew.
+//! which are data alone. `pulse` computes the acceleration and the end of a
+//! pulse anew.
 //!
 //! Engines (the core behind its public interface, the naive integrator) all
 //! read the same [`CaseScene`] and answer with the same [`Trace`].

@@ -9,7 +9,7 @@ use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
 };
 use rocking_procedures::{
-    Draws, FragilityInput as ProcedureExposed, FitOptions, BootstrapFits, Shift,
+    BootstrapFits, Draws, FitOptions, FragilityInput as ProcedureInput, Shift,
     risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
@@ -191,7 +191,7 @@ pub fn risk(
         let block = match one {
             RiskInput::Law(law) => {
                 let (fitted, sampled) = (lognormal(law)?, drawn()?);
-                all.push(ProcedureExposed { fragility, fitted, sampled });
+                all.push(ProcedureInput { fragility, fitted, sampled });
                 continue;
             }
             RiskInput::Block(block) => block,
@@ -217,7 +217,7 @@ pub fn risk(
             };
             let scaled = |all: BootstrapFits| all.scaled(factor)?.scaled(unit);
             let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
-            all.push(ProcedureExposed { fragility, fitted, sampled });
+            all.push(ProcedureInput { fragility, fitted, sampled });
         }
     }
     answer(py, || procedure(&hazard, &all, years))

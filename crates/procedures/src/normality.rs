@@ -94,8 +94,8 @@ named! {
 pub struct OtherTest {
     /// The statistic.
     pub statistic: f64,
-    /// Its p-value: simulated where replicates were asked for, with its 95 %
-    /// interval, else from a published approximation.
+    /// Its p-value: simulated, with its 95 % interval, if a number of
+    /// replicates was given; else from a published approximation.
     #[cfg_attr(
         feature = "serde",
         serde(flatten, serialize_with = "keys::p_value")

@@ -127,7 +127,7 @@ macro_rules! measures {
                 }
             }
 
-            /// The scalar of this name, that of its field.
+            /// The value of the measure of this name.
             #[must_use]
             pub fn scalar(&self, name: &str) -> Option<f64> {
                 match name {

@@ -100,8 +100,8 @@ pub fn read_as(
     settled.into_iter().map(Agreement::agreed).collect()
 }
 
-/// Reads all components of a file, in this format or in that of its content;
-/// what the caller gives is taken if the file states none.
+/// Reads all components of a file, in this format, or in the format that its
+/// content shows. A value of the caller counts if the file states none.
 pub(crate) fn settle(
     file: &str,
     bytes: &[u8],

@@ -12,7 +12,7 @@ pub(crate) fn short(x: f64) -> String {
     rounded(x, 3).to_string()
 }
 
-/// A value with its interval in so many significant digits.
+/// A value and its interval, rounded to this number of significant digits.
 fn rounded_text(estimate: &Estimate, digits: usize) -> String {
     estimate.text("", |x| match x.is_finite() {
         true => rounded(x, digits).to_string(),
@@ -20,7 +20,7 @@ fn rounded_text(estimate: &Estimate, digits: usize) -> String {
     })
 }
 
-/// A value with its interval in three significant digits.
+/// A value and its interval, rounded to three significant digits.
 pub(crate) fn three_digits(estimate: &Estimate) -> String {
     rounded_text(estimate, 3)
 }

@@ -1,4 +1,4 @@
-//! The command line: one file a command, each of which is a row of `entries`.
+//! The command line: each command is a file here and a row of `entries`.
 
 use std::process::ExitCode;
 

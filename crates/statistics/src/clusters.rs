@@ -228,6 +228,14 @@ impl Clusters {
 
     /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
     /// clusters is too small by this factor; 1 of clusters of one record.
+    /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
+    /// none of a single cluster.
+    #[must_use]
+    pub fn student(&self, level: f64) -> Option<f64> {
+        let t = StudentsT::new(0.0, 1.0, self.degrees_of_freedom()).ok()?;
+        Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())
+    }
+
     pub(super) fn unbiased(&self) -> f64 {
         let effective = self.effective();
         if self.is_singletons() {

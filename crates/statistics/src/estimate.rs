@@ -44,6 +44,36 @@ impl Range {
         Interval { low, high }
     }
 
+    /// A number of the range on the scale on which its estimators scatter
+    /// alike: itself, the logarithm of a positive number, arcsin sqrt x of a
+    /// share, arcsin x of a difference of shares. The last two have a value
+    /// at the ends of the range, which shares take.
+    #[must_use]
+    pub fn scale(self, x: f64) -> f64 {
+        match self {
+            Self::Real => x,
+            Self::NotNegative => libm::log(x),
+            Self::Share => libm::asin(libm::sqrt(x)),
+            Self::Difference => libm::asin(x),
+        }
+    }
+
+    /// The number that [`Self::scale`] maps there; beyond the scale, the end
+    /// of the range.
+    #[must_use]
+    pub fn unscale(self, y: f64) -> f64 {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        match self {
+            Self::Real => y,
+            Self::NotNegative => libm::exp(y),
+            Self::Share => {
+                let root = libm::sin(y.clamp(0.0, quarter));
+                root * root
+            }
+            Self::Difference => libm::sin(y.clamp(-quarter, quarter)),
+        }
+    }
+
     /// The number in the range that is nearest to `x`; NaN for NaN.
     #[must_use]
     pub fn nearest(self, x: f64) -> f64 {

@@ -48,6 +48,142 @@ impl Bootstrap {
     }
 }
 
+/// Clusters of which all pairs are left out.
+pub const MOST_PAIRED: usize = 32;
+
+/// How the resamples of a sample of clusters were made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resampling {
+    /// As many clusters as the sample has, drawn with replacement.
+    #[default]
+    Bootstrap,
+    /// Every subset that leaves this number of clusters out: a jackknife.
+    Without(usize),
+}
+
+impl Clusters {
+    /// The subsets that leave two clusters out, as multiplicities: all
+    /// G(G - 1)/2 of them. Of more than [`MOST_PAIRED`] clusters a part in
+    /// which each is left out equally often: the pairs of neighbours, of next
+    /// neighbours and so on in the order of the clusters.
+    ///
+    /// ```
+    /// use rocking_statistics::Clusters;
+    /// let clusters = Clusters::from_labels(["a", "b", "c", "a"]);
+    /// let all = clusters.without_two();
+    /// assert_eq!(all, [[0, 0, 1, 0], [0, 1, 0, 0], [1, 0, 0, 1]]);
+    /// assert_eq!(Clusters::singletons(86).without_two().len(), 86 * 5);
+    /// ```
+    #[must_use]
+    pub fn without_two(&self) -> Vec<Vec<u32>> {
+        let count = self.count();
+        let all = MOST_PAIRED * (MOST_PAIRED - 1) / 2;
+        let reach = if count > MOST_PAIRED { all / count } else { count };
+        let is_near =
+            |a: usize, b: usize| b - a <= reach || count - (b - a) <= reach;
+        let places = 0..count;
+        let pairs = places.flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+        let held = |(a, b)| -> Vec<u32> {
+            let of = |r| self.cluster_of(r);
+            let held = |r| u32::from(of(r) != a && of(r) != b);
+            (0..self.records()).map(held).collect()
+        };
+        pairs.filter(|(a, b)| is_near(*a, *b)).map(held).collect()
+    }
+
+    /// Standard error over samples of a statistic on the scale of its range,
+    /// from its values in resamples: their standard deviation, of a bootstrap
+    /// times sqrt(G_e/(G_e - 1)) with G_e of [`Self::effective`], of subsets
+    /// of G without d clusters times sqrt((G - d)/d) (Shao and Wu, Ann. Stat.
+    /// 17 (1989) 1176). None where a tenth of the resamples or more have no
+    /// value, and where no resample moves the statistic.
+    fn scatter(
+        &self,
+        values: &[f64],
+        how: Resampling,
+        range: Range,
+    ) -> Option<f64> {
+        let on: Vec<f64> = values.iter().map(|x| range.scale(*x)).collect();
+        let finite: Vec<f64> =
+            on.into_iter().filter(|x| x.is_finite()).collect();
+        let (used, count) = (finite.len() as f64, self.count() as f64);
+        let (factor, divisor) = match how {
+            Resampling::Bootstrap => (self.unbiased(), used - 1.0),
+            Resampling::Without(d) => {
+                (((count - d as f64) / d as f64).sqrt(), used)
+            }
+        };
+        let centre = finite_mean(&finite);
+        let square = finite.iter().fold(0.0, |sum, x| {
+            let away = x - centre;
+            away.mul_add(away, sum)
+        });
+        let error = factor * (square / divisor).sqrt();
+        (10 * finite.len() > 9 * values.len() && error > 0.0).then_some(error)
+    }
+
+    /// A statistic with its interval from its values in resamples: on the
+    /// scale g of its range ([`Range::scale`]), g(point) -+ t s, with the
+    /// standard error s of its resamples and Student's t of
+    /// [`Self::degrees_of_freedom`]. The interval holds the value and lies in
+    /// the range. None of fewer than three clusters, of a value that g has
+    /// none for, and where the resamples give no standard error.
+    ///
+    /// ```
+    /// use rocking_statistics::resampling::Resampling;
+    /// use rocking_statistics::{Clusters, Range};
+    /// let values = [1.0f64, 2.0, 4.0, 8.0];
+    /// let clusters = Clusters::singletons(4);
+    /// // The geometric mean, without each value in turn.
+    /// let mean = |x: &[f64]| {
+    ///     (x.iter().map(|x| x.ln()).sum::<f64>() / x.len() as f64).exp()
+    /// };
+    /// let without = (0..4).map(|k| {
+    ///     let mut others = values.to_vec();
+    ///     others.remove(k);
+    ///     mean(&others)
+    /// });
+    /// let without: Vec<f64> = without.collect();
+    /// let how = Resampling::Without(1);
+    /// let found = clusters
+    ///     .inferred(mean(&values), &without, how, Range::NotNegative, 0.95)
+    ///     .unwrap();
+    /// // s = 0.6931 * 1.2910/2, t of 3 = 3.1824.
+    /// let half = 3.1824 * 0.6931 * 1.2910 / 2.0;
+    /// let (low, high) = found.estimate.ends();
+    /// assert!((high / mean(&values)).ln() - half < 1e-3);
+    /// assert!((low * high - mean(&values).powi(2)).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn inferred(
+        &self,
+        point: f64,
+        values: &[f64],
+        how: Resampling,
+        range: Range,
+        level: f64,
+    ) -> Option<BootstrapEstimate> {
+        let (y, s) = (range.scale(point), self.scatter(values, how, range)?);
+        let half = self.student(level)? * s;
+        if self.count() < 3 || !y.is_finite() {
+            return None;
+        }
+        let ends = Interval::try_new(y - half, y + half).ok()?;
+        let interval = ends.map(|y| range.unscale(y));
+        // Rounding of the way there and back.
+        let (low, high) = interval.ends();
+        let interval =
+            Interval::try_new(low.min(point), high.max(point)).ok()?;
+        Some(BootstrapEstimate {
+            estimate: Estimate::try_new(point, interval, range).ok()?,
+            standard_error: s,
+            level,
+            used: values.iter().filter(|x| x.is_finite()).count(),
+            replicates: values.len(),
+        })
+    }
+}
+
 /// Draws of some of n records, or of the clusters of records, without
 /// replacement.
 ///

@@ -14,24 +14,23 @@ use std::fmt;
 use rocking::block::Block;
 use rocking::integrator::Overturning;
 use rocking_statistics::Estimate;
-use rocking_statistics::multiple::{benjamini_hochberg, benjamini_yekutieli};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
-use crate::paper::{Arm, ClaimVerdict, Intensity, SuiteKind};
+use crate::paper::{Arm, Intensity, SuiteKind};
 
 pub use effect::Effect;
 pub use unit::Unit;
 
 pub use claims::{
-    CellCounts, Claim, ClaimResult, DecisionPower, Detail, ERROR,
-    IntervalMethod, Kind, LEVEL, Quantifier, Region, SuiteSet, Theme,
+    Claim, ClaimResult, Detail, Exists, Kind, LEVEL, NoEffect, Region,
+    SampleCount, Seen, StatedEffect, SuiteSet, Theme, Yardstick,
 };
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 6;
+pub const SCHEMA: u32 = 7;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -358,17 +357,6 @@ pub struct Question {
     pub data: String,
 }
 
-/// Decisions that a false discovery rate withdraws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Withdrawals {
-    /// Decisions made.
-    pub decided: usize,
-    /// Withdrawn by Benjamini and Hochberg, for positively dependent results.
-    pub positive: usize,
-    /// Withdrawn by Benjamini and Yekutieli, for any dependence.
-    pub any: usize,
-}
-
 impl Findings {
     /// The file's text: one value a line, a line break at the end.
     #[must_use]
@@ -426,29 +414,6 @@ impl Findings {
             ));
         }
         serde_json::from_str(text).map_err(|e| e.to_string())
-    }
-
-    /// How many decisions do not hold at a false discovery rate, over all
-    /// results with a verdict.
-    #[must_use]
-    pub fn withdrawn(&self, rate: f64) -> Withdrawals {
-        let results = self.claims.iter().flat_map(|claim| &claim.results);
-        let judged: Vec<(f64, bool)> = results
-            .filter_map(|r| {
-                let decided = r.by_equivalence? != ClaimVerdict::Inconclusive;
-                Some((if r.p <= 1.0 { r.p } else { 1.0 }, decided))
-            })
-            .collect();
-        let p: Vec<f64> = judged.iter().map(|(p, _)| *p).collect();
-        let beyond = |adjusted: Vec<f64>| {
-            let all = adjusted.iter().zip(&judged);
-            all.filter(|(q, (_, decided))| *decided && **q > rate).count()
-        };
-        Withdrawals {
-            decided: judged.iter().filter(|(_, decided)| *decided).count(),
-            positive: beyond(benjamini_hochberg(&p)),
-            any: beyond(benjamini_yekutieli(&p)),
-        }
     }
 
     /// The table of a topic, if there is one.

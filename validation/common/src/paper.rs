@@ -1,6 +1,5 @@
 //! Constants of the paper: blocks, gravity, restitution, stripes, demand
-//! levels, arms of the grid, intensity measures, its sections, and the
-//! verdicts on its claims.
+//! levels, arms of the grid, intensity measures and its sections.
 
 use std::fmt;
 
@@ -169,18 +168,6 @@ impl fmt::Display for PaperSection {
                 write!(f, "{number}, Figures {a} and {b}")
             }
         }
-    }
-}
-
-named! {
-    /// Result of a measure for a claim.
-    pub enum ClaimVerdict: "verdict" {
-        /// The whole interval lies where the claim says.
-        Confirmed = "confirmed",
-        /// The whole interval lies where the claim does not.
-        NotConfirmed = "not confirmed",
-        /// The interval lies on both sides, or there are no data.
-        Inconclusive = "inconclusive",
     }
 }
 

@@ -1,20 +1,17 @@
 //! The paper's claims: declared as data in `validation/study/claims`, measured by
-//! [`super::measures`], judged by [`super::inference`].
+//! [`super::measures`].
 
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
 
 use crate::distances::all_distances;
-use crate::inference::{
-    ClaimRule, MORE, Resamples, Ruling, judge, judged_share,
-};
-use crate::measures::{ClaimMeasure, Criterion, MeasureCells, Scope};
+use crate::inference::Resamples;
+use crate::measures::{ClaimMeasure, Measured, Scope};
 use crate::results::StudyResults;
 use rocking_common::findings::{
-    Claim, ClaimResult, Detail, Kind, Region, SuiteSet,
+    Claim, ClaimResult, Exists, Kind, Seen, SuiteSet,
 };
 use rocking_common::paper::Intensity;
 
@@ -47,9 +44,6 @@ pub struct ClaimTest {
     pub suites: Vec<SuiteSet>,
     /// Arms that it is tested on.
     pub arms: Arms,
-    /// By the paper's own criterion, where the share that meets it has to
-    /// lie.
-    pub share: Option<Region>,
 }
 
 /// Arms of the grid that a claim is tested on.
@@ -102,37 +96,31 @@ impl Declaration {
     fn new(mut table: toml::Table) -> Result<Self, toml::de::Error> {
         let test = table.remove("test").map(ClaimTest::deserialize);
         // Texts that not every claim has.
-        for key in [
-            "plain",
-            "measure",
-            "blocks",
-            "reason",
-            "criterion",
-            "case",
-            "note",
-        ] {
+        for key in ["plain", "measure", "blocks", "case", "note"] {
             table.entry(key).or_insert_with(|| "".into());
         }
-        table.insert("results".into(), toml::Value::Array(Vec::new()));
+        for key in ["yardsticks", "results"] {
+            let none = toml::Value::Array(Vec::new());
+            table.entry(key).or_insert(none);
+        }
         Ok(Self { claim: table.try_into()?, test: test.transpose()? })
     }
 
     /// Refuses a claim that lacks something of its kind, or has too much.
     fn check(&self) -> Result<(), &'static str> {
-        let Claim { quantifier, region, reason, plain, case, .. } =
-            &self.claim;
+        let Claim { yardsticks, measure, plain, case, .. } = &self.claim;
         let has_case = !case.is_empty();
-        let judged = quantifier.is_some()
-            && region.is_some()
-            && !reason.is_empty()
+        let judged = !yardsticks.is_empty()
+            && !measure.is_empty()
             && !plain.is_empty()
             && self.test.as_ref().is_some_and(|t| !t.suites.is_empty());
-        let bare = self.test.is_none() && region.is_none() && plain.is_empty();
+        let bare =
+            self.test.is_none() && yardsticks.is_empty() && plain.is_empty();
         match self.claim.kind {
             Kind::Finding if judged && !has_case => Ok(()),
             Kind::Finding => Err(
-                "a finding has plain words, a measure, a quantifier, a region \
-                 with its reason, suites and arms, and no case",
+                "a finding has plain words, yardsticks, a measure, suites and \
+                 arms, and no case",
             ),
             Kind::Identity if bare && has_case => Ok(()),
             Kind::Identity => Err("an identity names its declared case"),
@@ -142,19 +130,8 @@ impl Declaration {
     }
 
     /// The results by suite and arm; none of a claim that is not tested.
-    /// `more` are the draws for verdicts that the scope's cannot settle.
-    fn results(
-        &self,
-        scope: &Scope<'_>,
-        more: &OnceCell<Resamples>,
-    ) -> anyhow::Result<Vec<ClaimResult>> {
-        let (Some(test), Some(quantifier), Some(region)) =
-            (&self.test, self.claim.quantifier, self.claim.region)
-        else {
-            return Ok(Vec::new());
-        };
-        let (unit, range) = test.measure.unit();
-        let rule = ClaimRule { quantifier, region, unit, range };
+    fn results(&self, scope: &Scope<'_>) -> anyhow::Result<Vec<ClaimResult>> {
+        let Some(test) = &self.test else { return Ok(Vec::new()) };
         let plan = &scope.results.plan;
         let arms = match test.arms {
             Arms::Drawn => plan.drawn(),
@@ -165,55 +142,37 @@ impl Declaration {
         for &tested in &test.suites {
             for &arm in &arms {
                 let scope = Scope { tested, arm, intensity, ..*scope };
-                let mut judged = test.judged(&rule, &scope)?;
-                if judged.more {
-                    let more = more.get_or_init(|| scope.results.draws(MORE));
-                    let scope = Scope { draws: more, ..scope };
-                    judged = test.judged(&rule, &scope)?;
-                }
-                found.push(judged.result);
+                found.push(self.result(test, &scope)?);
             }
         }
         Ok(found)
     }
-}
 
-impl ClaimTest {
-    /// The verdict by the draws of the scope.
-    fn judged(
+    /// The result on the suite and arm of the scope: the words follow from
+    /// the numbers.
+    fn result(
         &self,
-        rule: &ClaimRule,
+        test: &ClaimTest,
         scope: &Scope<'_>,
-    ) -> anyhow::Result<Ruling> {
-        let prepared = self.measure.prepare(scope)?;
-        let arm = (self.arms != Arms::None).then_some(scope.arm);
-        let (draws, tested) = (scope.draws, scope.tested);
-        let MeasureCells { cells, measured, .. } = &prepared;
-        let mut judged = judge(draws, tested, arm, rule, cells, measured);
-        let result = &mut judged.result;
-        if let (Some(region), Some(Criterion { name, measured })) =
-            (self.share, prepared.criterion)
-        {
-            let (estimate, verdict) =
-                judged_share(draws, tested, &measured, region);
-            result.by_criterion = Some(verdict);
-            result.details.push(Detail { name, estimate });
-        }
-        result.details.extend(prepared.details);
-        Ok(judged)
+    ) -> anyhow::Result<ClaimResult> {
+        let Measured { counts, effect, at, details } =
+            test.measure.found(scope)?;
+        let (unit, range) = test.measure.unit();
+        let estimate = scope.estimate(range, &effect);
+        let Claim { yardsticks, no_effect, .. } = &self.claim;
+        let exists = no_effect.as_ref().map(|own| Exists::of(own, &estimate));
+        Ok(ClaimResult {
+            suite: scope.tested,
+            arm: (test.arms != Arms::None).then_some(scope.arm),
+            seen: Seen::of(yardsticks, &counts),
+            counts,
+            exists,
+            estimate,
+            unit,
+            at,
+            details,
+        })
     }
-}
-
-/// The end of the region that a measure is judged by which lies nearest to
-/// infinity; NaN where no claim has that measure of that intensity.
-#[must_use]
-pub fn limit_of(measure: ClaimMeasure, intensity: Intensity) -> f64 {
-    let is = |test: &ClaimTest| {
-        test.measure == measure && test.intensity == Some(intensity)
-    };
-    let named = |own: &&Declaration| own.test.as_ref().is_some_and(is);
-    let region = declared().iter().find(named).and_then(|d| d.claim.region);
-    region.map_or(f64::NAN, |region| region.nearest_end(f64::INFINITY))
 }
 
 /// All claims with their results.
@@ -232,10 +191,8 @@ pub fn measured_claims(
         arm: results.plan.common(),
         intensity: Intensity::Pga,
     };
-    let more = OnceCell::new();
     let measured = |own: &Declaration| {
-        let results = own.results(&scope, &more)?;
-        Ok(Claim { results, ..own.claim.clone() })
+        Ok(Claim { results: own.results(&scope)?, ..own.claim.clone() })
     };
     declared().iter().map(measured).collect()
 }

@@ -1,9 +1,9 @@
 //! Lilliefors' distance from a lognormal, and the share of demand levels at
-//! which his test accepts one, over all draws of the records.
+//! which his test accepts one, over all subsets of the records.
 //!
 //! Levels of a block share records, and so do blocks. Both numbers are
-//! therefore inferred from subsamples of the records; a draw with replacement
-//! would tie values, and ties break the test.
+//! therefore inferred from subsets without two earthquakes; a draw with
+//! replacement would tie values, and ties break the test.
 
 use libm::log;
 use rocking_statistics::acceptance::distances;
@@ -37,20 +37,25 @@ pub(crate) enum TestSeries {
     ShiftedPga,
     OriginalPgv,
     ShiftedPgv,
+    OriginalGeometricMean,
     ShiftedGeometricMean,
 }
 
 impl TestSeries {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 6] = [
         Self::OriginalPga,
         Self::ShiftedPga,
         Self::OriginalPgv,
         Self::ShiftedPgv,
+        Self::OriginalGeometricMean,
         Self::ShiftedGeometricMean,
     ];
 
     fn is_shifted(self) -> bool {
-        !matches!(self, Self::OriginalPga | Self::OriginalPgv)
+        matches!(
+            self,
+            Self::ShiftedPga | Self::ShiftedPgv | Self::ShiftedGeometricMean
+        )
     }
 }
 
@@ -181,7 +186,8 @@ impl SuiteDistances {
                         &pgv.blocks[at],
                         Some(factors(records, Intensity::Pgv, p)),
                     ),
-                    TestSeries::ShiftedGeometricMean => {
+                    TestSeries::OriginalGeometricMean
+                    | TestSeries::ShiftedGeometricMean => {
                         (&pga.blocks[at], means.clone())
                     }
                 };
@@ -214,9 +220,9 @@ impl SuiteDistances {
             });
             row(&each, earliest)
         };
-        let found = draws.subsampled(suite.into(), &of);
+        let found = draws.untied(suite, &of);
         // Without the earliest records, the levels of a simulation do.
-        let whole = row(&whole, found.point(WITHOUT_EARLIEST));
+        let whole = row(&whole, found.points[WITHOUT_EARLIEST]);
         let levels = pga
             .blocks
             .iter()
@@ -255,9 +261,13 @@ fn value(
             of(&block.original)
         }
         TestSeries::ShiftedPga | TestSeries::ShiftedPgv => of(&block.shifted),
-        TestSeries::ShiftedGeometricMean => {
+        TestSeries::OriginalGeometricMean
+        | TestSeries::ShiftedGeometricMean => {
             let factors = factors.unwrap_or_default();
-            let least = crate::distributions::least(factors);
+            let least = match tests.is_shifted() {
+                true => crate::distributions::least(factors),
+                false => 0.0,
+            };
             let samples: Vec<Vec<f64>> =
                 block.samples.iter().map(|s| scaled(s, factors)).collect();
             of(&along(&samples, least).unwrap_or_default())

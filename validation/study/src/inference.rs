@@ -1,144 +1,259 @@
-//! Inference of the study: one set of replicates serves all claims.
+//! Inference of the study: one set of resamples serves all claims.
 //!
 //! The earthquakes are the sample, each with its records; blocks, stripes,
 //! levels, intensity measures and arms are computed from the same records. A
-//! replicate takes the same earthquakes everywhere and recomputes the whole
-//! measure of a claim. The two suites are resampled independently of each other.
+//! resample takes the same earthquakes everywhere and recomputes the whole
+//! measure of a claim. The two suites are resampled independently of each
+//! other.
 
-mod draws;
-mod intervals;
-mod many;
-mod refutation;
+use rayon::prelude::*;
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::resampling::Resampling;
+use rocking_statistics::{Clusters, Estimate, Range};
 
-use rocking_common::findings::{
-    ClaimResult, Detail, LEVEL, Quantifier, Region, SuiteSet,
-};
-use rocking_common::paper::{Arm, ClaimVerdict};
-use rocking_statistics::{Estimate, Range};
+use rocking_common::findings::SuiteSet;
+use rocking_common::paper::SuiteKind;
 
-pub use draws::{
-    LEAST_DECIDING, MORE, REPLICATES, Replicates, Resample, Resamples,
-    SUBSAMPLES, Scheme,
-};
-pub use intervals::by_cell;
-use intervals::{CAUTION, CellIntervals, p_of};
-use many::decide;
-pub use many::{Cell, ClaimRule};
+/// Replicates of the bootstrap. The standard error of half the width of an
+/// interval is a part 1/sqrt(2 [`REPLICATES`]) of it, 1.6 %: less than the
+/// second of its digits.
+pub const REPLICATES: usize = 2000;
 
-/// A result. Where an end that decides lies within four errors of the draws
-/// from its limit, the verdict is inconclusive.
-pub struct Ruling {
-    /// The result.
-    pub result: ClaimResult,
-    /// Whether [`MORE`] draws may decide what these do not.
-    pub more: bool,
-}
+/// Earthquakes below which each is left out in turn: a bootstrap of fewer
+/// has too few different draws.
+const FEWEST_DRAWN: usize = 8;
 
-/// The result of a claim on a suite and arm.
+/// Most records that a cell of a share or mean of cells has to have.
+const MOST_ASKED: usize = 30;
+
+/// The least number of records of a cell that counts, in a suite of n
+/// records: half of them, and 30 where there are as many.
 #[must_use]
-pub fn judge(
-    draws: &Resamples,
-    tested: SuiteSet,
-    arm: Option<Arm>,
-    rule: &ClaimRule,
-    cells: &[Cell],
-    measured: &Replicates,
-) -> Ruling {
-    let known = CellIntervals::new(draws, tested, rule.range, measured);
-    let by = |caution: f64| {
-        let mut result = ClaimResult {
-            suite: tested,
-            arm,
-            estimate: Estimate::exact(f64::NAN),
-            monte_carlo_error: f64::NAN,
-            unit: rule.unit,
-            by_criterion: None,
-            by_equivalence: Some(ClaimVerdict::Inconclusive),
-            p: f64::NAN,
-            at: String::new(),
-            interval: None,
-            cells: None,
-            deciding_cell: None,
-            details: Vec::new(),
-            power: None,
+pub fn least_counted(n: usize) -> usize {
+    n.div_ceil(2).min(MOST_ASKED)
+}
+
+/// How often a resample holds each record, by suite.
+#[derive(Clone, Copy, Debug)]
+pub struct Resample<'a>([&'a [u32]; 2]);
+
+impl<'a> Resample<'a> {
+    /// The multiplicities of a suite's records.
+    #[must_use]
+    pub fn of(&self, suite: SuiteKind) -> &'a [u32] {
+        self.0[suite as usize]
+    }
+}
+
+/// The resamples that all claims share.
+#[derive(Debug)]
+pub struct Resamples {
+    clusters: [Clusters; 2],
+    /// Every record once, by suite.
+    whole: [Vec<u32>; 2],
+    /// Draws with replacement, by suite.
+    drawn: [Vec<Vec<u32>>; 2],
+    /// Subsets without one earthquake, by suite.
+    without_one: [Vec<Vec<u32>>; 2],
+    /// Subsets without two.
+    without_two: [Vec<Vec<u32>>; 2],
+}
+
+impl Resamples {
+    /// The resamples of suites of these earthquakes, ordinary and
+    /// pulse-type. Streams: `study/records/SUITE`, of seed 0.
+    #[must_use]
+    pub fn new(clusters: [Clusters; 2]) -> Self {
+        let drawn = |suite: SuiteKind| -> Vec<Vec<u32>> {
+            let name = format!("study/records/{suite}");
+            let own = &clusters[suite as usize];
+            let draws = Bootstrap::of_clusters(&name, 0, own, REPLICATES);
+            (0..REPLICATES as u64).map(|i| draws.multiplicities(i)).collect()
         };
-        match rule.quantifier {
-            Quantifier::One => {
-                judge_one(rule, cells, &known, caution, &mut result)
+        let without = |own: &Clusters| -> Vec<Vec<u32>> {
+            (0..own.count()).map(|g| own.without(g)).collect()
+        };
+        Self {
+            whole: clusters.each_ref().map(|own| vec![1; own.records()]),
+            drawn: SuiteKind::ALL.map(drawn),
+            without_one: clusters.each_ref().map(without),
+            without_two: clusters.each_ref().map(Clusters::without_two),
+            clusters,
+        }
+    }
+
+    /// The earthquakes that bound what is known of a suite; of a comparison
+    /// those of the suite with fewer.
+    pub(crate) fn clusters(&self, tested: SuiteSet) -> &Clusters {
+        let [ordinary, pulse] = &self.clusters;
+        match tested {
+            SuiteSet::PulseType => pulse,
+            SuiteSet::Both if pulse.count() < ordinary.count() => pulse,
+            _ => ordinary,
+        }
+    }
+
+    /// Every record once.
+    #[must_use]
+    pub fn whole(&self) -> Resample<'_> {
+        Resample(self.whole.each_ref().map(Vec::as_slice))
+    }
+
+    /// Numbers of the resamples `own` of the suites that are tested; the
+    /// other suite stays whole.
+    fn rows(
+        &self,
+        tested: SuiteSet,
+        own: &[Vec<Vec<u32>>; 2],
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
+    ) -> Vec<Vec<f64>> {
+        let [a, b] = self.whole.each_ref().map(Vec::as_slice);
+        let [ordinary, pulse] = own;
+        let of = |a: &[u32], b: &[u32]| f(Resample([a, b]));
+        match tested {
+            SuiteSet::PulseType => {
+                pulse.par_iter().map(|own| of(a, own)).collect()
             }
-            _ => many::judge_many(rule, cells, &known, caution, &mut result),
-        }
-        if result.interval.is_none() {
-            // No interval, no verdict.
-            result.by_equivalence = None;
-        }
-        result
-    };
-    let result = by(CAUTION);
-    let settled = |caution: f64| {
-        let verdict = |caution| by(caution).by_equivalence;
-        verdict(caution) == verdict(-caution)
-    };
-    // More subsamples are not drawn: they cost too much.
-    let more = measured.scheme == Scheme::Bootstrap
-        && !settled(CAUTION)
-        && settled(CAUTION / (MORE as f64).sqrt());
-    Ruling { result, more }
-}
-
-/// A share of cells with its interval, and on which side of a region it is.
-pub fn judged_share(
-    draws: &Resamples,
-    tested: SuiteSet,
-    measured: &Replicates,
-    region: Region,
-) -> (Estimate, ClaimVerdict) {
-    let known = CellIntervals::new(draws, tested, Range::Share, measured);
-    let ends = known.drawn(0, LEVEL);
-    let verdict = ends.map_or(ClaimVerdict::Inconclusive, |ends| {
-        ends.verdict(region, CAUTION)
-    });
-    (known.shown(0, ends), verdict)
-}
-
-/// Fills in a result of one value.
-fn judge_one(
-    rule: &ClaimRule,
-    cells: &[Cell],
-    known: &CellIntervals<'_>,
-    caution: f64,
-    result: &mut ClaimResult,
-) {
-    let measured = known.measured;
-    let (Some(value), Some(cell)) = (measured.points.first(), cells.first())
-    else {
-        return;
-    };
-    result.estimate = Estimate::exact(*value);
-    result.at.clone_from(&cell.at);
-    let of = |level| known.drawn(0, level);
-    if let Some(ends) = of(LEVEL) {
-        let verdict = ends.verdict(rule.region, caution);
-        decide(result, *value, &ends, rule.region, verdict);
-        if caution == CAUTION {
-            result.p = p_of(of, rule.region, verdict);
-            if verdict == ClaimVerdict::Inconclusive {
-                result.power = known.power(0, &ends, LEVEL, rule.region);
+            SuiteSet::Both => {
+                let both = ordinary.par_iter().zip(pulse);
+                both.map(|(a, b)| of(a, b)).collect()
+            }
+            SuiteSet::None | SuiteSet::Ordinary => {
+                ordinary.par_iter().map(|own| of(own, b)).collect()
             }
         }
     }
-    if !measured.halves.is_empty() {
-        let halves = Replicates::column(&measured.halves, 0);
-        let finite: Vec<f64> =
-            halves.into_iter().filter(|x| x.is_finite()).collect();
-        let sum = finite.iter().fold(0.0, |sum, x| sum + x);
-        let mean = sum / finite.len() as f64;
-        result.details.push(Detail {
-            name: "mean over halves of the records".into(),
-            estimate: Estimate::exact(mean),
-        });
+
+    /// Numbers that are smooth in the records, over the bootstrap; of a
+    /// suite of few earthquakes without each of them.
+    #[must_use]
+    pub fn smooth(
+        &self,
+        tested: SuiteSet,
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
+    ) -> Replicates {
+        let are_few = self.clusters(tested).count() < FEWEST_DRAWN
+            && tested != SuiteSet::Both;
+        let (how, own) = match are_few {
+            true => (Resampling::Without(1), &self.without_one),
+            false => (Resampling::Bootstrap, &self.drawn),
+        };
+        let rows = self.rows(tested, own, f);
+        Replicates { how, points: f(self.whole()), rows }
+    }
+
+    /// Numbers that ties spoil, over the subsets of a suite without two
+    /// earthquakes.
+    #[must_use]
+    pub fn untied(
+        &self,
+        suite: SuiteKind,
+        f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
+    ) -> Replicates {
+        let rows = self.rows(suite.into(), &self.without_two, f);
+        let how = Resampling::Without(2);
+        Replicates { how, points: f(self.whole()), rows }
+    }
+
+    /// Numbers with their intervals at a level; without one where the
+    /// resamples give none.
+    pub fn estimates(
+        &self,
+        tested: SuiteSet,
+        (range, level): (Range, f64),
+        of: &Replicates,
+    ) -> Vec<Estimate> {
+        let clusters = self.clusters(tested);
+        let one = |(k, point): (usize, &f64)| {
+            let own: Vec<f64> = of.rows.iter().map(|row| row[k]).collect();
+            clusters
+                .inferred(*point, &own, of.how, range, level)
+                .map_or(Estimate::exact(*point), |found| found.estimate)
+        };
+        of.points.par_iter().enumerate().map(one).collect()
+    }
+}
+
+/// Numbers of a sample, and of its resamples.
+#[derive(Clone, Debug, Default)]
+pub struct Replicates {
+    pub(crate) how: Resampling,
+    pub(crate) points: Vec<f64>,
+    pub(crate) rows: Vec<Vec<f64>>,
+}
+
+impl Replicates {
+    /// Other numbers made of these.
+    #[must_use]
+    pub fn map(&self, f: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+        let rows = self.rows.iter().map(|row| f(row)).collect();
+        Self { how: self.how, points: f(&self.points), rows }
+    }
+
+    /// One number made of these.
+    #[must_use]
+    pub fn one(&self, f: impl Fn(&[f64]) -> f64) -> Self {
+        self.map(|row| vec![f(row)])
+    }
+
+    /// The numbers with other values of the sample: the resamples move along.
+    #[must_use]
+    pub fn moved_to(mut self, points: &[f64]) -> Self {
+        let by: Vec<f64> =
+            points.iter().zip(&self.points).map(|(a, b)| a - b).collect();
+        for row in &mut self.rows {
+            for (x, by) in row.iter_mut().zip(&by) {
+                *x += by;
+            }
+        }
+        self.points = points.to_vec();
+        self
     }
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    fn share(found: usize, all: usize) -> f64 {
+        found as f64 / all as f64
+    }
+
+    #[test]
+    fn suites_are_drawn_independently_and_records_jointly() {
+        let draws = Resamples::new([30, 30].map(Clusters::singletons));
+        let both = |draw: Resample<'_>| {
+            let of = |suite| f64::from(draw.of(suite)[0]);
+            vec![of(SuiteKind::Ordinary), of(SuiteKind::PulseType)]
+        };
+        let found = draws.smooth(SuiteSet::Both, &both);
+        let equal = found.rows.iter().filter(|row| row[0] == row[1]).count();
+        // Two independent Poisson(1) counts agree in 31 % of the draws.
+        assert!((0.25..0.37).contains(&share(equal, found.rows.len())));
+        let one = draws.smooth(SuiteSet::PulseType, &both);
+        assert!(one.rows.iter().all(|row| row[0] == 1.0));
+    }
+
+    #[test]
+    fn few_earthquakes_are_left_out_in_turn() {
+        let draws = Resamples::new([7, 8].map(Clusters::singletons));
+        let first =
+            |kind| move |draw: Resample<'_>| vec![f64::from(draw.of(kind)[0])];
+        let of = |kind: SuiteKind| draws.smooth(kind.into(), &first(kind));
+        let few = of(SuiteKind::Ordinary);
+        assert_eq!((few.how, few.rows.len()), (Resampling::Without(1), 7));
+        assert_eq!(few.rows[0], [0.0]);
+        assert_eq!(of(SuiteKind::PulseType).rows.len(), REPLICATES);
+        let pairs =
+            draws.untied(SuiteKind::PulseType, &first(SuiteKind::Ordinary));
+        assert_eq!(pairs.rows.len(), 28);
+    }
+
+    #[test]
+    fn half_of_a_small_suite_counts() {
+        assert_eq!(
+            [14, 22, 44, 60, 86].map(least_counted),
+            [7, 11, 22, 30, 30]
+        );
+    }
+}

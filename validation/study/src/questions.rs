@@ -4,10 +4,8 @@
 mod answer;
 mod contents;
 mod grid;
-mod levels;
 mod nulls;
 mod options;
-mod power;
 mod recorded;
 mod suites;
 mod trimming;
@@ -28,7 +26,6 @@ pub fn study_answers(
 ) -> anyhow::Result<Vec<StudyAnswer>> {
     Ok(vec![
         grid::answer(results)?,
-        power::answer(results)?,
         options::answer(results)?,
         suites::answer(results)?,
         recorded::answer(results)?,

@@ -22,11 +22,10 @@ pub struct StudyResults {
 }
 
 impl StudyResults {
-    /// The draws of the earthquakes that bands and claims share; `times` as
-    /// many as are enough for most claims.
+    /// The draws of the earthquakes that bands and claims share.
     #[must_use]
-    pub fn draws(&self, times: usize) -> Resamples {
-        Resamples::new(self.suites().map(|s| s.clusters.clone()), times)
+    pub fn draws(&self) -> Resamples {
+        Resamples::new(self.suites().map(|s| s.clusters.clone()))
     }
 
     /// Whether the suites are the embedded ones.

@@ -40,7 +40,7 @@ impl Study {
         let pulse = plan.run_suite(second, progress)?;
         let varied = plan.sensitivities(first)?;
         let results = StudyResults { plan, ordinary, pulse, varied };
-        let draws = results.draws(1);
+        let draws = results.draws();
         let mut figures = figures::paper_figures(&results, &draws)?;
         let mut answers = questions::study_answers(&results, &draws)?;
         for answer in &mut answers {

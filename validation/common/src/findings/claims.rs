@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::estimate;
 use super::unit::Unit;
 use crate::json::nine;
-use crate::paper::{Arm, ClaimVerdict, PaperSection, SuiteKind};
+use crate::paper::{Arm, PaperSection, SuiteKind};
 use rocking::names::named;
 use rocking_statistics::Estimate;
 
@@ -26,22 +26,19 @@ pub struct Claim {
     pub section: PaperSection,
     /// The paper's words, a whole sentence with its qualifiers.
     pub quote: String,
-    /// The statement in plain words: what the verdicts speak of; empty
-    /// unless it is a finding.
+    /// The statement in plain words; empty unless it is a finding.
     pub plain: String,
-    /// The measure in words; empty for a description.
+    /// The quantity whose value is the effect, in words; empty for a
+    /// description.
     pub measure: String,
     /// Blocks measured.
     pub blocks: String,
-    /// How many of the cells the statement speaks of.
-    pub quantifier: Option<Quantifier>,
-    /// Where a value has to lie for the statement to hold in practice, and
-    /// why there.
-    pub region: Option<Region>,
-    /// The engineering reason of the region's ends.
-    pub reason: String,
-    /// The paper's own criterion, where it states one.
-    pub criterion: String,
+    /// How the paper itself decides, on its sample; none unless the claim is
+    /// a finding.
+    pub yardsticks: Vec<Yardstick>,
+    /// The value of no effect, and on which side of it the statement sees
+    /// the effect; none of a quantity without such a value.
+    pub no_effect: Option<NoEffect>,
     /// Declared case that checks an identity; empty otherwise.
     pub case: String,
     /// A further remark for the reader; may be empty.
@@ -113,42 +110,45 @@ impl Theme {
     }
 }
 
-/// Error of a decision: the probability that a verdict is given although the
-/// truth lies on the other side of the limit; of "every cell", that any cell
-/// is refuted although it lies in the region.
-pub const ERROR: f64 = 0.05;
+/// Level of the interval of an effect: each end is a one-sided limit that is
+/// wrong in 5 % of samples.
+pub const LEVEL: f64 = 0.9;
 
-/// Level of the interval of every verdict. Each end is a one-sided limit with
-/// [`ERROR`], so that a region holds the whole interval where both one-sided
-/// tests say so (Schuirmann, J. Pharmacokin. Biopharm. 15 (1987) 657).
-pub const LEVEL: f64 = 1.0 - 2.0 * ERROR;
-
-/// How many of its cells a statement speaks of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quantifier {
-    /// There is one value.
-    One,
-    /// Every cell.
-    All,
-    /// At least 90 % of the cells; "the exception, not the rule" says the
-    /// same of the others.
-    AlmostAll,
-    /// More than half of the cells.
-    Most,
+/// A rule of the paper for its own sample: a count or a number, and where it
+/// has to lie for the statement to be seen. No interval enters it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Yardstick {
+    /// The number in words: `notches that hold 1`.
+    pub words: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// Where it lies if the statement is seen.
+    pub holds: Region,
 }
 
-impl Quantifier {
-    /// The rule in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::One => "the value",
-            Self::All => "every cell",
-            Self::AlmostAll => "at least 90 % of the cells",
-            Self::Most => "more than half of the cells",
-        }
-    }
+/// The value of no effect, and what a statement says of the effect.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoEffect {
+    /// The value of no effect: 1 of a ratio, 0 of a difference.
+    pub value: f64,
+    /// What the statement says.
+    pub says: StatedEffect,
+}
+
+/// What a statement says of an effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StatedEffect {
+    /// The quantity lies above the value of no effect.
+    Above,
+    /// It lies below.
+    Below,
+    /// It differs from it.
+    Differs,
+    /// There is no effect.
+    Nothing,
 }
 
 /// Where a value has to lie.
@@ -164,55 +164,20 @@ pub enum Region {
 }
 
 impl Region {
-    /// Whether an interval lies in the region, outside it, or on both sides;
-    /// a missing number is inconclusive.
+    /// Whether a value lies in the region; NaN does not.
     ///
     /// ```
     /// use rocking_common::findings::Region;
-    /// use rocking_common::paper::ClaimVerdict;
-    /// let same = Region::Within(0.95, 1.05);
-    /// assert_eq!(same.verdict(0.97, 1.03), ClaimVerdict::Confirmed);
-    /// assert_eq!(same.verdict(0.93, 1.03), ClaimVerdict::Inconclusive);
-    /// assert_eq!(same.verdict(1.06, 1.09), ClaimVerdict::NotConfirmed);
+    /// assert!(Region::Within(0.95, 1.05).holds(0.95));
+    /// assert!(!Region::Above(0.5).holds(0.5));
+    /// assert!(!Region::Above(0.5).holds(f64::NAN));
     /// ```
     #[must_use]
-    pub fn verdict(self, low: f64, high: f64) -> ClaimVerdict {
-        let (inside, outside) = match self {
-            Self::Within(a, b) => (low >= a && high <= b, high < a || low > b),
-            Self::Below(limit) => (high < limit, low >= limit),
-            Self::Above(limit) => (low > limit, high <= limit),
-        };
-        match (inside, outside) {
-            (true, _) => ClaimVerdict::Confirmed,
-            (_, true) => ClaimVerdict::NotConfirmed,
-            _ => ClaimVerdict::Inconclusive,
-        }
-    }
-
-    /// Whether a value lies in the region; NaN does not.
-    #[must_use]
     pub fn holds(self, value: f64) -> bool {
-        self.verdict(value, value) == ClaimVerdict::Confirmed
-    }
-
-    /// How far a value lies from the region's middle or, with one end, how
-    /// far it lies towards the wrong side.
-    #[must_use]
-    pub fn badness(self, value: f64) -> f64 {
         match self {
-            Self::Within(a, b) => (value - 0.5 * (a + b)).abs(),
-            Self::Below(limit) => value - limit,
-            Self::Above(limit) => limit - value,
-        }
-    }
-
-    /// The region's end that is nearest to a value.
-    #[must_use]
-    pub fn nearest_end(self, value: f64) -> f64 {
-        match self {
-            Self::Within(a, b) if (value - a).abs() < (value - b).abs() => a,
-            Self::Within(_, b) => b,
-            Self::Below(limit) | Self::Above(limit) => limit,
+            Self::Within(a, b) => a <= value && value <= b,
+            Self::Below(limit) => value < limit,
+            Self::Above(limit) => value > limit,
         }
     }
 }
@@ -221,9 +186,105 @@ impl Region {
 impl fmt::Display for Region {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Within(a, b) if a == b => write!(f, "{a}"),
             Self::Within(a, b) => write!(f, "{a} to {b}"),
             Self::Below(limit) => write!(f, "below {limit}"),
             Self::Above(limit) => write!(f, "above {limit}"),
+        }
+    }
+}
+
+named! {
+    /// Whether a statement is seen in a sample, by the paper's own yardsticks.
+    pub enum Seen: "seen" {
+        /// Every yardstick holds.
+        Yes = "yes",
+        /// Some hold, or it is seen on some of the samples.
+        InPart = "in part",
+        /// None holds.
+        No = "no",
+        /// The sample lacks what the statement rests on.
+        NotTestable = "not testable",
+    }
+}
+
+impl Seen {
+    /// The word from the numbers of a sample, one for each yardstick; a
+    /// number that is missing makes the statement not testable.
+    ///
+    /// ```
+    /// use rocking_common::findings::{Region, SampleCount, Seen};
+    /// use rocking_common::findings::{Unit, Yardstick};
+    /// let holds = Region::Above(0.5);
+    /// let words = "notches that hold 1".into();
+    /// let most = [Yardstick { words, unit: Unit::Share, holds }];
+    /// let seen = |k, n| Seen::of(&most, &[SampleCount::of(k, n)]);
+    /// assert_eq!(seen(30, 43), Seen::Yes);
+    /// assert_eq!(seen(1, 43), Seen::No);
+    /// assert_eq!(seen(0, 0), Seen::NotTestable);
+    /// ```
+    #[must_use]
+    pub fn of(yardsticks: &[Yardstick], counts: &[SampleCount]) -> Self {
+        if yardsticks.len() != counts.len()
+            || counts.iter().any(|count| count.value.is_nan())
+        {
+            return Self::NotTestable;
+        }
+        let both = yardsticks.iter().zip(counts);
+        let each = both.map(|(y, count)| match y.holds.holds(count.value) {
+            true => Self::Yes,
+            false => Self::No,
+        });
+        each.reduce(Self::and).unwrap_or(Self::NotTestable)
+    }
+
+    /// The word for both samples or both parts of a statement: a part that is
+    /// not testable does not count beside one that is.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::NotTestable, one) | (one, Self::NotTestable) => one,
+            (a, b) if a == b => a,
+            _ => Self::InPart,
+        }
+    }
+}
+
+named! {
+    /// Whether an effect exists beyond the records of a sample.
+    pub enum Exists: "exists" {
+        /// The interval leaves no effect out, on the side that the statement
+        /// names.
+        Yes = "yes",
+        /// The interval holds the value of no effect, or there is none.
+        NoSign = "no sign",
+        /// The interval leaves no effect out, against the statement.
+        Opposite = "the opposite",
+    }
+}
+
+impl Exists {
+    /// The word from an effect with its interval.
+    ///
+    /// ```
+    /// use rocking_common::findings::{Exists, NoEffect, StatedEffect};
+    /// use rocking_statistics::{Estimate, Interval, Range};
+    /// let ends = Interval::try_new(1.1, 1.4).unwrap();
+    /// let ratio = Estimate::try_new(1.2, ends, Range::NotNegative).unwrap();
+    /// let of = |says| Exists::of(&NoEffect { value: 1.0, says }, &ratio);
+    /// assert_eq!(of(StatedEffect::Above), Exists::Yes);
+    /// assert_eq!(of(StatedEffect::Nothing), Exists::Opposite);
+    /// ```
+    #[must_use]
+    pub fn of(no_effect: &NoEffect, effect: &Estimate) -> Self {
+        let NoEffect { value, says } = *no_effect;
+        let (low, high) = effect.ends();
+        match (says, low > value, high < value) {
+            (_, false, false) => Self::NoSign,
+            (StatedEffect::Above, above, _) if above => Self::Yes,
+            (StatedEffect::Below, _, below) if below => Self::Yes,
+            (StatedEffect::Differs, ..) => Self::Yes,
+            _ => Self::Opposite,
         }
     }
 }
@@ -251,6 +312,46 @@ impl From<SuiteKind> for SuiteSet {
     }
 }
 
+/// A number of a sample: a share of things that were counted, or another.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SampleCount {
+    /// The number; of a share, the counted part of the whole.
+    #[serde(with = "nine")]
+    pub value: f64,
+    /// How many things were counted; none of a number that is no share.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<usize>,
+}
+
+impl SampleCount {
+    /// k of n things; not a number where there are none.
+    #[must_use]
+    pub fn of(k: usize, n: usize) -> Self {
+        Self { value: k as f64 / n as f64, of: Some(n) }
+    }
+
+    /// The number of the things for which something is true.
+    #[must_use]
+    pub fn among<T>(
+        all: impl IntoIterator<Item = T>,
+        is: impl Fn(T) -> bool,
+    ) -> Self {
+        let (mut k, mut n) = (0, 0);
+        for one in all {
+            n += 1;
+            k += usize::from(is(one));
+        }
+        Self::of(k, n)
+    }
+
+    /// A number that is no share of things.
+    #[must_use]
+    pub fn number(value: f64) -> Self {
+        Self { value, of: None }
+    }
+}
+
 /// Result on one suite and arm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -259,53 +360,22 @@ pub struct ClaimResult {
     pub suite: SuiteSet,
     /// Arm of the grid, where there is one.
     pub arm: Option<Arm>,
-    /// The value that decides: of one value itself, of "all" the deciding
-    /// cell, of "most" and "almost all" the share of cells in the region. With
-    /// its interval, of [`LEVEL`]: that which decides; none for an identity.
+    /// Whether the statement is seen in this sample.
+    pub seen: Seen,
+    /// The numbers by which it is seen or not, one for each yardstick.
+    pub counts: Vec<SampleCount>,
+    /// Whether its effect exists beyond this sample; none of a quantity that
+    /// has no value of no effect.
+    pub exists: Option<Exists>,
+    /// The effect with its interval of [`LEVEL`].
     #[serde(flatten, with = "estimate::complete")]
     pub estimate: Estimate,
-    /// Standard error, over sets of draws, of the end that is nearest to a
-    /// limit.
-    #[serde(with = "nine")]
-    pub monte_carlo_error: f64,
-    /// Unit of value and interval.
+    /// Its unit.
     pub unit: Unit,
-    /// Verdict by the paper's own criterion, where it states one.
-    pub by_criterion: Option<ClaimVerdict>,
-    /// Verdict by practical equivalence; none for an identity.
-    pub by_equivalence: Option<ClaimVerdict>,
-    /// The one-sided p-value of that verdict: the least error at which the
-    /// interval lies on one side of the limit. At most [`ERROR`] where
-    /// something is decided. Where nothing is, the smaller of both sides,
-    /// with the ends moved by four errors of the draws: above [`ERROR`].
-    #[serde(with = "nine")]
-    pub p: f64,
-    /// Which cell decides, or where the one value is.
+    /// Where it was measured.
     pub at: String,
-    /// How the interval was made.
-    pub interval: Option<IntervalMethod>,
-    /// Counts of the cells, where there are several.
-    pub cells: Option<CellCounts>,
-    /// Of "most" and "almost all", the cell that bears the verdict.
-    pub deciding_cell: Option<Detail>,
     /// Further numbers, by name.
     pub details: Vec<Detail>,
-    /// Of an inconclusive result, what such a suite is able to decide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub power: Option<DecisionPower>,
-}
-
-/// Power of a suite of this kind, were the truth as estimated.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DecisionPower {
-    /// Probability that its interval decides as the estimate says.
-    #[serde(with = "nine")]
-    pub probability: f64,
-    /// How many times as many earthquakes, or records, decide with 80 %:
-    /// infinite where a hundred times as many do not.
-    #[serde(with = "nine")]
-    pub times: f64,
 }
 
 impl ClaimResult {
@@ -315,62 +385,6 @@ impl ClaimResult {
         let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()
     }
-}
-
-/// How an interval was made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum IntervalMethod {
-    /// Bootstrap, bias-corrected and accelerated.
-    Accelerated,
-    /// Bootstrap, percentiles.
-    Percentile,
-    /// Bootstrap, the share of the cells in the region.
-    ShareOfCells,
-    /// Bootstrap, simultaneous over the cells that may lie outside.
-    Simultaneous,
-    /// Subsamples without replacement.
-    Subsampling,
-    /// Exact, of a count or of the order statistics of a median.
-    Exact,
-    /// Exact, simultaneous over the cells that may lie outside.
-    ExactSimultaneous,
-}
-
-impl IntervalMethod {
-    /// The way in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Accelerated => "bootstrap, BCa",
-            Self::Percentile => "bootstrap, percentile",
-            Self::ShareOfCells => "bootstrap of the share of cells",
-            Self::Simultaneous => {
-                "bootstrap, at once for all cells (Romano and Wolf)"
-            }
-            Self::Subsampling => {
-                "subsamples of 90 %, with the range of leaving one out"
-            }
-            Self::Exact => "exact, records as the unit",
-            Self::ExactSimultaneous => {
-                "exact, records as the unit, at once for all cells (Holm)"
-            }
-        }
-    }
-}
-
-/// Counts of the cells of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CellCounts {
-    /// Cells with enough records to decide.
-    pub deciding: usize,
-    /// Of these, cells whose whole interval lies in the region.
-    pub inside: usize,
-    /// Cells whose whole interval lies outside.
-    pub outside: usize,
-    /// Cells with too few records: shown, not counted.
-    pub too_few: usize,
 }
 
 /// A further number of a result.
@@ -386,29 +400,47 @@ pub struct Detail {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rocking_statistics::{Interval, Range};
 
     #[test]
-    fn verdicts_need_the_whole_interval() {
-        use ClaimVerdict::{Confirmed, Inconclusive, NotConfirmed};
-        let same = Region::Within(0.95, 1.05);
-        assert_eq!(same.verdict(0.95, 1.05), Confirmed);
-        assert_eq!(same.verdict(0.90, 1.03), Inconclusive);
-        assert_eq!(same.verdict(1.10, 1.30), NotConfirmed);
-        assert_eq!(Region::Above(0.0).verdict(0.1, 0.3), Confirmed);
-        assert_eq!(Region::Above(0.0).verdict(-0.1, 0.3), Inconclusive);
-        assert_eq!(Region::Above(0.0).verdict(-0.1, 0.0), NotConfirmed);
-        assert_eq!(Region::Below(0.1).verdict(0.1, 0.3), NotConfirmed);
+    fn a_statement_of_two_parts_is_seen_in_part_where_one_holds() {
+        let limit = |words: &str, holds| Yardstick {
+            words: words.into(),
+            unit: Unit::One,
+            holds,
+        };
+        let both = [
+            limit("above", Region::Above(0.0)),
+            limit("below", Region::Below(1.0)),
+        ];
+        let seen = |a, b| Seen::of(&both, &[a, b].map(SampleCount::number));
+        assert_eq!(seen(0.5, 0.5), Seen::Yes);
+        assert_eq!(seen(0.5, 1.0), Seen::InPart);
+        assert_eq!(seen(0.0, 1.0), Seen::No);
+        assert_eq!(seen(0.5, f64::NAN), Seen::NotTestable);
+        assert_eq!(Seen::of(&both, &[]), Seen::NotTestable);
+        assert_eq!(Seen::NotTestable.and(Seen::No), Seen::No);
+        assert_eq!(Seen::Yes.and(Seen::No), Seen::InPart);
     }
 
     #[test]
-    fn missing_data_never_confirm() {
-        let (nan, inf) = (f64::NAN, f64::INFINITY);
-        for region in
-            [Region::Within(0.0, 1.0), Region::Above(0.0), Region::Below(0.0)]
-        {
-            assert_eq!(region.verdict(nan, nan), ClaimVerdict::Inconclusive);
-            assert_eq!(region.verdict(-inf, inf), ClaimVerdict::Inconclusive);
-            assert!(!region.holds(nan));
+    fn an_interval_that_holds_no_effect_is_no_sign() {
+        use StatedEffect::{Above, Below, Differs, Nothing};
+        let word = |says, (low, high): (f64, f64)| {
+            let interval = Interval::try_new(low, high).unwrap();
+            let effect = Estimate::try_new(low, interval, Range::Real);
+            Exists::of(&NoEffect { value: 0.0, says }, &effect.unwrap())
+        };
+        for says in [Above, Below, Differs, Nothing] {
+            assert_eq!(word(says, (-0.1, 0.2)), Exists::NoSign);
+            assert_eq!(word(says, (0.0, 0.2)), Exists::NoSign);
+            let none = Estimate::exact(f64::NAN);
+            let no_effect = NoEffect { value: 0.0, says };
+            assert_eq!(Exists::of(&no_effect, &none), Exists::NoSign);
         }
+        assert_eq!(word(Above, (-0.2, -0.1)), Exists::Opposite);
+        assert_eq!(word(Below, (-0.2, -0.1)), Exists::Yes);
+        assert_eq!(word(Differs, (-0.2, -0.1)), Exists::Yes);
+        assert_eq!(word(Nothing, (0.1, 0.2)), Exists::Opposite);
     }
 }

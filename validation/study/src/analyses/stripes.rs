@@ -47,10 +47,11 @@ pub(super) fn stripe_demands(
     };
     let runs = run(&BLOCKS, Adjust::RecordScaling)?;
     let adjusted_runs = run(&references(), Adjust::SlendernessAdjustment)?;
-    let cut = |runs: &OnStripes<f64>, curves: &[Vec<ResponseCurve>]| {
+    // Stripes rise, and so does what has overturned: an arm uses the first.
+    let cut = |runs: &OnStripes<f64>, curves: &[Vec<ResponseCurve>], n| {
         let blocks = runs.iter().zip(curves);
         let of_block = blocks.map(|(runs, curves)| {
-            let stripes = used.iter().zip(runs);
+            let stripes = used.iter().zip(runs).take(n);
             let of_stripe = stripes.map(|(im, runs)| {
                 let each = runs.iter().zip(curves);
                 each.map(|(run, curve)| {
@@ -63,7 +64,8 @@ pub(super) fn stripe_demands(
         of_block.collect::<OnStripes<f64>>()
     };
     let of_arm = |(own, curves): (&ArmCurves, &[Vec<ResponseCurve>])| {
-        let demands = cut(&runs, curves);
+        let n = used.iter().filter(|im| is_used(**im, curves)).count();
+        let demands = cut(&runs, curves, n);
         // Overturned by the rule, yet finite by its own run.
         let again = |(d, r): (&f64, &f64)| d.is_infinite() && r.is_finite();
         let blocks = demands.iter().zip(&runs).map(|(demands, runs)| {
@@ -71,7 +73,7 @@ pub(super) fn stripe_demands(
             stripes.map(|(d, r)| d.iter().zip(r).map(again).collect())
         });
         let stands_again = blocks.map(Iterator::collect).collect();
-        let adjusted = cut(&adjusted_runs, &own.curves);
+        let adjusted = cut(&adjusted_runs, &own.curves, n);
         StripeDemands { arm: own.arm, stands_again, demands, adjusted }
     };
     Ok(drawn.into_iter().map(of_arm).collect())

@@ -4,7 +4,7 @@ use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::estimates::median;
-use crate::inference::LEAST_DECIDING;
+use crate::inference::least_counted;
 use crate::stripes::adjusted_slenderness;
 use crate::words::paper_heading;
 use rocking_common::paper::{
@@ -132,14 +132,16 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
     let (low, high) = range(medians);
     let (least, _) = range(stripes().map(Stripe::usable_share));
     // Only boxes with enough ratios count.
-    let many = stripes().filter(|s| s.usable >= LEAST_DECIDING);
+    let all = stripes().map(|s| s.records).max().unwrap_or(0);
+    let counted = least_counted(all);
+    let many = stripes().filter(|s| s.usable >= counted);
     let (_, off) = range(many.map(|s| {
         let of = s.closed_form.unwrap_or(1.0);
         let b = s.summary.as_ref();
         b.map_or(f64::NAN, |b| (b.median / of - 1.0).abs())
     }));
     format!(
-        "Medians of {LEAST_DECIDING} ratios or more lie within {} of the closed form. \
+        "Medians of {counted} ratios or more lie within {} of the closed form. \
          All {} medians lie between {low:.3} and {high:.3}. The share of \
          usable ratios falls to {}; boxes of fewer than 20 have no notch.",
         percent(off, 2),

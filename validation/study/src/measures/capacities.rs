@@ -4,21 +4,23 @@
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::scope::{
-    CellValues, MeasureCells, MeasureResult, Scope, block, compared_blocks,
-    geometric_means, ratios, weighted_mean,
+    MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
+    mean_ratio, ranks, ratios, weighted_mean,
 };
+use super::stripes::{STOCKIEST, conforming, notch_holds_1};
 use crate::distributions::factors;
 use crate::estimates::mean;
-use crate::fits::THRESHOLDS;
-use crate::inference::{Cell, Replicates};
+use crate::inference::least_counted;
 use crate::runs::{capacities, capacities_at, curves_of};
 use crate::sensitivities::{OtherChoice, Variant};
+use rocking_common::findings::SampleCount;
 use rocking_common::paper::{
-    BLOCKS, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD,
-    demand_index, position,
+    FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, demand_index,
+    position,
 };
-use rocking_statistics::Proportion;
+use rocking_draw::figures::common::span;
 use rocking_statistics::resampling::RecordRanks;
+use rocking_statistics::{Estimate, Range};
 
 /// Demands at which intensities are compared.
 pub const DEMANDS: [f64; 10] =
@@ -27,37 +29,39 @@ pub const DEMANDS: [f64; 10] =
 /// The quantiles of Figures 8 and 10.
 const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
 
-/// A sample whose quantiles are compared with another's.
-struct SamplePair {
-    at: String,
-    own: RecordRanks,
-    reference: RecordRanks,
+/// How far apart curves are that lie on each other: the paper prints no
+/// tolerance.
+pub(super) const COINCIDE: f64 = 0.1;
+
+/// Two samples whose quantiles are compared.
+type SamplePair = [RecordRanks; 2];
+
+fn pair(own: &[f64], reference: &[f64]) -> SamplePair {
+    [own, reference].map(RecordRanks::new)
 }
 
-impl SamplePair {
-    fn new(at: String, own: &[f64], reference: &[f64]) -> Self {
-        let [own, reference] = [own, reference].map(RecordRanks::new);
-        Self { at, own, reference }
-    }
+/// Whether each quantile of one sample lies within 10 % of that of the
+/// other; none where one of the two is infinite and does not count.
+fn quantiles_coincide(
+    [own, reference]: &SamplePair,
+    counts: &[u32],
+) -> impl Iterator<Item = bool> {
+    let ratio = |p| own.quantile(counts, p) / reference.quantile(counts, p);
+    let ratios = QUANTILES.map(ratio).into_iter().filter(|x| *x > 0.0);
+    ratios.map(|ratio| (ratio - 1.0).abs() <= COINCIDE)
 }
 
-/// Quantiles of one sample over those of another, for all pairs of samples;
-/// NaN where one of the two is infinite.
-fn quantile_ratios(scope: &Scope<'_>, pairs: &[SamplePair]) -> MeasureCells {
-    let all = || pairs.iter().flat_map(|pair| QUANTILES.map(|p| (pair, p)));
-    let cell = |(pair, p): (&SamplePair, f64)| Cell {
-        at: format!("{}, {:.0} %", pair.at, 100.0 * p),
-        records: pair.own.records().min(pair.reference.records()),
+/// The share of the quantiles of one sample within 10 % of those of the
+/// other, over the pairs that count.
+fn coinciding(scope: &Scope<'_>, mut pairs: Vec<SamplePair>) -> Measured {
+    let least = least_counted(scope.records());
+    pairs.retain(|pair| pair.iter().all(|own| own.records() >= least));
+    let all = |counts: &[u32]| {
+        let each = pairs.iter().flat_map(|p| quantiles_coincide(p, counts));
+        SampleCount::among(each, |coincides| coincides)
     };
-    let measured = scope.smooth(|counts| {
-        let ratio = |(pair, p): (&SamplePair, f64)| {
-            let ratio = pair.own.quantile(counts, p)
-                / pair.reference.quantile(counts, p);
-            if ratio > 0.0 { ratio } else { f64::NAN }
-        };
-        all().map(ratio).collect()
-    });
-    MeasureCells::new(all().map(cell).collect(), measured)
+    let share = scope.one(|counts| all(counts).value);
+    Measured::new([all(scope.every())], share, "all quantiles that count")
 }
 
 /// Capacities at a demand under a choice; NaN for a record without a curve.
@@ -77,56 +81,35 @@ fn first(curve: Option<&ResponseCurve>) -> f64 {
     curve.map_or(f64::NAN, |c| first(c).unwrap_or(f64::INFINITY))
 }
 
-/// Paired ratios of other choices over the study's, by cell.
-fn varied_ratios(
-    scope: &Scope<'_>,
-    choices: &[OtherChoice],
-    demands: &[f64],
-) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
-    let mut cells = Vec::new();
-    for (varied, base) in scope.results.varied(choices)? {
-        for demand in demands {
-            let own = varied_at(varied, *demand)?;
-            let reference = all_at(base, *demand)?;
-            let at = block(varied.frequency, varied.slenderness);
-            let at = match (choices, demands) {
-                ([_], [_]) => at,
-                ([_], _) => format!("{at}, demand {demand}"),
-                _ => format!("{}, {at}", varied.choice.name()),
-            };
-            cells.push((at, ratios(&own, &reference, 1.0)));
-        }
-    }
-    Ok(cells)
-}
-
 /// First overturning by the other criterion over the study's.
 pub(super) fn criterion(scope: &Scope<'_>) -> MeasureResult {
-    let all =
-        scope.results.varied(&[OtherChoice::OtherCriterion])?.into_iter();
-    let cells = all.map(|(varied, base)| {
+    let varied = scope.results.varied(&[OtherChoice::OtherCriterion])?;
+    let both = varied.iter().map(|(varied, base)| {
         let own = varied.curves.iter().map(|c| first(c.as_ref()));
         let reference = base.iter().map(|c| first(Some(c)));
-        let [own, reference]: [Vec<f64>; 2] =
-            [own.collect(), reference.collect()];
-        let at = block(varied.frequency, varied.slenderness);
-        (at, ratios(&own, &reference, 1.0))
+        [own.collect(), reference.collect()]
     });
-    Ok(geometric_means(scope, cells.collect()))
+    let both: Vec<[Vec<f64>; 2]> = both.collect();
+    let coincides = |[a, b]: &[Vec<f64>; 2]| {
+        quantiles_coincide(&pair(a, b), scope.every()).all(|one| one)
+    };
+    let counts = [SampleCount::among(&both, coincides)];
+    let ratios = both.iter().map(|[a, b]| ratios(a, b, 1.0));
+    let at = format!("{} blocks", both.len());
+    Ok(Measured::new(counts, mean_ratio(scope, ratios), at))
 }
 
-/// Overturning with another restitution over the study's.
-pub(super) fn restitution(scope: &Scope<'_>) -> MeasureResult {
-    let choices = [OtherChoice::Eta085, OtherChoice::Eta097];
-    let cells = varied_ratios(scope, &choices, &[1.0])?;
-    Ok(geometric_means(scope, cells))
-}
-
-/// Capacities of the other component over the study's.
-pub(super) fn component(scope: &Scope<'_>) -> MeasureResult {
-    let choices = [OtherChoice::OtherComponent];
-    let cells = varied_ratios(scope, &choices, &THRESHOLDS)?;
-    Ok(geometric_means(scope, cells))
+/// Overturning with another restitution over the study's, geometric mean.
+fn restitution(
+    scope: &Scope<'_>,
+    choice: OtherChoice,
+) -> anyhow::Result<Estimate> {
+    let mut cells = Vec::new();
+    for (varied, base) in scope.results.varied(&[choice])? {
+        let (own, base) = (varied_at(varied, 1.0)?, all_at(base, 1.0)?);
+        cells.push(ratios(&own, &base, 1.0));
+    }
+    Ok(scope.estimate(Range::NotNegative, &mean_ratio(scope, cells)))
 }
 
 /// Effect of restitution on overturning beside the effect of size: the mean
@@ -140,7 +123,7 @@ pub(super) fn restitution_beside_size(scope: &Scope<'_>) -> MeasureResult {
     let logs = |a: &[f64], b: &[f64]| -> Vec<f64> {
         ratios(a, b, 1.0).into_iter().map(libm::log).collect()
     };
-    let (mut cells, mut pairs) = (Vec::new(), Vec::new());
+    let mut pairs = Vec::new();
     let both = low.iter().zip(&high);
     // With --full there are three p, which share this comparison.
     for ((low, _), (high, _)) in both.filter(|(low, _)| low.0.frequency == 1) {
@@ -149,19 +132,21 @@ pub(super) fn restitution_beside_size(scope: &Scope<'_>) -> MeasureResult {
             all_at(&curves[position(frequency, low.slenderness)], 1.0)
         };
         let size = logs(&by_size(0)?, &by_size(2)?);
-        cells.push(Cell {
-            at: format!("alpha = {:.2}", SLENDERNESSES_RAD[low.slenderness]),
-            records: own.iter().filter(|x| x.is_finite()).count(),
-        });
         pairs.push((own, size));
     }
-    let measured = scope.smooth(|counts| {
+    let each = |counts: &[u32]| -> Vec<f64> {
         let ratio = |(own, size): &(Vec<f64>, Vec<f64>)| {
             (weighted_mean(own, counts) / weighted_mean(size, counts)).abs()
         };
         pairs.iter().map(ratio).collect()
-    });
-    Ok(MeasureCells::new(cells, measured))
+    };
+    let counts = [SampleCount::among(each(scope.every()), |x| x < 1.0)];
+    let effect = scope.one(|counts| geometric_mean(each(counts)));
+    let [low, high] = [OtherChoice::Eta085, OtherChoice::Eta097];
+    let [low, high] = [restitution(scope, low)?, restitution(scope, high)?];
+    Ok(Measured::new(counts, effect, "alpha = 0.10 and 0.20")
+        .and("overturning intensity, eta = 0.85 over 0.92", low)
+        .and("overturning intensity, eta = 0.97 over 0.92", high))
 }
 
 /// Samples of a block and of the reference block at a demand.
@@ -181,17 +166,17 @@ fn samples<'a>(
 
 /// Median paired ratios of intensities at equal demand.
 pub(super) fn demand_ratios(scope: &Scope<'_>) -> MeasureResult {
-    let mut cells = Vec::new();
+    let (mut cells, mut stockiest) = (Vec::new(), Vec::new());
     for (frequency, slenderness) in compared_blocks() {
         for demand in DEMANDS {
             let [own, reference] =
                 samples(scope, frequency, slenderness, demand)?;
-            let name = block(frequency, slenderness);
-            let at = format!("{name}, demand {demand}");
-            cells.push(CellValues::ratios(at, own, reference));
+            let of = || ranks(own, reference, 1.0);
+            cells.push(of());
+            stockiest.extend((slenderness == STOCKIEST).then(of));
         }
     }
-    Ok(scope.medians(cells))
+    Ok(conforming(scope, cells, stockiest))
 }
 
 /// Figure 8: intensity given demand, and demand given intensity.
@@ -199,20 +184,40 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
     let mut pairs = Vec::new();
     for (frequency, slenderness) in compared_blocks() {
-        let name = block(frequency, slenderness);
         for demand in DEMANDS {
             let [own, reference] =
                 samples(scope, frequency, slenderness, demand)?;
-            let at = format!("{name}, intensity at demand {demand}");
-            pairs.push(SamplePair::new(at, own, reference));
+            pairs.push(pair(own, reference));
         }
         let levels = stripes.compared(frequency, Some(slenderness));
-        pairs.extend(levels.map(|(im, own, reference)| {
-            let at = format!("{name}, demand at intensity {im}");
-            SamplePair::new(at, own, reference)
-        }));
+        pairs.extend(levels.map(|(_, own, reference)| pair(own, reference)));
     }
-    Ok(quantile_ratios(scope, &pairs))
+    let mut found = coinciding(scope, pairs);
+    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+        let name = format!(
+            "spread of the median overturning intensity over slendernesses, \
+             p = {p}"
+        );
+        found = found.and(&name, spread(scope, frequency)?);
+    }
+    Ok(found)
+}
+
+/// Largest over smallest median overturning intensity of the slendernesses,
+/// minus 1.
+fn spread(scope: &Scope<'_>, frequency: usize) -> anyhow::Result<Estimate> {
+    let of = |s| samples(scope, frequency, s, 1.0);
+    let all =
+        (0..SLENDERNESSES_RAD.len()).map(|s| Ok(RecordRanks::new(of(s)?[0])));
+    let all: Vec<RecordRanks> = all.collect::<anyhow::Result<_>>()?;
+    let measured = scope.one(|counts| {
+        let medians: Vec<f64> =
+            all.iter().map(|own| own.median(counts)).collect();
+        let is_reached = medians.iter().all(|x| x.is_finite());
+        let ends = span(medians, true).filter(|_| is_reached);
+        ends.map_or(f64::NAN, |(low, high)| high / low - 1.0)
+    });
+    Ok(scope.estimate(Range::NotNegative, &measured))
 }
 
 /// Figure 10: both quantiles, slenderness adjusted over records scaled.
@@ -220,20 +225,16 @@ pub(super) fn adjusted_quantiles(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
     let curves = curves_of(&scope.suite().adjusted, scope.arm)?;
     let mut pairs = Vec::new();
-    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+    for (frequency, curves) in curves.iter().enumerate() {
         for demand in DEMANDS {
-            let own = all_at(&curves[frequency], demand)?;
+            let own = all_at(curves, demand)?;
             let [reference, _] = samples(scope, frequency, REFERENCE, demand)?;
-            let at = format!("p = {p}, intensity at demand {demand}");
-            pairs.push(SamplePair::new(at, &own, reference));
+            pairs.push(pair(&own, reference));
         }
         let levels = stripes.compared(frequency, None);
-        pairs.extend(levels.map(|(im, own, reference)| {
-            let at = format!("p = {p}, demand at intensity {im}");
-            SamplePair::new(at, own, reference)
-        }));
+        pairs.extend(levels.map(|(_, own, reference)| pair(own, reference)));
     }
-    Ok(quantile_ratios(scope, &pairs))
+    Ok(coinciding(scope, pairs))
 }
 
 /// Mean capacity by the median point over the mean by the monotone inversion,
@@ -253,7 +254,7 @@ pub(super) fn inversion(scope: &Scope<'_>) -> MeasureResult {
         }
     }
     let at = format!("mean over {} blocks and demands", values.len());
-    Ok(scope.value(&at, scope.records(), |counts| {
+    let ratio = scope.one(|counts| {
         mean(values.iter().map(|pairs| {
             let (mut a, mut b) = (0.0, 0.0);
             for ((x, y), count) in pairs.iter().zip(counts) {
@@ -264,7 +265,8 @@ pub(super) fn inversion(scope: &Scope<'_>) -> MeasureResult {
             }
             a / b
         }))
-    }))
+    });
+    Ok(Measured::number(ratio, at))
 }
 
 /// Capacities with Housner's restitution over the study's, stocky over
@@ -278,30 +280,21 @@ pub(super) fn housner(scope: &Scope<'_>) -> MeasureResult {
         by_slenderness[varied.slenderness] = each.collect::<Vec<f64>>();
     }
     let [slender, .., stocky] = by_slenderness;
-    let ranked = RecordRanks::new(&ratios(&stocky, &slender, 1.0));
-    let at = "p = 3, alpha = 0.25 over 0.05";
-    Ok(scope.value(at, ranked.records(), |counts| {
-        (ranked.median(counts) - 1.0).abs()
-    }))
-}
-
-/// Share of records that uplift the stockiest block unscaled.
-pub(super) fn uplift(scope: &Scope<'_>) -> MeasureResult {
-    let stockiest = &BLOCKS[SLENDERNESSES_RAD.len() - 1];
-    let (suite, records) = (scope.suite(), scope.records());
-    let share =
-        Proportion::try_new(suite.uplift_unscaled(stockiest), records)?;
-    let cell = Cell { at: "alpha = 0.25".into(), records };
-    Ok(MeasureCells::new(vec![cell], Replicates::of_counts(vec![share])))
+    let ratio = ranks(&stocky, &slender, 1.0);
+    let leaves_1_out = usize::from(!notch_holds_1(&ratio, scope.every()));
+    let counts = [SampleCount::of(leaves_1_out, 1)];
+    let effect = scope.mean_median(&[ratio]);
+    Ok(Measured::new(counts, effect, "p = 3, alpha = 0.25 over 0.05"))
 }
 
 /// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by
 /// definition.
-pub(super) fn onset(scope: &Scope<'_>) -> MeasureCells {
+pub(super) fn onset(scope: &Scope<'_>) -> Measured {
     let records = &scope.suite().records;
     let onsets = factors(records, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
     let ranked = RecordRanks::new(&onsets);
-    scope.value("p = 1", onsets.len(), |counts| {
+    let spread = scope.one(|counts| {
         ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
-    })
+    });
+    Measured::number(spread, "p = 1")
 }

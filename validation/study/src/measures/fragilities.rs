@@ -3,15 +3,19 @@
 
 use libm::log;
 use rocking_procedures::fragility::risk::HazardCurve;
-use rocking_statistics::resampling::{RecordRanks, Subsampling};
-use rocking_statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::resampling::{RecordRanks, Resampling};
+use rocking_statistics::{
+    Estimate, ExtendedSample, Lognormal, QuantileType, Range,
+};
 
-use super::scope::{MeasureCells, MeasureResult, Scope};
+use super::scope::{MeasureResult, Measured, Scope, geometric_mean};
 use crate::distributions::factors;
 use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
-use crate::inference::{Cell, Replicates, Resample};
-use rocking_common::paper::demand_index;
+use crate::inference::{Replicates, Resample};
+use rocking_common::findings::SampleCount;
+use rocking_common::paper::{Intensity, demand_index};
 
 /// Dispersion of a lognormal sample over the dispersion without its largest
 /// twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
@@ -97,89 +101,136 @@ pub(crate) fn by_demand(
     scope.smooth(|counts| thresholds.each(counts, &f))
 }
 
-/// A number of each threshold as a measure.
-fn each(
+/// Where a number is a mean over the thresholds.
+const MEAN: &str = "mean over demands 0.15, 0.35 and 1.00";
+
+/// Name of the mean distance to the SSFL.
+const TO_SSFL: &str = "distance to the SSFL, mean over demands";
+
+fn arithmetic(row: &[f64]) -> f64 {
+    mean(row.iter().copied())
+}
+
+fn geometric(row: &[f64]) -> f64 {
+    geometric_mean(row.iter().copied())
+}
+
+/// How many demands have a number that is such.
+fn demands(of: &Replicates, is: impl Fn(f64) -> bool) -> Vec<SampleCount> {
+    vec![SampleCount::among(of.points.iter().copied(), is)]
+}
+
+/// A gain by demand: at how many it is one, and its mean.
+fn gain(
     scope: &Scope<'_>,
     f: impl Fn(&DemandFits) -> f64 + Sync,
 ) -> MeasureResult {
-    let records = scope.records();
-    let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
-    let measured = by_demand(scope, &Thresholds::new(scope)?, f);
-    Ok(MeasureCells::new(THRESHOLDS.map(cell).into(), measured))
+    let each = by_demand(scope, &Thresholds::new(scope)?, f);
+    let counts = demands(&each, |gain| gain > 0.0);
+    Ok(Measured::new(counts, each.one(arithmetic), MEAN))
 }
 
-/// A number of one threshold as a measure.
+/// Mean over the demands of a distance to the SSFL.
+fn mean_distance(
+    scope: &Scope<'_>,
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> anyhow::Result<Estimate> {
+    let each = by_demand(scope, &Thresholds::new(scope)?, f);
+    Ok(scope.estimate(Range::Share, &each.one(arithmetic)))
+}
+
+/// A number of one threshold.
 fn at_place(
     scope: &Scope<'_>,
     place: usize,
     f: impl Fn(&DemandFits) -> f64 + Sync,
-) -> MeasureResult {
+) -> anyhow::Result<Replicates> {
     let thresholds = Thresholds::new(scope)?;
-    let at = format!("demand {:.2}", THRESHOLDS[place]);
-    Ok(scope.value(&at, scope.records(), |counts| {
+    Ok(scope.one(|counts| {
         thresholds.at(counts, place).as_ref().map_or(f64::NAN, &f)
     }))
 }
 
-/// Name of a cell that is a mean over the thresholds.
-const MEAN: &str = "mean over demands 0.15, 0.35 and 1.00";
-
-/// Mean over the thresholds, over draws with replacement.
-fn mean_of(
-    scope: &Scope<'_>,
-    f: impl Fn(&DemandFits) -> f64 + Sync,
-) -> MeasureResult {
-    let thresholds = Thresholds::new(scope)?;
-    let of = |counts: &[u32]| mean(thresholds.each(counts, &f));
-    Ok(scope.value(MEAN, scope.records(), of))
+/// Name of a threshold.
+fn named(place: usize) -> String {
+    format!("demand {:.2}", THRESHOLDS[place])
 }
 
-/// Mean over the thresholds, from subsamples: a draw with replacement would
-/// tie values.
-fn mean_over(
+/// Gain in distance to the sample by shifting, over subsets: a draw with
+/// replacement would tie values.
+fn shift_gains(
     scope: &Scope<'_>,
-    f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
-) -> MeasureResult {
-    let thresholds = Thresholds::new(scope)?;
+    intensity: Intensity,
+) -> anyhow::Result<Replicates> {
+    let scope = Scope { intensity, ..*scope };
+    let thresholds = Thresholds::new(&scope)?;
     let kind = scope.kind();
-    let of = |draw: Resample<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
-    let cell = Cell { at: MEAN.into(), records: scope.records() };
-    let measured = scope.draws.subsampled(scope.tested, &of);
-    Ok(MeasureCells::new(vec![cell], measured))
-}
-
-/// Gain in distance to the sample by shifting.
-pub(super) fn shift_gain(scope: &Scope<'_>) -> MeasureResult {
-    mean_over(scope, |thresholds, counts| {
-        thresholds.each(counts, |at| {
+    let of = |draw: Resample<'_>| {
+        thresholds.each(draw.of(kind), |at| {
             distance(at.fits.usfl, &at.sample)
                 - distance(at.fits.ssfl, &at.sample)
         })
-    })
+    };
+    Ok(scope.draws.untied(kind, &of))
 }
 
-/// Distance of trimmed USFL7 to SSFL.
+/// Gain in distance to the sample by shifting. In PGV it is compared with
+/// the gain in PGA.
+pub(super) fn shift_gain(scope: &Scope<'_>) -> MeasureResult {
+    let each = shift_gains(scope, scope.intensity)?;
+    let counts = match scope.intensity {
+        Intensity::Pga => demands(&each, |gain| gain > 0.0),
+        _ => {
+            let pga = shift_gains(scope, Intensity::Pga)?;
+            let more = arithmetic(&pga.points) - arithmetic(&each.points);
+            vec![SampleCount::number(more)]
+        }
+    };
+    Ok(Measured::new(counts, each.one(arithmetic), MEAN))
+}
+
+/// A ratio by demand: at how many it lies below 1, and its geometric mean.
+fn ratio(
+    scope: &Scope<'_>,
+    f: impl Fn(&DemandFits) -> f64 + Sync,
+) -> MeasureResult {
+    let each = by_demand(scope, &Thresholds::new(scope)?, f);
+    let counts = demands(&each, |ratio| ratio < 1.0);
+    Ok(Measured::new(counts, each.one(geometric), MEAN))
+}
+
+fn trimmed_to_ssfl(at: &DemandFits) -> f64 {
+    to_ssfl(at.fits.trimmed, at, 1.0)
+}
+
+fn untrimmed_to_ssfl(at: &DemandFits) -> f64 {
+    to_ssfl(at.fits.usfl, at, 1.0)
+}
+
+/// Distance of trimmed USFL7 to SSFL over the distance of the trimmed USFL.
 pub(super) fn trimmed(scope: &Scope<'_>) -> MeasureResult {
-    each(scope, |at| to_ssfl(at.fits.trimmed, at, 1.0))
-}
-
-/// Probability that the unshifted fit of the trimmed sample gives to the
-/// demand at uplift, where it is 0.
-pub(super) fn at_uplift(scope: &Scope<'_>) -> MeasureResult {
-    each(scope, |at| at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift)))
+    let found = ratio(scope, |at| {
+        trimmed_to_ssfl(at) / apart(at.fits.trimmed, at.fits.ssfl)
+    })?;
+    let at_uplift = mean_distance(scope, |at| {
+        at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
+    })?;
+    let untrimmed = mean_distance(scope, untrimmed_to_ssfl)?;
+    Ok(found
+        .and(TO_SSFL, mean_distance(scope, trimmed_to_ssfl)?)
+        .and("distance to the SSFL without trimming", untrimmed)
+        .and("probability by the USFL at uplift, where it is 0", at_uplift))
 }
 
 /// Reduction of the distance of USFL7 to the SSFL by trimming.
 pub(super) fn trimming_gain(scope: &Scope<'_>) -> MeasureResult {
-    mean_of(scope, |at| {
-        to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.trimmed, at, 1.0)
-    })
+    gain(scope, |at| untrimmed_to_ssfl(at) - trimmed_to_ssfl(at))
 }
 
 /// Reduction of the distance of the trimmed USFL7 to the SSFL by c = 0.5 to 1
 /// instead of 0.25.
 pub(super) fn high_constant_gain(scope: &Scope<'_>) -> MeasureResult {
-    mean_of(scope, |at| {
+    gain(scope, |at| {
         let of = |c| to_ssfl(at.fits.trimmed, at, c);
         of(0.25) - mean([0.5, 0.75, 1.0].map(of))
     })
@@ -189,20 +240,24 @@ pub(super) fn high_constant_gain(scope: &Scope<'_>) -> MeasureResult {
 /// earthquake zone to a steep one.
 const SLOPES: [f64; 5] = [1.5, 2.0, 2.5, 3.0, 4.0];
 
-/// Overturning under each slope of the hazard.
+/// Position of the slope whose number is shown, 2.5.
+const SHOWN: usize = 2;
+
+/// Overturning under each slope of the hazard: two numbers, the first below
+/// the second for how many slopes, and the first for the slope shown.
 fn by_slope(
     scope: &Scope<'_>,
     f: impl Fn(f64, &DemandFits) -> f64 + Sync,
+    closer: impl Fn(f64, &DemandFits) -> bool,
 ) -> MeasureResult {
     let thresholds = Thresholds::new(scope)?;
-    let records = scope.records();
-    let cell = |k| Cell { at: format!("hazard of slope {k}"), records };
-    let measured = scope.smooth(|counts| {
-        let at = thresholds.at(counts, THRESHOLDS.len() - 1);
-        let of = |k| at.as_ref().map_or(f64::NAN, |at| f(k, at));
-        SLOPES.map(of).into()
-    });
-    Ok(MeasureCells::new(SLOPES.map(cell).into(), measured))
+    let last = THRESHOLDS.len() - 1;
+    let whole = thresholds.at(scope.every(), last);
+    let is = |k| whole.as_ref().is_some_and(|at| closer(k, at));
+    let counts = [SampleCount::among(SLOPES, is)];
+    let effect = at_place(scope, last, |at| f(SLOPES[SHOWN], at))?;
+    let at = format!("hazard of slope {}", SLOPES[SHOWN]);
+    Ok(Measured::new(counts, effect, at))
 }
 
 /// Annual frequency by a sample's own fragility under H = x^-k, from the
@@ -218,12 +273,13 @@ fn sample_rate(at: &DemandFits, k: f64, above: f64) -> f64 {
 /// Share of the annual frequency of overturning that comes from the
 /// capacities above the 84 % quantile.
 pub(super) fn tail_rate(scope: &Scope<'_>) -> MeasureResult {
-    by_slope(scope, |k, at| {
+    let share = |k: f64, at: &DemandFits| {
         let quantile =
             QuantileType::default().extended_quantile(&at.sample, 0.84);
         let quantile = quantile.unwrap_or(f64::NAN);
         sample_rate(at, k, quantile) / sample_rate(at, k, 0.0)
-    })
+    };
+    by_slope(scope, share, |k, at| share(k, at) < 0.16)
 }
 
 /// Annual frequency of overturning by a fit over the frequency by the sample.
@@ -235,88 +291,152 @@ fn rate_of(fit: Option<Lognormal>, k: f64, at: &DemandFits) -> f64 {
     hazard.annual_frequency(&fit).truncation_lower / sample_rate(at, k, 0.0)
 }
 
+/// Whether one fit gives the annual frequency of the sample better than
+/// another, as a ratio.
+fn is_closer(
+    fit: Option<Lognormal>,
+    other: Option<Lognormal>,
+    k: f64,
+    at: &DemandFits,
+) -> bool {
+    let off = |fit| log(rate_of(fit, k, at)).abs();
+    off(fit) < off(other)
+}
+
 /// Annual frequency by the SSFL over the sample's.
 pub(super) fn shifted_rate(scope: &Scope<'_>) -> MeasureResult {
-    by_slope(scope, |k, at| rate_of(at.fits.ssfl, k, at))
+    by_slope(
+        scope,
+        |k, at| rate_of(at.fits.ssfl, k, at),
+        |k, at| is_closer(at.fits.ssfl, at.fits.usfl, k, at),
+    )
 }
 
 /// Annual frequency by trimmed USFL7 over the sample's.
 pub(super) fn transformed_rate(scope: &Scope<'_>) -> MeasureResult {
-    by_slope(scope, |k, at| {
-        rate_of(usfl7(at.fits.trimmed, at.shift, 1.0), k, at)
-    })
+    let usfl7 = |at: &DemandFits| usfl7(at.fits.trimmed, at.shift, 1.0);
+    by_slope(
+        scope,
+        |k, at| rate_of(usfl7(at), k, at),
+        |k, at| is_closer(usfl7(at), at.fits.trimmed, k, at),
+    )
 }
 
-/// Distance of untrimmed USFL7 to SSFL.
+/// Distance of untrimmed USFL7 to the SSFL in PGA over the distance of the
+/// trimmed one; in PGV over the distance in PGA.
 pub(super) fn untrimmed(scope: &Scope<'_>) -> MeasureResult {
-    each(scope, |at| to_ssfl(at.fits.usfl, at, 1.0))
+    let found = match scope.intensity {
+        Intensity::Pga => {
+            let of =
+                |at: &DemandFits| untrimmed_to_ssfl(at) / trimmed_to_ssfl(at);
+            let each = by_demand(scope, &Thresholds::new(scope)?, of);
+            let counts = demands(&each, |ratio| ratio > 1.0);
+            Measured::new(counts, each.one(geometric), MEAN)
+        }
+        _ => {
+            let pga = Scope { intensity: Intensity::Pga, ..*scope };
+            let both = [Thresholds::new(scope)?, Thresholds::new(&pga)?];
+            let each = scope.smooth(|counts| {
+                let [pgv, pga] = both
+                    .each_ref()
+                    .map(|own| own.each(counts, untrimmed_to_ssfl));
+                pgv.iter().zip(&pga).map(|(a, b)| a / b).collect()
+            });
+            let counts = demands(&each, |ratio| ratio < 1.0);
+            Measured::new(counts, each.one(geometric), MEAN)
+        }
+    };
+    Ok(found.and(TO_SSFL, mean_distance(scope, untrimmed_to_ssfl)?))
 }
 
 /// Gain in the distance of untrimmed USFL7 to SSFL from c = 1 to c = 0.25.
 pub(super) fn low_constant(scope: &Scope<'_>) -> MeasureResult {
-    at_place(scope, 0, |at| {
+    let gain = at_place(scope, 0, |at| {
         to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
-    })
+    })?;
+    Ok(Measured::number(gain, named(0)))
 }
 
-/// Distance of trimmed USFL7 for c = 0.25 to USFL7 for c = 1.
+/// Distance of USFL7 for c = 0.25 to USFL7 for c = 1, trimmed over untrimmed.
 pub(super) fn constant_spread(scope: &Scope<'_>) -> MeasureResult {
-    at_place(scope, 0, |at| {
-        let of = |c| usfl7(at.fits.trimmed, at.shift, c);
+    let spread = |fit, at: &DemandFits| {
+        let of = |c| usfl7(fit, at.shift, c);
         apart(of(0.25), of(1.0))
-    })
+    };
+    let trimmed = at_place(scope, 0, |at| spread(at.fits.trimmed, at))?;
+    let ratio = at_place(scope, 0, |at| {
+        spread(at.fits.trimmed, at) / spread(at.fits.usfl, at)
+    })?;
+    let counts = [SampleCount::number(trimmed.points[0])];
+    let own = scope.estimate(Range::Share, &trimmed);
+    Ok(Measured::new(counts, ratio, named(0))
+        .and("largest distance in probability, trimmed", own))
 }
 
 /// Dispersion of the whole sample over the dispersion of the trimmed one, over
 /// the ratio of a lognormal.
 pub(super) fn tail_inflation(scope: &Scope<'_>) -> MeasureResult {
-    at_place(scope, THRESHOLDS.len() - 1, |at| {
+    let last = THRESHOLDS.len() - 1;
+    let ratio = at_place(scope, last, |at| {
         let of =
             |fit: Option<Lognormal>| fit.map_or(f64::NAN, |f| f.dispersion());
         of(at.fits.usfl) / of(at.fits.trimmed) / LOGNORMAL_INFLATION
-    })
+    })?;
+    Ok(Measured::number(ratio, named(last)))
 }
 
+/// Draws of a scatter. Each suite without an earthquake has as many: the
+/// error of one ratio, 2 %, is that of the draws.
+const SCATTER: usize = 4000;
+
 /// Scatter of the dispersion by the 16 and 84 % quantiles over that by the
-/// standard deviation of the logarithms: root of the ratio of their variances
-/// over halves of the drawn records, mean over the demands.
+/// standard deviation of the logarithms: ratio of the standard deviations of
+/// their logarithms over a bootstrap of earthquakes, by demand.
 pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
-    const HALVES: u64 = 200;
-    mean_over(scope, |thresholds, counts| {
-        let halves: Vec<Vec<u32>> =
-            (0..HALVES).map(|index| half(counts, index)).collect();
-        let ratio = |ranked: &RecordRanks| {
-            let both = halves.iter().map(|half| dispersions(ranked, half));
-            let (quantiles, fit): (Vec<f64>, Vec<f64>) = both.unzip();
-            (variance(&quantiles) / variance(&fit)).sqrt()
+    let thresholds = Thresholds::new(scope)?;
+    let clusters = scope.draws.clusters(scope.tested);
+    let of = |held: &[u32]| -> Vec<f64> {
+        let records: Vec<usize> =
+            (0..held.len()).filter(|r| held[*r] > 0).collect();
+        let part = clusters.part(&records);
+        let draws = Bootstrap::of_clusters("study/scatter", 0, &part, SCATTER);
+        let rows = draws.map(|places| {
+            let mut counts = vec![0; held.len()];
+            for place in places {
+                counts[records[*place]] += 1;
+            }
+            let each = thresholds.ranked.iter();
+            each.map(|own| dispersions(own, &counts)).collect::<Vec<_>>()
+        });
+        let ratio = |place: usize| {
+            let scatter = |k: usize| {
+                let logs = rows.iter().map(|row| log(row[place][k]));
+                variance(&logs.collect::<Vec<f64>>()).sqrt()
+            };
+            scatter(0) / scatter(1)
         };
-        thresholds.ranked.iter().map(ratio).collect()
-    })
+        (0..THRESHOLDS.len()).map(ratio).collect()
+    };
+    let rows = (0..clusters.count()).map(|g| of(&clusters.without(g)));
+    let each = Replicates {
+        how: Resampling::Without(1),
+        points: of(scope.every()),
+        rows: rows.collect(),
+    };
+    let counts = demands(&each, |ratio| ratio > 1.0);
+    Ok(Measured::new(counts, each.one(geometric), MEAN))
 }
 
 /// Dispersion of a sample: half the logarithm of its 84 over its 16 %
 /// quantile, and the standard deviation of its logarithms.
-fn dispersions(ranked: &RecordRanks, counts: &[u32]) -> (f64, f64) {
+fn dispersions(ranked: &RecordRanks, counts: &[u32]) -> [f64; 2] {
     let logs: Vec<f64> =
         ranked.drawn(counts).iter().map(|x| log(*x)).collect();
     let at = |p| log(ranked.quantile(counts, p));
-    (0.5 * (at(0.84) - at(0.16)), variance(&logs).sqrt())
+    [0.5 * (at(0.84) - at(0.16)), variance(&logs).sqrt()]
 }
 
 fn variance(values: &[f64]) -> f64 {
     let centre = mean(values.iter().copied());
     mean(values.iter().map(|x| (x - centre) * (x - centre)))
-}
-
-/// Half of the drawn records.
-fn half(counts: &[u32], index: u64) -> Vec<u32> {
-    let drawn: Vec<usize> =
-        (0..counts.len()).filter(|r| counts[*r] > 0).collect();
-    let size = drawn.len() / 2;
-    let halves = Subsampling::new("study/scatter", 0, drawn.len(), size);
-    let mut out = vec![0; counts.len()];
-    for (record, count) in drawn.iter().zip(halves.multiplicities(index)) {
-        out[*record] = count * counts[*record];
-    }
-    out
 }

@@ -1,13 +1,14 @@
 //! Input and result of the measures.
 
 use rocking_statistics::resampling::RecordRanks;
+use rocking_statistics::{Estimate, Range};
 
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::distances::SuiteDistances;
 use crate::estimates::mean;
-use crate::inference::{Cell, Replicates, Resample, Resamples};
+use crate::inference::{Replicates, Resample, Resamples, least_counted};
 use crate::results::StudyResults;
-use rocking_common::findings::{Detail, SuiteSet};
+use rocking_common::findings::{Detail, LEVEL, SampleCount, SuiteSet};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
@@ -29,34 +30,43 @@ pub struct Scope<'a> {
     pub intensity: Intensity,
 }
 
-/// The cells of a measure and their replicates.
-pub struct MeasureCells {
-    /// Where the cells are.
-    pub cells: Vec<Cell>,
-    /// Their values.
-    pub measured: Replicates,
-    /// The share that meets the paper's own criterion, where it has one.
-    pub criterion: Option<Criterion>,
+/// What a measure found in a suite.
+pub struct Measured {
+    /// The numbers of the sample, one for each yardstick of the claim.
+    pub counts: Vec<SampleCount>,
+    /// The effect, one number.
+    pub effect: Replicates,
+    /// Where it was measured.
+    pub at: String,
     /// Further numbers for the reader.
     pub details: Vec<Detail>,
 }
 
-/// The cells of a measure; an error where a curve cannot be read, or an arm
+/// What a measure found; an error where a curve cannot be read, or an arm
 /// was not run.
-pub type MeasureResult = anyhow::Result<MeasureCells>;
+pub type MeasureResult = anyhow::Result<Measured>;
 
-/// The share that meets the paper's own criterion.
-pub struct Criterion {
-    /// Its name.
-    pub name: String,
-    /// The share.
-    pub measured: Replicates,
-}
+impl Measured {
+    /// An effect with its counts, without details.
+    pub(super) fn new(
+        counts: impl Into<Vec<SampleCount>>,
+        effect: Replicates,
+        at: impl Into<String>,
+    ) -> Self {
+        let (counts, at) = (counts.into(), at.into());
+        Self { counts, effect, at, details: Vec::new() }
+    }
 
-impl MeasureCells {
-    /// Cells without a criterion and without details.
-    pub(super) fn new(cells: Vec<Cell>, measured: Replicates) -> Self {
-        Self { cells, measured, criterion: None, details: Vec::new() }
+    /// An effect that is itself the number of the only yardstick.
+    pub(super) fn number(effect: Replicates, at: impl Into<String>) -> Self {
+        let value = effect.points.first().copied().unwrap_or(f64::NAN);
+        Self::new([SampleCount::number(value)], effect, at)
+    }
+
+    /// The same with a further number.
+    pub(super) fn and(mut self, name: &str, estimate: Estimate) -> Self {
+        self.details.push(Detail { name: name.into(), estimate });
+        self
     }
 }
 
@@ -94,69 +104,51 @@ impl<'a> Scope<'a> {
         self.draws.smooth(self.tested, &of)
     }
 
-    /// One value, smooth in the suite's records.
-    pub(super) fn value(
-        &self,
-        at: &str,
-        records: usize,
-        f: impl Fn(&[u32]) -> f64 + Sync,
-    ) -> MeasureCells {
-        let cell = Cell { at: at.into(), records };
-        MeasureCells::new(vec![cell], self.smooth(|counts| vec![f(counts)]))
+    /// One number, smooth in the suite's records.
+    pub(super) fn one(&self, f: impl Fn(&[u32]) -> f64 + Sync) -> Replicates {
+        self.smooth(|counts| vec![f(counts)])
     }
 
-    /// One value, smooth in the ordinary and in the pulse-type records.
-    pub(super) fn contrast(
-        &self,
-        at: &str,
-        records: usize,
-        f: impl Fn(&[u32], &[u32]) -> f64 + Sync,
-    ) -> MeasureCells {
-        let cell = Cell { at: at.into(), records };
-        let of = |draw: Resample<'_>| {
-            let [ordinary, pulse] = SuiteKind::ALL.map(|kind| draw.of(kind));
-            vec![f(ordinary, pulse)]
-        };
-        MeasureCells::new(vec![cell], self.draws.smooth(self.tested, &of))
+    /// One number of a range with its interval.
+    pub(crate) fn estimate(&self, range: Range, of: &Replicates) -> Estimate {
+        let found = self.draws.estimates(self.tested, (range, LEVEL), of);
+        found.first().copied().unwrap_or(Estimate::exact(f64::NAN))
     }
 
     /// A share of all records' counts: `found` of `all`, by record.
-    pub(super) fn share(
-        &self,
-        at: &str,
-        found: &[u32],
-        all: &[u32],
-    ) -> MeasureCells {
-        self.value(at, all.len(), |counts| {
+    pub(super) fn share(&self, found: &[u32], all: &[u32]) -> Replicates {
+        self.one(|counts| {
             weighted_count(found, counts) / weighted_count(all, counts)
         })
     }
 
-    /// Medians of the cells.
-    pub(super) fn medians(&self, cells: Vec<CellValues>) -> MeasureCells {
-        let (cells, values) =
-            cells.into_iter().map(|own| (own.cell(), own.values)).unzip();
-        let measured = self.draws.medians(self.kind(), values);
-        MeasureCells::new(cells, measured)
+    /// Geometric mean of the medians of cells.
+    pub(super) fn mean_median(&self, cells: &[RecordRanks]) -> Replicates {
+        self.one(|counts| {
+            let medians = cells.iter().map(|cell| cell.median(counts));
+            geometric_mean(medians)
+        })
+    }
+
+    /// The cells that count: those with enough of the suite's records.
+    pub(super) fn counted(
+        &self,
+        mut cells: Vec<RecordRanks>,
+    ) -> Vec<RecordRanks> {
+        let least = least_counted(self.records());
+        cells.retain(|cell| cell.records() >= least);
+        cells
+    }
+
+    /// Every record of the suite once.
+    pub(super) fn every(&self) -> &'a [u32] {
+        self.draws.whole().of(self.kind())
     }
 }
 
-/// The values of the records in one cell.
-pub(super) struct CellValues {
-    pub(super) at: String,
-    pub(super) values: RecordRanks,
-}
-
-impl CellValues {
-    /// Paired ratios of demands or capacities.
-    pub(super) fn ratios(at: String, a: &[f64], b: &[f64]) -> Self {
-        Self { at, values: RecordRanks::new(&ratios(a, b, 1.0)) }
-    }
-
-    /// The cell.
-    pub(super) fn cell(&self) -> Cell {
-        Cell { at: self.at.clone(), records: self.values.records() }
-    }
+/// Geometric mean of the finite ones among some positive numbers.
+pub(super) fn geometric_mean(values: impl IntoIterator<Item = f64>) -> f64 {
+    libm::exp(mean(values.into_iter().map(libm::log)))
 }
 
 /// The 15 blocks by the positions of frequency parameter and slenderness.
@@ -170,31 +162,18 @@ pub(super) fn compared_blocks() -> impl Iterator<Item = (usize, usize)> {
     blocks().filter(|(_, slenderness)| *slenderness != REFERENCE)
 }
 
-/// A block in words: `p = 3, alpha = 0.20`.
-pub(super) fn block(frequency: usize, slenderness: usize) -> String {
-    format!(
-        "p = {}, alpha = {:.2}",
-        FREQUENCIES_RAD_S[frequency], SLENDERNESSES_RAD[slenderness]
-    )
-}
-
-/// Geometric means of paired ratios, cell by cell: the two values of a record
+/// Geometric mean of paired ratios over the cells: the two values of a record
 /// are close, so that the mean of the logarithm of their ratio has little
 /// scatter. A ratio that is not finite does not count.
-pub(super) fn geometric_means(
+pub(super) fn mean_ratio(
     scope: &Scope<'_>,
-    cells: Vec<(String, Vec<f64>)>,
-) -> MeasureCells {
-    let logs = cells.into_iter().map(|(at, ratios)| {
-        let logs: Vec<f64> = ratios.into_iter().map(libm::log).collect();
-        let records = logs.iter().filter(|x| x.is_finite()).count();
-        (Cell { at, records }, logs)
-    });
-    let (cells, logs): (Vec<Cell>, Vec<Vec<f64>>) = logs.unzip();
-    let measured = scope.smooth(|counts| {
-        logs.iter().map(|x| libm::exp(weighted_mean(x, counts))).collect()
-    });
-    MeasureCells::new(cells, measured)
+    cells: impl IntoIterator<Item = Vec<f64>>,
+) -> Replicates {
+    let logs = |ratios: Vec<f64>| ratios.into_iter().map(libm::log).collect();
+    let logs: Vec<Vec<f64>> = cells.into_iter().map(logs).collect();
+    scope.one(|counts| {
+        libm::exp(mean(logs.iter().map(|x| weighted_mean(x, counts))))
+    })
 }
 
 /// Mean of the finite values of the records, each drawn so often.
@@ -214,9 +193,9 @@ pub(super) fn weighted_count(of: &[u32], counts: &[u32]) -> f64 {
     f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
 }
 
-/// Mean over cells of the medians of a draw.
-pub(super) fn mean_of_medians(cells: &[CellValues], counts: &[u32]) -> f64 {
-    mean(cells.iter().map(|cell| cell.values.median(counts)))
+/// Ranks of paired ratios a/b times a scale.
+pub(super) fn ranks(a: &[f64], b: &[f64], scale: f64) -> RecordRanks {
+    RecordRanks::new(&ratios(a, b, scale))
 }
 
 /// Paired ratios a/b, by record; NaN where one is infinite or missing.

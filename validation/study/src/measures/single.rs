@@ -1,89 +1,127 @@
 //! Section 4, Figures 2 to 5: measures of records one by one.
 
-use super::scope::{
-    CellValues, MeasureCells, MeasureResult, Scope, mean_of_medians,
-};
-use crate::analyses::{Deviation, SuiteResults};
+use super::capacities::COINCIDE;
+use super::scope::{MeasureResult, Measured, Scope, geometric_mean};
+use crate::analyses::{Deviation, SingleRecords, SuiteResults};
 use crate::estimates::mean;
-use crate::inference::LEAST_DECIDING;
-use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
+use crate::inference::{Resample, least_counted};
+use rocking_common::findings::SampleCount;
+use rocking_common::paper::{
+    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, position,
+};
+use rocking_common::words::rounded_text;
 use rocking_statistics::resampling::RecordRanks;
 
-/// Cells by frequency parameter and intensity: a distance of each record's
-/// histories or peaks, mean over the slendernesses.
-fn at_levels(
-    suite: &SuiteResults,
+/// A number of the deviations of each record, mean over the slendernesses.
+fn by_record(
+    apart: &[Vec<Deviation>],
     of: impl Fn(&Deviation) -> f64,
-) -> Vec<CellValues> {
-    let mut cells = Vec::new();
-    for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
-        for (im, apart) in &single.by_level {
-            let each = apart.iter().map(|apart| mean(apart.iter().map(&of)));
-            cells.push(CellValues {
-                at: format!("p = {p}, intensity {im}"),
-                values: RecordRanks::new(&each.collect::<Vec<f64>>()),
-            });
-        }
-    }
-    cells
+) -> RecordRanks {
+    let each = apart.iter().map(|apart| mean(apart.iter().map(&of)));
+    RecordRanks::new(&each.collect::<Vec<f64>>())
 }
 
-/// Whether a cell has enough records to decide.
-fn decides(cell: &CellValues) -> bool {
-    cell.values.records() >= LEAST_DECIDING
+/// How many histories lie further than a distance from the reference's, and
+/// of how many, by record.
+fn further(scope: &Scope<'_>, than: f64) -> [Vec<u32>; 2] {
+    let n = scope.records();
+    let mut found = [vec![0_u32; n], vec![0_u32; n]];
+    let [far, all] = &mut found;
+    for single in &scope.suite().single {
+        for (record, apart) in single.apart.iter().enumerate() {
+            for a in apart.iter().filter(|a| a.distance.is_finite()) {
+                all[record] += 1;
+                far[record] += u32::from(a.distance > than);
+            }
+        }
+    }
+    found
+}
+
+fn sum(of: &[u32]) -> usize {
+    of.iter().sum::<u32>() as usize
+}
+
+/// Histories further than 5 % from the reference's are not the same.
+const SAME: f64 = 0.05;
+
+/// Share of the histories of Figure 2 that are further than 5 % from the
+/// reference's.
+pub(super) fn histories_apart(scope: &Scope<'_>) -> Measured {
+    let [far, all] = further(scope, SAME);
+    let counts = [SampleCount::of(sum(&far), sum(&all))];
+    Measured::new(counts, scope.share(&far, &all), levels(scope))
+}
+
+/// The intensities of Figures 2 and 3.
+fn levels(scope: &Scope<'_>) -> String {
+    let of = |(p, single): (f64, &SingleRecords)| {
+        format!("{} for p = {p}", rounded_text(single.im))
+    };
+    let all = FREQUENCIES_RAD_S.into_iter().zip(&scope.suite().single);
+    let all: Vec<String> = all.map(of).collect();
+    format!("PGA/(g tan alpha) = {}", all.join(", "))
+}
+
+/// Median distance of histories of Figure 3; mean over frequency parameters.
+pub(super) fn history_distance(scope: &Scope<'_>) -> Measured {
+    let [far, all] = further(scope, SAME);
+    let [not_close, _] = further(scope, COINCIDE);
+    let n = sum(&all);
+    let counts = [
+        SampleCount::of(n - sum(&not_close), n),
+        SampleCount::of(sum(&far), n),
+    ];
+    let single = &scope.suite().single;
+    let cells: Vec<RecordRanks> =
+        single.iter().map(|s| by_record(&s.apart, |a| a.distance)).collect();
+    let effect = scope.one(|c| mean(cells.iter().map(|own| own.median(c))));
+    Measured::new(counts, effect, levels(scope))
+}
+
+/// Differences of peaks over distances of histories at the intensities of
+/// Figures 2 and 3, by frequency parameter.
+pub(super) fn peaks(scope: &Scope<'_>) -> Measured {
+    let both = scope.suite().single.iter().map(|single| {
+        let away = |a: &Deviation| (a.peak_ratio - 1.0).abs();
+        let of_histories = by_record(&single.apart, |a| a.distance);
+        [by_record(&single.apart, away), of_histories]
+    });
+    let both: Vec<[RecordRanks; 2]> = both.collect();
+    let ratios = |counts: &[u32]| -> Vec<f64> {
+        let ratio = |[peaks, histories]: &[RecordRanks; 2]| {
+            peaks.median(counts) / histories.median(counts)
+        };
+        both.iter().map(ratio).collect()
+    };
+    let counts =
+        [SampleCount::among(ratios(scope.every()), |ratio| ratio < 1.0)];
+    let effect = scope.one(|counts| geometric_mean(ratios(counts)));
+    Measured::new(counts, effect, levels(scope))
 }
 
 /// Median distance of histories, ordinary over pulse-type, at equal
 /// intensities; geometric mean over frequency parameters and intensities at
 /// which enough records stand in both suites.
-pub(super) fn histories(scope: &Scope<'_>) -> MeasureCells {
-    let [ordinary, pulse] =
-        scope.results.suites().map(|suite| at_levels(suite, |a| a.distance));
-    let pairs: Vec<(CellValues, CellValues)> = ordinary
-        .into_iter()
-        .zip(pulse)
-        .filter(|(a, b)| decides(a) && decides(b))
-        .collect();
-    let records = scope.results.pulse.records.len();
-    let at = format!("mean over {} pairs of p and intensity", pairs.len());
-    scope.contrast(&at, records, |ordinary, pulse| {
-        let ratio = |(a, b): &(CellValues, CellValues)| {
-            libm::log(a.values.median(ordinary) / b.values.median(pulse))
-        };
-        libm::exp(mean(pairs.iter().map(ratio)))
-    })
-}
-
-/// Median distance of histories of one suite; mean over frequency parameters
-/// and intensities at which enough records stand.
-pub(super) fn history_distance(scope: &Scope<'_>) -> MeasureCells {
-    let mut cells = at_levels(scope.suite(), |a| a.distance);
-    cells.retain(decides);
-    let at = format!("mean over {} pairs of p and intensity", cells.len());
-    scope.value(&at, scope.records(), |counts| mean_of_medians(&cells, counts))
-}
-
-/// Share of the histories that are further than 5 % from the reference's.
-pub(super) fn histories_apart(scope: &Scope<'_>) -> MeasureCells {
-    let suite = scope.suite();
-    let n = suite.records.len();
-    let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
-    for (_, by_record) in suite.single.iter().flat_map(|s| &s.by_level) {
-        for (record, apart) in by_record.iter().enumerate() {
-            for a in apart.iter().filter(|a| a.distance.is_finite()) {
-                all[record] += 1;
-                far[record] += u32::from(a.distance > 0.05);
-            }
-        }
-    }
-    let at = format!("{} histories", all.iter().sum::<u32>());
-    scope.share(&at, &far, &all)
-}
-
-/// Median difference of the peaks, cell by cell.
-pub(super) fn peaks(scope: &Scope<'_>) -> MeasureCells {
-    let away = |a: &Deviation| (a.peak_ratio - 1.0).abs();
-    scope.medians(at_levels(scope.suite(), away))
+pub(super) fn histories(scope: &Scope<'_>) -> Measured {
+    let [ordinary, pulse] = scope.results.suites().map(|suite| {
+        let levels = suite.single.iter().flat_map(|s| &s.by_level);
+        let ranks = levels.map(|(_, apart)| by_record(apart, |a| a.distance));
+        let least = least_counted(suite.records.len());
+        ranks.map(move |own| (own.records() >= least).then_some(own))
+    });
+    let pairs = ordinary.zip(pulse).filter_map(|(a, b)| Some((a?, b?)));
+    let pairs: Vec<(RecordRanks, RecordRanks)> = pairs.collect();
+    let ratios = |draw: Resample<'_>| -> Vec<f64> {
+        let [ordinary, pulse] = SuiteKind::ALL.map(|kind| draw.of(kind));
+        let pairs = pairs.iter();
+        pairs.map(|(a, b)| a.median(ordinary) / b.median(pulse)).collect()
+    };
+    let found = ratios(scope.draws.whole());
+    let counts = [SampleCount::among(found, |ratio| ratio > 1.0)];
+    let effect = |draw: Resample<'_>| vec![geometric_mean(ratios(draw))];
+    let effect = scope.draws.smooth(scope.tested, &effect);
+    Measured::new(counts, effect, "pairs of p and intensity that count")
 }
 
 /// Mean |ln| of the ratio of intensities at equal demand, by record.
@@ -96,18 +134,13 @@ fn apart_by_record(suite: &SuiteResults) -> RecordRanks {
 }
 
 /// Distance of single curves, median over the records.
-pub(super) fn curves(scope: &Scope<'_>) -> MeasureCells {
+pub(super) fn curves(scope: &Scope<'_>) -> Measured {
     let ranked = apart_by_record(scope.suite());
-    let median = |counts: &[u32]| ranked.median(counts);
-    scope.value("all blocks", ranked.records(), median)
-}
-
-/// Median distance of single curves, ordinary over pulse-type motions.
-pub(super) fn curve_contrast(scope: &Scope<'_>) -> MeasureCells {
-    let [a, b] = scope.results.suites().map(apart_by_record);
-    scope.contrast("all blocks", b.records(), |ordinary, pulse| {
-        a.median(ordinary) / b.median(pulse)
-    })
+    let each = ranked.each().map(|(x, _)| x);
+    let counts =
+        [SampleCount::among(each, |x| x <= libm::log(1.0 + COINCIDE))];
+    let effect = scope.one(|counts| ranked.median(counts));
+    Measured::new(counts, effect, "all blocks")
 }
 
 /// Share of the stripes of a record and a frequency parameter at which some
@@ -131,5 +164,7 @@ pub(super) fn fates(scope: &Scope<'_>) -> MeasureResult {
             }
         }
     }
-    Ok(scope.share("of all records, p and stripes", &mixed, &all))
+    let counts = [SampleCount::of(sum(&mixed), sum(&all))];
+    let share = scope.share(&mixed, &all);
+    Ok(Measured::new(counts, share, "all records, p and stripes"))
 }

@@ -3,26 +3,31 @@
 
 use libm::log;
 
+use super::capacities::COINCIDE;
 use super::scope::{
-    self, CellValues, Criterion, MeasureCells, MeasureResult, Scope, block,
-    blocks, compared_blocks, weighted_count,
+    self, MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
+    weighted_count,
 };
-use crate::analyses::{StripeDemands, SuiteResults};
+use crate::analyses::StripeDemands;
 use crate::facts::Facts;
-use crate::inference::{Cell, LEAST_DECIDING, Replicates, Resample};
-use crate::results::StudyResults;
 use crate::stripes::{adjusted_slenderness, is_within};
-use rocking_common::findings::SuiteSet;
+use rocking_common::findings::SampleCount;
 use rocking_common::paper::{
-    Arm, BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, STRIPES, SuiteKind,
-    closed_form, position,
+    BLOCKS, FREQUENCIES_RAD_S, LEAST_USABLE, SLENDERNESSES_RAD, STRIPES,
+    closed_form,
 };
-use rocking_statistics::Proportion;
 use rocking_statistics::resampling::RecordRanks;
+use rocking_statistics::{Estimate, Range};
 
-/// Whether the notch about the median of a replicate covers 1: McGill, Tukey
-/// and Larsen, Am. Stat. 32 (1978) 12.
-fn notch_covers_1(values: &RecordRanks, counts: &[u32]) -> bool {
+/// Position of the stockiest slenderness.
+pub(super) const STOCKIEST: usize = SLENDERNESSES_RAD.len() - 1;
+
+/// All slendernesses.
+const ALL: [usize; SLENDERNESSES_RAD.len()] = [0, 1, 2, 3, 4];
+
+/// Whether the notch about the median holds 1: McGill, Tukey and Larsen, Am.
+/// Stat. 32 (1978) 12.
+pub(super) fn notch_holds_1(values: &RecordRanks, counts: &[u32]) -> bool {
     let n = values.drawn(counts).len() as f64;
     let at = |p| values.quantile(counts, p);
     let half = 1.57 * (at(0.75) - at(0.25)) / n.sqrt();
@@ -34,23 +39,20 @@ fn notch_covers_1(values: &RecordRanks, counts: &[u32]) -> bool {
 fn block_ratios(
     stripes: &StripeDemands,
     frequencies: &[usize],
+    slendernesses: &[usize],
     corrected: bool,
-) -> Vec<CellValues> {
+) -> Vec<RecordRanks> {
     let mut cells = Vec::new();
-    let blocks = frequencies
-        .iter()
-        .flat_map(|own| compared_blocks().filter(move |(f, _)| f == own));
-    for (frequency, slenderness) in blocks {
+    let of = |(f, s): &(usize, usize)| {
+        frequencies.contains(f) && slendernesses.contains(s)
+    };
+    for (frequency, slenderness) in compared_blocks().filter(of) {
         let scale = match corrected {
             true => 1.0 / closed_form(SLENDERNESSES_RAD[slenderness]),
             false => 1.0,
         };
-        let name = block(frequency, slenderness);
-        for (im, a, b) in stripes.compared(frequency, Some(slenderness)) {
-            let values = RecordRanks::new(&scope::ratios(a, b, scale));
-            let at = format!("{name}, intensity {im}");
-            cells.push(CellValues { at, values });
-        }
+        let levels = stripes.compared(frequency, Some(slenderness));
+        cells.extend(levels.map(|(_, a, b)| scope::ranks(a, b, scale)));
     }
     cells
 }
@@ -58,280 +60,293 @@ fn block_ratios(
 /// Cells of Figure 9 by frequency parameter and stripe: adjusted over scaled.
 /// `part` changes the demand of a record on a stripe.
 fn adjusted_cells(
-    suite: &SuiteResults,
-    stripes: &StripeDemands,
+    scope: &Scope<'_>,
     part: impl Fn(f64, &Facts, f64) -> f64,
-) -> Vec<CellValues> {
+) -> anyhow::Result<Vec<RecordRanks>> {
+    let stripes = scope.stripes()?;
     let mut cells = Vec::new();
-    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
         for (im, a, b) in stripes.compared(frequency, None) {
-            let records = a.iter().zip(&suite.records);
+            let records = a.iter().zip(&scope.suite().records);
             let own: Vec<f64> =
                 records.map(|(x, record)| part(*x, record, im)).collect();
-            let at = format!("p = {p}, intensity {im}");
-            cells.push(CellValues::ratios(at, &own, b));
+            cells.push(scope::ranks(&own, b, 1.0));
         }
     }
-    cells
+    Ok(cells)
 }
 
 /// Cells of Figure 9, the closed form divided out record by record: each has
 /// an adjusted slenderness of its own.
-fn adjusted_without_closed_form(
-    suite: &SuiteResults,
-    stripes: &StripeDemands,
-) -> Vec<CellValues> {
-    adjusted_cells(suite, stripes, |x, record, im| {
+fn without_closed_form(scope: &Scope<'_>) -> anyhow::Result<Vec<RecordRanks>> {
+    adjusted_cells(scope, |x, record, im| {
         x / closed_form(adjusted_slenderness(record, im))
     })
 }
 
-/// Medians of cells over all draws, with the share of notches that cover 1.
-fn medians(scope: &Scope<'_>, cells: Vec<CellValues>) -> MeasureCells {
-    let name = "share of the cells whose notch covers 1";
-    let criterion = notches(scope, &cells, name, |_| true);
-    MeasureCells { criterion: Some(criterion), ..scope.medians(cells) }
+/// How many of the cells that count have a notch that holds 1.
+fn notches(scope: &Scope<'_>, cells: &[RecordRanks]) -> SampleCount {
+    SampleCount::among(cells, |cell| notch_holds_1(cell, scope.every()))
 }
 
-/// The share of the deciding cells whose notch covers 1 where it has to, and
-/// leaves 1 out where not.
-fn notches(
+/// How many medians of cells lie as near to 1 as `within`.
+fn near_1(
     scope: &Scope<'_>,
-    cells: &[CellValues],
-    name: &str,
-    covers: impl Fn(&CellValues) -> bool + Sync,
-) -> Criterion {
-    let kind = scope.kind();
-    let enough = |r: &&CellValues| r.values.records() >= LEAST_DECIDING;
-    let of = |draw: Resample<'_>| {
-        let counts = draw.of(kind);
-        let deciding = || cells.iter().filter(enough);
-        let as_said = deciding()
-            .filter(|r| notch_covers_1(&r.values, counts) == covers(r));
-        vec![as_said.count() as f64 / deciding().count() as f64]
-    };
-    let measured = scope.draws.subsampled(scope.tested, &of);
-    Criterion { name: name.into(), measured }
+    cells: &[RecordRanks],
+    within: f64,
+) -> SampleCount {
+    let is_near = |x: f64| (x - 1.0).abs() <= within;
+    SampleCount::among(cells, |cell| is_near(cell.median(scope.every())))
 }
 
-/// Cells of Figures 6, 7 and 9 by name, with the median ratio once the
-/// small-rotation limit of Eq. 1 is divided out.
-#[must_use]
-pub fn without_closed_form(
-    results: &StudyResults,
-    tested: SuiteSet,
-    arm: Arm,
-) -> Vec<(String, f64)> {
-    let kind = match tested {
-        SuiteSet::Ordinary => SuiteKind::Ordinary,
-        SuiteSet::PulseType => SuiteKind::PulseType,
-        SuiteSet::None | SuiteSet::Both => return Vec::new(),
-    };
-    let suite = results.suite(kind);
-    let Ok(stripes) = suite.stripes(arm) else { return Vec::new() };
-    let mut cells = block_ratios(stripes, &[0, 1, 2], true);
-    cells.extend(adjusted_without_closed_form(suite, stripes));
-    let every = vec![1; suite.records.len()];
-    let median = |r: CellValues| (r.at, r.values.median(&every));
-    cells.into_iter().map(median).collect()
+/// The largest distance of the median of a cell from 1.
+fn furthest(scope: &Scope<'_>, cells: &[RecordRanks]) -> Estimate {
+    let away = |cell: &RecordRanks| (cell.median(scope.every()) - 1.0).abs();
+    let all = cells.iter().map(away).filter(|x| x.is_finite());
+    Estimate::exact(all.reduce(f64::max).unwrap_or(f64::NAN))
 }
 
-/// The paper's exception: alpha = 0.25 on the lowest stripe, p = 1.
-fn exception() -> String {
-    let stocky = SLENDERNESSES_RAD.len() - 1;
-    format!("{}, intensity {}", block(0, stocky), STRIPES[0])
-}
+const FURTHEST: &str = "largest distance of a median ratio from 1";
 
-/// Medians of Figures 6 and 7, without the paper's exception.
-pub(super) fn ratios(
+/// Median ratios that conform to 1 by their notches, over the cells that
+/// count; the effect is that of the cells in `effect`.
+pub(super) fn conforming(
     scope: &Scope<'_>,
-    frequencies: &[usize],
-) -> MeasureResult {
-    let exception = exception();
-    let mut cells = block_ratios(scope.stripes()?, frequencies, false);
-    cells.retain(|r| r.at != exception);
-    Ok(medians(scope, cells))
+    cells: Vec<RecordRanks>,
+    effect: Vec<RecordRanks>,
+) -> Measured {
+    let cells = scope.counted(cells);
+    let at = format!("{} cells that count", cells.len());
+    let effect = scope.mean_median(&scope.counted(effect));
+    Measured::new([notches(scope, &cells)], effect, at)
+        .and(FURTHEST, furthest(scope, &cells))
 }
 
-/// The median of the paper's exception. By the paper's criterion it is the
-/// only one: its notch leaves 1 out, and every other of p = 1 covers 1.
+/// Cell of the paper's exception: alpha = 0.25 on the lowest stripe, p = 1.
+fn exception(scope: &Scope<'_>) -> anyhow::Result<Vec<RecordRanks>> {
+    let mut own = block_ratios(scope.stripes()?, &[0], &[STOCKIEST], false);
+    own.truncate(1);
+    Ok(own)
+}
+
+/// The cells of p = 1 without the exception.
+fn without_exception(stripes: &StripeDemands) -> Vec<RecordRanks> {
+    let mut cells = block_ratios(stripes, &[0], &ALL[..STOCKIEST], false);
+    let stocky = block_ratios(stripes, &[0], &[STOCKIEST], false);
+    cells.extend(stocky.into_iter().skip(1));
+    cells
+}
+
+/// Medians of Figure 6, without the paper's exception.
+pub(super) fn ratios_large(scope: &Scope<'_>) -> MeasureResult {
+    let stripes = scope.stripes()?;
+    let effect = block_ratios(stripes, &[0], &[STOCKIEST], false);
+    Ok(conforming(scope, without_exception(stripes), effect))
+}
+
+/// Medians of Figure 7.
+pub(super) fn ratios_small(scope: &Scope<'_>) -> MeasureResult {
+    let of = |slendernesses: &[usize]| {
+        let stripes = scope.stripes()?;
+        anyhow::Ok(block_ratios(stripes, &[1, 2], slendernesses, false))
+    };
+    Ok(conforming(scope, of(&ALL)?, of(&[STOCKIEST])?))
+}
+
+const LOWEST: &str = "p = 1, alpha = 0.25, lowest stripe";
+
+/// The paper's exception: its notch leaves 1 out, and every other of p = 1
+/// holds 1.
 pub(super) fn only_exception(scope: &Scope<'_>) -> MeasureResult {
-    let exception = exception();
-    let mut cells = block_ratios(scope.stripes()?, &[0], false);
-    let name = "share of the cells that come out as this sentence says";
-    let criterion = notches(scope, &cells, name, |r| r.at != exception);
-    cells.retain(|r| r.at == exception);
-    Ok(MeasureCells { criterion: Some(criterion), ..scope.medians(cells) })
+    let own = exception(scope)?;
+    let holds = |cell| notch_holds_1(cell, scope.every());
+    let leaves_out = SampleCount::among(&own, |cell| !holds(cell));
+    let others = scope.counted(without_exception(scope.stripes()?));
+    let counts = [leaves_out, notches(scope, &others)];
+    Ok(Measured::new(counts, scope.mean_median(&own), LOWEST))
 }
 
-/// How much more the records of smaller demands deviate than the others,
-/// where the paper sees its exception: the median distance of the ratio from
-/// 1 of the half with smaller demands over the median of the other half.
+/// The median of the paper's exception.
 pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
-    let stocky = SLENDERNESSES_RAD.len() - 1;
-    let lowest = scope.stripes()?.compared(0, Some(stocky)).next();
-    let (_, own, reference) = lowest.unwrap_or_default();
-    let middle = RecordRanks::new(reference).median(&vec![1; reference.len()]);
-    let half = |small: bool| {
-        let ratios = scope::ratios(own, reference, 1.0);
-        let away = ratios.iter().zip(reference).map(|(ratio, demand)| {
-            match (*demand < middle) == small {
-                true => (ratio - 1.0).abs(),
-                false => f64::NAN,
-            }
-        });
-        RecordRanks::new(&away.collect::<Vec<f64>>())
-    };
-    let (small, large) = (half(true), half(false));
-    let records = small.records() + large.records();
-    Ok(scope.value(&exception(), records, |counts| {
-        small.median(counts) / large.median(counts)
-    }))
+    let effect = scope.mean_median(&exception(scope)?);
+    Ok(Measured::number(effect, LOWEST))
+}
+
+/// How near to 1 the medians lie once the closed form is divided out.
+const CORRECTED: f64 = 0.005;
+
+/// Medians once the closed form is divided out, beside those as they are.
+fn corrected_beside(
+    scope: &Scope<'_>,
+    [corrected, plain]: [Vec<RecordRanks>; 2],
+    effect: Vec<RecordRanks>,
+) -> Measured {
+    let [corrected, plain] = [corrected, plain].map(|c| scope.counted(c));
+    let share =
+        |cells: &[RecordRanks]| Estimate::exact(notches(scope, cells).value);
+    let at = format!("{} cells that count", corrected.len());
+    let counts = [near_1(scope, &corrected, CORRECTED)];
+    let effect = scope.mean_median(&scope.counted(effect));
+    Measured::new(counts, effect, at)
+        .and(
+            "notches that hold 1, sin(alpha)/alpha divided out",
+            share(&corrected),
+        )
+        .and("notches that hold 1, as they are", share(&plain))
+        .and(FURTHEST, furthest(scope, &plain))
+        .and(
+            "largest distance of a median ratio of theta/sin(alpha) from 1",
+            furthest(scope, &corrected),
+        )
 }
 
 /// Medians of Figures 6 and 7, the closed form divided out.
 pub(super) fn corrected(scope: &Scope<'_>) -> MeasureResult {
-    let cells = block_ratios(scope.stripes()?, &[0, 1, 2], true);
-    Ok(medians(scope, cells))
+    let stripes = scope.stripes()?;
+    let of = |slendernesses: &[usize], corrected| {
+        block_ratios(stripes, &[0, 1, 2], slendernesses, corrected)
+    };
+    let cells = [of(&ALL, true), of(&ALL, false)];
+    let stockiest = of(&[STOCKIEST], false);
+    let as_it_is = scope.mean_median(&scope.counted(stockiest));
+    let as_it_is = scope.estimate(Range::NotNegative, &as_it_is);
+    Ok(corrected_beside(scope, cells, of(&[STOCKIEST], true))
+        .and("median ratio at alpha = 0.25, as it is", as_it_is))
 }
 
 /// Medians of Figure 9, the closed form divided out record by record.
 pub(super) fn adjusted_corrected(scope: &Scope<'_>) -> MeasureResult {
-    let stripes = scope.stripes()?;
-    let cells = adjusted_without_closed_form(scope.suite(), stripes);
-    Ok(medians(scope, cells))
+    let cells =
+        [without_closed_form(scope)?, adjusted_cells(scope, |x, _, _| x)?];
+    let effect = without_closed_form(scope)?;
+    Ok(corrected_beside(scope, cells, effect))
 }
 
-/// Medians of Figure 9: all records, or those whose adjusted slenderness is
-/// `within` the paper's largest, or those above it.
-pub(super) fn adjusted(
-    scope: &Scope<'_>,
-    within: Option<bool>,
-) -> MeasureResult {
-    let part = |x, record: &Facts, im| match within {
-        Some(within) if within != is_within(record, im) => f64::NAN,
-        _ => x,
+/// Medians of Figure 9.
+pub(super) fn adjusted(scope: &Scope<'_>) -> MeasureResult {
+    let of = || adjusted_cells(scope, |x, _, _| x);
+    Ok(conforming(scope, of()?, of()?))
+}
+
+/// Medians of Figure 9 of the records whose adjusted slenderness is at most
+/// the paper's largest, and of those above it. Each record is in one part:
+/// cells count from [`LEAST_USABLE`] records.
+pub(super) fn adjusted_scope(scope: &Scope<'_>) -> MeasureResult {
+    let part = |within: bool| {
+        let mut cells = adjusted_cells(scope, |x, record, im| {
+            if is_within(record, im) == within { x } else { f64::NAN }
+        })?;
+        cells.retain(|cell| cell.records() >= LEAST_USABLE);
+        anyhow::Ok(cells)
     };
-    let stripes = scope.stripes()?;
-    Ok(medians(scope, adjusted_cells(scope.suite(), stripes, part)))
-}
-
-/// Share of resurrections, large minus small blocks.
-pub(super) fn again_by_size(scope: &Scope<'_>) -> MeasureResult {
-    let large = |f: usize, _: usize| Some(f == 0);
-    again_apart(scope, "p = 1 minus p = 3 and 4", large)
-}
-
-/// Share of resurrections, stocky minus slender blocks.
-pub(super) fn again_by_slenderness(scope: &Scope<'_>) -> MeasureResult {
-    let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
-    again_apart(scope, at, |_, s| (s != 2).then_some(s > 2))
+    let (slender, stocky) = (part(true)?, part(false)?);
+    // What rounds to 1.0.
+    let counts = [&slender, &stocky].map(|own| near_1(scope, own, 0.05));
+    let at = format!("{} and {} cells", slender.len(), stocky.len());
+    Ok(Measured::new(counts, scope.mean_median(&stocky), at))
 }
 
 /// Share of the ratios of all cells that lie more than 10 % from 1.
 pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
-    let cells = block_ratios(scope.stripes()?, &[0, 1, 2], false);
+    let cells = block_ratios(scope.stripes()?, &[0, 1, 2], &ALL, false);
     let n = scope.records();
     let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
-    for (x, record) in cells.iter().flat_map(|r| r.values.each()) {
+    for (x, record) in cells.iter().flat_map(RecordRanks::each) {
         all[record] += 1;
         far[record] += u32::from((x - 1.0).abs() > 0.10);
     }
-    Ok(scope.share("ratios further than 10 % from 1", &far, &all))
+    let [near, all_of_them] =
+        [all.iter().zip(&far).map(|(n, k)| n - k).sum(), all.iter().sum()]
+            .map(|n: u32| n as usize);
+    let counts = [SampleCount::of(near, all_of_them)];
+    Ok(Measured::new(counts, scope.share(&far, &all), "all ratios"))
 }
 
-/// By block and stripe, the share of the records that overturned at or below
-/// and stand there again.
-pub(super) fn probabilities(scope: &Scope<'_>) -> MeasureResult {
-    let stripes = scope.stripes()?;
-    let (mut cells, mut counts) = (Vec::new(), Vec::new());
-    for (frequency, slenderness) in blocks() {
-        let own = &stripes.stands_again[position(frequency, slenderness)];
-        let name = block(frequency, slenderness);
-        for (im, flags) in STRIPES.iter().zip(own) {
-            let records = flags.len();
-            let again = flags.iter().filter(|again| **again).count();
-            counts.push(Proportion::try_new(again, records)?);
-            cells
-                .push(Cell { at: format!("{name}, intensity {im}"), records });
+/// The stripe on which resurrections lower the probability of overturning
+/// most, in any block, with that drop.
+fn largest_drop(
+    scope: &Scope<'_>,
+    stripes: &StripeDemands,
+) -> anyhow::Result<Estimate> {
+    let mut worst: Option<&[bool]> = None;
+    let count = |flags: &[bool]| flags.iter().filter(|again| **again).count();
+    for flags in stripes.stands_again.iter().flatten() {
+        if worst.is_none_or(|own| count(flags) > count(own)) {
+            worst = Some(flags);
         }
     }
-    Ok(MeasureCells::new(cells, Replicates::of_counts(counts)))
+    let flags = worst.unwrap_or_default();
+    let drop = |counts: &[u32]| {
+        let stand: Vec<u32> = flags.iter().map(|x| u32::from(*x)).collect();
+        weighted_count(&stand, counts) / f64::from(counts.iter().sum::<u32>())
+    };
+    Ok(scope.estimate(Range::Share, &scope.one(drop)))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
 /// resurrections over without; by interpolation in the logarithm of the
 /// intensity between stripes.
-pub(super) fn median_again(scope: &Scope<'_>) -> MeasureResult {
+pub(super) fn resurrections(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
-    let cells = blocks().map(|(f, s)| {
-        let own = stripes.stands_again[position(f, s)].first();
-        Cell { at: block(f, s), records: own.map_or(0, Vec::len) }
-    });
-    let half = |counts: &[u32], lies: &dyn Fn(usize, usize) -> bool| -> f64 {
-        let n = f64::from(counts.iter().sum::<u32>());
-        let mut below: Option<(f64, f64)> = None;
-        for (stripe, im) in STRIPES.iter().enumerate() {
-            let overturned: u32 = (0..counts.len())
-                .filter(|record| lies(stripe, *record))
-                .map(|record| counts[record])
-                .sum();
-            let share = f64::from(overturned) / n;
-            if share >= 0.5 {
-                let (x0, y0) = below.unwrap_or((0.0, 0.0));
-                let (x1, y1) = (log(*im), share);
-                return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0);
-            }
-            below = Some((log(*im), share));
-        }
-        f64::NAN
+    let ratios = |counts: &[u32]| -> Vec<f64> {
+        (0..BLOCKS.len()).map(|at| stripes.median_again(at, counts)).collect()
     };
-    let measured = scope.smooth(|counts| {
-        let ratio = |at: usize| {
-            let demands = &stripes.demands[at];
-            let again = &stripes.stands_again[at];
-            let first = |stripe: usize, record: usize| {
-                let own = demands.get(stripe);
-                own.is_some_and(|demands| demands[record].is_infinite())
-            };
-            let lies = |stripe: usize, record: usize| {
-                first(stripe, record) && !again[stripe][record]
-            };
-            libm::exp(half(counts, &lies) - half(counts, &first))
-        };
-        (0..BLOCKS.len()).map(ratio).collect()
-    });
-    Ok(MeasureCells::new(cells.collect(), measured))
+    let moves = |ratio: &f64| (ratio - 1.0).abs();
+    let found: Vec<f64> = ratios(scope.every());
+    let known = found.iter().filter(|ratio| ratio.is_finite());
+    let counts = [SampleCount::among(known, |r| moves(r) < COINCIDE)];
+    let measured = scope.smooth(ratios);
+    let part = |from: usize, to: usize| {
+        let own = measured.one(|row| geometric_mean(row[from..to].to_vec()));
+        scope.estimate(Range::NotNegative, &own)
+    };
+    let (one, all) = (SLENDERNESSES_RAD.len(), BLOCKS.len());
+    let effect = measured.one(|row| geometric_mean(row.to_vec()));
+    Ok(Measured::new(counts, effect, "all blocks")
+        .and("p = 1", part(0, one))
+        .and("p = 3 and 4", part(one, all))
+        .and(
+            "largest drop of the probability of overturning",
+            largest_drop(scope, stripes)?,
+        ))
 }
 
-/// Share of the overturned that stand again: its value over the blocks that
-/// are `first`, minus its value over those that are not.
-fn again_apart(
-    scope: &Scope<'_>,
-    at: &str,
-    first: impl Fn(usize, usize) -> Option<bool>,
-) -> MeasureResult {
-    let stripes = scope.stripes()?;
-    let n = scope.records();
-    // By part, by record: overturned, and standing again.
-    let mut sums = [[(); 2]; 2].map(|part| part.map(|()| vec![0_u32; n]));
-    for (frequency, slenderness) in blocks() {
-        let Some(first) = first(frequency, slenderness) else { continue };
-        let [overturned, standing] = &mut sums[usize::from(first)];
-        let at = position(frequency, slenderness);
-        let own = stripes.demands[at].iter().zip(&stripes.stands_again[at]);
-        for (demands, again) in own {
-            for record in 0..n {
-                overturned[record] += u32::from(demands[record].is_infinite());
-                standing[record] += u32::from(again[record]);
-            }
-        }
-    }
-    Ok(scope.value(at, n, |counts| {
-        let share = |[overturned, standing]: &[Vec<u32>; 2]| {
-            weighted_count(standing, counts)
-                / weighted_count(overturned, counts)
+impl StripeDemands {
+    /// Median overturning intensity of a block with resurrections over
+    /// without, each record drawn so often.
+    fn median_again(&self, block: usize, counts: &[u32]) -> f64 {
+        let (demands, again) =
+            (&self.demands[block], &self.stands_again[block]);
+        let falls = |stripe: usize, record: usize| {
+            demands[stripe][record].is_infinite()
         };
-        share(&sums[1]) - share(&sums[0])
-    }))
+        let lies = |stripe: usize, record: usize| {
+            falls(stripe, record) && !again[stripe][record]
+        };
+        libm::exp(
+            half(demands.len(), counts, lies)
+                - half(demands.len(), counts, falls),
+        )
+    }
+}
+
+/// Logarithm of the intensity at which half of the records lie overturned.
+fn half(
+    stripes: usize,
+    counts: &[u32],
+    lies: impl Fn(usize, usize) -> bool,
+) -> f64 {
+    let n = f64::from(counts.iter().sum::<u32>());
+    let mut below = (0.0, 0.0);
+    for (stripe, im) in STRIPES.iter().enumerate().take(stripes) {
+        let of = |record: &usize| lies(stripe, *record);
+        let own = (0..counts.len()).filter(of).map(|record| counts[record]);
+        let (x1, y1) = (log(*im), f64::from(own.sum::<u32>()) / n);
+        if y1 >= 0.5 {
+            let (x0, y0) = below;
+            return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0);
+        }
+        below = (x1, y1);
+    }
+    f64::NAN
 }

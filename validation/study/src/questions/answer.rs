@@ -21,6 +21,16 @@ pub struct StudyAnswer {
     pub files: Vec<(String, String)>,
 }
 
+impl StudyAnswer {
+    /// The same answer with a further part, its words, tables and files.
+    pub(super) fn beside(mut self, part: Self) -> Self {
+        self.answer += &format!("\n{}", part.answer);
+        self.tables.extend(part.tables);
+        self.files.extend(part.files);
+        self
+    }
+}
+
 /// Rows for a CSV and a table of the page at once: each cell stands beside
 /// the name of its column.
 #[derive(Default)]

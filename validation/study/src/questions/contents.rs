@@ -7,9 +7,9 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::answer::{Rows, StudyAnswer, number, word};
 use crate::analyses::SuiteResults;
 use crate::contents::{Furnishing, items};
-use crate::estimates::mean;
+use crate::estimates::{LEVEL, mean};
 use crate::fits::of_intervals;
-use crate::inference::{Replicates, Resample, Resamples};
+use crate::inference::{Resample, Resamples};
 use crate::results::StudyResults;
 use crate::runs::overturning;
 use crate::words::{caption, heading};
@@ -18,6 +18,7 @@ use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Mark, Series,
 };
+use rocking_statistics::{Estimate, Range};
 
 /// Items of one depth, with which FEMA P-58's medians are read.
 const BOOKCASES: usize = 5;
@@ -26,8 +27,7 @@ const BOOKCASES: usize = 5;
 /// items, the median first.
 struct ItemFits {
     suite: SuiteKind,
-    measured: Replicates,
-    intervals: Vec<(f64, f64)>,
+    found: Vec<Estimate>,
 }
 
 impl ItemFits {
@@ -54,23 +54,21 @@ impl ItemFits {
             known.iter().flat_map(fitted).collect()
         };
         let measured = draws.smooth(kind.into(), &of);
-        let none = (f64::NAN, f64::NAN);
-        let intervals = measured.percentiles(draws, kind.into());
-        let intervals =
-            intervals.into_iter().map(|ends| ends.unwrap_or(none)).collect();
-        Ok(Self { suite: kind, measured, intervals })
+        let limits = (Range::NotNegative, LEVEL);
+        let found = draws.estimates(kind.into(), limits, &measured);
+        Ok(Self { suite: kind, found })
     }
 
     fn median_m_s(&self, item: usize) -> f64 {
-        self.measured.point(2 * item)
+        self.found[2 * item].value()
     }
 
     fn dispersion(&self, item: usize) -> f64 {
-        self.measured.point(2 * item + 1)
+        self.found[2 * item + 1].value()
     }
 
     fn interval_m_s(&self, item: usize) -> (f64, f64) {
-        self.intervals[2 * item]
+        self.found[2 * item].ends()
     }
 
     /// Our median over FEMA P-58's, by item.

@@ -5,6 +5,7 @@ use rocking_statistics::ExtendedSample;
 use rocking_statistics::lilliefors::{Inapplicable, LillieforsTest};
 
 use super::answer::{Rows, StudyAnswer, count, number, word};
+use super::nulls;
 use crate::analyses::SuiteResults;
 use crate::fits::{Fits, of_intervals};
 use crate::results::StudyResults;
@@ -91,7 +92,8 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
         by_suite.push((suite.kind.name(), rows));
     }
     let answer = table.answer("grid", words.join(" "));
-    Ok(StudyAnswer { figures: vec![figure(&by_suite)], ..answer })
+    let answer = StudyAnswer { figures: vec![figure(&by_suite)], ..answer };
+    Ok(answer.beside(nulls::nulls_part(results)))
 }
 
 fn rows(

@@ -14,6 +14,7 @@ use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 
 use self::drawing::RecipeSummary;
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
+use super::trimming;
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
 use crate::fits::{BLOCK, MLE, THRESHOLDS, trimmed};
@@ -96,7 +97,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
         ("options-pact.csv".into(), pact(&entries)?),
     ]);
     answer.figures.push(drawing::figure(&summaries, arm));
-    Ok(answer)
+    Ok(answer.beside(trimming::trimming_part(results)?))
 }
 
 fn reported(recipe: &Recipe) -> TableCell {

@@ -1,20 +1,17 @@
-//! Figures 15 to 17: the fragilities with the bands that decide the claims.
+//! Figures 15 to 17: the fragilities with their bands.
 
-use rocking_statistics::Lognormal;
+use rocking_statistics::{Lognormal, Range};
 
 use super::curves::{
     KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,
 };
-use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
-use crate::inference::{Replicates, Resample, Resamples, by_cell};
-use crate::measures::{
-    ClaimMeasure, DemandFits, Scope, Thresholds, by_demand, to_ssfl,
-};
+use crate::inference::{Resample, Resamples};
+use crate::measures::{DemandFits, Scope, Thresholds, by_demand, to_ssfl};
 use crate::results::StudyResults;
 use crate::words::paper_heading;
 use anyhow::Context as _;
-use rocking_common::findings::SuiteSet;
+use rocking_common::findings::{LEVEL, SuiteSet};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
@@ -23,13 +20,18 @@ use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Layout, Look, Mark, Series,
 };
 use rocking_draw::grid::Grid;
-use rocking_statistics::{Estimate, Interval};
+use rocking_statistics::Estimate;
 
-const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
 const USFL: (&str, Pen) = ("USFL", Pen::new(Ink::Series(0), 1.4));
+
+/// The benchmark of the distances of USFL7.
+const SSFL: (&str, Pen) = ("SSFL", Pen::new(Ink::Text, 0.9));
 
 /// Intensities at which the ends of a band are computed.
 const POINTS: u32 = 80;
+
+/// Level of the bands.
+const BAND: f64 = 0.95;
 
 /// Which fits a figure compares.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -73,24 +75,6 @@ impl FitPair {
         };
         (name, Pen::new(Ink::Series(series), 1.4).dash(Dash::Dashed))
     }
-
-    /// Name of the second fit's band: of USFL7 it is that of the difference
-    /// to the SSFL, laid on the SSFL, so that the curve need not lie in it.
-    fn band_words(self) -> &'static str {
-        match self {
-            Self::Shifted => "95 % band of SSFL",
-            _ => "SSFL + 95 % band of USFL7 \u{2212} SSFL",
-        }
-    }
-
-    /// The measure of the claims on it.
-    fn measure(self) -> ClaimMeasure {
-        match self {
-            Self::Shifted => ClaimMeasure::ShiftGain,
-            Self::Trimmed => ClaimMeasure::TrimmedToSsfl,
-            Self::Untrimmed => ClaimMeasure::UntrimmedToSsfl,
-        }
-    }
 }
 
 /// Figures 15, 16 and 17.
@@ -102,7 +86,6 @@ pub(in super::super) fn thresholds(
 ) -> anyhow::Result<Figure> {
     let pair = FitPair::of(number);
     let mut panels = Vec::new();
-    let mut words = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let scope = Scope {
             results,
@@ -112,45 +95,15 @@ pub(in super::super) fn thresholds(
             arm,
             intensity,
         };
-        let measure = pair.measure();
-        let limit = limit_of(measure, intensity);
         let read = Thresholds::new(&scope)?;
-        let (_, range) = measure.unit();
-        let judged = |measured: &Replicates| {
-            by_cell(draws, scope.tested, range, measured)
-        };
-        let decide = if pair == FitPair::Shifted {
-            judged(&measure.prepare(&scope)?.measured)
-        } else {
-            let apart = |at: &DemandFits| to_ssfl(pair.first(at), at, 1.0);
-            judged(&by_demand(&scope, &read, apart))
-        };
-        let name = intensity.name().to_uppercase();
-        words.push(if pair == FitPair::Shifted {
-            gain_in_words(&name, decide.first(), limit)
-        } else {
-            distances_in_words(&name, &decide, limit)
-        });
-        for (place, edp) in THRESHOLDS.into_iter().enumerate() {
-            let cell = decide.get(place).filter(|_| pair != FitPair::Shifted);
-            let of = ThresholdPanel { edp, place, limit, cell };
-            panels.push(panel(&scope, &read, pair, &of)?);
+        let apart = |at: &DemandFits| to_ssfl(pair.first(at), at, 1.0);
+        let apart = by_demand(&scope, &read, apart);
+        let places = (Range::Share, LEVEL);
+        let apart = draws.estimates(scope.tested, places, &apart);
+        for (place, apart) in apart.iter().enumerate() {
+            panels.push(panel(&scope, &read, pair, (place, apart))?);
         }
     }
-    words.push(
-        match pair {
-            FitPair::Shifted => {
-                "Bands hold 95 % of the fits to resampled suites; brackets \
-                 are 90 % intervals."
-            }
-            _ => {
-                "The band is SSFL plus 95 % of the differences of USFL7 to \
-                 it over resampled suites, so that USFL7 need not lie in it; \
-                 brackets are 90 % intervals."
-            }
-        }
-        .into(),
-    );
     let heading = paper_heading(number, Some(arm));
     let columns = THRESHOLDS.len();
     let grid = Grid::new(panels.len(), columns);
@@ -158,100 +111,83 @@ pub(in super::super) fn thresholds(
     let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let chart = Chart { heading, panels, columns };
     let chart = chart.thinned((grid.width, grid.height));
-    Ok(chart.laid_out(&layout, words.join(" ")))
-}
-
-fn band(pen: Pen) -> Fill {
-    Fill::tint(pen.ink, 26)
-}
-
-/// Contents of a panel.
-struct ThresholdPanel<'a> {
-    edp: f64,
-    place: usize,
-    limit: f64,
-    /// Largest distance of USFL7 to SSFL, as the claim judges it.
-    cell: Option<&'a Estimate>,
+    let benchmark = match pair {
+        FitPair::Shifted => "",
+        _ => " The thin line is the SSFL, from which distances are measured.",
+    };
+    let words = format!(
+        "Bands are 95 % intervals of the fitted probability by earthquake; \
+         brackets are 90 % intervals.{benchmark}"
+    );
+    Ok(chart.laid_out(&layout, words))
 }
 
 fn panel(
     scope: &Scope<'_>,
     read: &Thresholds,
     pair: FitPair,
-    of: &ThresholdPanel<'_>,
+    (place, apart): (usize, &Estimate),
 ) -> anyhow::Result<ChartPanel> {
-    let kind = scope.results.ordinary.kind;
+    let kind = scope.kind();
     let whole = scope.draws.whole();
-    let at = read.at(whole.of(kind), of.place).context("no capacities")?;
+    let at = read.at(whole.of(kind), place).context("no capacities")?;
     let (first, second) = (pair.first(&at), pair.second(&at));
     let sample = at.sample.sorted();
     let axis = range(sample);
     let grid = along(axis, POINTS);
-    // Of USFL7 the difference to SSFL, which moves with the records less
-    // than either.
     let over = |draw: Resample<'_>| {
-        let Some(at) = read.at(draw.of(kind), of.place) else {
+        let Some(at) = read.at(draw.of(kind), place) else {
             return vec![f64::NAN; 2 * grid.len()];
         };
-        let (a, b) = (pair.first(&at), pair.second(&at));
-        let less = at.fits.ssfl.filter(|_| pair != FitPair::Shifted);
-        let all = |fit: Option<Lognormal>, less: Option<Lognormal>| {
-            grid.iter().map(move |x| {
-                let p = fit.map_or(f64::NAN, |f| f.cdf(*x));
-                p - less.map_or(0.0, |f| f.cdf(*x))
-            })
+        let of = |fit: Option<Lognormal>| {
+            let p = move |x: &f64| fit.map_or(f64::NAN, |f| f.cdf(*x));
+            grid.iter().map(p)
         };
-        all(a, None).chain(all(b, less)).collect()
+        of(pair.first(&at)).chain(of(pair.second(&at))).collect()
     };
     let bands = scope.draws.smooth(scope.tested, &over);
-    let bands = bands.percentiles(scope.draws, scope.tested);
+    let limits = (Range::Share, BAND);
+    let bands = scope.draws.estimates(scope.tested, limits, &bands);
     let (of_first, of_second) = bands.split_at(grid.len());
-    let place = (scope.intensity, of.edp);
-    // Ends of a band on a curve, or of the curve itself.
-    let laid = |name: &str, fill, on: Option<Lognormal>, ends: &[_]| {
-        let found = grid.iter().zip(ends).filter_map(|(x, ends)| {
-            let p = on.map_or(0.0, |f| f.cdf(*x));
-            let (a, b): (f64, f64) = (*ends)?;
-            Some((*x, (p + a, p + b)))
-        });
+    let at_place = (scope.intensity, THRESHOLDS[place]);
+    let band = |(name, pen): (&str, Pen), of: &[Estimate]| {
+        let found = grid.iter().zip(of);
+        let found =
+            found.filter_map(|(x, p)| Some((*x, p.interval()?.ends())));
         let (x, ends): (Vec<f64>, Vec<(f64, f64)>) = found.unzip();
         let y = vec![f64::NAN; x.len()];
-        let keys = keys(place, name, on.as_ref());
-        let band = Series::of(Look::band(fill), x, y).labelled(name);
-        band.with(ends).keyed(keys)
+        let name = format!("95 % band of {name}");
+        let look = Look::band(Fill::tint(pen.ink, 26));
+        let keys = keys(at_place, &name, None);
+        Series::of(look, x, y).labelled(&name).with(ends).keyed(keys)
     };
-    let on = at.fits.ssfl.filter(|_| pair != FitPair::Shifted);
-    let (name, pen) = pair.other();
-    let mut series = Vec::new();
-    if on.is_some() {
-        let around = vec![Some((-of.limit, of.limit)); grid.len()];
-        let words = format!("limit: SSFL ± {}", of.limit);
-        series.push(laid(&words, LIMIT, on, &around));
-    }
-    if pair == FitPair::Shifted {
-        let fill = band(USFL.1);
-        series.push(laid("95 % band of USFL", fill, None, of_first));
-    }
-    series.push(laid(pair.band_words(), band(pen), on, of_second));
-    series.push(empirical(place, sample));
+    let other = pair.other();
     let fine = along(axis, 300);
-    series.push(fitted(place, USFL, first.as_ref(), &fine));
-    series.push(fitted(place, (name, pen), second.as_ref(), &fine));
-    let mut notes = match (second, of.cell) {
-        (None, _) => Vec::new(),
-        (Some(_), None) => vec![
+    let mut series = vec![
+        band(USFL, of_first),
+        band(other, of_second),
+        empirical(at_place, sample),
+        fitted(at_place, USFL, first.as_ref(), &fine),
+        fitted(at_place, other, second.as_ref(), &fine),
+    ];
+    let mut notes = Vec::new();
+    if pair == FitPair::Shifted {
+        notes.extend([
             "largest distance to the ECDF:".into(),
             format!(
                 "USFL {:.3}, SSFL {:.3}",
                 distance(first, &at.sample),
                 distance(second, &at.sample)
             ),
-        ],
-        (Some(_), Some(cell)) => {
-            vec!["largest distance to SSFL:".into(), cell.text("", three)]
+        ]);
+    } else {
+        series.push(fitted(at_place, SSFL, at.fits.ssfl.as_ref(), &fine));
+        if second.is_some() {
+            notes.push("largest distance to SSFL:".into());
+            notes.push(apart.text("", |x| format!("{x:.3}")));
         }
-    };
-    for (name, fit) in [(USFL.0, first), (name, second)] {
+    }
+    for (name, fit) in [(USFL.0, first), (other.0, second)] {
         if fit.is_none() {
             notes.push(format!("{name} is not defined"));
         }
@@ -260,7 +196,7 @@ fn panel(
     series.extend(notes.into_iter().map(note));
     let name = scope.intensity.name().to_uppercase();
     Ok(ChartPanel::new(
-        format!("{name}, *θ̃* = {:.2}", of.edp),
+        format!("{name}, *θ̃* = {:.2}", THRESHOLDS[place]),
         Axis::linear(axis.0, axis.1, 5).label(scope.intensity.row().label),
         exceedance(),
         series,
@@ -274,76 +210,4 @@ fn range(sample: &[f64]) -> (f64, f64) {
     let (least, _) = span(data, true).unwrap_or((1.0, 2.0));
     let most = most_of(sample).filter(|x| *x > least);
     (0.6 * least, 1.05 * most.unwrap_or(2.0 * least))
-}
-
-/// Three decimals.
-fn three(x: f64) -> String {
-    format!("{x:.3}").replace('-', "−")
-}
-
-/// The gain by shifting, in a sentence.
-fn gain_in_words(name: &str, gain: Option<&Estimate>, limit: f64) -> String {
-    let Some(gain) = gain else { return String::new() };
-    let Some((low, high)) = gain.interval().map(Interval::ends) else {
-        return format!("For {name} no interval tells what shifting gains.");
-    };
-    let finding = if low > limit {
-        format!("SSFL fits better than USFL by more than {limit}")
-    } else if high < -limit {
-        format!("SSFL fits worse than USFL by more than {limit}")
-    } else if low > -limit && high < limit {
-        format!("SSFL fits as USFL does, within {limit}")
-    } else if high < limit {
-        format!("SSFL does not fit better than USFL by {limit}")
-    } else {
-        format!("it is open whether SSFL fits better than USFL by {limit}")
-    };
-    format!(
-        "For {name} {finding}; the mean gain over three demands is {}.",
-        gain.text("", three)
-    )
-}
-
-/// At which demands USFL7 is near enough, in a sentence.
-fn distances_in_words(name: &str, cells: &[Estimate], limit: f64) -> String {
-    let ends =
-        |cell: &Estimate| cell.interval().map_or((0.0, 1.0), Interval::ends);
-    let listed = |is: &dyn Fn((f64, f64)) -> bool| {
-        let demands: Vec<String> = THRESHOLDS
-            .iter()
-            .zip(cells)
-            .filter(|(_, cell)| is(ends(cell)))
-            .map(|(edp, _)| format!("{edp:.2}"))
-            .collect();
-        match demands.as_slice() {
-            [] => None,
-            [one] => Some(format!("demand {one}")),
-            [most @ .., last] => {
-                Some(format!("demands {} and {last}", most.join(", ")))
-            }
-        }
-    };
-    let inside = listed(&|(_, high)| high < limit)
-        .map(|at| format!("USFL7 lies within {limit} of SSFL at {at}"));
-    let outside = listed(&|(low, _)| low > limit)
-        .map(|at| format!("USFL7 leaves SSFL by more than {limit} at {at}"));
-    let open = listed(&|(low, high)| !(high < limit || low > limit))
-        .map(|at| format!("USFL7 may lie within {limit} of SSFL at {at}"));
-    let all: Vec<String> =
-        [inside, outside, open].into_iter().flatten().collect();
-    format!("For {name} {}.", all.join("; "))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_band_that_is_laid_on_another_curve_is_named_so() {
-        assert_eq!(FitPair::Shifted.band_words(), "95 % band of SSFL");
-        for pair in [FitPair::Trimmed, FitPair::Untrimmed] {
-            let words = pair.band_words();
-            assert!(words.starts_with("SSFL + ") && words.ends_with("SSFL"));
-        }
-    }
 }

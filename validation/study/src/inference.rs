@@ -19,18 +19,14 @@ use rocking_common::paper::SuiteKind;
 /// second of its digits.
 pub const REPLICATES: usize = 2000;
 
-/// Earthquakes below which each is left out in turn: a bootstrap of fewer
-/// has too few different draws.
-const FEWEST_DRAWN: usize = 8;
-
 /// Most records that a cell of a share or mean of cells has to have.
-const MOST_ASKED: usize = 30;
+const MOST_NEEDED: usize = 30;
 
 /// The least number of records of a cell that counts, in a suite of n
 /// records: half of them, and 30 where there are as many.
 #[must_use]
 pub fn least_counted(n: usize) -> usize {
-    n.div_ceil(2).min(MOST_ASKED)
+    n.div_ceil(2).min(MOST_NEEDED)
 }
 
 /// How often a resample holds each record, by suite.
@@ -53,9 +49,7 @@ pub struct Resamples {
     whole: [Vec<u32>; 2],
     /// Draws with replacement, by suite.
     drawn: [Vec<Vec<u32>>; 2],
-    /// Subsets without one earthquake, by suite.
-    without_one: [Vec<Vec<u32>>; 2],
-    /// Subsets without two.
+    /// Subsets without two earthquakes, by suite.
     without_two: [Vec<Vec<u32>>; 2],
 }
 
@@ -70,13 +64,9 @@ impl Resamples {
             let draws = Bootstrap::of_clusters(&name, 0, own, REPLICATES);
             (0..REPLICATES as u64).map(|i| draws.multiplicities(i)).collect()
         };
-        let without = |own: &Clusters| -> Vec<Vec<u32>> {
-            (0..own.count()).map(|g| own.without(g)).collect()
-        };
         Self {
             whole: clusters.each_ref().map(|own| vec![1; own.records()]),
             drawn: SuiteKind::ALL.map(drawn),
-            without_one: clusters.each_ref().map(without),
             without_two: clusters.each_ref().map(Clusters::without_two),
             clusters,
         }
@@ -124,21 +114,15 @@ impl Resamples {
         }
     }
 
-    /// Numbers that are smooth in the records, over the bootstrap; of a
-    /// suite of few earthquakes without each of them.
+    /// Numbers that are smooth in the records, over the bootstrap.
     #[must_use]
     pub fn smooth(
         &self,
         tested: SuiteSet,
         f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
     ) -> Replicates {
-        let are_few = self.clusters(tested).count() < FEWEST_DRAWN
-            && tested != SuiteSet::Both;
-        let (how, own) = match are_few {
-            true => (Resampling::Without(1), &self.without_one),
-            false => (Resampling::Bootstrap, &self.drawn),
-        };
-        let rows = self.rows(tested, own, f);
+        let rows = self.rows(tested, &self.drawn, f);
+        let how = Resampling::Bootstrap;
         Replicates { how, points: f(self.whole()), rows }
     }
 
@@ -235,18 +219,15 @@ mod tests {
     }
 
     #[test]
-    fn few_earthquakes_are_left_out_in_turn() {
+    fn ties_are_avoided_by_leaving_two_earthquakes_out() {
         let draws = Resamples::new([7, 8].map(Clusters::singletons));
-        let first =
-            |kind| move |draw: Resample<'_>| vec![f64::from(draw.of(kind)[0])];
-        let of = |kind: SuiteKind| draws.smooth(kind.into(), &first(kind));
-        let few = of(SuiteKind::Ordinary);
-        assert_eq!((few.how, few.rows.len()), (Resampling::Without(1), 7));
-        assert_eq!(few.rows[0], [0.0]);
-        assert_eq!(of(SuiteKind::PulseType).rows.len(), REPLICATES);
-        let pairs =
-            draws.untied(SuiteKind::PulseType, &first(SuiteKind::Ordinary));
-        assert_eq!(pairs.rows.len(), 28);
+        let held = |draw: Resample<'_>| {
+            let counts = draw.of(SuiteKind::PulseType);
+            vec![f64::from(counts.iter().sum::<u32>())]
+        };
+        let pairs = draws.untied(SuiteKind::PulseType, &held);
+        assert_eq!((pairs.points[0], pairs.rows.len()), (8.0, 28));
+        assert!(pairs.rows.iter().all(|row| row[0] == 6.0));
     }
 
     #[test]

@@ -160,13 +160,15 @@ impl Declaration {
         let (unit, range) = test.measure.unit();
         let estimate = scope.estimate(range, &effect);
         let Claim { yardsticks, no_effect, .. } = &self.claim;
-        let exists = no_effect.as_ref().map(|own| Exists::of(own, &estimate));
+        let seen = Seen::of(yardsticks, &counts);
+        // What rests on something that is not there has no effect.
+        let effect = no_effect.filter(|_| seen != Seen::NotTestable);
         Ok(ClaimResult {
             suite: scope.tested,
             arm: (test.arms != Arms::None).then_some(scope.arm),
-            seen: Seen::of(yardsticks, &counts),
+            seen,
             counts,
-            exists,
+            exists: effect.map(|own| Exists::of(&own, &estimate)),
             estimate,
             unit,
             at,

@@ -5,7 +5,7 @@
 use anyhow::Context as _;
 use rocking_common::findings::{Findings, StudySettings};
 
-/// Findings of the recorded suites: values, intervals, verdicts, record names
+/// Findings of the recorded suites: values, intervals, words, record names
 /// and hashes, and no sample of a record. The file's own words say how it is
 /// made.
 const FINDINGS: &str = rocking_fixtures::text("recorded/findings.json");

@@ -365,7 +365,7 @@ pub struct ClaimResult {
     /// The numbers by which it is seen or not, one for each yardstick.
     pub counts: Vec<SampleCount>,
     /// Whether its effect exists beyond this sample; none of a quantity that
-    /// has no value of no effect.
+    /// has no value of no effect, and of a statement that is not testable.
     pub exists: Option<Exists>,
     /// The effect with its interval of [`LEVEL`].
     #[serde(flatten, with = "estimate::complete")]

@@ -204,7 +204,7 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
 }
 
 /// Largest over smallest median overturning intensity of the slendernesses,
-/// minus 1.
+/// minus 1; the interval is that of the ratio, which is 1 at least.
 fn spread(scope: &Scope<'_>, frequency: usize) -> anyhow::Result<Estimate> {
     let of = |s| samples(scope, frequency, s, 1.0);
     let all =
@@ -215,9 +215,11 @@ fn spread(scope: &Scope<'_>, frequency: usize) -> anyhow::Result<Estimate> {
             all.iter().map(|own| own.median(counts)).collect();
         let is_reached = medians.iter().all(|x| x.is_finite());
         let ends = span(medians, true).filter(|_| is_reached);
-        ends.map_or(f64::NAN, |(low, high)| high / low - 1.0)
+        ends.map_or(f64::NAN, |(low, high)| high / low)
     });
-    Ok(scope.estimate(Range::NotNegative, &measured))
+    let ratio = scope.estimate(Range::NotNegative, &measured);
+    let least = |x: f64| if x < 1.0 { 0.0 } else { x - 1.0 };
+    Ok(ratio.map(least))
 }
 
 /// Figure 10: both quantiles, slenderness adjusted over records scaled.

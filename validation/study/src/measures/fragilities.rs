@@ -189,16 +189,6 @@ pub(super) fn shift_gain(scope: &Scope<'_>) -> MeasureResult {
     Ok(Measured::new(counts, each.one(arithmetic), MEAN))
 }
 
-/// A ratio by demand: at how many it lies below 1, and its geometric mean.
-fn ratio(
-    scope: &Scope<'_>,
-    f: impl Fn(&DemandFits) -> f64 + Sync,
-) -> MeasureResult {
-    let each = by_demand(scope, &Thresholds::new(scope)?, f);
-    let counts = demands(&each, |ratio| ratio < 1.0);
-    Ok(Measured::new(counts, each.one(geometric), MEAN))
-}
-
 fn trimmed_to_ssfl(at: &DemandFits) -> f64 {
     to_ssfl(at.fits.trimmed, at, 1.0)
 }
@@ -207,16 +197,25 @@ fn untrimmed_to_ssfl(at: &DemandFits) -> f64 {
     to_ssfl(at.fits.usfl, at, 1.0)
 }
 
-/// Distance of trimmed USFL7 to SSFL over the distance of the trimmed USFL.
+/// Distance of the trimmed USFL7 to the sample, the benchmark of the paper,
+/// over the distance of the trimmed USFL; over subsets, since a draw with
+/// replacement would tie values.
 pub(super) fn trimmed(scope: &Scope<'_>) -> MeasureResult {
-    let found = ratio(scope, |at| {
-        trimmed_to_ssfl(at) / apart(at.fits.trimmed, at.fits.ssfl)
-    })?;
+    let thresholds = Thresholds::new(scope)?;
+    let kind = scope.kind();
+    let of = |draw: Resample<'_>| {
+        thresholds.each(draw.of(kind), |at| {
+            let own = usfl7(at.fits.trimmed, at.shift, 1.0);
+            distance(own, &at.sample) / distance(at.fits.trimmed, &at.sample)
+        })
+    };
+    let each = scope.draws.untied(kind, &of);
+    let counts = demands(&each, |ratio| ratio < 1.0);
     let at_uplift = mean_distance(scope, |at| {
         at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
     })?;
     let untrimmed = mean_distance(scope, untrimmed_to_ssfl)?;
-    Ok(found
+    Ok(Measured::new(counts, each.one(geometric), MEAN)
         .and(TO_SSFL, mean_distance(scope, trimmed_to_ssfl)?)
         .and("distance to the SSFL without trimming", untrimmed)
         .and("probability by the USFL at uplift, where it is 0", at_uplift))

@@ -175,19 +175,25 @@ pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
 /// How near to 1 the medians lie once the closed form is divided out.
 const CORRECTED: f64 = 0.005;
 
-/// Medians once the closed form is divided out, beside those as they are.
+/// Medians once the closed form is divided out, beside those as they are; the
+/// effect is that of the cells in `effect` as they are.
 fn corrected_beside(
     scope: &Scope<'_>,
     [corrected, plain]: [Vec<RecordRanks>; 2],
-    effect: Vec<RecordRanks>,
+    effect: [Vec<RecordRanks>; 2],
 ) -> Measured {
     let [corrected, plain] = [corrected, plain].map(|c| scope.counted(c));
     let share =
         |cells: &[RecordRanks]| Estimate::exact(notches(scope, cells).value);
     let at = format!("{} cells that count", corrected.len());
     let counts = [near_1(scope, &corrected, CORRECTED)];
-    let effect = scope.mean_median(&scope.counted(effect));
+    let [left, effect] =
+        effect.map(|own| scope.mean_median(&scope.counted(own)));
     Measured::new(counts, effect, at)
+        .and(
+            "the same ratio of theta/sin(alpha)",
+            scope.estimate(Range::NotNegative, &left),
+        )
         .and(
             "notches that hold 1, sin(alpha)/alpha divided out",
             share(&corrected),
@@ -203,23 +209,19 @@ fn corrected_beside(
 /// Medians of Figures 6 and 7, the closed form divided out.
 pub(super) fn corrected(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
-    let of = |slendernesses: &[usize], corrected| {
-        block_ratios(stripes, &[0, 1, 2], slendernesses, corrected)
+    let both = |slendernesses: &[usize]| {
+        [true, false].map(|corrected| {
+            block_ratios(stripes, &[0, 1, 2], slendernesses, corrected)
+        })
     };
-    let cells = [of(&ALL, true), of(&ALL, false)];
-    let stockiest = of(&[STOCKIEST], false);
-    let as_it_is = scope.mean_median(&scope.counted(stockiest));
-    let as_it_is = scope.estimate(Range::NotNegative, &as_it_is);
-    Ok(corrected_beside(scope, cells, of(&[STOCKIEST], true))
-        .and("median ratio at alpha = 0.25, as it is", as_it_is))
+    Ok(corrected_beside(scope, both(&ALL), both(&[STOCKIEST])))
 }
 
 /// Medians of Figure 9, the closed form divided out record by record.
 pub(super) fn adjusted_corrected(scope: &Scope<'_>) -> MeasureResult {
     let cells =
         [without_closed_form(scope)?, adjusted_cells(scope, |x, _, _| x)?];
-    let effect = without_closed_form(scope)?;
-    Ok(corrected_beside(scope, cells, effect))
+    Ok(corrected_beside(scope, cells.clone(), cells))
 }
 
 /// Medians of Figure 9.

@@ -192,30 +192,41 @@ pub(super) fn slender(scope: &Scope<'_>) -> MeasureResult {
     found(scope, counts, |row| row[at])
 }
 
-/// A number if the test rejects the shifted sample of the block `SLENDER` as
-/// the paper says, else none: what rests on it is not testable.
-fn if_rejected(row: &[f64], number: f64) -> Vec<SampleCount> {
-    let share = slender_share(row, TestSeries::ShiftedPga);
-    let rejected = share < 0.1;
-    vec![SampleCount::number(if rejected { number } else { f64::NAN })]
+/// An effect whose sentence rests on the rejection of the shifted sample of
+/// the block `SLENDER`: without it, the sentence is not testable.
+fn if_rejected(
+    scope: &Scope<'_>,
+    number: impl Fn(&[f64]) -> f64,
+    effect: impl Fn(&[f64]) -> f64,
+) -> MeasureResult {
+    let share = |row: &[f64]| slender_share(row, TestSeries::ShiftedPga);
+    let counts = |row: &[f64]| {
+        let rejected = share(row) < 0.1;
+        let found = if rejected { number(row) } else { f64::NAN };
+        vec![SampleCount::number(found)]
+    };
+    let accepted = share(&of_source(scope)?.replicated.points);
+    let found = found(scope, counts, effect)?;
+    let name = "accepted levels, shifted sample of alpha = 0.05";
+    Ok(found.and(name, Estimate::exact(accepted)))
 }
 
 /// Distance for alpha = 0.05 minus the distance for 0.20, p = 3, shifted
 /// samples in PGA.
 pub(super) fn less_slender(scope: &Scope<'_>) -> MeasureResult {
     let of = |block| place(TestSeries::ShiftedPga, block);
-    let counts = |row: &[f64]| {
+    let gain = |row: &[f64]| {
         let shares = accepted(row, TestSeries::ShiftedPga);
-        let own = shares[position(LESS_SLENDER.0, LESS_SLENDER.1)];
-        let less = slender_share(row, TestSeries::ShiftedPga);
-        if_rejected(row, own - less)
+        shares[position(LESS_SLENDER.0, LESS_SLENDER.1)]
+            - shares[position(SLENDER.0, SLENDER.1)]
     };
-    found(scope, counts, |row| row[of(SLENDER)] - row[of(LESS_SLENDER)])
+    let apart = |row: &[f64]| row[of(SLENDER)] - row[of(LESS_SLENDER)];
+    if_rejected(scope, gain, apart)
 }
 
 /// Reduction of the distance without the three earliest overturnings.
 pub(super) fn earliest_removed(scope: &Scope<'_>) -> MeasureResult {
     let whole = place(TestSeries::ShiftedPga, SLENDER);
     let gain = |row: &[f64]| row[whole] - row[WITHOUT_EARLIEST];
-    found(scope, |row| if_rejected(row, gain(row)), gain)
+    if_rejected(scope, gain, gain)
 }

@@ -94,7 +94,7 @@ pub fn fit(
 #[pyfunction]
 pub fn fit_stripes(
     py: Python<'_>,
-    stripes: Vec<(f64, u32, u32)>,
+    stripes: Vec<(f64, u64, u64)>,
     shift: f64,
 ) -> PyResult<String> {
     let stripes: Vec<Stripe> = stripes

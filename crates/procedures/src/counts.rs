@@ -167,7 +167,7 @@ pub fn sample_outcomes(
     let all = Bootstrap::of_clusters("counts", seed, &clusters, replicates);
     let fitted = all.map(|places| {
         let counts = multiplicities(places, clusters.records());
-        let of = |record| counts[place(record)];
+        let of = |record| u64::from(counts[place(record)]);
         fit_counts_alone(&RecordOutcome::stripes(outcomes, of), shift).ok()
     });
     Ok(BootstrapFits { draws, clusters, fitted })
@@ -197,7 +197,7 @@ impl RecordOutcome {
     #[must_use]
     pub fn stripes(
         outcomes: &[Self],
-        of: impl Fn(usize) -> u32,
+        of: impl Fn(usize) -> u64,
     ) -> Vec<Stripe> {
         let mut stripes: Vec<Stripe> = Vec::new();
         let mut places: BTreeMap<u64, usize> = BTreeMap::new();

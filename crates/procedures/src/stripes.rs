@@ -2,7 +2,6 @@
 
 use super::ProcedureError;
 use rocking::capacity::ResponseCurve;
-use rocking_statistics::lognormal::Stripe;
 use rocking_statistics::{ExtendedSample, QuantileType};
 
 /// The responses at one intensity.
@@ -29,14 +28,6 @@ pub struct StripeResponses {
 }
 
 impl StripeResponses {
-    /// The counts of a fit; none where no EDP level was asked for.
-    #[must_use]
-    pub fn counts(&self) -> Option<Stripe> {
-        let exceeded = u32::try_from(self.exceeded?).ok()?;
-        let n = u32::try_from(self.n).ok()?;
-        Some(Stripe { im: self.intensity, exceeded, n })
-    }
-
     /// The responses of IDA curves at `steps` + 1 intensities: from the lowest
     /// onset of rocking to the intensity at which 85 % of the curves have
     /// overturned or end.

@@ -531,8 +531,9 @@ fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
     let levels = level(1.0) + 1..(last / STEP_G) as usize;
     let stripe = |k: usize| {
         let standing = curves.iter().filter(|c| stands(c, k)).count();
-        let exceeded = (curves.len() - standing) as u32;
-        Stripe { im: STEP_G * k as f64, exceeded, n: curves.len() as u32 }
+        let (n, exceeded) = (curves.len(), curves.len() - standing);
+        let (n, exceeded) = (n as u64, exceeded as u64);
+        Stripe { im: STEP_G * k as f64, exceeded, n }
     };
     levels.map(stripe).collect()
 }

@@ -12,8 +12,9 @@ const STEPS: usize = 100;
 pub(super) enum Observation {
     /// The value.
     Exact(f64),
-    /// It lies between these, one of which may be infinite.
-    Interval(f64, f64),
+    /// It lies between the first two, one of which may be infinite; the third
+    /// is the number of such values.
+    Interval(f64, f64, f64),
 }
 
 use Observation::{Exact, Interval};
@@ -33,7 +34,9 @@ impl Point {
         for observation in observations {
             match *observation {
                 Exact(y) => point.add_exact(y, a, b),
-                Interval(low, high) => point.add_interval(low, high, a, b),
+                Interval(low, high, count) => {
+                    point.add_interval(low, high, count, a, b);
+                }
             }
         }
         point
@@ -49,7 +52,14 @@ impl Point {
         self.curvature[2] -= 1.0;
     }
 
-    fn add_interval(&mut self, low: f64, high: f64, a: f64, b: f64) {
+    fn add_interval(
+        &mut self,
+        low: f64,
+        high: f64,
+        count: f64,
+        a: f64,
+        b: f64,
+    ) {
         let score = |y: f64| f64::mul_add(a, y, -b);
         let (z0, z1) = (score(low), score(high));
         let ln_p = if high == f64::INFINITY {
@@ -72,12 +82,12 @@ impl Point {
         let (y0, f0, g0) = end(low, z0);
         let (y1, f1, g1) = end(high, z1);
         let (da, db) = (y1 * f1 - y0 * f0, f0 - f1);
-        self.value += ln_p;
-        self.gradient[0] += da;
-        self.gradient[1] += db;
-        self.curvature[0] -= y1 * y1 * g1 - y0 * y0 * g0 + da * da;
-        self.curvature[1] += y1 * g1 - y0 * g0 - da * db;
-        self.curvature[2] -= g1 - g0 + db * db;
+        self.value += count * ln_p;
+        self.gradient[0] += count * da;
+        self.gradient[1] += count * db;
+        self.curvature[0] -= count * (y1 * y1 * g1 - y0 * y0 * g0 + da * da);
+        self.curvature[1] += count * (y1 * g1 - y0 * g0 - da * db);
+        self.curvature[2] -= count * (g1 - g0 + db * db);
     }
 }
 
@@ -97,7 +107,9 @@ pub(super) fn maximise(
         .iter()
         .map(|observation| match *observation {
             Exact(y) => Exact(standard(y)),
-            Interval(low, high) => Interval(standard(low), standard(high)),
+            Interval(low, high, count) => {
+                Interval(standard(low), standard(high), count)
+            }
         })
         .collect();
     let exact = observations.iter().filter(|o| matches!(o, Exact(_))).count();

@@ -1,14 +1,11 @@
 //! Fragilities from counts: how many records of a stripe exceeded a level.
 
-use libm::{exp, log};
+use libm::{exp, lgamma, log};
 
 use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 use crate::Estimate;
-
-/// Most records in all stripes: each is an observation.
-const MOST_RECORDS: u64 = 1_000_000;
 
 /// The records run at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,9 +13,9 @@ pub struct Stripe {
     /// The intensity.
     pub im: f64,
     /// Number of records that exceeded the level, or overturned.
-    pub exceeded: u32,
+    pub exceeded: u64,
     /// Number of records run.
-    pub n: u32,
+    pub n: u64,
 }
 
 /// A lognormal fragility fitted to counts.
@@ -66,8 +63,7 @@ pub struct CountsFit {
 ///
 /// # Errors
 /// [`FitError::Stripe`] for a stripe that counts more than its records, or
-/// lies not above the shift, [`FitError::Records`] for more than 1,000,000
-/// records. If the likelihood has no maximum:
+/// lies not above the shift. If the likelihood has no maximum:
 /// [`FitError::NoneExceeded`] and [`FitError::AllExceeded`] for counts of one
 /// kind, [`FitError::Parted`] and [`FitError::OneMixedStripe`] if one
 /// intensity separates stripes without exceedances from stripes with only
@@ -84,16 +80,17 @@ pub fn fit_counts(
     let median =
         mean.map(|mu| if mu.is_finite() { shift + exp(mu) } else { mu });
     let chi_squared = stripes.iter().fold(0.0, |sum, stripe| {
-        let (p, n) = (distribution.cdf(stripe.im), f64::from(stripe.n));
+        let (p, n) = (distribution.cdf(stripe.im), stripe.n as f64);
         let q = distribution.survival(stripe.im);
-        let excess = f64::from(stripe.exceeded) - n * p;
+        let excess = stripe.exceeded as f64 - n * p;
         sum + excess * excess / (n * p * q)
     });
+    let n = stripes.iter().map(|stripe| stripe.n as usize).sum();
     Ok(CountsFit {
         fit: LognormalFit {
             distribution,
-            n: known.len(),
-            n_kept: known.len(),
+            n,
+            n_kept: n,
             log_likelihood: Some(value + coefficients),
         },
         // Either profile falls to both sides of its maximum.
@@ -126,10 +123,6 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }
-    let records = stripes.iter().map(|stripe| u64::from(stripe.n)).sum();
-    if records > MOST_RECORDS {
-        return Err(FitError::Records(records));
-    }
     let (mut known, mut places) = (Vec::new(), Vec::new());
     // The highest intensity at which a record did not exceed the level, and
     // the lowest one at which a record did.
@@ -142,17 +135,18 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
             let number = i + 1;
             return Err(FitError::Stripe { number, im, exceeded, n });
         }
-        let y = log(im - shift);
-        let (k, stood) = (exceeded as usize, (n - exceeded) as usize);
-        let failed = Interval(f64::NEG_INFINITY, y);
-        known.extend(std::iter::repeat_n(failed, k));
-        let stands = Interval(y, f64::INFINITY);
-        known.extend(std::iter::repeat_n(stands, stood));
-        if k > 0 && y < first_above.0 {
-            first_above = (y, im);
+        let (y, stood) = (log(im - shift), n - exceeded);
+        if exceeded > 0 {
+            known.push(Interval(f64::NEG_INFINITY, y, exceeded as f64));
+            if y < first_above.0 {
+                first_above = (y, im);
+            }
         }
-        if stood > 0 && y > last_below.0 {
-            last_below = (y, im);
+        if stood > 0 {
+            known.push(Interval(y, f64::INFINITY, stood as f64));
+            if y > last_below.0 {
+                last_below = (y, im);
+            }
         }
         places.push(y);
         coefficients += ln_choose(n, exceeded);
@@ -187,10 +181,10 @@ fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
     let sum = |of: &dyn Fn(&Stripe) -> f64| {
         stripes.iter().fold(0.0, |sum, stripe| sum + of(stripe))
     };
-    let share = sum(&|s| s.exceeded.into()) / sum(&|s| s.n.into());
+    let share = sum(&|s| s.exceeded as f64) / sum(&|s| s.n as f64);
     let (mut rise, mut size) = (0.0, 0.0);
     for (stripe, place) in stripes.iter().zip(places) {
-        let excess = f64::from(stripe.exceeded) - share * f64::from(stripe.n);
+        let excess = stripe.exceeded as f64 - share * stripe.n as f64;
         let part = excess * (place - places[0]);
         rise += part;
         size += part.abs();
@@ -199,9 +193,8 @@ fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
     rise > 1e-12 * size
 }
 
-/// ln of the number of ways to choose k of n: a sum of logarithms.
-fn ln_choose(n: u32, k: u32) -> f64 {
-    (1..=k.min(n - k)).fold(0.0, |sum, i| {
-        sum + log(f64::from(n - i + 1)) - log(f64::from(i))
-    })
+/// ln of the number of ways to choose k of n.
+fn ln_choose(n: u64, k: u64) -> f64 {
+    let ln_factorial = |n: u64| lgamma(n as f64 + 1.0);
+    ln_factorial(n) - ln_factorial(k) - ln_factorial(n - k)
 }

@@ -174,13 +174,10 @@ pub enum FitError {
         /// Its intensity.
         im: f64,
         /// Records that exceeded the level.
-        exceeded: u32,
+        exceeded: u64,
         /// Records run.
-        n: u32,
+        n: u64,
     },
-    /// Too many records for memory and time.
-    #[error("{0} records in all stripes: expected at most 1000000")]
-    Records(u64),
     /// No stripe has an exceedance.
     #[error(
         "no record exceeded the level at any intensity: expected a stripe in which some did"
@@ -304,7 +301,7 @@ pub fn fit(
             let kept = sample.finite().partition_point(|&x| x <= limit);
             let (centre, squares) = moments(&y[..kept])?;
             let spread = (squares / kept as f64).sqrt();
-            let limit = Interval(y[kept - 1], f64::INFINITY);
+            let limit = Interval(y[kept - 1], f64::INFINITY, 1.0);
             let mut known: Vec<_> =
                 y[..kept].iter().map(|&y| Exact(y)).collect();
             known.resize(n, limit);
@@ -379,7 +376,7 @@ pub fn fit_intervals(
             jacobian += low;
             known.push(Exact(low));
         } else {
-            known.push(Interval(low, high));
+            known.push(Interval(low, high, 1.0));
         }
         middles.push(match (low.is_finite(), high.is_finite()) {
             (true, true) => 0.5 * (low + high),

@@ -103,37 +103,6 @@ fn values_censored_at_limits_of_their_own_agree_with_scipy_and_mpmath() {
 }
 
 #[test]
-fn counts_agree_with_statsmodels_and_mpmath() {
-    let stripes = |ims: &[f64], k: &[u32], n: &[u32]| {
-        let all = ims.iter().zip(k).zip(n);
-        let all = all.map(|((&im, &exceeded), &n)| Stripe { im, exceeded, n });
-        fit_counts(&all.collect::<Vec<_>>(), 0.0).unwrap()
-    };
-    let ims = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
-    let baker = stripes(&ims, &[0, 0, 0, 4, 6, 13, 12, 16], &[40; 8]);
-    let three = stripes(&[1.0, 1.5, 2.0], &[0, 2, 2], &[59, 50, 44]);
-    for (name, ours) in [("baker", baker), ("three", three)] {
-        let expected = censored(name);
-        let fitted = ours.fit.distribution;
-        let open = |x: Option<f64>| x.unwrap_or(f64::NAN);
-        let found = [
-            ours.fit.n as f64,
-            fitted.median(),
-            fitted.dispersion(),
-            ours.fit.log_likelihood.unwrap(),
-            open(ours.median.low()),
-            open(ours.median.high()),
-            open(ours.dispersion.low()),
-            open(ours.dispersion.high()),
-        ];
-        for (a, b) in found.iter().zip(&expected) {
-            let same = (a / b - 1.0).abs() < 1e-9 || a.is_nan() && b.is_nan();
-            assert!(same, "{name}: {found:?} {expected:?}");
-        }
-    }
-}
-
-#[test]
 fn counts_that_tell_no_dispersion_are_refused() {
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
     let refused = |stripes: &[Stripe]| fit_counts(stripes, 1.0).unwrap_err();
@@ -156,9 +125,6 @@ fn counts_that_tell_no_dispersion_are_refused() {
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 900 };
     let (least, more) = (stripe(1.5, 300), stripe(2.0, 301));
     assert!(fit_counts(&[least, more], 1.0).is_ok());
-    let many = |n| Stripe { im: 1.5, exceeded: 1, n };
-    let error = refused(&[many(999_999), many(2)]);
-    assert_eq!(error, FitError::Records(1_000_001));
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
     for wrong in [stripe(1.0, 3), stripe(2.0, 10), stripe(f64::NAN, 3)] {
         let error = refused(&[stripe(1.5, 3), wrong]);

@@ -24,6 +24,7 @@ pub(super) const METHODS: &[Method] = &[
     ("lilliefors-published", lilliefors::published),
     ("normal-draws", lilliefors::draws),
     ("fits", fits::fits),
+    ("counts-of-stripes", fits::counts),
     ("quantiles", fits::quantiles),
     ("tests-of-normality", fits::tests),
     ("two-samples", two_samples::two_samples),

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use rocking_statistics::lilliefors::Statistic;
-use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::lognormal::{FitMethod, Stripe, fit, fit_counts};
 use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
@@ -14,6 +14,7 @@ use rocking_statistics::{ExtendedSample, QuantileType, Sample};
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
 
+const COUNTS: Csv = csv!("oracles/censored.csv");
 const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
 const NORMALITY: Csv = csv!("oracles/normality.csv");
 const PAIRED: Csv = csv!("oracles/paired.csv");
@@ -58,6 +59,39 @@ pub fn fits(context: &Context, answer: &mut Reply) -> Result<()> {
             ("area", area),
         ];
         row.put(answer, 2, &quantities)?;
+    }
+    Ok(())
+}
+
+/// Fits of counts: parameters, likelihood and the ends of its intervals.
+pub fn counts(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        /// Rows of the file.
+        names: Vec<String>,
+        /// Of each row: intensity, records that exceeded, records run.
+        stripes: Vec<Vec<[f64; 3]>>,
+    }
+    for (name, stripes) in names.iter().zip(&stripes) {
+        let stripe = |&[im, k, n]: &[f64; 3]| {
+            let im = context.or(WrongModel::NoLogarithm, libm::exp(im), im);
+            Stripe { im, exceeded: k as u64, n: n as u64 }
+        };
+        let all: Vec<Stripe> = stripes.iter().map(stripe).collect();
+        let found = fit_counts(&all, 0.0)?;
+        let (median, beta) = (found.median, found.dispersion);
+        let end = |end: Option<f64>| end.unwrap_or(f64::INFINITY);
+        let likelihood = found.fit.log_likelihood.unwrap_or(f64::NAN);
+        let quantities = [
+            ("records", found.fit.n as f64),
+            ("parameter", median.value()),
+            ("parameter", beta.value()),
+            ("log-likelihood", likelihood),
+            ("end", end(median.low())),
+            ("end", end(median.high())),
+            ("end", end(beta.low())),
+            ("end", end(beta.high())),
+        ];
+        COUNTS.row(&[name])?.put(answer, 1, &quantities)?;
     }
     Ok(())
 }

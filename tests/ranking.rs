@@ -190,6 +190,34 @@ fn stripes_count_what_the_curves_tell_and_the_counts_are_fitted() {
     assert!(fit["fitted"]["median"].as_f64().unwrap() > 1.0);
 }
 
+/// Half of the records are run up to an intensity of 2.
+#[test]
+fn records_that_were_not_run_so_far_are_fitted_as_their_capacities_are() {
+    let place = suite("ranking-open");
+    let ida = fs::read_to_string(place.join("ida.csv")).unwrap();
+    let im = |line: &str| line.split(',').nth(5)?.parse::<f64>().ok();
+    let kept = |line: &&str| {
+        let odd = ["wave1", "wave3", "wave5"];
+        let is_odd = odd.iter().any(|name| line.starts_with(name));
+        !(is_odd && im(line) > Some(2.0))
+    };
+    let lines: Vec<&str> = ida.lines().filter(kept).collect();
+    fs::write(place.join("ida.csv"), lines.join("\n") + "\n").unwrap();
+    let words = "stripes --ida ida.csv --levels 2:6:0.5 --at 0.5";
+    let out = json(&place, &format!("{words} --counts counts.csv"));
+    let last = out["stripes"].as_array().unwrap().last().unwrap();
+    assert!(last["open"].as_u64() > Some(0), "{last}");
+    assert_eq!(last["exceeded"], Value::Null);
+    let fit = json(&place, "fragility counts --counts counts.csv");
+    let all = "fragility fit --ida ida.csv --at 0.5 --point monotone";
+    let all = &json(&place, all)["levels"][0];
+    for name in ["median", "dispersion"] {
+        let own = all["fitted"][name].as_f64().unwrap();
+        close(&fit["fitted"][name], own, 0.05);
+    }
+    assert!(fit["open"].as_u64() > Some(0));
+}
+
 #[test]
 fn counts_agree_with_statsmodels() {
     let place = folder("ranking-counts", &[]);

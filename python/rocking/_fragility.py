@@ -104,6 +104,8 @@ def _source(fit: Fit) -> str | int:
     if isinstance(fit, SuiteFragility):
         return fit.origin
     if isinstance(fit, CountsFragility):
+        if fit.degrees_of_freedom is None:
+            return "outcomes of each record"
         stripes = fit.degrees_of_freedom + 2
         return f"counts of exceedance at {stripes} intensities"
     return fit.n

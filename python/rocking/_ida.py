@@ -167,7 +167,7 @@ class Curves:
         self, ims: ArrayLike, *, edp: float | None = None
     ) -> tuple[StripeResponses, ...]:
         """Responses of the records at given intensities; `edp` is the level
-        whose exceedances are counted, which `fit_stripes` takes."""
+        whose exceedances are counted where every record was run so far."""
         levels = floats(ims, "intensities").tolist()
         return StripeResponses._all(self._native.stripes(levels, edp))
 
@@ -206,8 +206,10 @@ class Curves:
         n_resamples: int = 1000,
         rng: int = 0,
     ) -> CountsFragility:
-        """Fits a fragility to the counts of records that exceed `edp` at given
-        intensities, by maximum likelihood.
+        """Fits a fragility to the records that exceed `edp` at given
+        intensities, by maximum likelihood: to their counts, and where records
+        were not run to every intensity to the two analyses next to each
+        record's capacity, as `fit` does to its capacity.
 
         The intervals are those of a bootstrap, which draws each record, or
         earthquake where they are known, in all its stripes.

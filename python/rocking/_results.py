@@ -532,7 +532,8 @@ class PivotForces(Result):
 @dataclass(frozen=True)
 class StripeResponses(Result):
     """The responses at one intensity; quantiles are None where the block
-    overturned, and `open` records were not run so far."""
+    overturned. Where `open` records were not run so far, quantiles and the
+    share that overturned are too high, and `exceeded` is None."""
 
     intensity: float
     n: int

@@ -283,6 +283,10 @@ class CountsFragility(_Fit):
 
     n: int
     """Records run, over all stripes."""
+    open: int
+    """Records that do not exceed the level up to where their run ends, if not
+    every one was run to every intensity: the likelihood is then that of the
+    two analyses next to each record's capacity."""
     fitted: Fragility
     level: float
     intervals: str
@@ -290,8 +294,8 @@ class CountsFragility(_Fit):
     median: Bounds
     dispersion: Bounds
     log_likelihood: float | None
-    chi_squared: float
-    degrees_of_freedom: int
+    chi_squared: float | None
+    degrees_of_freedom: int | None
 
 
 def options(
@@ -367,7 +371,8 @@ def fit_stripes(
     that exceeded, records run), by maximum likelihood.
 
     The intervals take the stripes as independent. `Ida.fit_stripes` has those
-    of stripes of the same records.
+    of stripes of the same records, and takes records that were not run to
+    every intensity: counts of the others exceed too often.
 
     >>> fit = fit_stripes([(1.0, 1, 10), (2.0, 5, 10), (4.0, 9, 10)])
     >>> round(fit.fitted.median, 6)

@@ -564,7 +564,8 @@ impl IdaCurves {
         seed: u64,
     ) -> PyResult<String> {
         let outcomes = RecordOutcome::from_curves(&self.linear()?, &ims, edp);
-        let draws = Draws { replicates, seed };
+        let outcomes = outcomes.map_err(refuse)?;
+        let draws = Some(Draws { replicates, seed });
         let clusters = &self.0.clusters;
         answer(py, || fit_outcomes(&outcomes, clusters, shift, draws))
     }

@@ -180,8 +180,8 @@ fn floors(bytes: &[u8]) -> Result<(), String> {
 
 fn counts(bytes: &[u8]) -> Result<(), String> {
     let found = counts::parse(bytes, file());
-    let stripes = found.map_err(|error| error.to_string())?;
-    for stripe in stripes.stripes().iter() {
+    let found = found.map_err(|error| error.to_string())?;
+    for stripe in found.stripes().unwrap_or_default().iter() {
         assert!(stripe.im.is_finite());
     }
     Ok(())

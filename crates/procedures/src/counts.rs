@@ -5,9 +5,13 @@ use std::fmt;
 
 use super::fit::BootstrapFits;
 use super::{Draws, LEVEL, ProcedureError};
-use rocking::capacity::ResponseCurve;
+use rocking::capacity::{
+    Capacity, CapacityError, InversionRule, ResponseCurve,
+};
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
-use rocking_statistics::lognormal::{Stripe, fit_counts, fit_counts_alone};
+use rocking_statistics::lognormal::{
+    Stripe, fit_counts, fit_counts_alone, fit_intervals,
+};
 use rocking_statistics::resampling::multiplicities;
 use rocking_statistics::{Clusters, Estimate, Lognormal};
 
@@ -18,6 +22,9 @@ use rocking_statistics::{Clusters, Estimate, Lognormal};
 pub struct CountsFragility {
     /// Records run, over all stripes.
     pub n: usize,
+    /// Records of a fit to brackets ([`RecordOutcome::brackets`]) that do not
+    /// exceed the level up to where their run ends.
+    pub open: usize,
     /// The fitted distribution, in the unit of the stripes.
     pub fitted: Lognormal,
     /// Level of the intervals.
@@ -30,17 +37,19 @@ pub struct CountsFragility {
     pub median: Estimate,
     /// Dispersion with its interval.
     pub dispersion: Estimate,
-    /// Log-likelihood of the binomial counts.
+    /// Log-likelihood of the binomial counts, or of the brackets.
     pub log_likelihood: Option<f64>,
-    /// Pearson's chi-squared.
-    pub chi_squared: f64,
-    /// Stripes less two.
-    pub degrees_of_freedom: usize,
+    /// Pearson's chi-squared of the counts; none of brackets.
+    pub chi_squared: Option<f64>,
+    /// Stripes less two; none of brackets.
+    pub degrees_of_freedom: Option<usize>,
 }
 
 /// What the intervals of a fit to counts rest on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Basis {
+    /// There are none.
+    None,
     /// The likelihood of independent stripes: counts alone do not tell
     /// whether stripes share records.
     IndependentStripes,
@@ -51,6 +60,7 @@ pub enum Basis {
 impl fmt::Display for Basis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::None => f.write_str("none"),
             Self::IndependentStripes => {
                 f.write_str("likelihood, stripes as independent")
             }
@@ -88,21 +98,28 @@ pub fn fit_stripes(
     let found = fit_counts(stripes, shift)?;
     Ok(CountsFragility {
         n: found.fit.n,
+        open: 0,
         fitted: found.fit.distribution,
         level: LEVEL,
         intervals: Basis::IndependentStripes,
         median: found.median,
         dispersion: found.dispersion,
         log_likelihood: found.fit.log_likelihood,
-        chi_squared: found.chi_squared,
-        degrees_of_freedom: found.degrees_of_freedom,
+        chi_squared: Some(found.chi_squared),
+        degrees_of_freedom: Some(found.degrees_of_freedom),
     })
 }
 
-/// Fits a lognormal fragility above `shift` to stripes of the same records,
-/// as [`fit_stripes`] does. The intervals are those of a bootstrap that draws
-/// the earthquakes of the records, and keeps each record in all its stripes;
-/// a record without an outcome is left out.
+/// Fits a lognormal fragility above `shift` to stripes of the same records.
+///
+/// Where every record has an outcome at every intensity, as [`fit_stripes`]
+/// does. Otherwise by the likelihood of [`RecordOutcome::brackets`]: a record
+/// that stands where its run ends has no outcome beyond, while one that
+/// exceeded the level before counts at every intensity, so that the counts of
+/// those run so far exceed too often. The intervals are those of a bootstrap
+/// that draws the earthquakes of the records, and keeps each record in all
+/// its stripes; a record without an outcome is left out. Without draws they
+/// are those of [`fit_stripes`], of brackets none.
 ///
 /// ```
 /// use rocking_procedures::{Draws, fit_outcomes};
@@ -118,7 +135,7 @@ pub fn fit_stripes(
 /// let outcomes = [stripe(1.5), stripe(2.3), stripe(3.3)].concat();
 /// let draws = Draws { replicates: 100, seed: 0 };
 /// let records = Clusters::singletons(6);
-/// let found = fit_outcomes(&outcomes, &records, 0.0, draws)?;
+/// let found = fit_outcomes(&outcomes, &records, 0.0, Some(draws))?;
 /// assert!((found.median.value() - 2.2).abs() < 0.2);
 /// # Ok::<(), rocking_procedures::ProcedureError>(())
 /// ```
@@ -129,9 +146,13 @@ pub fn fit_outcomes(
     outcomes: &[RecordOutcome],
     clusters: &Clusters,
     shift: f64,
-    draws: Draws,
+    draws: Option<Draws>,
 ) -> Result<CountsFragility, ProcedureError> {
-    let found = fit_stripes(&RecordOutcome::stripes(outcomes, |_| 1), shift)?;
+    let found = match RecordOutcome::stripes(outcomes) {
+        Some(stripes) => fit_stripes(&stripes, shift)?,
+        None => fit_brackets(outcomes, shift)?,
+    };
+    let Some(draws) = draws else { return Ok(found) };
     let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
     let estimate = |of: fn(&Lognormal) -> f64, point| {
         let enough = |e: &BootstrapEstimate| 20 * e.used >= 19 * e.replicates;
@@ -143,6 +164,28 @@ pub fn fit_outcomes(
         dispersion: estimate(Lognormal::dispersion, found.dispersion.value()),
         intervals: Basis::Drawn(draws, drawn.clusters),
         ..found
+    })
+}
+
+/// The fit of brackets, without intervals.
+fn fit_brackets(
+    outcomes: &[RecordOutcome],
+    shift: f64,
+) -> Result<CountsFragility, ProcedureError> {
+    let brackets = RecordOutcome::brackets(outcomes);
+    let fit = fit_intervals(&brackets, shift)?;
+    let fitted = fit.distribution;
+    Ok(CountsFragility {
+        n: outcomes.len(),
+        open: brackets.iter().filter(|(_, high)| high.is_infinite()).count(),
+        fitted,
+        level: LEVEL,
+        intervals: Basis::None,
+        median: Estimate::exact(fitted.median()),
+        dispersion: Estimate::exact(fitted.dispersion()),
+        log_likelihood: fit.log_likelihood,
+        chi_squared: None,
+        degrees_of_freedom: None,
     })
 }
 
@@ -158,62 +201,188 @@ pub fn sample_outcomes(
     draws: Draws,
 ) -> Result<BootstrapFits, ProcedureError> {
     draws.check()?;
-    let mut known: Vec<usize> = outcomes.iter().map(|o| o.record).collect();
-    known.sort_unstable();
-    known.dedup();
+    let known: Vec<usize> = by_record(outcomes).into_keys().collect();
     let clusters = clusters.part(&known);
     let place = |record| known.partition_point(|other| *other < record);
+    let brackets = match RecordOutcome::stripes(outcomes) {
+        Some(_) => None,
+        None => Some(RecordOutcome::brackets(outcomes)),
+    };
     let Draws { replicates, seed } = draws;
     let all = Bootstrap::of_clusters("counts", seed, &clusters, replicates);
     let fitted = all.map(|places| {
+        if let Some(brackets) = &brackets {
+            let drawn: Vec<_> = places.iter().map(|k| brackets[*k]).collect();
+            return Some(fit_intervals(&drawn, shift).ok()?.distribution);
+        }
         let counts = multiplicities(places, clusters.records());
         let of = |record| u64::from(counts[place(record)]);
-        fit_counts_alone(&RecordOutcome::stripes(outcomes, of), shift).ok()
+        fit_counts_alone(&counted(outcomes, of), shift).ok()
     });
     Ok(BootstrapFits { draws, clusters, fitted })
 }
 
 impl RecordOutcome {
     /// Whether each record responds at `edp` (peak |theta|/alpha) or above,
-    /// at each intensity up to which it was run; by record.
-    #[must_use]
+    /// at each intensity; by record.
+    ///
+    /// Where some record was not run to one of them, each has instead what it
+    /// says by itself: that it does not exceed the level at its last analysis
+    /// below its capacity ([`InversionRule::Monotone`]), and does at the next;
+    /// or that it does not up to where its run ends.
+    ///
+    /// # Errors
+    /// [`CapacityError::Level`] for a level that is not positive.
     pub fn from_curves(
         curves: &[ResponseCurve],
         intensities: &[f64],
         edp: f64,
-    ) -> Vec<Self> {
-        let of = |(record, curve): (usize, &ResponseCurve)| {
-            let at = |&im: &f64| {
-                let exceeded = curve.edp_at(im)? >= edp;
-                Some(Self { im, record, exceeded })
-            };
-            intensities.iter().filter_map(at).collect::<Vec<_>>()
+    ) -> Result<Vec<Self>, CapacityError> {
+        let mut all = Vec::new();
+        let is_run = |curve: &ResponseCurve| {
+            intensities.iter().all(|im| curve.edp_at(*im).is_some())
         };
-        curves.iter().enumerate().flat_map(of).collect()
-    }
-
-    /// The counts of outcomes, each as often as `of` says of its record;
-    /// stripes in the order in which they come.
-    #[must_use]
-    pub fn stripes(
-        outcomes: &[Self],
-        of: impl Fn(usize) -> u64,
-    ) -> Vec<Stripe> {
-        let mut stripes: Vec<Stripe> = Vec::new();
-        let mut places: BTreeMap<u64, usize> = BTreeMap::new();
-        for outcome in outcomes {
-            // Of 0 and -0 the same.
-            let key = (outcome.im + 0.0).to_bits();
-            let place = *places.entry(key).or_insert_with(|| {
-                stripes.push(Stripe { im: outcome.im, exceeded: 0, n: 0 });
-                stripes.len() - 1
-            });
-            stripes[place].n += of(outcome.record);
-            if outcome.exceeded {
-                stripes[place].exceeded += of(outcome.record);
+        let all_run = curves.iter().all(is_run);
+        for (record, curve) in curves.iter().enumerate() {
+            let mut put = |im, exceeded| {
+                all.push(Self { im, record, exceeded });
+            };
+            match curve.capacity(edp, InversionRule::Monotone)? {
+                _ if all_run => {
+                    for im in intensities {
+                        put(*im, curve.edp_at(*im) >= Some(edp));
+                    }
+                }
+                Capacity::Censored { above } => put(above, false),
+                Capacity::Reached(im) => {
+                    let own = curve.vertices().map(|(im, _)| im);
+                    let own = own.chain(curve.overturning_im());
+                    let (below, above): (Vec<f64>, Vec<f64>) =
+                        own.partition(|own| *own < im);
+                    put(below[below.len() - 1], false);
+                    put(above[0], true);
+                }
             }
         }
-        stripes.retain(|stripe| stripe.n > 0);
-        stripes
+        Ok(all)
+    }
+
+    /// The counts at each intensity; none where some record has no outcome at
+    /// one, since the others tell nothing of it.
+    #[must_use]
+    pub fn stripes(outcomes: &[Self]) -> Option<Vec<Stripe>> {
+        let stripes = counted(outcomes, |_| 1);
+        let each = stripes.len() * by_record(outcomes).len();
+        (each == outcomes.len()).then_some(stripes)
+    }
+
+    /// What each record, in ascending order, says of its capacity: between
+    /// the last intensity at which it did not exceed the level, 0 if there is
+    /// none, and the first at which it did, infinite if there is none. Where a
+    /// record exceeds the level below an intensity at which it does not, its
+    /// outcomes are put in order: as many exceed, at the highest intensities.
+    ///
+    /// ```
+    /// use rocking_procedures::counts::RecordOutcome;
+    /// let of = |im, exceeded| RecordOutcome { im, record: 0, exceeded };
+    /// let known = [of(1.0, false), of(2.0, true), of(3.0, true)];
+    /// assert_eq!(RecordOutcome::brackets(&known), [(1.0, 2.0)]);
+    /// assert_eq!(RecordOutcome::brackets(&known[..1])[0].0, 1.0);
+    /// let back = [of(1.0, true), of(2.0, false), of(3.0, true)];
+    /// assert_eq!(RecordOutcome::brackets(&back), [(1.0, 2.0)]);
+    /// ```
+    #[must_use]
+    pub fn brackets(outcomes: &[Self]) -> Vec<(f64, f64)> {
+        let bracket = |own: Vec<&Self>| {
+            let mut ims: Vec<f64> = own.iter().map(|one| one.im).collect();
+            ims.sort_by(f64::total_cmp);
+            let stood = own.iter().filter(|one| !one.exceeded).count();
+            let low = if stood > 0 { ims[stood - 1] } else { 0.0 };
+            (low, ims.get(stood).copied().unwrap_or(f64::INFINITY))
+        };
+        by_record(outcomes).into_values().map(bracket).collect()
+    }
+}
+
+/// The outcomes of each record.
+fn by_record(
+    outcomes: &[RecordOutcome],
+) -> BTreeMap<usize, Vec<&RecordOutcome>> {
+    let mut all: BTreeMap<usize, Vec<&RecordOutcome>> = BTreeMap::new();
+    for outcome in outcomes {
+        all.entry(outcome.record).or_default().push(outcome);
+    }
+    all
+}
+
+/// The counts of outcomes, each as often as `of` says of its record; stripes
+/// in the order in which they come.
+fn counted(
+    outcomes: &[RecordOutcome],
+    of: impl Fn(usize) -> u64,
+) -> Vec<Stripe> {
+    let mut stripes: Vec<Stripe> = Vec::new();
+    let mut places: BTreeMap<u64, usize> = BTreeMap::new();
+    for outcome in outcomes {
+        // Of 0 and -0 the same.
+        let key = (outcome.im + 0.0).to_bits();
+        let place = *places.entry(key).or_insert_with(|| {
+            stripes.push(Stripe { im: outcome.im, exceeded: 0, n: 0 });
+            stripes.len() - 1
+        });
+        stripes[place].n += of(outcome.record);
+        if outcome.exceeded {
+            stripes[place].exceeded += of(outcome.record);
+        }
+    }
+    stripes.retain(|stripe| stripe.n > 0);
+    stripes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{FitOptions, fit_sample};
+    use libm::exp;
+    use rocking_statistics::normal;
+
+    /// Of 2000 records whose capacities are the quantiles of a lognormal with
+    /// median 2 and dispersion 0.8, every other one is run to 1.8 only.
+    #[test]
+    fn records_that_stand_where_their_run_ends_do_not_bias_the_fit() {
+        let curve = |k: u32| {
+            let p = (f64::from(k / 2) + 0.5) / 1000.0;
+            let capacity = 2.0 * exp(0.8 * normal::quantile(p));
+            let falls = k.is_multiple_of(2) || capacity <= 1.8;
+            let last = if falls { 0.999 * capacity } else { 1.8 };
+            let vertices = [(0.01, 0.0), (last, 0.5)];
+            ResponseCurve::try_new(&vertices, falls.then_some(capacity))
+        };
+        let curves: Vec<ResponseCurve> =
+            (0..2000).map(|k| curve(k).unwrap()).collect();
+        let inf = f64::INFINITY;
+        let sample =
+            crate::capacities::sample(&curves, inf, InversionRule::Median);
+        let exact =
+            fit_sample(&sample.unwrap(), &FitOptions::default()).unwrap();
+        let records = Clusters::singletons(2000);
+        // With and without an intensity up to which each record was run.
+        for first in [1, 9] {
+            let levels: Vec<f64> =
+                (first..25).map(|k| 0.25 * f64::from(k)).collect();
+            let outcomes =
+                RecordOutcome::from_curves(&curves, &levels, inf).unwrap();
+            let found = fit_outcomes(&outcomes, &records, 0.0, None).unwrap();
+            assert_eq!(
+                (found.open, RecordOutcome::stripes(&outcomes)),
+                (552, None)
+            );
+            for fitted in [found.fitted, exact.fitted] {
+                let (median, beta) = (fitted.median(), fitted.dispersion());
+                let near = (median / 2.0 - 1.0).abs() < 0.01
+                    && (beta / 0.8 - 1.0).abs() < 0.02;
+                assert!(near, "{first}: median {median}, dispersion {beta}");
+            }
+        }
     }
 }

@@ -21,9 +21,12 @@ pub struct StripeResponses {
     pub edp84: f64,
     /// Records that overturn.
     pub overturned: usize,
-    /// Records that were not run so far; they are left out.
+    /// Records that were not run so far; they are left out, while those that
+    /// overturned before are not: the quantiles and the share that overturns
+    /// are too high.
     pub open: usize,
-    /// Records at or above the EDP level asked for.
+    /// Records at or above the EDP level, which a fit takes as of n: none
+    /// without a level, and none where a record is open.
     pub exceeded: Option<usize>,
 }
 
@@ -70,7 +73,8 @@ impl StripeResponses {
 /// and infinite from the first overturning on.
 ///
 /// `edp` is the level (peak |theta|/alpha, infinite for overturning) whose
-/// exceedances are counted.
+/// exceedances are counted, where no record is open;
+/// [`fit_outcomes`](crate::fit_outcomes) takes open ones too.
 ///
 /// # Errors
 /// [`ProcedureError::NotRun`] for an intensity up to which no record was run,
@@ -92,6 +96,7 @@ pub fn stripes(
             let value = QuantileType::default().extended_quantile(&sample, p);
             value.unwrap_or(f64::NAN)
         };
+        let open = curves.len() - known.len();
         let exceeded =
             |level: f64| known.iter().filter(|edp| **edp >= level).count();
         Ok(StripeResponses {
@@ -101,8 +106,8 @@ pub fn stripes(
             edp50: quantile(0.5),
             edp84: quantile(0.84),
             overturned: sample.censored(),
-            open: curves.len() - known.len(),
-            exceeded: edp.map(exceeded),
+            open,
+            exceeded: edp.filter(|_| open == 0).map(exceeded),
         })
     };
     intensities.iter().map(stripe).collect()

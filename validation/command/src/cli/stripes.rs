@@ -23,7 +23,9 @@ use rocking_exchange::ida::IdaTable;
 /// At a stripe the response of a record is read from its curve, linear
 /// between analyses; it is infinite from the first overturning on. Where a
 /// record was not run so far, the stripe is open for it: such records are
-/// counted and left out.
+/// counted and left out, so that quantiles are too high. The counts of such a
+/// suite mislead a fit: --counts then has the two analyses between which each
+/// record exceeds the level, or where its run ends.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the responses with their 16, 50 and 84 % quantiles, and the shares \
@@ -86,23 +88,23 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
         out.write(stripes_svg(&curves, &stripes, axis))?;
     }
     if let (Some(out), Some(edp)) = (counts, args.at) {
-        out.write(outcomes(&table, &curves, &args.levels.0, edp))?;
+        out.write(outcomes(&table, &curves, &args.levels.0, edp)?)?;
     }
     let found = StripesSummary { n: curves.len(), edp: args.at, stripes };
     args.json.show_beside(&outputs, &found)
 }
 
-/// The table of what became of each record that was run so far.
+/// The table of what became of each record.
 fn outcomes(
     table: &IdaTable,
     curves: &[ResponseCurve],
     levels: &[f64],
     edp: f64,
-) -> String {
+) -> Result<String, Failure> {
     let mut out = Table::of(&OUTCOMES);
     let (records, events) =
         (table.records().collect::<Vec<_>>(), table.events());
-    for found in RecordOutcome::from_curves(curves, levels, edp) {
+    for found in RecordOutcome::from_curves(curves, levels, edp)? {
         let event = events.as_ref().map_or("", |all| all[found.record]);
         out.row([
             found.im.to_string(),
@@ -111,5 +113,5 @@ fn outcomes(
             u8::from(found.exceeded).to_string(),
         ]);
     }
-    out.finish()
+    Ok(out.finish())
 }

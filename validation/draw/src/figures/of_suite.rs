@@ -84,8 +84,9 @@ pub fn stripes_svg(
     let dot = Look::marks(Marker::Dot, 1.5, Ink::Muted);
     let mut series = vec![Series::of(dot, x, y).labelled("a record")];
     series.extend(quantiles(stripes, Mark::LineAndPoints));
+    let all_run = stripes.iter().filter(|s| s.open == 0);
     let share = |s: &StripeResponses| s.overturned as f64 / s.n as f64;
-    let shares = stripes.iter().map(share).collect();
+    let (shares, im) = all_run.map(|s| (share(s), s.intensity)).unzip();
     let shares = Series::new("overturned", Mark::LineAndPoints, shares, im);
     let panel = |title, label, last, series| {
         let y = ChartAxis::linear(intensity, None::<(f64, f64)>);

@@ -30,7 +30,9 @@ use rocking_exchange::read::{Cells, no_csv, reader, rows};
 /// do not say whether stripes share records: their intervals are those of the
 /// likelihood, which take the stripes as independent. Of the table that
 /// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
-/// which draws records, or earthquakes where the table says them.
+/// which draws records, or earthquakes where the table says them; and where a
+/// record was not run to every intensity, the likelihood is that of the two
+/// intensities between which each record exceeds the level.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the fit with the shares that exceeded; of outcomes with its band"
@@ -66,7 +68,7 @@ pub(super) fn run_fragility_counts(
     let plot = args.plot.open(&mut outputs)?;
     let counted = read(path)?;
     let draws = args.bootstrap.draws();
-    let found = args.threads.run(|| counted.fit(args.shift, draws))?;
+    let found = args.threads.run(|| counted.fit(args.shift, Some(draws)))?;
     let found = found.at(path.display())?;
     if let Some(out) = plot {
         out.write(args.threads.run(|| counted.svg(&found, draws))??)?;
@@ -88,7 +90,7 @@ impl CountTable {
     pub(super) fn fit(
         &self,
         shift: f64,
-        draws: Draws,
+        draws: Option<Draws>,
     ) -> Result<CountsFragility, ProcedureError> {
         match self {
             Self::Stripes(stripes) => fit_stripes(stripes, shift),
@@ -118,20 +120,21 @@ impl CountTable {
         let sampled = self.sampled(fitted.shift(), draws).transpose()?;
         let share =
             |one: &Stripe| (one.im, one.exceeded as f64 / one.n as f64);
-        let points = self.stripes().iter().map(share).collect();
+        let stripes = self.stripes().unwrap_or_default();
+        let points = stripes.iter().map(share).collect();
         let fit =
             FragilityInput { fragility: "fit".to_owned(), fitted, sampled };
         let words = ("intensity", "marks: shares of the records");
         Ok(fragilities_svg(&[fit], &[points], words))
     }
 
-    /// The counts.
+    /// The counts; none where a record was not run to every intensity.
     #[must_use]
-    pub fn stripes(&self) -> Cow<'_, [Stripe]> {
-        match self {
+    pub fn stripes(&self) -> Option<Cow<'_, [Stripe]>> {
+        Some(match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),
-            Self::Records(all, _) => RecordOutcome::stripes(all, |_| 1).into(),
-        }
+            Self::Records(all, _) => RecordOutcome::stripes(all)?.into(),
+        })
     }
 }
 

@@ -13,7 +13,7 @@ use rocking_exchange::{
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
 use rocking_procedures::{
-    BootstrapFits, FitOptions, Shift, capacities, fit_sample, fit_stripes,
+    BootstrapFits, FitOptions, Shift, capacities, fit_sample,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
@@ -257,10 +257,12 @@ impl SourceArgs {
     fn counts(&self, path: &Path) -> Result<FragilityLevel, Failure> {
         let counted = counts::read(path)?;
         let im = self.im.clone().unwrap_or(IntensityMeasure::PGA);
-        let origin = format!(
-            "counts of exceedance at {} intensities",
-            counted.stripes().len()
-        );
+        let origin = match counted.stripes() {
+            None => "outcomes of each record".to_owned(),
+            Some(all) => {
+                format!("counts of exceedance at {} intensities", all.len())
+            }
+        };
         Ok(FragilityLevel {
             place: path.display().to_string(),
             im: Ok(im),
@@ -331,7 +333,7 @@ impl FragilityLevel {
             (LevelValues::Counts(counted), Shift::Given(shift), _)
                 if options.method == FitMethod::MaximumLikelihood =>
             {
-                let found = fit_stripes(&counted.stripes(), shift);
+                let found = counted.fit(shift, None);
                 let drawn = options
                     .draws
                     .and_then(|draws| counted.sampled(shift, draws));

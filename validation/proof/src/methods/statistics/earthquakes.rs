@@ -118,7 +118,7 @@ fn holds(
         let draws = Draws { replicates: REPLICATES / 2, seed };
         let outcomes: Vec<RecordOutcome> =
             levels.iter().flat_map(stripe).collect();
-        let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
+        let found = fit_outcomes(&outcomes, clusters, 0.0, Some(draws));
         return Ok(holds(found?.median, 1.0));
     }
     let sample = CensoredSample::try_new(values, &[])?;

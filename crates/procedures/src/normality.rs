@@ -1,20 +1,20 @@
 //! Is a sample normal, or lognormal above a shift?
 
 use super::{ProcedureError, Shift};
-use rocking::names::named;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lilliefors::{
     Inapplicable, LillieforsError, LillieforsTable, LillieforsTest, Null,
-    NullDistribution, Scale, ShiftedNull, Statistic, Verdict,
+    NullDistribution, NullSource, Scale, ShiftedNull, Statistic, Verdict,
 };
 use rocking_statistics::normality::{
     Battery, SimulatedTest, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
 use rocking_statistics::{CensoredSample, Estimate, ExtendedSample, Sample};
 
-/// Samples simulated beyond the table, where none are asked for.
-const REPLICATES_BEYOND: u64 = 100_000;
+/// Values simulated for the smallest value as shift, where no number of
+/// samples is given: of 100 to 100,000 samples.
+const VALUES: u64 = 100_000_000;
 
 /// What is tested, and how its null distribution is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct NormalityOptions {
     pub log_above: Option<Shift>,
     /// Level of the tests, in (0, 1).
     pub level: f64,
-    /// Samples to simulate; none takes the table where it reaches.
+    /// Samples to simulate; none takes the table.
     pub replicates: Option<u64>,
     /// Repetition of the simulation.
     pub seed: u64,
@@ -73,20 +73,6 @@ pub struct Normality {
     pub shapiro_wilk: Option<OtherTest>,
 }
 
-named! {
-    /// Where a null distribution comes from.
-    #[non_exhaustive]
-    pub enum NullSource: "null distribution" {
-        /// The project's own Monte Carlo table.
-        Table = "table",
-        /// A simulation of the same size.
-        Simulation = "simulation",
-        /// A simulation that takes the smallest value of each draw as its
-        /// shift.
-        SmallestValue = "simulation, smallest value as shift",
-    }
-}
-
 /// A test beside Lilliefors'.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -95,7 +81,8 @@ pub struct OtherTest {
     /// The statistic.
     pub statistic: f64,
     /// Its p-value: simulated, with its 95 % interval, if a number of
-    /// replicates was given; else from a published approximation.
+    /// replicates was given; else from a published approximation, and with
+    /// an interval from 0 where that ends.
     #[cfg_attr(
         feature = "serde",
         serde(flatten, serialize_with = "keys::p_value")
@@ -107,9 +94,9 @@ pub struct OtherTest {
 
 /// Tests whether a sample is normal, or lognormal above a shift.
 ///
-/// The p-value of Lilliefors' test comes from the project's Monte Carlo table
-/// (n = 4 to 1000), or from a simulation where replicates are asked for or n
-/// is larger; then those of the other tests are simulated, too.
+/// The p-value of Lilliefors' test comes from the project's Monte Carlo table,
+/// or from a simulation where replicates are given; then those of the other
+/// tests are simulated, too.
 ///
 /// ```
 /// use rocking_procedures::{NormalityOptions, test_normality};
@@ -154,7 +141,7 @@ pub fn test_normality(
     }
     let [anderson_darling, cramer_von_mises, shapiro_wilk] =
         others(found.tested.as_ref(), options)?;
-    let method = null.map_or(NullSource::Table, |s| s.0);
+    let method = |own| null.map_or(own, |s| s.0);
     let (verdict, reason) = match found.verdict {
         Ok(verdict) => (Some(verdict), None),
         Err(reason) => (None, Some(reason.to_string())),
@@ -165,7 +152,7 @@ pub fn test_normality(
         largest_tie: found.tested.as_ref().map(Sample::largest_tie),
         statistic: found.statistic,
         p_value: found.p_value,
-        method: found.p_value.map(|_| method),
+        method: found.source.map(method),
         replicates: found.p_value.and(null.map(|s| s.1.sorted().len())),
         critical_value: found.critical_value,
         level,
@@ -188,17 +175,13 @@ fn simulated(
         return Ok(None);
     }
     if options.log_above == Some(Shift::Smallest) {
-        let replicates = options.replicates.unwrap_or(REPLICATES_BEYOND);
+        let own = (VALUES / n as u64).clamp(100, 100_000);
+        let replicates = options.replicates.unwrap_or(own);
         let values = sample.values();
         let null = ShiftedNull::smallest_value(values, replicates, seed)?.null;
         return Ok(Some((NullSource::SmallestValue, null)));
     }
-    let is_beyond =
-        LillieforsTable::sizes().last().is_none_or(|&(last, _)| n > last);
-    let own = is_beyond.then_some(REPLICATES_BEYOND);
-    let Some(replicates) = options.replicates.or(own) else {
-        return Ok(None);
-    };
+    let Some(replicates) = options.replicates else { return Ok(None) };
     let null = NullDistribution::simulate(n, replicates, seed)?;
     Ok(Some((NullSource::Simulation, null)))
 }
@@ -225,8 +208,8 @@ fn others(
         }));
     }
     Ok([anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
-        let test = test(tested).ok()?;
-        let (statistic, p) = (test.statistic, Estimate::exact(test.p_value));
-        Some(OtherTest { statistic, p_value: p, verdict: None })
+        let found = test(tested).ok()?;
+        let (statistic, p_value) = (found.statistic, found.estimate());
+        Some(OtherTest { statistic, p_value, verdict: None })
     }))
 }

@@ -18,7 +18,7 @@ use thiserror::Error;
 pub use assess::{Inapplicable, LillieforsTest, Null, Scale};
 pub use shift::ShiftedNull;
 pub use simulation::{CriticalValue, NullDistribution};
-pub use table::LillieforsTable;
+pub use table::{LillieforsTable, TabledPValue};
 
 use super::{Estimate, Sample, normal};
 
@@ -53,11 +53,6 @@ pub enum LillieforsError {
         /// The largest size.
         expected: usize,
     },
-    /// Sizes of the table.
-    #[error(
-        "{0} values: expected 4 to 1000, the sizes of the table; simulate beyond"
-    )]
-    BeyondTable(usize),
     /// Levels of the test.
     #[error("level {level}: expected a number from {low} to {high}")]
     Level {
@@ -178,6 +173,25 @@ fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
         return Err(LillieforsError::Degenerate);
     }
     Ok(sample.sorted().iter().map(|y| (y - mean) / deviation).collect())
+}
+
+named! {
+    /// Where a p-value comes from.
+    #[non_exhaustive]
+    pub enum NullSource: "null distribution" {
+        /// The project's own Monte Carlo table.
+        Table = "table",
+        /// The table, for a larger sample than it has.
+        Scaled = "scaled table",
+        /// The table, beyond its levels 0.99 and 0.0001: it knows that p lies
+        /// beyond.
+        Extrapolated = "extrapolated",
+        /// A simulation of the same size.
+        Simulation = "simulation",
+        /// A simulation that takes the smallest value of each draw as its
+        /// shift.
+        SmallestValue = "simulation, smallest value as shift",
+    }
 }
 
 named! {

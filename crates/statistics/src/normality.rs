@@ -12,7 +12,7 @@ pub use battery::{Battery, SimulatedTest};
 pub use shapiro_wilk::shapiro_wilk;
 
 use super::lilliefors::{LillieforsError, standardised};
-use super::{Sample, normal};
+use super::{Estimate, Interval, Sample, normal};
 
 /// A statistic and its p-value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +22,19 @@ pub struct NormalityTest {
     pub statistic: f64,
     /// Its p-value, by the published approximation.
     pub p_value: f64,
+    /// Whether the approximation ends at it, so that it is an upper bound.
+    pub is_bound: bool,
+}
+
+impl NormalityTest {
+    /// The p-value; with an interval from 0 where it is an upper bound.
+    pub fn estimate(&self) -> Estimate {
+        if self.is_bound {
+            let interval = Interval::rising(0.0, self.p_value);
+            return Estimate::inside(self.p_value, interval);
+        }
+        Estimate::exact(self.p_value)
+    }
 }
 
 /// Anderson-Darling's A^2 = -n - (1/n) sum (2i - 1)
@@ -59,7 +72,7 @@ pub fn anderson_darling(
     } else {
         3.7e-24
     };
-    Ok(NormalityTest { statistic, p_value })
+    Ok(NormalityTest { statistic, p_value, is_bound: a >= 10.0 })
 }
 
 /// Cramer-von Mises' W^2 = 1/(12 n) + sum [F_i - (2i - 1)/(2n)]^2.
@@ -86,7 +99,7 @@ pub fn cramer_von_mises(
     } else {
         7.37e-10
     };
-    Ok(NormalityTest { statistic, p_value })
+    Ok(NormalityTest { statistic, p_value, is_bound: w >= 1.1 })
 }
 
 /// A^2 of ascending scores.

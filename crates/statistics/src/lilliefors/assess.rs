@@ -3,7 +3,8 @@
 use thiserror::Error;
 
 use super::{
-    LillieforsError, LillieforsTable, NullDistribution, Statistic, Verdict,
+    LillieforsError, LillieforsTable, NullDistribution, NullSource, Statistic,
+    Verdict,
 };
 use crate::lognormal::{FitError, shifted_finite};
 use crate::{Estimate, ExtendedSample, Sample, SampleError};
@@ -80,6 +81,8 @@ pub struct LillieforsTest {
     pub statistic: Option<Statistic>,
     /// Its p-value, with the 95 % interval of its Monte Carlo error.
     pub p_value: Option<Estimate>,
+    /// Where the p-value comes from.
+    pub source: Option<NullSource>,
     /// The critical value at the level.
     pub critical_value: Option<f64>,
     /// The level.
@@ -115,6 +118,7 @@ impl LillieforsTest {
             tested: None,
             statistic: None,
             p_value: None,
+            source: None,
             critical_value: None,
             level,
             verdict: Ok(Verdict::Indeterminate),
@@ -150,11 +154,12 @@ impl LillieforsTest {
         let statistic = statistic?;
         self.statistic = Some(statistic);
         let (n, d) = (statistic.n, statistic.d);
-        let p_value = match null {
+        let (p_value, source) = match null {
             Null::Table(table) => {
                 let critical = table.critical_value(n, self.level)?;
                 self.critical_value = Some(critical.0);
-                table.p_value(n, d)?
+                let found = table.p_value(n, d)?;
+                (found.estimate, found.source)
             }
             Null::Simulated(null) if null.n() != n => {
                 let (found, expected) = (n, null.n());
@@ -163,10 +168,10 @@ impl LillieforsTest {
             Null::Simulated(null) => {
                 let critical = null.critical_value(self.level)?;
                 self.critical_value = Some(critical.estimate.value());
-                null.p_value(d)
+                (null.p_value(d), NullSource::Simulation)
             }
         };
-        self.p_value = Some(p_value);
+        (self.p_value, self.source) = (Some(p_value), Some(source));
         if (distinct as f64) < DISTINCT * n as f64 {
             return Err(Inapplicable::Ties { distinct, largest_tie, n });
         }

@@ -34,7 +34,8 @@ pub fn shapiro_wilk(
     }
     let deficit = deficit(&weights(scores.len()), &scores);
     let statistic = 1.0 - deficit;
-    Ok(NormalityTest { statistic, p_value: p_value(scores.len(), deficit) })
+    let p_value = p_value(scores.len(), deficit);
+    Ok(NormalityTest { statistic, p_value, is_bound: false })
 }
 
 /// 1 - W of ascending scores.

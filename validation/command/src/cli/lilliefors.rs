@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
-use rocking_procedures::normality::NullSource;
 use rocking_procedures::{NormalityOptions, Shift, test_normality};
 use rocking_statistics::lilliefors::{
     CriticalValue, LillieforsTable, NullDistribution,
@@ -25,12 +24,14 @@ const REPLICATES: u64 = 1_000_000;
 
 /// Lilliefors' test of normality on a sample, or its critical values.
 ///
-/// The p-value comes from the project's own Monte Carlo table (n = 4 to
-/// 1000), or from a direct simulation when --replicates is given or n is
-/// larger; then those of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk
-/// are simulated too, else they come from published approximations. A verdict is refused where the test does not apply: censored
-/// values, values not above the shift, values that do not vary, fewer than
-/// 4 values, fewer than 80 % distinct ones.
+/// The p-value comes from the project's own Monte Carlo table, whose sizes
+/// end at n = 1000 (`scaled table` above) and whose levels end at 0.99 and
+/// 0.0001 (`extrapolated` beyond), or from a direct simulation when
+/// --replicates is given; then those of Anderson-Darling, Cramer-von Mises and
+/// Shapiro-Wilk are simulated too, else they come from published
+/// approximations. A verdict is refused where the test does not apply:
+/// censored values, values not above the shift, values that do not vary,
+/// fewer than 4 values, fewer than 80 % distinct ones.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "critical_values", "write_table"]))]
@@ -125,7 +126,7 @@ fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
     };
     input::records_as_unit(file);
     let found = test_normality(&file.censored()?, &options)?;
-    let is_tabled = found.method == Some(NullSource::Table);
+    let is_tabled = found.method.is_some() && found.replicates.is_none();
     if is_tabled && (args.seed.is_some() || args.threads.threads.is_some()) {
         bail!(
             "--seed and --threads are not used without --replicates: the \

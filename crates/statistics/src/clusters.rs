@@ -226,8 +226,6 @@ impl Clusters {
         t.map_or(f64::NAN, |t| t.inverse_cdf(p) / normal::quantile(p))
     }
 
-    /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
-    /// clusters is too small by this factor; 1 of clusters of one record.
     /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
     /// none of a single cluster.
     #[must_use]
@@ -236,6 +234,8 @@ impl Clusters {
         Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())
     }
 
+    /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
+    /// clusters is too small by this factor; 1 of clusters of one record.
     pub(super) fn unbiased(&self) -> f64 {
         let effective = self.effective();
         if self.is_singletons() {

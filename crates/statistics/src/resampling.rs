@@ -7,10 +7,13 @@
 //! [`Subsampling`] draws without, for tests of distribution, which ties
 //! break.
 
+use std::fmt;
+
 use super::bootstrap::{Bootstrap, BootstrapEstimate, estimate};
-use super::clusters::Clusters;
+use super::clusters::{Clusters, SamplingUnit};
 use super::{Estimate, Interval, Range};
 use crate::streams::{Streams, below};
+use rocking::names::as_text;
 
 /// How often a draw of `places` holds each of `n` records.
 ///
@@ -61,6 +64,40 @@ pub enum Resampling {
     Without(usize),
 }
 
+/// Fewest clusters of an interval without a remark.
+pub const FEWEST_CLUSTERS: usize = 8;
+
+/// Fewest draws of an interval without a remark: they know a standard error
+/// to 5 %.
+pub const FEWEST_DRAWS: usize = 200;
+
+/// Fewest clusters of an interval.
+const LEAST: usize = 3;
+
+/// What makes intervals rough: few clusters, or few draws of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct IntervalRemark {
+    clusters: Option<(usize, SamplingUnit)>,
+    draws: Option<usize>,
+}
+
+impl fmt::Display for IntervalRemark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let clusters = self.clusters.map(|(count, unit)| {
+            format!("{count} {unit}s, fewer than {FEWEST_CLUSTERS}")
+        });
+        let draws = self
+            .draws
+            .map(|count| format!("{count} draws, fewer than {FEWEST_DRAWS}"));
+        let none = self.clusters.is_some_and(|(count, _)| count < LEAST);
+        let what = if none { "no intervals" } else { "intervals are rough" };
+        let few: Vec<String> = clusters.into_iter().chain(draws).collect();
+        write!(f, "{what}: {}", few.join("; "))
+    }
+}
+
+as_text!(write IntervalRemark);
+
 impl Clusters {
     /// The subsets that leave two clusters out, as multiplicities: all
     /// G(G - 1)/2 of them. Of more than [`MOST_PAIRED`] clusters a part in
@@ -106,20 +143,44 @@ impl Clusters {
         let on: Vec<f64> = values.iter().map(|x| range.scale(*x)).collect();
         let finite: Vec<f64> =
             on.into_iter().filter(|x| x.is_finite()).collect();
-        let (used, count) = (finite.len() as f64, self.count() as f64);
+        let used = finite.len() as f64;
         let (factor, divisor) = match how {
-            Resampling::Bootstrap => (self.unbiased(), used - 1.0),
+            Resampling::Bootstrap => {
+                let effective = self.effective();
+                (effective / (effective - 1.0), used - 1.0)
+            }
             Resampling::Without(d) => {
-                (((count - d as f64) / d as f64).sqrt(), used)
+                ((self.count() as f64 - d as f64) / d as f64, used)
             }
         };
         let centre = finite_mean(&finite);
-        let square = finite.iter().fold(0.0, |sum, x| {
+        let sum = finite.iter().fold(0.0, |sum, x| {
             let away = x - centre;
             away.mul_add(away, sum)
         });
-        let error = factor * (square / divisor).sqrt();
+        let error = (factor * sum / divisor).sqrt();
         (10 * finite.len() > 9 * values.len() && error > 0.0).then_some(error)
+    }
+
+    /// What makes the intervals of resamples of these clusters rough; none
+    /// of [`FEWEST_CLUSTERS`] clusters and [`FEWEST_DRAWS`] draws or more.
+    ///
+    /// ```
+    /// use rocking_statistics::Clusters;
+    /// let few = Clusters::from_labels(["a", "b", "c", "a"]);
+    /// assert_eq!(
+    ///     few.remark(200).unwrap().to_string(),
+    ///     "intervals are rough: 3 earthquakes, fewer than 8"
+    /// );
+    /// assert!(Clusters::singletons(8).remark(200).is_none());
+    /// ```
+    #[must_use]
+    pub fn remark(&self, draws: usize) -> Option<IntervalRemark> {
+        let clusters = (self.count() < FEWEST_CLUSTERS)
+            .then(|| (self.count(), self.unit()));
+        let draws = (draws < FEWEST_DRAWS).then_some(draws);
+        let rough = clusters.is_some() || draws.is_some();
+        rough.then_some(IntervalRemark { clusters, draws })
     }
 
     /// A statistic with its interval from its values in resamples: on the
@@ -128,6 +189,11 @@ impl Clusters {
     /// [`Self::degrees_of_freedom`]. The interval holds the value and lies in
     /// the range. None of fewer than three clusters, of a value that g has
     /// none for, and where the resamples give no standard error.
+    ///
+    /// Of lognormal capacities of 3 to 22 earthquakes the 95 % interval by a
+    /// bootstrap holds the median, and a frequency above a shift, in 94 to
+    /// 97 % of samples, the dispersion in 91 to 98 %. Subsets without one
+    /// cluster do no better, and fail for quantiles of a sample.
     ///
     /// ```
     /// use rocking_statistics::resampling::Resampling;
@@ -165,7 +231,7 @@ impl Clusters {
     ) -> Option<BootstrapEstimate> {
         let (y, s) = (range.scale(point), self.scatter(values, how, range)?);
         let half = self.student(level)? * s;
-        if self.count() < 3 || !y.is_finite() {
+        if self.count() < LEAST || !y.is_finite() {
             return None;
         }
         let ends = Interval::try_new(y - half, y + half).ok()?;

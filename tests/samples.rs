@@ -71,16 +71,19 @@ fn fragility_tells_intervals_in_rows_and_the_unit() {
     let fit = "fragility fit --sample sample.txt --shift 1 --bootstrap 50";
     let text = answer(&place, fit);
     assert!(!text.contains(['{', '}', '"', '_']), "{text}");
-    let bca = text.lines().filter(|line| line.starts_with("    bca "));
-    let intervals: Vec<&str> = bca.collect();
-    assert_eq!(intervals.len(), 6, "{text}");
-    for line in intervals {
-        assert!(line.contains('[') && line.ends_with(']'), "{text}");
+    for name in ["log mean", "dispersion", "median", "eq5", "eq6", "eq7"] {
+        let start = format!("  {name} ");
+        let mut own = text.lines().filter(|line| line.starts_with(&start));
+        let held = |line: &str| line.contains('[') && line.ends_with(']');
+        assert!(own.any(held), "{name}: {text}");
     }
+    let rough = "intervals are rough: 50 draws, fewer than 200";
+    assert!(text.contains(rough), "{text}");
     assert!(text.contains("that of the sample"), "{text}");
     let out = json(&place, fit);
     assert_eq!(out["unit"], "that of the sample");
     assert_eq!(out["bootstrap"]["replicates"], 50);
+    assert_eq!(out["bootstrap"]["remark"], rough);
 }
 
 #[test]

@@ -58,7 +58,7 @@ plt.show()
 # %%
 capacities = ida.capacities(np.inf)
 fit = rk.fit_fragility(capacities, shift=1.0, n_resamples=1000)
-fragility, interval = fit.fitted, fit.bootstrap.median.bca
+fragility, interval = fit.fitted, fit.bootstrap.median
 test = rk.test_normality(capacities, shift=1.0)
 ends = f"{interval.low:.4f} to {interval.high:.4f}"
 print(f"median {fragility.median:.4f} ({ends})")

@@ -149,8 +149,12 @@ class Assessment(Result):
     im: str
     unit: str
     records: int
+    replicates: int
+    seed: int
     drawn: str
     level: float
+    remark: str | None
+    """What makes the intervals rough: few records, earthquakes or draws."""
     years: float
     correlation: Bounds | None
     objects: tuple[AssessedObject, ...]

@@ -14,7 +14,7 @@ from . import _rocking
 from ._choices import ExchangeFormat
 from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen, pair_of
 from ._outputs import replace
-from ._results import Result
+from ._results import IntervalBasis, Result
 from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit, seed
 
 
@@ -296,14 +296,10 @@ def read_hazard(
 
 
 @dataclass(frozen=True)
-class SamplingInterval(Result):
+class SamplingInterval(IntervalBasis):
     """What few records leave open of a frequency and a probability; the
     hazard curve counts as known."""
 
-    replicates: int
-    seed: int
-    drawn: str
-    level: float
     annual_frequency_low: float
     annual_frequency_high: float
     probability_low: float

@@ -72,9 +72,10 @@ class Estimate(Result):
     """A number with its bootstrap interval."""
 
     point: float
-    standard_error: float
     low: float
     high: float
+    standard_error: float
+    """Of the logarithm, where the number is positive."""
     level: float
     used: int
     """Samples drawn that gave a finite value."""
@@ -82,28 +83,30 @@ class Estimate(Result):
 
 
 @dataclass(frozen=True)
-class Intervals(Result):
-    """Percentile, and bias-corrected and accelerated bootstrap interval."""
-
-    percentile: Estimate | None
-    bca: Estimate | None
-
-
-@dataclass(frozen=True)
-class FitIntervals(Result):
-    """Bootstrap intervals of the numbers of a fit."""
+class IntervalBasis(Result):
+    """What intervals rest on."""
 
     replicates: int
     seed: int
     drawn: str
     """What was drawn: records, or earthquakes with all their records."""
     level: float
-    log_mean: Intervals
-    dispersion: Intervals
-    median: Intervals
-    eq5: Intervals
-    eq6: Intervals
-    eq7: Intervals
+    remark: str | None
+    """What makes the intervals rough: fewer than 8 earthquakes (records) or
+    200 draws. Of fewer than 3 there is no interval."""
+
+
+@dataclass(frozen=True)
+class FitIntervals(IntervalBasis):
+    """Bootstrap intervals of the numbers of a fit; None of a number that a
+    tenth of the draws do not have."""
+
+    log_mean: Estimate | None
+    dispersion: Estimate | None
+    median: Estimate | None
+    eq5: Estimate | None
+    eq6: Estimate | None
+    eq7: Estimate | None
 
 
 @dataclass(frozen=True)
@@ -120,13 +123,9 @@ class BandPoint(Result):
 
 
 @dataclass(frozen=True)
-class Band(Result):
+class Band(IntervalBasis):
     """Bands of a fragility, of one intensity at a time."""
 
-    replicates: int
-    seed: int
-    drawn: str
-    level: float
     points: tuple[BandPoint, ...]
 
 
@@ -365,8 +364,8 @@ class ContrastedSample(Result):
 
 @dataclass(frozen=True)
 class MedianRatio(Result):
-    """A ratio of medians with its bootstrap interval; an end is None where
-    draws leave it open."""
+    """A ratio of medians with its bootstrap interval; its ends are None where
+    a tenth of the draws leave it open."""
 
     point: float
     low: float | None
@@ -374,6 +373,8 @@ class MedianRatio(Result):
     level: float
     open: int
     """Draws in which censored values leave the ratio open."""
+    remark: str | None
+    """What makes the interval rough: few records, earthquakes or draws."""
 
 
 @dataclass(frozen=True)
@@ -441,11 +442,14 @@ class Ranking(Result):
 
     n: int
     censored: int
-    level: float
     replicates: int
     seed: int
     drawn: str
+    level: float
     remark: str | None
+    """What makes the intervals rough: few records, earthquakes or draws."""
+    no_slope: str | None
+    """Why there is no slope."""
     measures: tuple[Ranked, ...]
 
     def plot(self, ax: Any = None) -> Any:

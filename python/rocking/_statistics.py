@@ -349,7 +349,8 @@ def fit_fragility(
         Constant of Eq. 7.
     n_resamples : int
         Bootstrap samples for intervals; 0 for none. Earthquakes are drawn
-        with all their records, where the sample knows them.
+        with all their records, where the sample knows them. `remark` says
+        what makes intervals rough; 200 samples know their ends to 5 %.
     rng : int
         Repetition of the bootstrap.
     band : array_like
@@ -482,8 +483,8 @@ def contrast(
 
     >>> pulse, ordinary = [1.1, 1.3, 1.4, 1.8], [2.2, 2.6, 2.8, 3.6, 9.0]
     >>> found = contrast(pulse, ordinary, n_resamples=200)
-    >>> round(found.median_ratio.point, 3), found.median_ratio.high < 1.0
-    (0.482, True)
+    >>> round(found.median_ratio.point, 3), found.median_ratio.remark
+    (0.482, 'intervals are rough: 4 records, fewer than 8')
     """
     both = given_sample(a), given_sample(b)
     found = _rocking.contrast(*both, n_resamples, seed(rng))

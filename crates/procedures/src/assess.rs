@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::ground::{AssessmentSuite, ObjectResult};
+use super::fit::IntervalBasis;
 use super::risk::FragilityRisk;
 use super::{
     Draws, FragilityFit, ProcedureError, Ranking, RiskError, StripeResponses,
@@ -117,11 +118,9 @@ pub struct Assessment {
     pub units_per_im_unit: f64,
     /// Number of records.
     pub records: usize,
-    /// What the intervals draw.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
-    pub drawn: Clusters,
-    /// Level of the intervals.
-    pub level: f64,
+    /// What the intervals rest on.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub basis: IntervalBasis,
     /// Years of the probabilities.
     pub years: f64,
     /// Correlation of the logarithms of the intensities of damage of two
@@ -489,10 +488,9 @@ pub fn assess(
     Ok(Assessment {
         unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
         units_per_im_unit: ground.unit,
-        level: crate::LEVEL,
         im: ground.im,
         records: records.len(),
-        drawn: clusters.clone(),
+        basis: IntervalBasis::new(options.draws, clusters),
         years: options.years,
         correlation: ground::correlation(&found),
         objects: ObjectResult::sorted(found),

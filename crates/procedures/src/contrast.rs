@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use libm::{exp, log};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::{Draws, LEVEL, ProcedureError};
+use super::fit::IntervalBasis;
+use super::{Draws, ProcedureError};
 use rocking::accelerogram::are_places;
 use rocking::stop;
 use rocking_statistics::bootstrap::Bootstrap;
-use rocking_statistics::estimate::EstimateError;
+use rocking_statistics::resampling::IntervalRemark;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
 use rocking_statistics::{
-    CensoredSample, Clusters, Estimate, ExtendedSample, Interval,
-    QuantileType, Range, SampleError, normal,
+    CensoredSample, Clusters, Estimate, ExtendedSample, QuantileType, Range,
+    SampleError,
 };
 
 /// Most values of a sample: the time of the exact p-value grows with the
@@ -63,18 +63,9 @@ pub enum ContrastError {
     /// No value is left.
     #[error(transparent)]
     Sample(#[from] SampleError),
-    /// A ratio too large or too small for a number.
-    #[error(transparent)]
-    Ratio(#[from] EstimateError),
     /// A median that censored values leave open.
     #[error("a median is censored: the ratio is not known")]
     Open,
-    /// Too few clusters for a bootstrap.
-    #[error(
-        "{0} records or earthquakes on a side: expected at least 2 for an \
-         interval"
-    )]
-    Few(usize),
     /// The test is one of independent values.
     #[error(
         "records of shared earthquakes are not independent: no p-value; the \
@@ -135,14 +126,17 @@ pub struct Half {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MedianRatio {
-    /// The ratio, beside an interval whose end is open if draws leave it so.
+    /// The ratio; without an interval if a tenth of the draws leave it open
+    /// or none moves it.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub estimate: Estimate,
     /// Level of the interval.
     pub level: f64,
-    /// Draws in which censored values leave the ratio open; they count as
-    /// below the lower and above the upper end.
+    /// Draws in which censored values leave the ratio open.
     pub open: usize,
+    /// What makes the interval rough: few records or earthquakes on a side,
+    /// or few draws.
+    pub remark: Option<IntervalRemark>,
 }
 
 /// Distance of two empirical distributions.
@@ -161,11 +155,11 @@ pub struct Distance {
 
 /// Contrasts two samples over different records.
 ///
-/// The interval comes from a bootstrap (percentiles of type 7 of the
-/// logarithm). The bootstrap draws the records of each sample or, if they are
-/// known, the earthquakes with all their records; an earthquake with records
-/// in both samples is drawn for both. Deviations from the ratio are widened by
-/// [`Clusters::half_width`] over the normal quantile, the larger of the two.
+/// The interval is Student's t on the logarithm, with the standard error of a
+/// bootstrap and the degrees of freedom of the sample that has fewer. The
+/// bootstrap draws the records of each sample or, if they are known, the
+/// earthquakes with all their records; an earthquake with records in both
+/// samples is drawn for both.
 ///
 /// ```
 /// use rocking_procedures::contrast::{ContrastSample, contrast};
@@ -179,9 +173,10 @@ pub struct Distance {
 /// }
 /// let draws = Draws { replicates: 200, seed: 0 };
 /// let found = contrast(all(&pulse), all(&ordinary), draws)?;
-/// let ratio = found.median_ratio?.estimate;
-/// assert!((ratio.value() - 1.35 / 2.8).abs() < 1e-12);
-/// assert!(ratio.high().is_some_and(|high| high < 1.0));
+/// let ratio = found.median_ratio?;
+/// assert!((ratio.estimate.value() - 1.35 / 2.8).abs() < 1e-12);
+/// let remark = ratio.remark.unwrap().to_string();
+/// assert_eq!(remark, "intervals are rough: 4 records, fewer than 8");
 /// // Two of the 126 orders of 4 and 5 values separate the samples.
 /// let p_value = found.kolmogorov_smirnov.p_value?;
 /// assert!((p_value - 2.0 / 126.0).abs() < 1e-15);
@@ -205,8 +200,25 @@ pub fn contrast<S: AsRef<str>>(
     let independent = of_a.drawn.is_singletons() && of_b.drawn.is_singletons();
     let median_ratio = match (of_a.median, of_b.median) {
         (Some(x), Some(y)) => {
-            let wider = wider(&of_a.drawn, &of_b.drawn);
-            wider.and_then(|wider| ratio((x, y), wider, (a, b), draws))
+            let ratios = ratios((a, b), draws);
+            let found = ratios.iter().filter(|x| x.is_finite()).count();
+            let [of_a, of_b] = [&of_a.drawn, &of_b.drawn]
+                .map(|drawn| IntervalBasis::new(draws, drawn));
+            let freedom = |of: &IntervalBasis| match of.drawn.count() {
+                0 | 1 => 0.0,
+                _ => of.drawn.degrees_of_freedom(),
+            };
+            let b_has_more = freedom(&of_a) < freedom(&of_b);
+            let basis = if b_has_more { of_a } else { of_b };
+            let range = Range::NotNegative;
+            let own = basis.estimate(x / y, &ratios, range);
+            Ok(MedianRatio {
+                estimate: own
+                    .map_or(Estimate::exact(x / y), |own| own.estimate),
+                level: basis.level,
+                open: ratios.len() - found,
+                remark: basis.remark,
+            })
         }
         _ => Err(ContrastError::Open),
     };
@@ -292,24 +304,11 @@ fn median(sample: &CensoredSample) -> Option<f64> {
     median.filter(|median| median.is_finite())
 }
 
-/// How much wider few clusters make the interval.
-fn wider(a: &Clusters, b: &Clusters) -> Result<f64, ContrastError> {
-    let fewest = a.count().min(b.count());
-    if fewest < 2 {
-        return Err(ContrastError::Few(fewest));
-    }
-    let half_width = a.half_width(LEVEL).max(b.half_width(LEVEL));
-    Ok(half_width / normal::quantile(0.5 + 0.5 * LEVEL))
-}
-
-/// The ratio of two medians with its interval.
-fn ratio<S: AsRef<str>>(
-    (x, y): (f64, f64),
-    wider: f64,
+/// Ratios of the medians of draws; NaN where censored values leave them open.
+fn ratios<S: AsRef<str>>(
     (a, b): (&ContrastSample<'_, S>, &ContrastSample<'_, S>),
-    draws: Draws,
-) -> Result<MedianRatio, ContrastError> {
-    let Draws { replicates, seed } = draws;
+    Draws { replicates, seed }: Draws,
+) -> Vec<f64> {
     let n = a.sample.len();
     // Earthquakes of the first sample, of the second, and of both.
     let events = |of: &ContrastSample<'_, S>| -> BTreeSet<String> {
@@ -336,9 +335,7 @@ fn ratio<S: AsRef<str>>(
             (places, Bootstrap::of_clusters(name, seed, &clusters, replicates))
         })
         .collect();
-    let (first, second) = (a.sample, b.sample);
-    let point = log(x / y);
-    let deviation = |index: u64| -> Option<f64> {
+    let of_draw = |index: u64| -> Option<f64> {
         stop::point();
         let places = drawn.iter().flat_map(|(places, draws)| {
             draws.draw(index).into_iter().map(move |i| places[i])
@@ -349,28 +346,11 @@ fn ratio<S: AsRef<str>>(
             return None;
         }
         let of_b: Vec<usize> = of_b.iter().map(|place| place - n).collect();
-        let x = median(&first.resample(&of_a))?;
-        let y = median(&second.resample(&of_b))?;
-        Some(wider * (log(x / y) - point))
+        let x = median(&a.sample.resample(&of_a))?;
+        Some(x / median(&b.sample.resample(&of_b))?)
     };
-    let found = (0..replicates as u64).into_par_iter().panic_fuse();
-    let found: Vec<Option<f64>> = found.map(deviation).collect();
-    let open = found.iter().filter(|x| x.is_none()).count();
-    let end = |if_open: f64, p: f64| {
-        let deviations = found.iter().map(|x| x.unwrap_or(if_open));
-        let mut deviations: Vec<f64> = deviations.collect();
-        deviations.sort_by(f64::total_cmp);
-        let place = p * (replicates - 1) as f64;
-        let [below, above] = [place.floor(), place.ceil()];
-        let [x, y] = [below, above].map(|place| deviations[place as usize]);
-        let found = f64::mul_add(place - below, y - x, x);
-        if found.is_finite() { exp(point + found) } else { if_open }
-    };
-    let low = end(f64::NEG_INFINITY, 0.5 - 0.5 * LEVEL);
-    let high = end(f64::INFINITY, 0.5 + 0.5 * LEVEL);
-    let interval = Interval::try_new(low, high)?;
-    let estimate = Estimate::beside(x / y, interval, Range::NotNegative)?;
-    Ok(MedianRatio { estimate, level: LEVEL, open })
+    let all = (0..replicates as u64).into_par_iter().panic_fuse();
+    all.map(|index| of_draw(index).unwrap_or(f64::NAN)).collect()
 }
 
 #[cfg(test)]

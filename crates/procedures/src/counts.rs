@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::fit::BootstrapFits;
+use super::fit::{BootstrapFits, IntervalBasis};
 use super::{Draws, LEVEL, ProcedureError};
 use rocking::capacity::{
     Capacity, CapacityError, InversionRule, ResponseCurve,
 };
-use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
+use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{
     Stripe, fit_counts, fit_counts_alone, fit_intervals,
 };
 use rocking_statistics::resampling::multiplicities;
-use rocking_statistics::{Clusters, Estimate, Lognormal};
+use rocking_statistics::{Clusters, Estimate, Lognormal, Range};
 
 /// A lognormal fragility fitted to counts, with intervals.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct CountsFragility {
     #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub intervals: Basis,
     /// Median with its interval; an end is open where the likelihood does not
-    /// fall so far. No interval where a draw in twenty has no fit.
+    /// fall so far. No interval where a draw in ten has no fit.
     pub median: Estimate,
     /// Dispersion with its interval.
     pub dispersion: Estimate,
@@ -54,7 +54,7 @@ pub enum Basis {
     /// whether stripes share records.
     IndependentStripes,
     /// A bootstrap: each draw holds its records in all stripes.
-    Drawn(Draws, Clusters),
+    Drawn(IntervalBasis),
 }
 
 impl fmt::Display for Basis {
@@ -64,11 +64,7 @@ impl fmt::Display for Basis {
             Self::IndependentStripes => {
                 f.write_str("likelihood, stripes as independent")
             }
-            Self::Drawn(draws, clusters) => write!(
-                f,
-                "bootstrap, {} draws of seed {}, {clusters}",
-                draws.replicates, draws.seed
-            ),
+            Self::Drawn(basis) => basis.fmt(f),
         }
     }
 }
@@ -154,15 +150,15 @@ pub fn fit_outcomes(
     };
     let Some(draws) = draws else { return Ok(found) };
     let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
-    let estimate = |of: fn(&Lognormal) -> f64, point| {
-        let enough = |e: &BootstrapEstimate| 20 * e.used >= 19 * e.replicates;
-        let found = drawn.estimate(point, of).filter(enough);
-        found.map_or(Estimate::exact(point), |found| found.estimate)
-    };
+    let dispersion = drawn.estimate(
+        found.dispersion.value(),
+        Range::NotNegative,
+        Lognormal::dispersion,
+    );
     Ok(CountsFragility {
-        median: estimate(Lognormal::median, found.median.value()),
-        dispersion: estimate(Lognormal::dispersion, found.dispersion.value()),
-        intervals: Basis::Drawn(draws, drawn.clusters),
+        median: drawn.quantile(&found.fitted, 0.5),
+        dispersion,
+        intervals: Basis::Drawn(drawn.basis),
         ..found
     })
 }
@@ -219,7 +215,8 @@ pub fn sample_outcomes(
         let of = |record| u64::from(counts[place(record)]);
         fit_counts_alone(&counted(outcomes, of), shift).ok()
     });
-    Ok(BootstrapFits { draws, clusters, fitted })
+    let basis = IntervalBasis::new(draws, &clusters);
+    Ok(BootstrapFits { basis, fitted })
 }
 
 impl RecordOutcome {

@@ -9,22 +9,22 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
+pub use intervals::{Band, BandPoint, FitIntervals, IntervalBasis};
 pub use precision::SampleSize;
 pub use remark::FitRemark;
 
+use crate::capacities;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
-use crate::{LEVEL, capacities};
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::stop;
-use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lilliefors::LillieforsError;
 use rocking_statistics::lognormal::{
     FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
 };
 use rocking_statistics::regression::RegressionError;
 use rocking_statistics::{
-    CensoredSample, Clusters, Interval, Lognormal, QuantileType, SampleError,
+    CensoredSample, Clusters, Estimate, Interval, Lognormal, QuantileType,
+    Range, SampleError, normal,
 };
 
 /// The shift IM_R of a fit.
@@ -335,28 +335,39 @@ impl Transformation {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BootstrapFits {
-    /// The draws of the bootstrap.
-    pub draws: Draws,
-    /// What was drawn.
-    pub clusters: Clusters,
+    /// What their intervals rest on.
+    pub basis: IntervalBasis,
     /// One a draw; none where it makes no fit.
     pub fitted: Vec<Option<Lognormal>>,
 }
 
 impl BootstrapFits {
     /// A number of a fit, `value` of the sample's own, with the 95 % interval
-    /// of these draws; none where they give none.
+    /// of these draws; without where they give none.
     pub(crate) fn estimate(
         &self,
         value: f64,
+        range: Range,
         number: impl Fn(&Lognormal) -> f64,
-    ) -> Option<BootstrapEstimate> {
+    ) -> Estimate {
         let of = |fit: &Option<Lognormal>| {
             stop::point();
             fit.as_ref().map_or(f64::NAN, &number)
         };
         let drawn: Vec<f64> = self.fitted.iter().map(of).collect();
-        self.clusters.estimate(value, &drawn, LEVEL)
+        let found = self.basis.estimate(value, &drawn, range);
+        found.map_or(Estimate::exact(value), |found| found.estimate)
+    }
+
+    /// The quantile of a fit at probability p with the 95 % interval of these
+    /// draws, symmetric in its logarithm above the shift.
+    pub(crate) fn quantile(&self, fitted: &Lognormal, p: f64) -> Estimate {
+        let z = normal::quantile(p);
+        let of = |fit: &Lognormal| {
+            f64::mul_add(fit.dispersion(), z, fit.log_mean())
+        };
+        let found = self.estimate(of(fitted), Range::Real, of);
+        found.map(|y| fitted.shift() + libm::exp(y))
     }
 
     /// All of them in a unit of which one of theirs has `factor`.
@@ -423,7 +434,8 @@ impl FitOptions {
         let clusters = self.clusters(sample);
         let drawn = intervals::replicates(sample, self, &clusters);
         let fitted = drawn.into_iter().map(|(_, fitted)| fitted).collect();
-        Ok(Some(BootstrapFits { draws, clusters, fitted }))
+        let basis = IntervalBasis::new(draws, &clusters);
+        Ok(Some(BootstrapFits { basis, fitted }))
     }
 
     /// The records of a sample, by earthquake where these are known.
@@ -499,16 +511,15 @@ pub fn fit_sample(
     let at = |p| sample.quantile(options.quantile_type, p);
     let clusters = options.clusters(sample);
     let replicates = intervals::replicates(sample, options, &clusters);
-    let bootstrap = options.draws.map(|draws| {
-        let own = (draws, &clusters);
-        FitIntervals::new(sample, options, own, &found, &replicates)
-    });
-    let band = options.draws.filter(|_| !options.band.is_empty());
-    let band = band.map(|draws| {
-        let laws = replicates.iter().map(|(_, fitted)| *fitted).collect();
-        let clusters = clusters.clone();
-        let sampled = BootstrapFits { draws, clusters, fitted: laws };
-        Band::new(sample, options, &fitted, &sampled)
+    let basis =
+        options.draws.map(|draws| IntervalBasis::new(draws, &clusters));
+    let bootstrap = basis
+        .clone()
+        .map(|basis| FitIntervals::new(basis, &found, &replicates));
+    let band = basis.filter(|_| !options.band.is_empty()).map(|basis| {
+        let fitted = replicates.iter().map(|(_, fitted)| *fitted).collect();
+        let sampled = BootstrapFits { basis, fitted };
+        Band::new(sample, options, &found.fit.distribution, &sampled)
     });
     // The empirical distribution is that of values with one limit.
     let ks_distance =

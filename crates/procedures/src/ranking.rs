@@ -2,11 +2,12 @@
 
 use libm::log;
 
-use super::{Draws, LEVEL, ProcedureError};
-use rocking_statistics::Clusters;
+use super::fit::IntervalBasis;
+use super::{Draws, ProcedureError};
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 use rocking_statistics::lognormal::fit_intervals;
 use rocking_statistics::regression::{Line, mixed};
+use rocking_statistics::{Clusters, Range};
 
 /// An intensity measure, and its values of the records of a suite.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,15 +55,11 @@ pub struct Ranking {
     /// Records that do not reach the level; they enter by the intensity up
     /// to which they were run.
     pub censored: usize,
-    /// Level of the intervals.
-    pub level: f64,
-    /// Draws of the bootstrap, the same for all measures.
+    /// What the intervals rest on, the same draws for all measures.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub draws: Draws,
-    /// What was drawn.
-    pub drawn: Clusters,
+    pub basis: IntervalBasis,
     /// Why there is no slope, where a covariate was given and there is none.
-    pub remark: Option<String>,
+    pub no_slope: Option<String>,
     /// The measures.
     pub measures: Vec<MeasureRank>,
 }
@@ -173,6 +170,10 @@ pub fn rank(
         };
         all.iter().map(pick).collect::<Vec<f64>>()
     });
+    let basis = IntervalBasis::new(draws, clusters);
+    let positive = |value, drawn: &[f64]| {
+        basis.estimate(value, drawn, Range::NotNegative)
+    };
     let first = all.first().map_or(f64::NAN, |first| dispersion(first));
     let measure = |(i, candidate): (usize, &CandidateMeasure)| {
         let root = if candidate.squared { "root of " } else { "" };
@@ -193,22 +194,15 @@ pub fn rank(
         Ok(MeasureRank {
             im,
             median: fit.distribution.median(),
-            dispersion: clusters.estimate(point, &column, LEVEL),
-            ratio_to_first: clusters.estimate(point / first, &ratios, LEVEL),
+            dispersion: positive(point, &column),
+            ratio_to_first: positive(point / first, &ratios),
             slopes: used.map(slope).collect::<Result<_, ProcedureError>>()?,
         })
     };
     let measures = candidates.iter().enumerate().map(measure);
-    let remark = (censored > 0 && !covariates.is_empty()).then(|| {
+    let measures = measures.collect::<Result<_, ProcedureError>>()?;
+    let no_slope = (censored > 0 && !covariates.is_empty()).then(|| {
         format!("no slopes: {censored} censored capacities have no value")
     });
-    Ok(Ranking {
-        n,
-        censored,
-        level: LEVEL,
-        draws,
-        drawn: clusters.clone(),
-        remark,
-        measures: measures.collect::<Result<_, ProcedureError>>()?,
-    })
+    Ok(Ranking { n, censored, basis, no_slope, measures })
 }

@@ -4,12 +4,12 @@
 use libm::expm1;
 use thiserror::Error;
 
+use crate::fit::{BootstrapFits, IntervalBasis};
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
-use crate::{Draws, LEVEL, fit::BootstrapFits};
 use rocking::stop;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
-use rocking_statistics::{Clusters, Estimate, Interval, Lognormal, Range};
+use rocking_statistics::{Estimate, Interval, Lognormal, Range};
 
 /// Annual frequencies and probabilities of damage under one hazard curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,14 +70,10 @@ impl FragilityInput {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingInterval {
-    /// The draws of the bootstrap.
+    /// What it rests on.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub draws: Draws,
-    /// What was drawn.
-    pub drawn: Clusters,
-    /// Level of the intervals.
-    pub level: f64,
-    /// Annual frequency in 1/year, of the lower bound of truncation, beside an
+    pub basis: IntervalBasis,
+    /// Annual frequency in 1/year, of the lower bound of truncation, with an
     /// interval up to the upper end of the upper bound.
     #[cfg_attr(
         feature = "serde",
@@ -145,8 +141,9 @@ pub enum RiskError {
 /// usual curve of 20 points). Damage is a Poisson process of that frequency:
 /// the probability of damage in T years is 1 - exp(-lambda T).
 ///
-/// The 95 % interval is that of lambda over the draws of the fragility's
-/// sample, earthquakes where they are known ([`Clusters::estimate`]).
+/// The 95 % interval is that of ln(lambda) over the draws of the fragility's
+/// sample, earthquakes where they are known
+/// ([`Clusters::inferred`](rocking_statistics::Clusters::inferred)).
 ///
 /// ```
 /// use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
@@ -226,16 +223,18 @@ fn interval(
         })
     });
     let (lows, highs): (Vec<f64>, Vec<f64>) = all.unzip();
-    let drawn = &sampled.clusters;
-    let low = drawn.estimate(lower, &lows, LEVEL)?.estimate.low()?;
-    let high = drawn.estimate(upper, &highs, LEVEL)?.estimate.high()?;
-    let interval = Interval::try_new(low, high).ok()?;
+    let basis = &sampled.basis;
+    let of = |value, drawn: &[f64]| {
+        basis.estimate(value, drawn, Range::NotNegative)
+    };
+    // A lower bound of 0 has no logarithm.
+    let low = of(lower, &lows).and_then(|found| found.estimate.low());
+    let high = of(upper, &highs)?.estimate.high()?;
+    let interval = Interval::try_new(low.unwrap_or(0.0), high).ok()?;
     let annual_frequency =
-        Estimate::beside(lower, interval, Range::NotNegative).ok()?;
+        Estimate::try_new(lower, interval, Range::NotNegative).ok()?;
     Some(SamplingInterval {
-        draws: sampled.draws,
-        drawn: drawn.clone(),
-        level: LEVEL,
+        basis: basis.clone(),
         annual_frequency,
         probability: annual_frequency.map(within),
         drawn_annual_frequencies: lows,
@@ -244,35 +243,49 @@ fn interval(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::fragility::hazard::HazardOptions;
+    use libm::{exp, log};
 
-    /// Draws whose damage is certain in motions stronger than every point of
-    /// the curve, and sure not to happen in weaker ones: the frequency lies
-    /// between 0 and the frequency of the last point.
+    use super::*;
+    use crate::Draws;
+    use crate::fragility::hazard::HazardOptions;
+    use rocking_statistics::Clusters;
+
+    /// Damage is certain in motions stronger than every point of the curve,
+    /// and sure not to happen in weaker ones: the frequency lies between 0
+    /// and the frequency of the last point, or what draws make of that.
     #[test]
     fn an_interval_reaches_from_bound_to_bound_of_the_truncation() {
         let text = "pga_g,annual_frequency\n0.3,0.004\n0.9,0.0003\n";
         let options = HazardOptions::default();
         let hazard = Hazard::parse("h.csv", text, &options).unwrap();
         let beyond = Lognormal::try_new(5.0, 0.0, 0.1).unwrap();
-        let sampled = BootstrapFits {
-            draws: Draws { replicates: 40, seed: 0 },
-            clusters: Clusters::singletons(9),
-            fitted: vec![Some(beyond); 40],
+        let weaker = Lognormal::try_new(0.0, -0.7, 0.1).unwrap();
+        let draws = Draws { replicates: 40, seed: 0 };
+        let ends = |clusters: &Clusters| {
+            let sampled = BootstrapFits {
+                basis: IntervalBasis::new(draws, clusters),
+                fitted: [Some(beyond), Some(weaker)].repeat(20),
+            };
+            let one = FragilityInput {
+                sampled: Some(sampled),
+                ..FragilityInput::known("block", beyond)
+            };
+            let found = risk(&hazard, &[one], 50.0).unwrap();
+            let found = found.fragilities[0].sampling.clone()?;
+            let ends = |of: Estimate| of.interval().unwrap().ends();
+            Some((ends(found.annual_frequency), ends(found.probability)))
         };
-        let one = FragilityInput {
-            sampled: Some(sampled),
-            ..FragilityInput::known("block", beyond)
-        };
-        let found = risk(&hazard, &[one], 50.0).unwrap();
-        let found = found.fragilities[0].sampling.as_ref().unwrap();
-        let ends = |of: Estimate| of.interval().unwrap().ends();
-        assert_eq!(ends(found.annual_frequency), (0.0, 0.0003));
-        let (low, high) = ends(found.probability);
-        assert_eq!(low, 0.0);
-        // 1 - exp(-0.015).
-        let expected = 0.014_888_060_396_937_339;
-        assert!((high / expected - 1.0).abs() < 1e-14);
+        let (frequency, probability) = ends(&Clusters::singletons(9)).unwrap();
+        let upper = hazard.curve.annual_frequency(&weaker).truncation_upper;
+        // Half of the draws each: t of 8 is 2.3060.
+        let s =
+            0.5 * log(upper / 0.0003) * (40.0 / 39.0 * 9.0 / 8.0f64).sqrt();
+        let expected = 0.0003 * exp(2.3060 * s);
+        assert_eq!(frequency.0, 0.0);
+        assert!((frequency.1 / expected - 1.0).abs() < 1e-4);
+        let high = 1.0 - exp(-50.0 * frequency.1);
+        assert_eq!(probability.0, 0.0);
+        assert!((probability.1 / high - 1.0).abs() < 1e-12);
+        assert!(ends(&Clusters::singletons(2)).is_none());
     }
 }

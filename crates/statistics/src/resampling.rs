@@ -84,7 +84,8 @@ pub struct IntervalRemark {
 impl fmt::Display for IntervalRemark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let clusters = self.clusters.map(|(count, unit)| {
-            format!("{count} {unit}s, fewer than {FEWEST_CLUSTERS}")
+            let s = if count == 1 { "" } else { "s" };
+            format!("{count} {unit}{s}, fewer than {FEWEST_CLUSTERS}")
         });
         let draws = self
             .draws
@@ -140,9 +141,11 @@ impl Clusters {
         how: Resampling,
         range: Range,
     ) -> Option<f64> {
-        let on: Vec<f64> = values.iter().map(|x| range.scale(*x)).collect();
-        let finite: Vec<f64> =
-            on.into_iter().filter(|x| x.is_finite()).collect();
+        let on = values.iter().map(|x| range.scale(*x));
+        let finite: Vec<f64> = on.filter(|x| x.is_finite()).collect();
+        // Of equal values exactly 0.
+        let first = *finite.first()?;
+        let finite: Vec<f64> = finite.iter().map(|x| x - first).collect();
         let used = finite.len() as f64;
         let (factor, divisor) = match how {
             Resampling::Bootstrap => {

@@ -366,7 +366,7 @@ fn limits(found: &Assessment) -> Markup {
                 li {
                     "The uncertainty of the hazard curve. The intervals \
                      hold what the choice of the records leaves ("
-                    (found.drawn.to_string()) ")."
+                    (found.basis.drawn.to_string()) ")."
                 }
                 li {
                     "A coefficient of restitution that was measured on the \

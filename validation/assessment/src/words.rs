@@ -71,7 +71,10 @@ pub(crate) fn first(found: &Assessment) -> String {
             found.unit
         ),
     };
-    let interval = "The brackets hold the 95 % interval.";
+    let mut interval = "The brackets hold the 95 % interval.".to_owned();
+    if let Some(remark) = found.basis.remark {
+        interval += &format!(" Note: {remark}.");
+    }
     if found.objects.len() == 1 {
         return format!("{id}: {often}. {interval}");
     }

@@ -95,11 +95,8 @@ impl AssessmentSuite<'_> {
         sampled: Option<BootstrapFits>,
     ) -> Answer {
         let at = |p: f64| {
-            let point = fitted.quantile(p);
-            let drawn = sampled.as_ref();
-            let found =
-                drawn.and_then(|all| all.estimate(point, |x| x.quantile(p)));
-            found.map_or(Estimate::exact(point), |found| found.estimate)
+            let own = sampled.as_ref().map(|all| all.quantile(&fitted, p));
+            own.unwrap_or_else(|| Estimate::exact(fitted.quantile(p)))
         };
         let (median_im, small_im) = (at(0.5), at(SMALL));
         let exposed = |hazard: &Hazard| {

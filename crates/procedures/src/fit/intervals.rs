@@ -1,56 +1,94 @@
 //! What few records leave open: intervals of a fit, and bands over
 //! intensity.
 
+use std::fmt;
+
+use libm::exp;
+
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::LEVEL;
 use crate::fragility::FragilityError;
-use rocking::stop;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lognormal::FitMethod;
-use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
+use rocking_statistics::resampling::{IntervalRemark, Resampling};
+use rocking_statistics::{
+    CensoredSample, Clusters, Estimate, Lognormal, Range, normal,
+};
 
-/// Bootstrap intervals (95 %) of one number.
+/// What the intervals of a result rest on: the draws of a bootstrap.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Intervals {
-    /// Percentile interval; none where fewer than two replicates have one.
-    pub percentile: Option<BootstrapEstimate>,
-    /// Bias-corrected and accelerated interval.
-    pub bca: Option<BootstrapEstimate>,
+pub struct IntervalBasis {
+    /// The draws.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+    /// What was drawn: earthquakes with all their records, or records where
+    /// no earthquake is known.
+    pub drawn: Clusters,
+    /// Level of the intervals.
+    pub level: f64,
+    /// What makes them rough; none of 8 earthquakes (records) and 200 draws
+    /// or more.
+    pub remark: Option<IntervalRemark>,
 }
 
-/// Bootstrap intervals of the numbers of a fit; earthquakes are drawn with
-/// all their records, or records where no earthquake is known.
+impl IntervalBasis {
+    pub(crate) fn new(draws: Draws, clusters: &Clusters) -> Self {
+        let drawn = clusters.clone();
+        let remark = drawn.remark(draws.replicates);
+        Self { draws, drawn, level: LEVEL, remark }
+    }
+
+    /// A number with its interval from its values in the draws.
+    pub(crate) fn estimate(
+        &self,
+        value: f64,
+        drawn: &[f64],
+        range: Range,
+    ) -> Option<BootstrapEstimate> {
+        let how = Resampling::Bootstrap;
+        self.drawn.inferred(value, drawn, how, range, self.level)
+    }
+}
+
+impl fmt::Display for IntervalBasis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Draws { replicates, seed } = self.draws;
+        let drawn = &self.drawn;
+        write!(f, "bootstrap, {replicates} draws of seed {seed}, {drawn}")?;
+        let remark = self.remark.iter();
+        remark.map(|remark| write!(f, "; {remark}")).collect()
+    }
+}
+
+/// Bootstrap intervals of the numbers of a fit; none of a number that a
+/// tenth of the draws do not have.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitIntervals {
-    /// The draws.
+    /// What they rest on.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub draws: Draws,
-    /// What was drawn.
-    pub drawn: Clusters,
-    /// Level of the intervals.
-    pub level: f64,
+    pub basis: IntervalBasis,
     /// Logarithmic mean above the shift.
-    pub log_mean: Intervals,
+    pub log_mean: Option<BootstrapEstimate>,
     /// Dispersion above the shift.
-    pub dispersion: Intervals,
-    /// Median.
-    pub median: Intervals,
+    pub dispersion: Option<BootstrapEstimate>,
+    /// Median; its standard error is that of the logarithmic mean.
+    pub median: Option<BootstrapEstimate>,
     /// Eq. 5.
-    pub eq5: Intervals,
+    pub eq5: Option<BootstrapEstimate>,
     /// Eq. 6.
-    pub eq6: Intervals,
+    pub eq6: Option<BootstrapEstimate>,
     /// Eq. 7.
-    pub eq7: Intervals,
+    pub eq7: Option<BootstrapEstimate>,
 }
 
 /// The numbers of a fit that get an interval.
-type Numbers = [f64; 6];
+type Numbers = [f64; 5];
 
 /// A replicate: its numbers, and its distribution where it has a fit.
 pub(super) type Replicate = (Numbers, Option<Lognormal>);
@@ -64,7 +102,6 @@ fn numbers(found: &SampleFit) -> Numbers {
     [
         fitted.log_mean(),
         fitted.dispersion(),
-        fitted.median(),
         or_nan(&own.eq5),
         or_nan(&own.eq6),
         or_nan(&own.eq7),
@@ -77,7 +114,7 @@ fn refitted(
     places: &[usize],
 ) -> Replicate {
     let found = options.once(&sample.resample(places));
-    found.map_or(([f64::NAN; 6], None), |found| {
+    found.map_or(([f64::NAN; 5], None), |found| {
         (numbers(&found), Some(found.fit.distribution))
     })
 }
@@ -96,42 +133,31 @@ pub(super) fn replicates(
 
 impl FitIntervals {
     pub(super) fn new(
-        sample: &CensoredSample,
-        options: &FitOptions,
-        (draws, clusters): (Draws, &Clusters),
+        basis: IntervalBasis,
         found: &SampleFit,
         replicates: &[Replicate],
     ) -> Self {
-        let without: Vec<Replicate> = (0..clusters.count())
-            .map(|k| {
-                stop::point();
-                let all = 0..clusters.records();
-                let others: Vec<_> =
-                    all.filter(|i| clusters.cluster_of(*i) != k).collect();
-                refitted(sample, options, &others)
-            })
-            .collect();
         let points = numbers(found);
-        let of = |i: usize| {
-            let column = |rows: &[Replicate]| -> Vec<f64> {
-                rows.iter().map(|row| row.0[i]).collect()
-            };
-            let (drawn, left_out) = (column(replicates), column(&without));
-            Intervals {
-                percentile: clusters.estimate(points[i], &drawn, LEVEL),
-                bca: clusters.accelerated(points[i], &drawn, &left_out, LEVEL),
-            }
+        let of = |i: usize, range: Range| {
+            let drawn: Vec<f64> =
+                replicates.iter().map(|row| row.0[i]).collect();
+            basis.estimate(points[i], &drawn, range)
         };
+        let log_mean = of(0, Range::Real);
+        // The same interval above the shift.
+        let shift = found.fit.distribution.shift();
+        let median = log_mean.clone().map(|mut own| {
+            own.estimate = own.estimate.map(|y| shift + exp(y));
+            own
+        });
         Self {
-            draws,
-            drawn: clusters.clone(),
-            level: LEVEL,
-            log_mean: of(0),
-            dispersion: of(1),
-            median: of(2),
-            eq5: of(3),
-            eq6: of(4),
-            eq7: of(5),
+            log_mean,
+            dispersion: of(1, Range::NotNegative),
+            median,
+            eq5: of(2, Range::Real),
+            eq6: of(3, Range::Real),
+            eq7: of(4, Range::Real),
+            basis,
         }
     }
 }
@@ -141,13 +167,9 @@ impl FitIntervals {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Band {
-    /// The draws of the bootstrap.
+    /// What it rests on.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub draws: Draws,
-    /// What was drawn.
-    pub drawn: Clusters,
-    /// Level of the bands.
-    pub level: f64,
+    pub basis: IntervalBasis,
     /// One point an intensity.
     pub points: Vec<BandPoint>,
 }
@@ -188,7 +210,7 @@ impl Band {
             FitMethod::MaximumLikelihood | FitMethod::Moment
         );
         let mut band = sampled.band(fitted, &options.band);
-        if complete && known && sampled.clusters.is_singletons() {
+        if complete && known && sampled.basis.drawn.is_singletons() {
             for point in &mut band.points {
                 point.delta = fitted.estimate_of_cdf(
                     sample.len(),
@@ -203,18 +225,19 @@ impl Band {
 
 impl BootstrapFits {
     /// Probabilities of a fit at these intensities, with the 95 % band of
-    /// these draws; the ends by the delta method are none.
+    /// these draws, symmetric in the normal score; the ends by the delta
+    /// method are none.
     #[must_use]
     pub fn band(&self, fitted: &Lognormal, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
-            let probability = fitted.cdf(intensity);
-            let delta = Estimate::exact(probability);
-            let found = self.estimate(probability, |fit| fit.cdf(intensity));
-            let probability = found.map_or(delta, |found| found.estimate);
+            let score = fitted.score(intensity);
+            let found =
+                self.estimate(score, Range::Real, |fit| fit.score(intensity));
+            let probability = found.map(normal::cdf);
+            let delta = Estimate::exact(probability.value());
             BandPoint { intensity, probability, delta }
         };
         let points = intensities.iter().map(point).collect();
-        let drawn = self.clusters.clone();
-        Band { draws: self.draws, drawn, level: LEVEL, points }
+        Band { basis: self.basis.clone(), points }
     }
 }

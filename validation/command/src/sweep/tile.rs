@@ -5,9 +5,10 @@ use std::fs;
 use rocking::capacity::InversionRule;
 use rocking::ida::{Batch, BracketEnd, IdaCurve, curves};
 use rocking_records::intensity::Intensity;
-use rocking_statistics::ExtendedSample;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{FitMethod, fit};
+use rocking_statistics::resampling::Resampling;
+use rocking_statistics::{ExtendedSample, Range};
 
 use super::content::Content;
 use super::plan::{REPLICATES, SweepBlock, SweepFolder, SweepPlan};
@@ -269,7 +270,7 @@ fn text(plan: &SweepPlan, content: Content, all: &[TileBlock<'_>]) -> String {
 }
 
 /// Values reached, shift, and the median and dispersion of the shifted
-/// lognormal by maximum likelihood with their 95 % percentile intervals,
+/// lognormal by maximum likelihood with their 95 % intervals of the bootstrap,
 /// of earthquakes drawn where the plan has them;
 /// empty where some record never reaches the demand.
 fn fragility(
@@ -300,10 +301,10 @@ fn fragility(
         of(&values, least(&mut places.iter().map(|i| onsets[*i])))
     });
     let interval = |k: usize| -> [f64; 2] {
-        let values: Vec<f64> =
-            replicates.iter().flatten().map(|r| r[k]).collect();
-        let point = found.map_or(f64::NAN, |found| found[k]);
-        let ends = clusters.estimate(point, &values, 0.95);
+        let of = |found: &Option<[f64; 2]>| found.map_or(f64::NAN, |x| x[k]);
+        let values: Vec<f64> = replicates.iter().map(of).collect();
+        let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
+        let ends = clusters.inferred(of(&found), &values, how, range, 0.95);
         ends.map_or([f64::NAN; 2], |found| found.estimate.ends().into())
     };
     let found = found.unwrap_or([f64::NAN; 2]);

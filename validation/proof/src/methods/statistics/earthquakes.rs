@@ -158,8 +158,7 @@ fn holds(
         RateMeasure::Dispersion => (all.dispersion, DISPERSION),
         _ => (all.median, 1.0),
     };
-    let found = own.bca.or(own.percentile);
-    Ok(found.is_some_and(|found| holds(found.estimate, truth)))
+    Ok(own.is_some_and(|found| holds(found.estimate, truth)))
 }
 
 /// Slopes with a random intercept, and what widens an interval of few

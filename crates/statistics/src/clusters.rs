@@ -230,8 +230,7 @@ impl Clusters {
     /// none of a single cluster.
     #[must_use]
     pub fn student(&self, level: f64) -> Option<f64> {
-        let t = StudentsT::new(0.0, 1.0, self.degrees_of_freedom()).ok()?;
-        Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())
+        student(self.degrees_of_freedom(), level)
     }
 
     /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
@@ -243,6 +242,12 @@ impl Clusters {
         }
         sqrt(effective / (effective - 1.0))
     }
+}
+
+/// Student's t at a two-sided level; none of no number of degrees of freedom.
+pub(super) fn student(freedom: f64, level: f64) -> Option<f64> {
+    let t = StudentsT::new(0.0, 1.0, freedom).ok()?;
+    Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())
 }
 
 impl std::fmt::Display for Clusters {

@@ -3,7 +3,8 @@
 use statrs::distribution::{Beta, ContinuousCDF as _};
 use thiserror::Error;
 
-use crate::Interval;
+use crate::clusters::{Clusters, student};
+use crate::{Interval, Range, normal};
 
 /// Why a count gives no probability.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -22,15 +23,26 @@ pub enum ProportionError {
     Level(f64),
 }
 
-/// What happened k times in n independent trials of one probability.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What happened k times in n trials of one probability.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proportion {
     successes: usize,
     trials: usize,
+    /// Of trials that are not independent.
+    design: Option<Design>,
+}
+
+/// What clusters make of trials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Design {
+    /// Number of trials that are worth one independent trial.
+    effect: f64,
+    /// Degrees of freedom; NaN of a single cluster.
+    freedom: f64,
 }
 
 impl Proportion {
-    /// k `successes` in n `trials`.
+    /// k `successes` in n independent `trials`.
     ///
     /// # Errors
     /// [`ProportionError::Count`] for k > n, and for n = 0.
@@ -41,7 +53,57 @@ impl Proportion {
         if trials == 0 || successes > trials {
             return Err(ProportionError::Count { successes, trials });
         }
-        Ok(Self { successes, trials })
+        Ok(Self { successes, trials, design: None })
+    }
+
+    /// The trials that are `held`, of records of these clusters: those of one
+    /// cluster are not independent.
+    ///
+    /// The design effect D is the variance of k/n over clusters, G/(G - 1)
+    /// sum_g (k_g - n_g k/n)^2/n^2, over that of independent trials,
+    /// k/n (1 - k/n)/n; at least 1, and 1 of none or all of the trials.
+    ///
+    /// ```
+    /// use rocking_statistics::{Clusters, Proportion};
+    /// let earthquakes = Clusters::from_labels(["a", "a", "b", "b", "c", "d"]);
+    /// let held = [true, true, false, false, true, false];
+    /// let found = Proportion::of_clusters(&held, &earthquakes)?;
+    /// let alone = Proportion::try_new(3, 6)?;
+    /// let [wide, narrow] = [found.interval(0.9)?, alone.interval(0.9)?];
+    /// assert!(wide.low() < narrow.low() && wide.high() > narrow.high());
+    /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ProportionError::Count`] for no trials, and for another number of
+    /// trials than of records.
+    pub fn of_clusters(
+        held: &[bool],
+        clusters: &Clusters,
+    ) -> Result<Self, ProportionError> {
+        let successes = held.iter().filter(|held| **held).count();
+        let found = Self::try_new(successes, clusters.records())?;
+        if held.len() != found.trials {
+            let trials = clusters.records();
+            return Err(ProportionError::Count { successes, trials });
+        }
+        if clusters.is_singletons() {
+            return Ok(found);
+        }
+        let share = found.share();
+        let (n, count) = (found.trials as f64, clusters.count() as f64);
+        let square = (0..clusters.count()).fold(0.0, |sum, cluster| {
+            let away = clusters.members(cluster).iter().fold(0.0, |sum, i| {
+                sum + f64::from(u8::from(held[*i])) - share
+            });
+            f64::mul_add(away, away, sum)
+        });
+        let variance = count / (count - 1.0) * square;
+        let effect = variance / (n * share * (1.0 - share));
+        // Also where nothing varies, and of a single cluster.
+        let effect = if effect > 1.0 { effect } else { 1.0 };
+        let freedom = clusters.degrees_of_freedom();
+        Ok(Self { design: Some(Design { effect, freedom }), ..found })
     }
 
     /// Number of trials n.
@@ -72,13 +134,28 @@ impl Proportion {
     /// # Ok::<(), rocking_statistics::proportion::ProportionError>(())
     /// ```
     ///
-    /// Clopper and Pearson, Biometrika 26 (1934) 404.
+    /// Of clusters n is n/D (z/t)^2, at most the number of trials, and k that
+    /// times the share: D the design effect, z the normal quantile and t
+    /// Student's at the level, with [`Clusters::degrees_of_freedom`]. From 0
+    /// to 1 of a single cluster.
+    ///
+    /// Clopper and Pearson, Biometrika 26 (1934) 404; Korn and Graubard,
+    /// Survey Methodology 24 (1998) 193.
     ///
     /// # Errors
     /// [`ProportionError::Level`] for another level.
     pub fn interval(self, level: f64) -> Result<Interval, ProportionError> {
         checked(level)?;
-        let (k, n) = (self.successes as f64, self.trials as f64);
+        let mut n = self.trials as f64;
+        if let Some(Design { effect, freedom }) = self.design {
+            let z = normal::quantile(0.5 + 0.5 * level);
+            let Some(t) = student(freedom, level) else {
+                return Ok(Range::Share.interval());
+            };
+            let ratio = z / t;
+            n = (n / effect * ratio * ratio).min(n);
+        }
+        let k = self.share() * n;
         let tail = 0.5 * (1.0 - level);
         let at = |a: f64, b: f64, p: f64| {
             Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p))

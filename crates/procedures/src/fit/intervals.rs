@@ -59,8 +59,8 @@ impl fmt::Display for IntervalBasis {
         let Draws { replicates, seed } = self.draws;
         let drawn = &self.drawn;
         write!(f, "bootstrap, {replicates} draws of seed {seed}, {drawn}")?;
-        let remark = self.remark.iter();
-        remark.map(|remark| write!(f, "; {remark}")).collect()
+        let mut remark = self.remark.iter();
+        remark.try_for_each(|remark| write!(f, "; {remark}"))
     }
 }
 

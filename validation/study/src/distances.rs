@@ -59,18 +59,19 @@ impl TestSeries {
     }
 }
 
-/// Place of the excess without the earliest records.
-pub(crate) const WITHOUT_EARLIEST: usize = TestSeries::ALL.len() * COUNT;
+/// Place of the excess less the excess without the earliest records, both
+/// over the levels of a simulation.
+pub(crate) const OF_EARLIEST: usize = TestSeries::ALL.len() * COUNT;
 
 /// First place of the accepted shares: `TestSeries` by block.
-const SHARES: usize = WITHOUT_EARLIEST + 1;
+const SHARES: usize = OF_EARLIEST + 1;
 
 /// Results of Lilliefors' test for all blocks of a suite in an arm, over all
 /// draws.
 pub struct SuiteDistances {
     pub(crate) suite: SuiteKind,
     pub(crate) arm: Arm,
-    /// The excess of D, `TestSeries` by block, then that without the earliest
+    /// The excess of D, `TestSeries` by block, then the part of the earliest
     /// records; then the accepted shares, `TestSeries` by block.
     pub(crate) replicated: Replicates,
     /// Levels at which every record is finite, of all, by block.
@@ -215,14 +216,14 @@ impl SuiteDistances {
                 .collect();
             let earliest = all[slender].as_ref().map_or(f64::NAN, |one| {
                 let earliest = one.earliest(counts);
-                let nulls = null(drawn.saturating_sub(earliest.len()));
-                one.over_levels(counts, &earliest, nulls).excess
+                let others = null(drawn.saturating_sub(earliest.len()));
+                one.over_levels(counts, &[], nulls).excess
+                    - one.over_levels(counts, &earliest, others).excess
             });
             row(&each, earliest)
         };
         let found = draws.untied(suite, &of);
-        // Without the earliest records, the levels of a simulation do.
-        let whole = row(&whole, found.points[WITHOUT_EARLIEST]);
+        let whole = row(&whole, found.points[OF_EARLIEST]);
         let levels = pga
             .blocks
             .iter()
@@ -237,8 +238,8 @@ impl SuiteDistances {
 }
 
 /// The numbers of a draw in the order of [`SuiteDistances::replicated`].
-fn row(each: &[OverLevels], without_earliest: f64) -> Vec<f64> {
-    let excess = each.iter().map(|one| one.excess).chain([without_earliest]);
+fn row(each: &[OverLevels], of_earliest: f64) -> Vec<f64> {
+    let excess = each.iter().map(|one| one.excess).chain([of_earliest]);
     excess.chain(each.iter().map(|one| one.accepted)).collect()
 }
 

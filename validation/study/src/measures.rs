@@ -131,7 +131,7 @@ measures! {
     DistancePgvGain: Probability, Difference, distances::pgv_gain;
     /// Gain in distance to the sample by shifting.
     ShiftGain: Probability, Difference, fragilities::shift_gain;
-    /// Distance of trimmed USFL7 to the sample over that of the trimmed USFL.
+    /// Distance of trimmed USFL7 to the SSFL over that of the trimmed USFL.
     TrimmedToSsfl: One, NotNegative, fragilities::trimmed;
     /// Annual frequency by trimmed USFL7 over the sample's.
     TransformedRate: One, NotNegative, fragilities::transformed_rate;

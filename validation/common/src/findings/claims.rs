@@ -253,12 +253,13 @@ impl Seen {
 named! {
     /// Whether an effect exists beyond the records of a sample.
     pub enum Exists: "exists" {
-        /// The interval leaves no effect out, on the side that the statement
-        /// names.
+        /// The interval leaves no effect out; if the statement names a side,
+        /// on that side.
         Yes = "yes",
         /// The interval holds the value of no effect, or there is none.
         NoSign = "no sign",
-        /// The interval leaves no effect out, against the statement.
+        /// The interval leaves no effect out, on the side that the statement
+        /// does not name.
         Opposite = "the opposite",
     }
 }
@@ -273,7 +274,9 @@ impl Exists {
     /// let ratio = Estimate::try_new(1.2, ends, Range::NotNegative).unwrap();
     /// let of = |says| Exists::of(&NoEffect { value: 1.0, says }, &ratio);
     /// assert_eq!(of(StatedEffect::Above), Exists::Yes);
-    /// assert_eq!(of(StatedEffect::Nothing), Exists::Opposite);
+    /// assert_eq!(of(StatedEffect::Below), Exists::Opposite);
+    /// // The statement says that there is no difference: there is one.
+    /// assert_eq!(of(StatedEffect::Nothing), Exists::Yes);
     /// ```
     #[must_use]
     pub fn of(no_effect: &NoEffect, effect: &Estimate) -> Self {
@@ -281,10 +284,9 @@ impl Exists {
         let (low, high) = effect.ends();
         match (says, low > value, high < value) {
             (_, false, false) => Self::NoSign,
-            (StatedEffect::Above, above, _) if above => Self::Yes,
-            (StatedEffect::Below, _, below) if below => Self::Yes,
-            (StatedEffect::Differs, ..) => Self::Yes,
-            _ => Self::Opposite,
+            (StatedEffect::Above, above, _) if !above => Self::Opposite,
+            (StatedEffect::Below, _, below) if !below => Self::Opposite,
+            _ => Self::Yes,
         }
     }
 }
@@ -441,6 +443,6 @@ mod tests {
         assert_eq!(word(Above, (-0.2, -0.1)), Exists::Opposite);
         assert_eq!(word(Below, (-0.2, -0.1)), Exists::Yes);
         assert_eq!(word(Differs, (-0.2, -0.1)), Exists::Yes);
-        assert_eq!(word(Nothing, (0.1, 0.2)), Exists::Opposite);
+        assert_eq!(word(Nothing, (0.1, 0.2)), Exists::Yes);
     }
 }

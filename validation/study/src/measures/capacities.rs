@@ -41,13 +41,13 @@ fn pair(own: &[f64], reference: &[f64]) -> SamplePair {
 }
 
 /// Whether each quantile of one sample lies within 10 % of that of the
-/// other; none where one of the two is infinite and does not count.
+/// other; where both are overturned there is nothing to compare.
 fn quantiles_coincide(
     [own, reference]: &SamplePair,
     counts: &[u32],
 ) -> impl Iterator<Item = bool> {
     let ratio = |p| own.quantile(counts, p) / reference.quantile(counts, p);
-    let ratios = QUANTILES.map(ratio).into_iter().filter(|x| *x > 0.0);
+    let ratios = QUANTILES.map(ratio).into_iter().filter(|x| !x.is_nan());
     ratios.map(|ratio| (ratio - 1.0).abs() <= COINCIDE)
 }
 

@@ -6,7 +6,7 @@
 
 use super::scope::{MeasureResult, Measured, Scope};
 use crate::distances::{
-    SLENDER, SuiteDistances, TestSeries, WITHOUT_EARLIEST, accepted, excesses,
+    OF_EARLIEST, SLENDER, SuiteDistances, TestSeries, accepted, excesses,
     place,
 };
 use crate::estimates::mean;
@@ -226,7 +226,6 @@ pub(super) fn less_slender(scope: &Scope<'_>) -> MeasureResult {
 
 /// Reduction of the distance without the three earliest overturnings.
 pub(super) fn earliest_removed(scope: &Scope<'_>) -> MeasureResult {
-    let whole = place(TestSeries::ShiftedPga, SLENDER);
-    let gain = |row: &[f64]| row[whole] - row[WITHOUT_EARLIEST];
+    let gain = |row: &[f64]| row[OF_EARLIEST];
     if_rejected(scope, gain, gain)
 }

@@ -6,7 +6,7 @@ use rocking_procedures::fragility::risk::HazardCurve;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::resampling::{RecordRanks, Resampling};
 use rocking_statistics::{
-    Estimate, ExtendedSample, Lognormal, QuantileType, Range,
+    Estimate, ExtendedSample, Lognormal, QuantileType, Range, normal,
 };
 
 use super::scope::{MeasureResult, Measured, Scope, geometric_mean};
@@ -16,11 +16,6 @@ use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Replicates, Resample};
 use rocking_common::findings::SampleCount;
 use rocking_common::paper::{Intensity, demand_index};
-
-/// Dispersion of a lognormal sample over the dispersion without its largest
-/// twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
-/// quantile).
-const LOGNORMAL_INFLATION: f64 = 1.104;
 
 /// One threshold of one intensity measure, in a draw.
 pub(crate) struct DemandFits {
@@ -76,11 +71,18 @@ impl Thresholds {
     }
 }
 
-/// Largest difference of two fragilities in probability; 1 where one of them
-/// does not exist.
+/// Largest difference of two fragilities in probability; NaN where one of
+/// them does not exist. Of different shifts it is that at 200 quantiles of
+/// each, which miss the largest by less than 1e-4 of it.
 fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
-    let (Some(a), Some(b)) = (a, b) else { return 1.0 };
-    a.distance(&b).unwrap_or(f64::NAN)
+    let (Some(a), Some(b)) = (a, b) else { return f64::NAN };
+    a.distance(&b).unwrap_or_else(|| {
+        let of = |k: u32| (f64::from(k) + 0.5) / 200.0;
+        let places =
+            (0..200).flat_map(|k| [&a, &b].map(|f| f.quantile(of(k))));
+        let at = |x: f64| (a.cdf(x) - b.cdf(x)).abs();
+        places.map(at).fold(0.0, f64::max)
+    })
 }
 
 /// Largest difference of USFL7 to the SSFL in probability.
@@ -178,14 +180,12 @@ fn shift_gains(
 /// the gain in PGA.
 pub(super) fn shift_gain(scope: &Scope<'_>) -> MeasureResult {
     let each = shift_gains(scope, scope.intensity)?;
-    let counts = match scope.intensity {
-        Intensity::Pga => demands(&each, |gain| gain > 0.0),
-        _ => {
-            let pga = shift_gains(scope, Intensity::Pga)?;
-            let more = arithmetic(&pga.points) - arithmetic(&each.points);
-            vec![SampleCount::number(more)]
-        }
-    };
+    let mut counts = demands(&each, |gain| gain > 0.0);
+    if scope.intensity != Intensity::Pga {
+        let pga = shift_gains(scope, Intensity::Pga)?;
+        let more = arithmetic(&pga.points) - arithmetic(&each.points);
+        counts.push(SampleCount::number(more));
+    }
     Ok(Measured::new(counts, each.one(arithmetic), MEAN))
 }
 
@@ -197,20 +197,18 @@ fn untrimmed_to_ssfl(at: &DemandFits) -> f64 {
     to_ssfl(at.fits.usfl, at, 1.0)
 }
 
-/// Distance of the trimmed USFL7 to the sample, the benchmark of the paper,
-/// over the distance of the trimmed USFL; over subsets, since a draw with
-/// replacement would tie values.
+/// Distance of the trimmed USFL7 to the SSFL over that of the trimmed USFL.
 pub(super) fn trimmed(scope: &Scope<'_>) -> MeasureResult {
-    let thresholds = Thresholds::new(scope)?;
-    let kind = scope.kind();
-    let of = |draw: Resample<'_>| {
-        thresholds.each(draw.of(kind), |at| {
-            let own = usfl7(at.fits.trimmed, at.shift, 1.0);
-            distance(own, &at.sample) / distance(at.fits.trimmed, &at.sample)
-        })
-    };
-    let each = scope.draws.untied(kind, &of);
+    let each = by_demand(scope, &Thresholds::new(scope)?, |at| {
+        trimmed_to_ssfl(at) / apart(at.fits.trimmed, at.fits.ssfl)
+    });
     let counts = demands(&each, |ratio| ratio < 1.0);
+    let to_sample = |fit: fn(&DemandFits) -> Option<Lognormal>| {
+        let thresholds = Thresholds::new(scope)?;
+        let each =
+            thresholds.each(scope.every(), |at| distance(fit(at), &at.sample));
+        anyhow::Ok(Estimate::exact(arithmetic(&each)))
+    };
     let at_uplift = mean_distance(scope, |at| {
         at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
     })?;
@@ -218,6 +216,14 @@ pub(super) fn trimmed(scope: &Scope<'_>) -> MeasureResult {
     Ok(Measured::new(counts, each.one(geometric), MEAN)
         .and(TO_SSFL, mean_distance(scope, trimmed_to_ssfl)?)
         .and("distance to the SSFL without trimming", untrimmed)
+        .and(
+            "distance to the sample, trimmed USFL, mean over demands",
+            to_sample(|at| at.fits.trimmed)?,
+        )
+        .and(
+            "distance to the sample, trimmed USFL7, mean over demands",
+            to_sample(|at| usfl7(at.fits.trimmed, at.shift, 1.0))?,
+        )
         .and("probability by the USFL at uplift, where it is 0", at_uplift))
 }
 
@@ -373,20 +379,26 @@ pub(super) fn constant_spread(scope: &Scope<'_>) -> MeasureResult {
 }
 
 /// Dispersion of the whole sample over the dispersion of the trimmed one, over
-/// the ratio of a lognormal.
+/// the same of as many quantiles of a lognormal.
 pub(super) fn tail_inflation(scope: &Scope<'_>) -> MeasureResult {
-    let last = THRESHOLDS.len() - 1;
-    let ratio = at_place(scope, last, |at| {
+    let inflation = |fits: &Fits| {
         let of =
             |fit: Option<Lognormal>| fit.map_or(f64::NAN, |f| f.dispersion());
-        of(at.fits.usfl) / of(at.fits.trimmed) / LOGNORMAL_INFLATION
-    })?;
+        of(fits.usfl) / of(fits.trimmed)
+    };
+    let n = scope.records() as f64;
+    let score = |k: usize| normal::quantile((k as f64 + 0.5) / n);
+    let scores = (0..scope.records()).map(|k| libm::exp(score(k)));
+    let scores = ExtendedSample::try_new(&scores.collect::<Vec<f64>>())?;
+    let expected = inflation(&Fits::new(&scores, 0.0));
+    let last = THRESHOLDS.len() - 1;
+    let ratio = at_place(scope, last, |at| inflation(&at.fits) / expected)?;
     Ok(Measured::number(ratio, named(last)))
 }
 
-/// Draws of a scatter. Each suite without an earthquake has as many: the
-/// error of one ratio, 2 %, is that of the draws.
-const SCATTER: usize = 4000;
+/// Draws of a scatter of the whole sample, and of a sample without an
+/// earthquake: they know its ratio to 1 and to 2 %.
+const SCATTER: [usize; 2] = [20_000, 4000];
 
 /// Scatter of the dispersion by the 16 and 84 % quantiles over that by the
 /// standard deviation of the logarithms: ratio of the standard deviations of
@@ -394,11 +406,11 @@ const SCATTER: usize = 4000;
 pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
     let thresholds = Thresholds::new(scope)?;
     let clusters = scope.draws.clusters(scope.tested);
-    let of = |held: &[u32]| -> Vec<f64> {
+    let of = |held: &[u32], draws: usize| -> Vec<f64> {
         let records: Vec<usize> =
             (0..held.len()).filter(|r| held[*r] > 0).collect();
         let part = clusters.part(&records);
-        let draws = Bootstrap::of_clusters("study/scatter", 0, &part, SCATTER);
+        let draws = Bootstrap::of_clusters("study/scatter", 0, &part, draws);
         let rows = draws.map(|places| {
             let mut counts = vec![0; held.len()];
             for place in places {
@@ -416,10 +428,11 @@ pub(super) fn scatter(scope: &Scope<'_>) -> MeasureResult {
         };
         (0..THRESHOLDS.len()).map(ratio).collect()
     };
-    let rows = (0..clusters.count()).map(|g| of(&clusters.without(g)));
+    let [whole, part] = SCATTER;
+    let rows = (0..clusters.count()).map(|g| of(&clusters.without(g), part));
     let each = Replicates {
         how: Resampling::Without(1),
-        points: of(scope.every()),
+        points: of(scope.every(), whole),
         rows: rows.collect(),
     };
     let counts = demands(&each, |ratio| ratio > 1.0);

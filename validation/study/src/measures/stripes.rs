@@ -13,8 +13,7 @@ use crate::facts::Facts;
 use crate::stripes::{adjusted_slenderness, is_within};
 use rocking_common::findings::SampleCount;
 use rocking_common::paper::{
-    BLOCKS, FREQUENCIES_RAD_S, LEAST_USABLE, SLENDERNESSES_RAD, STRIPES,
-    closed_form,
+    BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, STRIPES, closed_form,
 };
 use rocking_statistics::resampling::RecordRanks;
 use rocking_statistics::{Estimate, Range};
@@ -224,27 +223,34 @@ pub(super) fn adjusted_corrected(scope: &Scope<'_>) -> MeasureResult {
     Ok(corrected_beside(scope, cells.clone(), cells))
 }
 
-/// Medians of Figure 9.
+/// What rounds to 1.0 is as near to it.
+const ROUNDED: f64 = 0.05;
+
+/// Medians of Figure 9. The sentence says that they are identical in
+/// practice: they round to 1.0. Its figure has notches, a detail.
 pub(super) fn adjusted(scope: &Scope<'_>) -> MeasureResult {
-    let of = || adjusted_cells(scope, |x, _, _| x);
-    Ok(conforming(scope, of()?, of()?))
+    let cells = scope.counted(adjusted_cells(scope, |x, _, _| x)?);
+    let counts = [near_1(scope, &cells, ROUNDED)];
+    let at = format!("{} cells that count", cells.len());
+    let notches = Estimate::exact(notches(scope, &cells).value);
+    Ok(Measured::new(counts, scope.mean_median(&cells), at)
+        .and("notches that hold 1", notches)
+        .and(FURTHEST, furthest(scope, &cells)))
 }
 
 /// Medians of Figure 9 of the records whose adjusted slenderness is at most
-/// the paper's largest, and of those above it. Each record is in one part:
-/// cells count from [`LEAST_USABLE`] records.
+/// the paper's largest, and of those above it.
 pub(super) fn adjusted_scope(scope: &Scope<'_>) -> MeasureResult {
     let part = |within: bool| {
-        let mut cells = adjusted_cells(scope, |x, record, im| {
+        let cells = adjusted_cells(scope, |x, record, im| {
             if is_within(record, im) == within { x } else { f64::NAN }
         })?;
-        cells.retain(|cell| cell.records() >= LEAST_USABLE);
-        anyhow::Ok(cells)
+        anyhow::Ok(scope.counted(cells))
     };
     let (slender, stocky) = (part(true)?, part(false)?);
-    // What rounds to 1.0.
-    let counts = [&slender, &stocky].map(|own| near_1(scope, own, 0.05));
-    let at = format!("{} and {} cells", slender.len(), stocky.len());
+    let counts = [&slender, &stocky].map(|own| near_1(scope, own, ROUNDED));
+    let at =
+        format!("{} and {} cells that count", slender.len(), stocky.len());
     Ok(Measured::new(counts, scope.mean_median(&stocky), at))
 }
 
@@ -252,6 +258,15 @@ pub(super) fn adjusted_scope(scope: &Scope<'_>) -> MeasureResult {
 pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
     let cells = block_ratios(scope.stripes()?, &[0, 1, 2], &ALL, false);
     let n = scope.records();
+    let (mut beyond_whiskers, mut ratios) = (0, 0);
+    for cell in &cells {
+        let at = |p| cell.quantile(scope.every(), p);
+        let (low, high) = (at(0.25), at(0.75));
+        let reach = 1.5 * (high - low);
+        ratios += cell.records();
+        let lies = |x: f64| low - reach <= x && x <= high + reach;
+        beyond_whiskers += cell.each().filter(|(x, _)| !lies(*x)).count();
+    }
     let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
     for (x, record) in cells.iter().flat_map(RecordRanks::each) {
         all[record] += 1;
@@ -261,7 +276,11 @@ pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
         [all.iter().zip(&far).map(|(n, k)| n - k).sum(), all.iter().sum()]
             .map(|n: u32| n as usize);
     let counts = [SampleCount::of(near, all_of_them)];
-    Ok(Measured::new(counts, scope.share(&far, &all), "all ratios"))
+    let share = beyond_whiskers as f64 / ratios as f64;
+    Ok(Measured::new(counts, scope.share(&far, &all), "all ratios").and(
+        "beyond 1.5 times the interquartile range of their cell",
+        Estimate::exact(share),
+    ))
 }
 
 /// The stripe on which resurrections lower the probability of overturning

@@ -200,10 +200,8 @@ pub fn sample_outcomes(
     let known: Vec<usize> = by_record(outcomes).into_keys().collect();
     let clusters = clusters.part(&known);
     let place = |record| known.partition_point(|other| *other < record);
-    let brackets = match RecordOutcome::stripes(outcomes) {
-        Some(_) => None,
-        None => Some(RecordOutcome::brackets(outcomes)),
-    };
+    let is_open = RecordOutcome::stripes(outcomes).is_none();
+    let brackets = is_open.then(|| RecordOutcome::brackets(outcomes));
     let Draws { replicates, seed } = draws;
     let all = Bootstrap::of_clusters("counts", seed, &clusters, replicates);
     let fitted = all.map(|places| {
@@ -256,8 +254,8 @@ impl RecordOutcome {
                     let own = own.chain(curve.overturning_im());
                     let (below, above): (Vec<f64>, Vec<f64>) =
                         own.partition(|own| *own < im);
-                    put(below[below.len() - 1], false);
-                    put(above[0], true);
+                    below.last().into_iter().for_each(|im| put(*im, false));
+                    above.first().into_iter().for_each(|im| put(*im, true));
                 }
             }
         }

@@ -21,7 +21,8 @@ pub struct StripeResponses {
     pub edp84: f64,
     /// Records that overturn.
     pub overturned: usize,
-    /// Records that were not run so far; they are left out, while those that
+    /// Records that were not run so far, or stood at the analysis before and
+    /// overturned at the one after; they are left out, while those that
     /// overturned before are not: the quantiles and the share that overturns
     /// are too high.
     pub open: usize,

@@ -10,6 +10,7 @@ use crate::analyses::{Deviation, StripeDemands, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
+use crate::inference::REPLICATES;
 use crate::questions::{self, StudyAnswer};
 use crate::results::StudyResults;
 use crate::runs::capacities_at;
@@ -23,6 +24,7 @@ use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,
 };
 use rocking_common::suites::earthquakes;
+use rocking_common::words::capital;
 use rocking_draw::figures::Stripe;
 
 /// All findings of a study.
@@ -83,13 +85,23 @@ fn suite(suite: &SuiteResults) -> SuiteSummary {
         sha256: suite.sha256.clone(),
         list: suite.list.clone(),
         shown_alone: suite.chosen.iter().map(name).collect(),
-        remarks: suite.remarks.clone(),
+        remarks: remarks(suite),
         set_aside: set_aside(&suite.set_aside),
         analyses: suite.work.analyses,
         unresolved: certainty.unresolved,
         first_overturnings_reevaluated: certainty.reevaluated,
         largest_shift_if_flipped: certainty.largest_shift,
     }
+}
+
+/// Remarks on the records of a suite and, where it has few earthquakes, on the
+/// intervals that they give.
+fn remarks(suite: &SuiteResults) -> Option<String> {
+    let of_intervals = suite.clusters.remark(REPLICATES);
+    let all = suite.remarks.clone().into_iter();
+    let all =
+        all.chain(of_intervals.map(|own| capital(&own.to_string()) + "."));
+    all.reduce(|a, b| format!("{a} {b}"))
 }
 
 /// Files that a suite set aside, by reason.

@@ -5,12 +5,10 @@ use std::fmt;
 
 use super::fit::{BootstrapFits, IntervalBasis};
 use super::{Draws, LEVEL, ProcedureError};
-use rocking::capacity::{
-    Capacity, CapacityError, InversionRule, ResponseCurve,
-};
+use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{
-    Stripe, fit_counts, fit_counts_alone, fit_intervals,
+    LognormalFit, Stripe, fit_counts, fit_counts_alone, fit_intervals,
 };
 use rocking_statistics::resampling::multiplicities;
 use rocking_statistics::{Clusters, Estimate, Lognormal, Range};
@@ -93,17 +91,32 @@ pub fn fit_stripes(
 ) -> Result<CountsFragility, ProcedureError> {
     let found = fit_counts(stripes, shift)?;
     Ok(CountsFragility {
-        n: found.fit.n,
-        open: 0,
-        fitted: found.fit.distribution,
-        level: LEVEL,
         intervals: Basis::IndependentStripes,
         median: found.median,
         dispersion: found.dispersion,
-        log_likelihood: found.fit.log_likelihood,
         chi_squared: Some(found.chi_squared),
         degrees_of_freedom: Some(found.degrees_of_freedom),
+        ..CountsFragility::of(&found.fit)
     })
+}
+
+impl CountsFragility {
+    /// A fit without intervals.
+    fn of(fit: &LognormalFit) -> Self {
+        let fitted = fit.distribution;
+        Self {
+            n: fit.n,
+            open: 0,
+            fitted,
+            level: LEVEL,
+            intervals: Basis::None,
+            median: Estimate::exact(fitted.median()),
+            dispersion: Estimate::exact(fitted.dispersion()),
+            log_likelihood: fit.log_likelihood,
+            chi_squared: None,
+            degrees_of_freedom: None,
+        }
+    }
 }
 
 /// Fits a lognormal fragility above `shift` to stripes of the same records.
@@ -146,7 +159,12 @@ pub fn fit_outcomes(
 ) -> Result<CountsFragility, ProcedureError> {
     let found = match RecordOutcome::stripes(outcomes) {
         Some(stripes) => fit_stripes(&stripes, shift)?,
-        None => fit_brackets(outcomes, shift)?,
+        None => {
+            let all = RecordOutcome::brackets(outcomes);
+            let open = all.iter().filter(|own| own.1.is_infinite()).count();
+            let of = CountsFragility::of(&fit_intervals(&all, shift)?);
+            CountsFragility { n: outcomes.len(), open, ..of }
+        }
     };
     let Some(draws) = draws else { return Ok(found) };
     let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
@@ -160,28 +178,6 @@ pub fn fit_outcomes(
         dispersion,
         intervals: Basis::Drawn(drawn.basis),
         ..found
-    })
-}
-
-/// The fit of brackets, without intervals.
-fn fit_brackets(
-    outcomes: &[RecordOutcome],
-    shift: f64,
-) -> Result<CountsFragility, ProcedureError> {
-    let brackets = RecordOutcome::brackets(outcomes);
-    let fit = fit_intervals(&brackets, shift)?;
-    let fitted = fit.distribution;
-    Ok(CountsFragility {
-        n: outcomes.len(),
-        open: brackets.iter().filter(|(_, high)| high.is_infinite()).count(),
-        fitted,
-        level: LEVEL,
-        intervals: Basis::None,
-        median: Estimate::exact(fitted.median()),
-        dispersion: Estimate::exact(fitted.dispersion()),
-        log_likelihood: fit.log_likelihood,
-        chi_squared: None,
-        degrees_of_freedom: None,
     })
 }
 
@@ -224,7 +220,7 @@ impl RecordOutcome {
     /// Where some record was not run to one of them, each has instead what it
     /// says by itself: that it does not exceed the level at its last analysis
     /// below its capacity ([`InversionRule::Monotone`]), and does at the next;
-    /// or that it does not up to where its run ends.
+    /// or that it does not where its run ends.
     ///
     /// # Errors
     /// [`CapacityError::Level`] for a level that is not positive.
@@ -239,25 +235,21 @@ impl RecordOutcome {
         };
         let all_run = curves.iter().all(is_run);
         for (record, curve) in curves.iter().enumerate() {
-            let mut put = |im, exceeded| {
-                all.push(Self { im, record, exceeded });
+            let capacity = curve.capacity(edp, InversionRule::Monotone)?.im();
+            let mut put = |im: &f64, exceeded| {
+                all.push(Self { im: *im, record, exceeded });
             };
-            match curve.capacity(edp, InversionRule::Monotone)? {
-                _ if all_run => {
-                    for im in intensities {
-                        put(*im, curve.edp_at(*im) >= Some(edp));
-                    }
-                }
-                Capacity::Censored { above } => put(above, false),
-                Capacity::Reached(im) => {
-                    let own = curve.vertices().map(|(im, _)| im);
-                    let own = own.chain(curve.overturning_im());
-                    let (below, above): (Vec<f64>, Vec<f64>) =
-                        own.partition(|own| *own < im);
-                    below.last().into_iter().for_each(|im| put(*im, false));
-                    above.first().into_iter().for_each(|im| put(*im, true));
-                }
+            if all_run {
+                let exceeds = |im| curve.edp_at(im) >= Some(edp);
+                intensities.iter().for_each(|im| put(im, exceeds(*im)));
+                continue;
             }
+            let own = curve.vertices().map(|(im, _)| im);
+            let own = own.chain(curve.overturning_im());
+            let (below, above): (Vec<f64>, Vec<f64>) =
+                own.partition(|im| *im < capacity);
+            below.last().into_iter().for_each(|im| put(im, false));
+            above.first().into_iter().for_each(|im| put(im, true));
         }
         Ok(all)
     }

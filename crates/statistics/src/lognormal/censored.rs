@@ -34,9 +34,7 @@ impl Point {
         for observation in observations {
             match *observation {
                 Exact(y) => point.add_exact(y, a, b),
-                Interval(low, high, count) => {
-                    point.add_interval(low, high, count, a, b);
-                }
+                Interval(low, high, n) => point.add([low, high], n, a, b),
             }
         }
         point
@@ -52,14 +50,7 @@ impl Point {
         self.curvature[2] -= 1.0;
     }
 
-    fn add_interval(
-        &mut self,
-        low: f64,
-        high: f64,
-        count: f64,
-        a: f64,
-        b: f64,
-    ) {
+    fn add(&mut self, [low, high]: [f64; 2], count: f64, a: f64, b: f64) {
         let score = |y: f64| f64::mul_add(a, y, -b);
         let (z0, z1) = (score(low), score(high));
         let ln_p = if high == f64::INFINITY {

@@ -432,8 +432,11 @@ impl FitOptions {
         self.check(sample)?;
         let Some(draws) = self.draws else { return Ok(None) };
         let clusters = self.clusters(sample);
-        let drawn = intervals::replicates(sample, self, &clusters);
-        let fitted = drawn.into_iter().map(|(_, fitted)| fitted).collect();
+        let fitted = intervals::drawn(draws, &clusters, |places| {
+            let (shift, above) =
+                self.shift.split(&sample.resample(places)).ok()?;
+            Some(above.fit(shift, self.method).ok()?.distribution)
+        });
         let basis = IntervalBasis::new(draws, &clusters);
         Ok(Some(BootstrapFits { basis, fitted }))
     }

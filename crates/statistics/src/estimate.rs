@@ -45,16 +45,12 @@ impl Range {
     }
 
     /// A number of the range on the scale on which its estimators scatter
-    /// alike: itself, the logarithm of a positive number, arcsin sqrt x of a
-    /// share, arcsin x of a difference of shares. The last two have a value
-    /// at the ends of the range, which shares take.
+    /// alike: the logarithm of a positive number, itself otherwise.
     #[must_use]
     pub fn scale(self, x: f64) -> f64 {
         match self {
-            Self::Real => x,
             Self::NotNegative => libm::log(x),
-            Self::Share => libm::asin(libm::sqrt(x)),
-            Self::Difference => libm::asin(x),
+            _ => x,
         }
     }
 
@@ -62,15 +58,9 @@ impl Range {
     /// of the range.
     #[must_use]
     pub fn unscale(self, y: f64) -> f64 {
-        let quarter = std::f64::consts::FRAC_PI_2;
         match self {
-            Self::Real => y,
             Self::NotNegative => libm::exp(y),
-            Self::Share => {
-                let root = libm::sin(y.clamp(0.0, quarter));
-                root * root
-            }
-            Self::Difference => libm::sin(y.clamp(-quarter, quarter)),
+            _ => self.nearest(y),
         }
     }
 

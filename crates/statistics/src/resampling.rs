@@ -129,24 +129,29 @@ impl Clusters {
         pairs.filter(|(a, b)| is_near(*a, *b)).map(held).collect()
     }
 
-    /// Standard error over samples of a statistic on the scale of its range,
-    /// from its values in resamples: their standard deviation, of a bootstrap
+    /// Bias and standard error over samples of a statistic on the scale of
+    /// its range, from its values in resamples. The bias is that of the mean
+    /// of a bootstrap of a quantity with two bounds, which push its
+    /// estimators to one side; else 0: that of a median is noise. The
+    /// standard error is the standard deviation of the values, of a bootstrap
     /// times sqrt(G_e/(G_e - 1)) with G_e of [`Self::effective`], of subsets
     /// of G without d clusters times sqrt((G - d)/d) (Shao and Wu, Ann. Stat.
     /// 17 (1989) 1176). None where a tenth of the resamples or more have no
     /// value, and where no resample moves the statistic.
     fn scatter(
         &self,
+        point: f64,
         values: &[f64],
         how: Resampling,
         range: Range,
-    ) -> Option<f64> {
+    ) -> Option<(f64, f64)> {
         let on = values.iter().map(|x| range.scale(*x));
         let finite: Vec<f64> = on.filter(|x| x.is_finite()).collect();
         // Of equal values exactly 0.
         let first = *finite.first()?;
-        let finite: Vec<f64> = finite.iter().map(|x| x - first).collect();
-        let used = finite.len() as f64;
+        let away: Vec<f64> = finite.iter().map(|x| x - first).collect();
+        let used = away.len() as f64;
+        let centre = finite_mean(&away);
         let (factor, divisor) = match how {
             Resampling::Bootstrap => {
                 let effective = self.effective();
@@ -156,13 +161,19 @@ impl Clusters {
                 ((self.count() as f64 - d as f64) / d as f64, used)
             }
         };
-        let centre = finite_mean(&finite);
-        let sum = finite.iter().fold(0.0, |sum, x| {
+        let bias = match (how, range) {
+            (Resampling::Bootstrap, Range::Share | Range::Difference) => {
+                centre + (first - range.scale(point))
+            }
+            _ => 0.0,
+        };
+        let sum = away.iter().fold(0.0, |sum, x| {
             let away = x - centre;
             away.mul_add(away, sum)
         });
         let error = (factor * sum / divisor).sqrt();
-        (10 * finite.len() > 9 * values.len() && error > 0.0).then_some(error)
+        let enough = 10 * finite.len() > 9 * values.len();
+        (enough && error > 0.0).then_some((bias, error))
     }
 
     /// What makes the intervals of resamples of these clusters rough; none
@@ -187,8 +198,9 @@ impl Clusters {
     }
 
     /// A statistic with its interval from its values in resamples: on the
-    /// scale g of its range ([`Range::scale`]), g(point) -+ t s, with the
-    /// standard error s of its resamples and Student's t of
+    /// scale g of its range ([`Range::scale`]), g(point) - b -+ t s, with the
+    /// standard error s that the resamples show, their bias b of a share or a
+    /// difference of shares, and Student's t of
     /// [`Self::degrees_of_freedom`]. The interval holds the value and lies in
     /// the range. None of fewer than three clusters, of a value that g has
     /// none for, and where the resamples give no standard error.
@@ -232,7 +244,8 @@ impl Clusters {
         range: Range,
         level: f64,
     ) -> Option<BootstrapEstimate> {
-        let (y, s) = (range.scale(point), self.scatter(values, how, range)?);
+        let (bias, s) = self.scatter(point, values, how, range)?;
+        let y = range.scale(point) - bias;
         let half = self.student(level)? * s;
         if self.count() < LEAST || !y.is_finite() {
             return None;

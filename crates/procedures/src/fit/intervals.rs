@@ -126,9 +126,16 @@ pub(super) fn replicates(
     clusters: &Clusters,
 ) -> Vec<Replicate> {
     let Some(draws) = options.draws else { return Vec::new() };
-    let (seed, replicates) = (draws.seed, draws.replicates);
-    let all = Bootstrap::of_clusters("fragility", seed, clusters, replicates);
-    all.map(|places| refitted(sample, options, places))
+    drawn(draws, clusters, |places| refitted(sample, options, places))
+}
+
+/// What a function of their places gives of the draws, in their order.
+pub(super) fn drawn<T: Send>(
+    Draws { replicates, seed }: Draws,
+    clusters: &Clusters,
+    of: impl Fn(&[usize]) -> T + Sync,
+) -> Vec<T> {
+    Bootstrap::of_clusters("fragility", seed, clusters, replicates).map(of)
 }
 
 impl FitIntervals {

@@ -136,12 +136,10 @@ named! {
         OtherInterval = "other-interval",
         /// An interval for each cell alone where all are meant.
         PointwiseIntervals = "pointwise-intervals",
-        /// Holm's steps over percentiles of a bootstrap.
-        HolmByPercentiles = "holm-by-percentiles",
-        /// Cells of few records enter a share of cells.
-        SurvivorsEnter = "survivors-enter",
-        /// Percentiles of the share of the replicates' points.
-        ShareOfPoints = "share-of-points",
+        /// Percentiles of the draws as ends of an interval.
+        Percentiles = "percentiles",
+        /// The normal quantile for Student's t.
+        NormalForStudent = "normal-for-student",
         /// Records of one earthquake taken as independent.
         RecordsAsUnit = "records-as-unit",
         /// Replicates with replacement for a test that ties break.

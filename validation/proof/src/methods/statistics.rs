@@ -9,7 +9,6 @@ mod inference;
 mod inversion;
 mod lilliefors;
 mod nist;
-mod power;
 mod proportion;
 mod risk;
 mod truths;
@@ -45,11 +44,12 @@ pub(super) const LEFT_OUT: &[Method] = &[
     ("rejected-share", calibration::rejection),
     ("coverage", calibration::coverage),
     ("coverage-of-inference", inference::coverage),
-    ("power-of-a-design", power::power),
     ("rates-by-earthquake", earthquakes::rates),
+    ("coverage-of-fits", earthquakes::coverage_of_fits),
     ("bias", calibration::bias),
     ("paired-procedures", fits::paired),
     ("proportions", proportion::intervals),
+    ("proportions-of-clusters", proportion::of_clusters),
     ("earthquakes-of-other-packages", earthquakes::other_packages),
 ];
 #[cfg(target_family = "wasm")]

@@ -5,9 +5,8 @@
 //! digit printed is taken off first. A case's bound is then a false-alarm
 //! rate and nothing else.
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Result, bail};
 use libm::{exp, lgamma, log};
-use rocking_statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::lilliefors::{
     LillieforsTable, ShiftedNull, Statistic,
@@ -20,9 +19,7 @@ use rocking_statistics::normality::{
 use rocking_statistics::paired::{
     equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking_statistics::{
-    Boxplot, ExtendedSample, Interval, QuantileType, Sample,
-};
+use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 
 use super::truths::{Truth, share};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -92,14 +89,12 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     let procedure = match (context.wrong, procedure.as_str()) {
         (Some(WrongModel::NotchForInterval), "exact-interval") => "notch",
-        (Some(WrongModel::OtherInterval), "bootstrap-beta") => "normal-beta",
-        (Some(WrongModel::OtherInterval), "accelerated-beta") => "normal-beta",
         (Some(WrongModel::OtherInterval), "notch") => "exact-interval",
         (Some(WrongModel::OtherInterval), _) => "notch",
         (_, own) => own,
     };
     let outcomes = truth.map(&context.case.id, n, trials, |values| {
-        covers(procedure, truth, context.wrong, values)
+        covers(procedure, context.wrong, values)
     })?;
     let (ours, gap) = rate_gap(&outcomes, rate, reference, rounding);
     answer.put("rate", [ours], [rate]);
@@ -107,12 +102,8 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Resamples of a bootstrap.
-const RESAMPLES: usize = 499;
-
 fn covers(
     procedure: &str,
-    truth: Truth,
     wrong: Option<WrongModel>,
     values: &[f64],
 ) -> Result<bool> {
@@ -143,50 +134,12 @@ fn covers(
             };
             p < 0.05
         }
-        "bootstrap-beta" | "accelerated-beta" | "normal-beta" => {
-            let Truth::Lognormal { dispersion } = truth else {
-                bail!("a lognormal truth");
-            };
-            dispersion_interval(procedure, values)?.holds(dispersion)
-        }
         // The shift is the sample's smallest value, which is left out.
         "smallest-value-as-shift" => {
             rejects_above_the_smallest(wrong, values)?
         }
         other => bail!("procedure {other}"),
     })
-}
-
-/// 95 % interval of the dispersion (moment fit) by the bootstrap, or by its
-/// normal approximation with divisor 2n.
-fn dispersion_interval(procedure: &str, values: &[f64]) -> Result<Interval> {
-    let n = values.len();
-    let of = |values: &[f64]| -> f64 {
-        ExtendedSample::try_new(values)
-            .ok()
-            .and_then(|s| fit(&s, 0.0, FitMethod::Moment).ok())
-            .map_or(f64::NAN, |f| f.distribution.dispersion())
-    };
-    let point = of(values);
-    if procedure == "normal-beta" {
-        let half = point / (2.0 * n as f64).sqrt();
-        return Ok(Interval::try_new(point - half, point + half)?);
-    }
-    // One stream a sample: its values' bits name it.
-    let name = format!("{:x}", values[0].to_bits());
-    let replicates = Bootstrap::new(&name, 0, n, RESAMPLES).map(|draw| {
-        let drawn: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
-        of(&drawn)
-    });
-    let found = if procedure == "accelerated-beta" {
-        let without: Vec<f64> = (0..n)
-            .map(|k| of(&[&values[..k], &values[k + 1..]].concat()))
-            .collect();
-        accelerated(point, &replicates, &without, 0.95)
-    } else {
-        estimate(point, &replicates, 0.95)
-    };
-    found.and_then(|found| found.estimate.interval()).context("none")
 }
 
 /// Replicates of the null of one sample whose smallest value is its shift.

@@ -6,7 +6,7 @@
 //! correlation c.
 
 use anyhow::{Result, anyhow};
-use libm::exp;
+use libm::{exp, pow};
 use rayon::prelude::*;
 use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
@@ -14,34 +14,47 @@ use rocking_procedures::{
     Draws, FitOptions, FragilityInput, fit_outcomes, fit_sample, risk,
 };
 use rocking_statistics::regression::mixed;
+use rocking_statistics::resampling::Resampling;
 use rocking_statistics::streams::{Streams, standard_normal};
-use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
+use rocking_statistics::{
+    CensoredSample, Clusters, Estimate, Lognormal, Range, normal,
+};
 use serde::Deserialize;
 
-use super::truths::{SuiteShape, share};
+use super::truths::{SuiteShape, percentiles, share};
 use crate::methods::cells::{Csv, csv};
-use crate::methods::method::{Context, Reply};
+use crate::methods::method::{Context, Reply, WrongModel};
 
 const VALUES: Csv = csv!("oracles/earthquakes.csv");
 
 /// Dispersion of the simulated capacities; their median is 1.
 const DISPERSION: f64 = 0.5;
 
-/// Replicates of an interval.
-const REPLICATES: usize = 400;
+/// Replicates of an interval: they know a standard error to 5 %.
+const REPLICATES: usize = 200;
+
+/// The hazard 1e-4 x^-2.5: all of it, and where the law above 1 is.
+const HAZARD: &str = "intensity,annual_frequency\n1e-6,1e11\n1e6,1e-19\n";
+const HAZARD_ABOVE: &str = "intensity,annual_frequency\n\
+    1.01,9.754310265758153e-05\n100,1e-9\n";
+
+/// Annual frequency of the law above 1: 1e-4 times the mean of (1 + x)^-2.5,
+/// by SciPy's quad.
+const ABOVE_SHIFT: f64 = 1.952_210_448_109_6e-5;
+
+/// Names of the rates of a fit.
+const NAMES: [&str; 5] = [
+    "median",
+    "dispersion",
+    "probability",
+    "frequency",
+    "frequency-above-shift",
+];
 
 /// What is judged.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum RateMeasure {
-    /// BCa interval of the median.
-    Median,
-    /// BCa interval of the dispersion.
-    Dispersion,
-    /// Bootstrap band of the probability at the intensity 0.7.
-    Probability,
-    /// Interval of the annual frequency under the hazard 1e-4 x^-2.
-    AnnualFrequency,
     /// Interval of the median of counts, of stripes of the same records.
     Counts,
     /// The test of a slope on an attribute of the earthquake that has none.
@@ -54,35 +67,16 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: RateMeasure, suite: SuiteShape, intraclass: f64, trials: u64,
     }
-    let shape = suite.clusters();
-    let taken = context.drawn(&shape);
-    let streams = Streams::new(&format!("cases/{}", context.case.id), 0);
     let trial = |index: u64| -> Result<bool> {
-        let mut stream = streams.stream(index);
-        let mut normals = |n: usize| -> Vec<f64> {
-            (0..n).map(|_| standard_normal(&mut stream)).collect()
-        };
-        let shared = normals(shape.count());
-        let attribute = normals(shape.count());
-        let own = normals(shape.records());
-        let logs: Vec<f64> = own
-            .iter()
-            .enumerate()
-            .map(|(record, own)| {
-                let shared = shared[shape.cluster_of(record)];
-                let between = intraclass.sqrt() * shared;
-                DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
-            })
-            .collect();
-        if matches!(measure, RateMeasure::Slope) {
-            let x: Vec<f64> = (0..logs.len())
-                .map(|r| attribute[shape.cluster_of(r)])
-                .collect();
-            let found = mixed(&x, &logs, &taken)?;
-            return Ok(found.p_value < 0.05);
+        let suite = Simulated::new(context, suite, intraclass, index);
+        match measure {
+            RateMeasure::Counts => suite.counts_hold(index),
+            RateMeasure::Slope => {
+                let found =
+                    mixed(&suite.attribute, &suite.logs, &suite.drawn)?;
+                Ok(found.p_value < 0.05)
+            }
         }
-        let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
-        holds(measure, &values, &taken, index)
     };
     let found = (0..trials).into_par_iter().panic_fuse().map(trial);
     let rate = share(&found.collect::<Result<Vec<bool>>>()?);
@@ -92,20 +86,70 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Whether the interval of a measure holds its truth.
-fn holds(
-    measure: RateMeasure,
-    values: &[f64],
-    clusters: &Clusters,
-    seed: u64,
-) -> Result<bool> {
-    const AT: f64 = 0.7;
-    let draws = Draws { replicates: REPLICATES, seed };
-    let holds = |of: Estimate, truth: f64| {
-        of.interval().is_some_and(|interval| interval.holds(truth))
+/// Shares of simulated suites whose intervals of a fit hold the truth: of the
+/// median, the dispersion, the probability at the intensity 0.7, and the
+/// annual frequencies under the hazard 1e-4 x^-2.5 without a shift and of the
+/// same law above 1.
+pub fn coverage_of_fits(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context; suite: SuiteShape, intraclass: f64, trials: u64, }
+    let trial = |index: u64| {
+        let suite = Simulated::new(context, suite, intraclass, index);
+        suite.fit_holds(context.wrong, index)
     };
-    let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?;
-    if matches!(measure, RateMeasure::Counts) {
+    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
+    let found = found.collect::<Result<Vec<[bool; 5]>>>()?;
+    for (k, name) in NAMES.iter().enumerate() {
+        let held: Vec<bool> = found.iter().map(|held| held[k]).collect();
+        answer.put(name, [share(&held)], [0.95]);
+    }
+    Ok(())
+}
+
+/// Capacities of one suite.
+struct Simulated {
+    logs: Vec<f64>,
+    /// By record, one value an earthquake.
+    attribute: Vec<f64>,
+    /// What is drawn anew.
+    drawn: Clusters,
+}
+
+impl Simulated {
+    fn new(
+        context: &Context,
+        suite: SuiteShape,
+        intraclass: f64,
+        index: u64,
+    ) -> Self {
+        let shape = suite.clusters();
+        let name = format!("cases/{}", context.case.id);
+        let mut stream = Streams::new(&name, 0).stream(index);
+        let mut normals = |n: usize| -> Vec<f64> {
+            (0..n).map(|_| standard_normal(&mut stream)).collect()
+        };
+        let shared = normals(shape.count());
+        let attribute = normals(shape.count());
+        let own = normals(shape.records());
+        let of = |(record, own): (usize, &f64)| {
+            let shared = shared[shape.cluster_of(record)];
+            let between = intraclass.sqrt() * shared;
+            DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
+        };
+        let logs = own.iter().enumerate().map(of).collect();
+        let records = 0..shape.records();
+        let attribute = records.map(|r| attribute[shape.cluster_of(r)]);
+        let attribute = attribute.collect();
+        Self { logs, attribute, drawn: context.drawn(&shape) }
+    }
+
+    fn values(&self) -> Vec<f64> {
+        self.logs.iter().map(|y| exp(*y)).collect()
+    }
+
+    /// Whether the interval of the median of counts holds it, of five stripes
+    /// of the same records.
+    fn counts_hold(&self, seed: u64) -> Result<bool> {
+        let values = self.values();
         let stripe = |&im: &f64| {
             let of = move |(record, x): (usize, &f64)| RecordOutcome {
                 im,
@@ -115,50 +159,88 @@ fn holds(
             values.iter().enumerate().map(of)
         };
         let levels = [0.5, 0.75, 1.0, 1.35, 2.0];
-        let draws = Draws { replicates: REPLICATES / 2, seed };
+        let draws = Draws { replicates: REPLICATES, seed };
         let outcomes: Vec<RecordOutcome> =
             levels.iter().flat_map(stripe).collect();
-        let found = fit_outcomes(&outcomes, clusters, 0.0, Some(draws));
-        return Ok(holds(found?.median, 1.0));
+        let found = fit_outcomes(&outcomes, &self.drawn, 0.0, Some(draws))?;
+        Ok(found.median.interval().is_some_and(|ends| ends.holds(1.0)))
     }
-    let sample = CensoredSample::try_new(values, &[])?;
-    let options = FitOptions {
-        draws: Some(draws),
-        clusters: Some(clusters.clone()),
-        band: vec![AT],
-        ..FitOptions::default()
-    };
-    if matches!(measure, RateMeasure::AnnualFrequency) {
-        let text = "intensity,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
-        let hazard = Hazard::parse("h", text, &HazardOptions::default());
-        let exposed = |fitted, sampled| FragilityInput {
-            fragility: "block".into(),
-            fitted,
-            sampled,
+
+    /// Whether the intervals of a fit hold the truths, in the order of
+    /// [`NAMES`].
+    fn fit_holds(
+        &self,
+        wrong: Option<WrongModel>,
+        seed: u64,
+    ) -> Result<[bool; 5]> {
+        const AT: f64 = 0.7;
+        let sample = CensoredSample::try_new(&self.values(), &[])?;
+        let options = FitOptions {
+            draws: Some(Draws { replicates: REPLICATES, seed }),
+            clusters: Some(self.drawn.clone()),
+            ..FitOptions::default()
         };
-        let fit = fit_sample(&sample, &options)?;
-        let sampled = options.sampled(&sample)?;
-        let all = [exposed(fit.fitted, sampled)];
-        let found = risk(&hazard?, &all, 50.0);
-        let found = found?;
-        let own = found.fragilities[0].sampling.as_ref();
+        let none = || anyhow!("no bootstrap");
+        let fitted = sample.fit(0.0, options.method)?.distribution;
+        let sampled = options.sampled(&sample)?.ok_or_else(none)?;
+        let student = self.drawn.student(0.95).ok_or_else(none)?;
+        let holds = |of: Option<Estimate>, drawn: &[f64], truth: f64| {
+            let ends = match (wrong, of) {
+                (Some(WrongModel::Percentiles), _) => percentiles(drawn, 0.95),
+                (Some(WrongModel::NormalForStudent), Some(of)) => {
+                    let ratio = normal::quantile(0.975) / student;
+                    let nearer = |x| of.value() * pow(x / of.value(), ratio);
+                    of.interval().map(|ends| ends.map(nearer))
+                }
+                (_, of) => of.and_then(|of| of.interval()),
+            };
+            ends.is_some_and(|ends| ends.holds(truth))
+        };
+        let of_law = |of: fn(&Lognormal) -> f64, truth: f64| {
+            let laws = sampled.fitted.iter();
+            let drawn = laws.map(|law| law.as_ref().map_or(f64::NAN, of));
+            let drawn: Vec<f64> = drawn.collect();
+            let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
+            let point = of(&fitted);
+            let found = self.drawn.inferred(point, &drawn, how, range, 0.95);
+            holds(found.map(|found| found.estimate), &drawn, truth)
+        };
+        let band = sampled.band(&fitted, &[AT]).points[0].probability;
+        let probability = |law: &Option<Lognormal>| {
+            law.as_ref().map_or(f64::NAN, |law| law.cdf(AT))
+        };
+        let drawn: Vec<f64> = sampled.fitted.iter().map(probability).collect();
+        let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?.cdf(AT);
         // Cornell's closed form.
-        let lambda = 1e-4 * exp(2.0 * DISPERSION * DISPERSION);
-        return Ok(own.is_some_and(|own| holds(own.annual_frequency, lambda)));
+        let cornell = 1e-4 * exp(0.5 * 2.5 * 2.5 * DISPERSION * DISPERSION);
+        let frequency = |shift: f64, truth: f64| -> Result<bool> {
+            let text = if shift > 0.0 { HAZARD_ABOVE } else { HAZARD };
+            let hazard = Hazard::parse("h", text, &HazardOptions::default())?;
+            let above = |law: &Lognormal| {
+                Lognormal::try_new(shift, law.log_mean(), law.dispersion())
+            };
+            let mut sampled = sampled.clone();
+            for law in sampled.fitted.iter_mut().flatten() {
+                *law = above(law)?;
+            }
+            let of = FragilityInput {
+                fragility: "block".into(),
+                fitted: above(&fitted)?,
+                sampled: Some(sampled),
+            };
+            let found = risk(&hazard, &[of], 50.0)?.fragilities.remove(0);
+            let own = found.sampling.ok_or_else(none)?;
+            let drawn = own.drawn_annual_frequencies;
+            Ok(holds(Some(own.annual_frequency), &drawn, truth))
+        };
+        Ok([
+            of_law(Lognormal::median, 1.0),
+            of_law(Lognormal::dispersion, DISPERSION),
+            holds(Some(band), &drawn, truth),
+            frequency(0.0, cornell)?,
+            frequency(1.0, ABOVE_SHIFT)?,
+        ])
     }
-    let fit = fit_sample(&sample, &options)?;
-    if matches!(measure, RateMeasure::Probability) {
-        let point = fit.band.as_ref().and_then(|band| band.points.first());
-        let truth = truth.cdf(AT);
-        return Ok(point.is_some_and(|point| holds(point.probability, truth)));
-    }
-    let none = || anyhow!("no bootstrap");
-    let all = fit.bootstrap.ok_or_else(none)?;
-    let (own, truth) = match measure {
-        RateMeasure::Dispersion => (all.dispersion, DISPERSION),
-        _ => (all.median, 1.0),
-    };
-    Ok(own.is_some_and(|found| holds(found.estimate, truth)))
 }
 
 /// Slopes with a random intercept, and what widens an interval of few
@@ -202,7 +284,9 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
     for row in VALUES.rows("interval")? {
         let own = clusters(row.text(2));
         let nu = own.degrees_of_freedom();
-        let width = own.half_width(0.95);
+        let (t, effective) = (own.student(0.95), own.effective());
+        let wider = (effective / (effective - 1.0)).sqrt();
+        let width = wider * t.unwrap_or(f64::NAN);
         row.put(answer, 3, &[("freedom", nu), ("half-width", width)])?;
     }
     Ok(())

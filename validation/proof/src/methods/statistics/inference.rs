@@ -10,32 +10,26 @@
 use anyhow::Result;
 use libm::{exp, log, sqrt};
 use rayon::prelude::*;
-use rocking_common::findings::{ERROR, LEVEL};
-use rocking_statistics::acceptance::{AcceptedShare, distances};
-use rocking_statistics::bootstrap::{Bootstrap, estimate};
+use rocking_common::findings::LEVEL;
+use rocking_statistics::acceptance::distances;
+use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::boxplot::median_interval;
-use rocking_statistics::confidence::Confidence;
 use rocking_statistics::lilliefors::LillieforsTable;
-use rocking_statistics::resampling::{RecordRanks, Subsampling};
-use rocking_statistics::step_down::StepDown;
+use rocking_statistics::resampling::{RecordRanks, Resampling};
 use rocking_statistics::streams::{Stream, Streams, standard_normal};
 use rocking_statistics::{
-    Clusters, ExtendedSample, Interval, Proportion, Sample, normal,
+    Clusters, ExtendedSample, Interval, Proportion, Range, normal,
 };
 use serde::Deserialize;
 
-use super::truths::{SuiteShape, share};
+use super::truths::{SuiteShape, percentiles, share};
 use crate::methods::method::{Context, Reply, WrongModel};
 
-/// Replicates of an interval; the study has 2000. With 400 the level of an
-/// interval is uncertain by 0.01, which the bounds leave room for.
-const REPLICATES: usize = 400;
-
-/// Subsamples of an accepted share, and of a distance.
-const SUBSAMPLES: u64 = 100;
+/// Replicates of an interval: they know a standard error to 5 %.
+const REPLICATES: usize = 200;
 
 /// Share of the variance that the records of an earthquake share.
-pub(super) const SHARED: f64 = 0.2;
+const SHARED: f64 = 0.2;
 
 /// Correlation from level to level, and between blocks.
 const LEVELS_ALIKE: f64 = 0.97;
@@ -45,6 +39,9 @@ const BLOCKS_ALIKE: f64 = 0.9;
 const BLOCKS: usize = 4;
 const LEVELS: usize = 13;
 
+/// Cells apart that a distance is the mean of.
+const APART: usize = 6;
+
 /// Spread of a paired ratio.
 const SPREAD: f64 = 0.15;
 
@@ -52,50 +49,32 @@ const SPREAD: f64 = 0.15;
 const SURVIVORS: usize = 12;
 
 /// Probability of a counted event.
-const PROBABILITY: f64 = 0.05;
+const PROBABILITY: f64 = 0.3;
 
 /// What an interval is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum IntervalMeasure {
-    /// Median of paired ratios in one cell, BCa.
+    /// Median of paired ratios in one cell.
     Median,
-    /// The same by percentiles.
-    MedianByPercentiles,
     /// Share of the cells whose median is within 5 %.
     CellShare,
-    /// How often a cell that lies on the end of its region is shown inside.
-    CellOnTheEdge,
-    /// How often it is shown outside.
-    CellRefuted,
-    /// How often any of many cells on the end, which share nothing but their
-    /// earthquakes, is shown outside.
-    FamilyRefuted,
-    /// How often a share of cells on its limit of 90 % is shown below it.
-    ShareRefuted,
-    /// Share of the cells whose median is within 5 %, three of four cells of
-    /// few survivors, which do not count.
-    ShareBesideSurvivors,
     /// Median of few survivors, by order statistics.
     FewSurvivors,
     /// Probability of an event that records have or not.
     Count,
     /// Mean distance from a lognormal over levels and blocks.
     Distance,
-    /// Share of levels at which a lognormal is accepted.
-    AcceptedShare,
 }
 
-/// Share of the simulated suites whose interval holds the truth; of what lies
-/// on a limit, share of those in which it is decided.
+/// Share of the simulated suites whose interval holds the truth.
 pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: IntervalMeasure,
         /// The recorded suite that the simulated ones are like.
         like: SuiteShape,
         trials: u64,
-        /// Share of the suites in which the interval is to hold the truth, or
-        /// what lies on the limit may be decided.
+        /// Share of the suites in which the interval is to hold the truth.
         nominal: f64,
     }
     let clusters = like.clusters();
@@ -106,11 +85,11 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
         drawn,
         wrong: context.wrong,
     };
-    let all = (0..trials).into_par_iter();
+    let all = (0..trials).into_par_iter().panic_fuse();
     let held: Vec<bool> = match measure {
-        IntervalMeasure::Distance | IntervalMeasure::AcceptedShare => {
+        IntervalMeasure::Distance => {
             let found = all
-                .map(|trial| suites.lognormal(trial, measure))
+                .map(|trial| suites.distance(trial))
                 .collect::<Result<Vec<_>, _>>()?;
             // The truth is the mean over the simulated suites.
             let sum = found.iter().fold(0.0, |sum, (x, _)| sum + x);
@@ -125,11 +104,6 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
 
 fn hold(interval: Option<Interval>, truth: f64) -> bool {
     interval.is_some_and(|interval| interval.holds(truth))
-}
-
-/// The interval of a measure whose replicates give one.
-fn interval(known: Option<Confidence>, half_width: f64) -> Option<Interval> {
-    Some(known?.interval(half_width)?.interval)
 }
 
 /// A field over blocks and levels, added to `scores` with a weight.
@@ -166,11 +140,6 @@ struct Trials {
 }
 
 impl Trials {
-    /// `mistaken` where this is the mistake that is made, else `right`.
-    fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
-        if self.wrong == Some(wrong) { mistaken } else { right }
-    }
-
     /// Normal scores by cell, then by record.
     fn scores(&self, trial: u64) -> Vec<Vec<f64>> {
         let mut stream = self.streams.stream(trial);
@@ -190,37 +159,31 @@ impl Trials {
         cells
     }
 
-    /// Replicates of some medians, and the medians without each cluster.
-    fn medians(
+    /// The interval of a function of multiplicities by a bootstrap.
+    fn by_bootstrap(
         &self,
         trial: u64,
-        cells: &[RecordRanks],
-    ) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
-        let of = |counts: &[u32]| -> Vec<f64> {
-            cells.iter().map(|r| r.median(counts)).collect()
-        };
+        range: Range,
+        of: impl Fn(&[u32]) -> f64,
+    ) -> Option<Interval> {
+        let point = of(&vec![1; self.clusters.records()]);
         let name = format!("coverage/{trial}");
         let draws = Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES);
-        let replicates = (0..REPLICATES as u64)
+        let values: Vec<f64> = (0..REPLICATES as u64)
             .map(|index| of(&draws.multiplicities(index)))
             .collect();
-        let without = (0..self.drawn.count())
-            .map(|cluster| of(&self.drawn.without(cluster)))
-            .collect();
-        (replicates, without)
+        if self.wrong == Some(WrongModel::Percentiles) {
+            return percentiles(&values, LEVEL);
+        }
+        let how = Resampling::Bootstrap;
+        let found = self.drawn.inferred(point, &values, how, range, LEVEL);
+        found.and_then(|found| found.estimate.interval())
     }
 
     fn holds(&self, trial: u64, measure: IntervalMeasure) -> bool {
         let scores = self.scores(trial);
-        let every = vec![1; self.clusters.records()];
-        let ratio = |shift: f64| move |z: f64| exp(SPREAD * z + shift);
         match measure {
-            IntervalMeasure::CellShare
-            | IntervalMeasure::ShareRefuted
-            | IntervalMeasure::ShareBesideSurvivors => {
-                self.share(trial, &scores, measure)
-            }
-            IntervalMeasure::FamilyRefuted => self.refuted(trial),
+            IntervalMeasure::CellShare => self.share(trial, &scores),
             IntervalMeasure::FewSurvivors => {
                 // Some of each large earthquake.
                 let step = scores[0].len() / SURVIVORS;
@@ -230,132 +193,31 @@ impl Trials {
                 let Ok(sample) = ExtendedSample::try_new(values) else {
                     return false;
                 };
-                let level = self.or(WrongModel::OtherInterval, 0.75, LEVEL);
+                let narrow = self.wrong == Some(WrongModel::OtherInterval);
+                let level = if narrow { 0.75 } else { LEVEL };
                 let found = median_interval(&sample, level);
                 hold(found.map(|found| found.interval), 0.0)
             }
             IntervalMeasure::Count => {
                 let limit = normal::quantile(PROBABILITY);
-                let count = scores[0].iter().filter(|z| **z < limit).count();
-                let n = self.clusters.records();
-                let found = Proportion::try_new(count, n);
-                let exact = found.and_then(|p| p.interval(LEVEL));
-                let share = count as f64 / n as f64;
-                let error = sqrt(share * (1.0 - share) / n as f64);
-                let wide = normal::quantile(1.0 - ERROR) * error;
-                let normal = Interval::try_new(share - wide, share + wide);
-                let wrong = WrongModel::OtherInterval;
-                let ends = self.or(wrong, normal.ok(), exact.ok());
-                hold(ends, PROBABILITY)
+                let held: Vec<bool> =
+                    scores[0].iter().map(|z| *z < limit).collect();
+                let found = Proportion::of_clusters(&held, &self.drawn);
+                let ends = found.and_then(|count| count.interval(LEVEL));
+                hold(ends.ok(), PROBABILITY)
             }
             _ => {
-                let edge = match measure {
-                    IntervalMeasure::CellOnTheEdge
-                    | IntervalMeasure::CellRefuted => log(1.05),
-                    _ => 0.0,
-                };
-                let values: Vec<f64> =
-                    scores[0].iter().copied().map(ratio(edge)).collect();
-                let cells = [RecordRanks::new(&values)];
-                let point = cells[0].median(&every);
-                let (replicates, without) = self.medians(trial, &cells);
-                let column = |rows: &[Vec<f64>]| -> Vec<f64> {
-                    rows.iter().map(|row| row[0]).collect()
-                };
-                let others = match measure {
-                    IntervalMeasure::MedianByPercentiles => Vec::new(),
-                    _ => column(&without),
-                };
-                let known =
-                    Confidence::new(point, &column(&replicates), &others);
-                // Three times the tail's probability.
-                let (wrong, more) = (WrongModel::OtherInterval, 3.0 * LEVEL);
-                let level = self.or(wrong, more - 2.0, LEVEL);
-                let half_width = self.drawn.half_width(level);
-                let Some(ends) = interval(known, half_width) else {
-                    return false;
-                };
-                match measure {
-                    IntervalMeasure::CellOnTheEdge => {
-                        ends.low() >= 0.95 && ends.high() <= 1.05
-                    }
-                    IntervalMeasure::CellRefuted => ends.low() > 1.05,
-                    _ => ends.holds(1.0),
-                }
+                let values = scores[0].iter().map(|z| exp(SPREAD * z));
+                let cell = RecordRanks::new(&values.collect::<Vec<f64>>());
+                let of = |counts: &[u32]| cell.median(counts);
+                hold(self.by_bootstrap(trial, Range::NotNegative, of), 1.0)
             }
         }
     }
 
-    /// Whether any of [`BLOCKS`] times [`LEVELS`] cells on the end of their
-    /// region is shown outside.
-    fn refuted(&self, trial: u64) -> bool {
-        let mut stream = self.streams.stream(trial);
-        let n = self.clusters.records();
-        let cell = |stream: &mut Stream| -> RecordRanks {
-            let mut values = vec![0.0; n];
-            for event in 0..self.clusters.count() {
-                let shared = sqrt(SHARED) * standard_normal(stream);
-                for record in self.clusters.members(event) {
-                    let own = standard_normal(stream);
-                    values[*record] =
-                        SPREAD * f64::mul_add(sqrt(1.0 - SHARED), own, shared);
-                }
-            }
-            RecordRanks::new(&values)
-        };
-        let cells: Vec<RecordRanks> =
-            (0..BLOCKS * LEVELS).map(|_| cell(&mut stream)).collect();
-        let every = vec![1; n];
-        let points: Vec<f64> =
-            cells.iter().map(|r| r.median(&every)).collect();
-        let (rows, without) = self.medians(trial, &cells);
-        let column = |rows: &[Vec<f64>], k: usize| -> Vec<f64> {
-            rows.iter().map(|row| row[k]).collect()
-        };
-        if self.wrong == Some(WrongModel::HolmByPercentiles) {
-            let level = 1.0 - 2.0 * ERROR / points.len() as f64;
-            let half_width = self.drawn.half_width(level);
-            return (0..points.len()).any(|k| {
-                let (own, others) = (column(&rows, k), column(&without, k));
-                let known = Confidence::new(points[k], &own, &others);
-                interval(known, half_width).is_some_and(|i| i.low() > 0.0)
-            });
-        }
-        let spread = |k: usize| {
-            let own = Sample::try_new(&column(&rows, k));
-            own.map_or(f64::NAN, |own| {
-                sqrt(own.sum_of_squares() / (rows.len() as f64 - 1.0))
-            })
-        };
-        let spreads: Vec<f64> = (0..points.len()).map(spread).collect();
-        let found: Vec<f64> =
-            points.iter().zip(&spreads).map(|(x, s)| x / s).collect();
-        let wider = self.drawn.half_width(1.0 - ERROR)
-            / normal::quantile(1.0 - 0.5 * ERROR);
-        let deviation = |row: usize, k: usize| {
-            wider * (rows[row][k] - points[k]).abs() / spreads[k]
-        };
-        let steps = StepDown::new(&found, rows.len(), deviation, ERROR, 0.0);
-        steps.rejected.contains(&true)
-    }
-
-    /// Whether the interval of the share of cells within 5 % holds it, or
-    /// lies below the limit that the share lies on.
-    fn share(
-        &self,
-        trial: u64,
-        scores: &[Vec<f64>],
-        measure: IntervalMeasure,
-    ) -> bool {
+    /// Whether the interval of the share of cells within 5 % holds it.
+    fn share(&self, trial: u64, scores: &[Vec<f64>]) -> bool {
         let count = scores.len();
-        let few = |k: usize| {
-            measure == IntervalMeasure::ShareBesideSurvivors
-                && !k.is_multiple_of(4)
-        };
-        let enters = |k: &usize| {
-            self.wrong == Some(WrongModel::SurvivorsEnter) || !few(*k)
-        };
-        let entering: Vec<usize> = (0..count).filter(enters).collect();
         // True medians from a normal law, nine of ten cells within 5 %.
         let truth = |k: usize| {
             // Neighbours are not of one size.
@@ -363,58 +225,31 @@ impl Trials {
             let p = (place as f64 + 0.5) / count as f64;
             exp(0.03 * normal::quantile(p))
         };
-        let within = |x: f64| (0.95..=1.05).contains(&x);
-        let share = |row: &[f64]| {
-            let inside = entering.iter().filter(|k| within(row[**k]));
-            inside.count() as f64 / entering.len() as f64
+        let within = |x: &f64| (0.95..=1.05).contains(x);
+        let share = |medians: &[f64]| {
+            let inside = medians.iter().filter(|x| within(x));
+            inside.count() as f64 / count as f64
         };
         let truths: Vec<f64> = (0..count).map(truth).collect();
-        let cells: Vec<RecordRanks> = scores
-            .iter()
-            .enumerate()
-            .map(|(k, cell)| {
-                let step = if few(k) { cell.len() / SURVIVORS } else { 1 };
-                let of = |(record, z): (usize, &f64)| match record % step {
-                    0 => truths[k] * exp(SPREAD * z),
-                    _ => f64::NAN,
-                };
-                let values = cell.iter().enumerate().map(of);
-                RecordRanks::new(&values.collect::<Vec<f64>>())
-            })
-            .collect();
-        let every = vec![1; self.clusters.records()];
-        let points: Vec<f64> =
-            cells.iter().map(|r| r.median(&every)).collect();
-        let (replicates, _) = self.medians(trial, &cells);
-        let values: Vec<f64> =
-            replicates.iter().map(|row| share(row)).collect();
-        let point = share(&points);
-        let Some(known) = Confidence::new(point, &values, &[]) else {
-            return false;
+        let cells = scores.iter().zip(&truths).map(|(cell, truth)| {
+            let values = cell.iter().map(|z| truth * exp(SPREAD * z));
+            RecordRanks::new(&values.collect::<Vec<f64>>())
+        });
+        let cells: Vec<RecordRanks> = cells.collect();
+        let of = |counts: &[u32]| {
+            let medians = cells.iter().map(|cell| cell.median(counts));
+            share(&medians.collect::<Vec<f64>>())
         };
-        let of_points = known.interval(self.drawn.half_width(LEVEL));
-        let own = known.interval_of_share(point, &self.drawn, LEVEL);
-        let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
-        let ends = ends.map(|found| found.interval);
-        match measure {
-            IntervalMeasure::ShareRefuted => {
-                ends.is_some_and(|i| i.high() < 0.9)
-            }
-            _ => hold(ends, share(&truths)),
-        }
+        hold(self.by_bootstrap(trial, Range::Share, of), share(&truths))
     }
 
-    /// The distance, or accepted share, of capacities that are lognormal
-    /// above 1 and tested as they are; and its interval.
-    fn lognormal(
-        &self,
-        trial: u64,
-        measure: IntervalMeasure,
-    ) -> Result<(f64, Option<Interval>)> {
+    /// The distance from a lognormal of capacities that are lognormal above
+    /// 1 and tested as they are, beyond what a lognormal has; and its
+    /// interval by the subsets without two earthquakes.
+    fn distance(&self, trial: u64) -> Result<(f64, Option<Interval>)> {
         let table = LillieforsTable::embedded();
-        let logs: Vec<Vec<f64>> = self
-            .scores(trial)
-            .into_iter()
+        let scores = self.scores(trial).into_iter().step_by(APART);
+        let logs: Vec<Vec<f64>> = scores
             .map(|cell| cell.into_iter().map(|z| log(1.0 + exp(z))).collect())
             .collect();
         let of = |places: &[usize]| -> Result<f64> {
@@ -422,45 +257,32 @@ impl Trials {
                 .iter()
                 .map(|level| places.iter().map(|r| level[*r]).collect())
                 .collect();
-            if measure == IntervalMeasure::AcceptedShare {
-                let critical = table.critical_value(places.len(), 0.05);
-                let (critical, _) = critical?;
-                let found = AcceptedShare::of_values(&drawn, critical);
-                return Ok(found.share().unwrap_or(f64::NAN));
-            }
             let d = distances(&drawn);
             let mean = d.iter().fold(0.0, |sum, d| sum + d) / d.len() as f64;
             Ok(mean - table.mean(places.len())?)
         };
-        let held = |counts: &[u32]| -> Vec<usize> {
-            (0..counts.len()).filter(|r| counts[*r] > 0).collect()
-        };
         let n = self.clusters.records();
         let point = of(&(0..n).collect::<Vec<usize>>())?;
-        let name = format!("coverage/{trial}");
         if self.wrong == Some(WrongModel::TiedReplicates) {
-            let draws = Bootstrap::of_clusters(&name, 0, &self.drawn, 1);
-            let values = (0..SUBSAMPLES)
+            let name = format!("coverage/{trial}");
+            let draws =
+                Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES);
+            let values = (0..REPLICATES as u64)
                 .map(|index| of(&draws.draw(index)))
-                .collect::<Result<Vec<_>, _>>()?;
-            let found = estimate(point, &values, LEVEL);
-            return Ok((point, found.and_then(|e| e.estimate.interval())));
+                .collect::<Result<Vec<f64>>>()?;
+            return Ok((point, percentiles(&values, LEVEL)));
         }
-        let size = n - n.div_ceil(10);
-        let rule = Subsampling::of_clusters(&name, 0, &self.drawn, size);
-        let values = (0..SUBSAMPLES)
-            .map(|index| of(&held(&rule.multiplicities(index))))
-            .collect::<Result<Vec<_>, _>>()?;
-        let without = (0..self.drawn.count())
-            .map(|cluster| of(&held(&self.drawn.without(cluster))))
-            .collect::<Result<Vec<_>, _>>()?;
-        let found = match self.wrong {
-            // Neither as likely nor with the range of leaving one out.
-            Some(WrongModel::OtherInterval) => {
-                rule.interval(point, &values, &[], 5.0 * LEVEL - 4.0)
-            }
-            _ => rule.interval(point, &values, &without, LEVEL),
-        };
-        Ok((point, found.and_then(|e| e.estimate.interval())))
+        let values = self
+            .drawn
+            .without_two()
+            .iter()
+            .map(|counts| {
+                let held = (0..n).filter(|r| counts[*r] > 0);
+                of(&held.collect::<Vec<usize>>())
+            })
+            .collect::<Result<Vec<f64>>>()?;
+        let (how, range) = (Resampling::Without(2), Range::Real);
+        let found = self.drawn.inferred(point, &values, how, range, LEVEL);
+        Ok((point, found.and_then(|found| found.estimate.interval())))
     }
 }

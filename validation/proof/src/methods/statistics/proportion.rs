@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result};
 use rocking_statistics::estimate::EstimateError;
-use rocking_statistics::{Interval, Proportion, normal};
+use rocking_statistics::{Clusters, Interval, Proportion, normal};
 
 use crate::methods::cells::{Csv, CsvRow, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -49,6 +49,21 @@ pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
             PROPORTION.lacks(format!("no row `{}`", words.join(",")))
         })?;
         let ends = [("low", interval.low()), ("high", interval.high())];
+        row.put(answer, 3, &ends)?;
+    }
+    Ok(())
+}
+
+/// Intervals at 90 % of counts over clusters, by the effective number of
+/// trials.
+pub fn of_clusters(context: &Context, answer: &mut Reply) -> Result<()> {
+    for row in PROPORTION.rows("clusters")? {
+        let clusters = Clusters::from_labels(row.text(1).split(' '));
+        let held = row.list(2, ' ')?;
+        let held: Vec<bool> = held.into_iter().map(|x| x > 0.0).collect();
+        let drawn = context.drawn(&clusters);
+        let found = Proportion::of_clusters(&held, &drawn)?.interval(0.9)?;
+        let ends = [("low", found.low()), ("high", found.high())];
         row.put(answer, 3, &ends)?;
     }
     Ok(())

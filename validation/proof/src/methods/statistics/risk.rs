@@ -4,9 +4,10 @@
 use anyhow::{Context as _, Result};
 use libm::{exp, log};
 use rocking_procedures::fragility::risk::HazardCurve;
-use rocking_statistics::bootstrap::{Bootstrap, estimate};
+use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{FitMethod, fit};
-use rocking_statistics::{Estimate, ExtendedSample, Lognormal, normal};
+use rocking_statistics::resampling::Resampling;
+use rocking_statistics::{Clusters, ExtendedSample, Lognormal, Range, normal};
 
 use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
@@ -98,26 +99,29 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
         let drawn: Vec<f64> = places.iter().map(|&i| values[i]).collect();
         fitted(&drawn)
     });
-    let width = |probability: Estimate| {
-        let (low, high) = probability.map(normal::quantile).ends();
-        high - low
-    };
+    let records = Clusters::singletons(n);
+    let (how, range) = (Resampling::Bootstrap, Range::Real);
     for score in scores {
         let x = shift + exp(ln_median + dispersion * score);
         let column: Vec<f64> = fits
             .iter()
-            .map(|fit| fit.map_or(f64::NAN, |fit| fit.cdf(x)))
+            .map(|fit| fit.map_or(f64::NAN, |fit| fit.score(x)))
             .collect();
         let drawn =
-            estimate(whole.cdf(x), &column, LEVEL).context("no interval")?;
+            records.inferred(whole.score(x), &column, how, range, LEVEL);
+        let (low, high) = drawn.context("no interval")?.estimate.ends();
         let found = match context.wrong {
             Some(WrongModel::KnownDispersion) => {
                 let wide = normal::quantile(0.5 * (1.0 + LEVEL));
                 2.0 * wide / (n as f64).sqrt()
             }
-            _ => width(whole.estimate_of_cdf(n, x, LEVEL)),
+            _ => {
+                let delta = whole.estimate_of_cdf(n, x, LEVEL);
+                let (low, high) = delta.map(normal::quantile).ends();
+                high - low
+            }
         };
-        answer.put("width", [found], [width(drawn.estimate)]);
+        answer.put("width", [found], [high - low]);
     }
     Ok(())
 }

@@ -7,8 +7,8 @@ use libm::{exp, log, log1p, tan};
 use rand::TryRng;
 use rand_distr::{Distribution as _, Exp1, Gamma};
 use rayon::prelude::*;
-use rocking_statistics::Clusters;
 use rocking_statistics::streams::{Stream, Streams, below, standard_normal};
+use rocking_statistics::{Clusters, Interval, QuantileType, Sample};
 use serde::Deserialize;
 
 /// A stream as a generator of `rand_distr`.
@@ -120,13 +120,15 @@ impl Truth {
     }
 }
 
-/// Records by earthquake of the recorded suites.
+/// Records by earthquake: of the recorded suites, and of few earthquakes.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SuiteShape {
     Ordinary,
-    #[serde(alias = "pulse-type")]
     Pulse,
+    Eight,
+    Five,
+    Three,
 }
 
 impl SuiteShape {
@@ -137,6 +139,9 @@ impl SuiteShape {
                 1, 1,
             ],
             Self::Pulse => &[6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1],
+            Self::Eight => &[8, 6, 5, 4, 3, 2, 2, 1],
+            Self::Five => &[8, 6, 5, 4, 3],
+            Self::Three => &[8, 7, 6],
         };
         let labels = sizes
             .iter()
@@ -149,4 +154,14 @@ impl SuiteShape {
 /// Share of what is true.
 pub(super) fn share(held: &[bool]) -> f64 {
     held.iter().filter(|held| **held).count() as f64 / held.len() as f64
+}
+
+/// The percentiles of replicates (type 7) as ends of an interval.
+pub(super) fn percentiles(values: &[f64], level: f64) -> Option<Interval> {
+    let finite = values.iter().copied().filter(|x| x.is_finite());
+    let sample = Sample::try_new(&finite.collect::<Vec<f64>>()).ok()?;
+    let rule = QuantileType::try_new(7).ok()?;
+    let at = |p| rule.quantile(&sample, p).ok();
+    let ends = (at(0.5 - 0.5 * level)?, at(0.5 + 0.5 * level)?);
+    Interval::try_new(ends.0, ends.1).ok()
 }

@@ -8,7 +8,9 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use rocking_statistics::bootstrap::{Bootstrap, estimate};
+use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::resampling::Resampling;
+use rocking_statistics::{Clusters, Range};
 
 use super::support::{
     answer, at2, close, folder, json, motion, refused_for, rocking,
@@ -317,8 +319,10 @@ fn each_draw_of_a_sweep_has_the_shift_of_its_own_records() {
         let one = places.iter().all(|i| *i == places[0]);
         if one { f64::NAN } else { median(places) }
     });
-    let found = estimate(median(&all), &medians, 0.95).unwrap();
-    let (low, high) = found.estimate.ends();
+    let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
+    let records = Clusters::singletons(sample.len());
+    let found = records.estimate(median(&all), &medians, how, range, 0.95);
+    let (low, high) = found.unwrap().estimate.ends();
     for (own, expected) in [(&row[11], low), (&row[12], high)] {
         assert!((number(own) / expected - 1.0).abs() < 1e-9, "{row:?}");
     }

@@ -143,7 +143,7 @@ pub enum RiskError {
 ///
 /// The 95 % interval is that of ln(lambda) over the draws of the fragility's
 /// sample, earthquakes where they are known
-/// ([`Clusters::inferred`](rocking_statistics::Clusters::inferred)).
+/// ([`Clusters::estimate`](rocking_statistics::Clusters::estimate)).
 ///
 /// ```
 /// use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};

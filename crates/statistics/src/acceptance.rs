@@ -8,11 +8,10 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::bootstrap::{BootstrapEstimate, estimate};
 use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{LillieforsError, LillieforsTest, standardised};
 use super::sample::{mean, sum_of_squares};
-use super::{Sample, monte_carlo};
+use super::{Interval, QuantileType, Sample, monte_carlo};
 use crate::streams::{Streams, standard_normal};
 use rocking::number::dispatch::{Isa, Kernel};
 use rocking::stop;
@@ -221,14 +220,14 @@ impl NullBand {
         Ok(Self { shares, mean_ratios, effective_levels })
     }
 
-    /// The band of the share at a level, about an observed one.
+    /// The central part of the shares, of probability `level`.
     #[must_use]
-    pub fn band(
-        &self,
-        observed: f64,
-        level: f64,
-    ) -> Option<BootstrapEstimate> {
-        estimate(observed, &self.shares, level)
+    pub fn central(&self, level: f64) -> Option<Interval> {
+        let sample = Sample::try_new(&self.shares).ok()?;
+        let rule = QuantileType::try_new(7).ok()?;
+        let at = |p| rule.quantile(&sample, p).ok();
+        let ends = (at(0.5 - 0.5 * level)?, at(0.5 + 0.5 * level)?);
+        Interval::try_new(ends.0, ends.1).ok()
     }
 
     /// One-sided p-value of an observed share: how often the null accepts

@@ -3,10 +3,8 @@
 //! A resampling draws clusters, and takes all records of each. Where every
 //! record is a cluster of its own, it draws records.
 
-use libm::sqrt;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
-use super::normal;
 use super::sample::mean;
 use rocking::names::{as_text, named};
 
@@ -184,63 +182,11 @@ impl Clusters {
         share.is_finite().then_some(share.max(0.0))
     }
 
-    /// Half the width of an interval at `level`, over the standard deviation
-    /// of an ordinary bootstrap of clusters. With z the normal quantile, t
-    /// that of Student's t with [`Self::degrees_of_freedom`] and G_e of
-    /// [`Self::effective`]: t sqrt(G_e/(G_e - 1)), which corrects the bias of
-    /// the variance and its own error; z of clusters of one record, which are
-    /// many. NaN of a single cluster.
-    ///
-    /// ```
-    /// use rocking_statistics::clusters::Clusters;
-    /// let many = Clusters::singletons(86).half_width(0.95);
-    /// assert!((many - 1.96).abs() < 1e-4);
-    /// // Five earthquakes of two records: t of 4 is 2.776.
-    /// let labels = ["a", "b", "c", "d", "e"].repeat(2);
-    /// let few = Clusters::from_labels(labels).half_width(0.95);
-    /// assert!((few - 2.776 * 1.25f64.sqrt()).abs() < 1e-3);
-    /// ```
-    #[must_use]
-    pub fn half_width(&self, level: f64) -> f64 {
-        let student = self.student_over_normal(level);
-        normal::quantile(0.5 + 0.5 * level) * student * self.unbiased()
-    }
-
-    /// Deviations of suites like this one from the truth, as the replicates
-    /// of a bootstrap of these clusters tell them: theirs from `point`,
-    /// times sqrt(G_e/(G_e - 1)) as in [`Self::half_width`].
-    #[must_use]
-    pub fn deviations(&self, point: f64, replicates: &[f64]) -> Vec<f64> {
-        let wider = self.unbiased();
-        replicates.iter().map(|x| wider * (x - point)).collect()
-    }
-
-    /// t/z of [`Self::half_width`], and 1 of clusters of one record.
-    #[must_use]
-    pub fn student_over_normal(&self, level: f64) -> f64 {
-        if self.is_singletons() {
-            return 1.0;
-        }
-        let p = 0.5 + 0.5 * level;
-        let t = StudentsT::new(0.0, 1.0, self.degrees_of_freedom());
-        t.map_or(f64::NAN, |t| t.inverse_cdf(p) / normal::quantile(p))
-    }
-
     /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
     /// none of a single cluster.
     #[must_use]
     pub fn student(&self, level: f64) -> Option<f64> {
         student(self.degrees_of_freedom(), level)
-    }
-
-    /// sqrt(G_e/(G_e - 1)): the standard deviation of a bootstrap of few
-    /// clusters is too small by this factor; 1 of clusters of one record.
-    pub(super) fn unbiased(&self) -> f64 {
-        let effective = self.effective();
-        if self.is_singletons() {
-            return 1.0;
-        }
-        sqrt(effective / (effective - 1.0))
     }
 }
 
@@ -271,14 +217,17 @@ as_text!(write Clusters);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Range;
     use crate::bootstrap::Bootstrap;
-    use crate::resampling::Subsampling;
+    use crate::resampling::Resampling;
 
     #[test]
     fn a_single_cluster_has_no_interval() {
         let one = Clusters::from_labels(["a", "a", "a"]);
-        assert!(one.half_width(0.95).is_nan());
-        assert!(one.estimate(1.0, &[0.5, 1.0, 1.5], 0.95).is_none());
+        assert_eq!(one.student(0.95), None);
+        let (how, range) = (Resampling::Bootstrap, Range::Real);
+        let found = one.estimate(1.0, &[0.5, 1.0, 1.5], how, range, 0.95);
+        assert!(found.is_none());
         assert_eq!(Clusters::singletons(0).count(), 0);
     }
 
@@ -292,19 +241,6 @@ mod tests {
             Bootstrap::of_clusters("test", 0, of, 1).multiplicities(5)
         };
         assert_eq!(drawn(&clusters), drawn(&records));
-        assert_eq!(clusters.half_width(0.95), records.half_width(0.95));
-    }
-
-    #[test]
-    fn subsamples_hold_whole_clusters() {
-        let labels = ["a", "b", "c", "d", "e"].repeat(4);
-        let clusters = Clusters::from_labels(labels);
-        let drawn = Subsampling::of_clusters("test", 0, &clusters, 13);
-        for index in 0..20 {
-            let counts = drawn.multiplicities(index);
-            let first: u32 = counts[..5].iter().sum();
-            assert_eq!(first, 3, "{counts:?}");
-            assert_eq!(counts[..5], counts[15..]);
-        }
+        assert_eq!(clusters.student(0.95), records.student(0.95));
     }
 }

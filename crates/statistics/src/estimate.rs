@@ -180,8 +180,6 @@ impl fmt::Display for Interval {
 /// let below = Interval::try_new(-0.0872, 0.19)?;
 /// assert!(Estimate::try_new(0.0516, below, Range::Share).is_err());
 /// assert!(Estimate::try_new(0.2, interval, Range::Share).is_err());
-/// // Of an estimator that corrects a bias it may lie outside.
-/// assert!(Estimate::beside(0.2, interval, Range::Share).is_ok());
 /// # Ok::<(), rocking_statistics::estimate::EstimateError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,21 +209,6 @@ impl Estimate {
         if !interval.holds(value) {
             return Err(EstimateError::Outside(value, interval));
         }
-        Self::beside(value, interval, range)
-    }
-
-    /// A value whose estimator may leave it outside its interval: the
-    /// percentiles of a bootstrap, with a bias corrected or reflected, centre
-    /// on what the replicates show, not on the value.
-    ///
-    /// # Errors
-    /// [`EstimateError::Range`] for a value or a finite end that lies outside
-    /// the range of the quantity.
-    pub fn beside(
-        value: f64,
-        interval: Interval,
-        range: Range,
-    ) -> Result<Self, EstimateError> {
         let possible = range.interval();
         let open = |x: &f64| x.is_infinite() && *x != value;
         let numbers = [value, interval.low, interval.high].into_iter();

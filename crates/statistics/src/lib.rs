@@ -6,7 +6,7 @@
 //! | a sample | a test of lognormality | [`lilliefors::LillieforsTest`] |
 //! | a sample | quantiles by named type | [`quantile`] |
 //! | samples of the same records | a comparison | [`paired`] |
-//! | a statistic and clusters of records | an interval | [`bootstrap`] |
+//! | a statistic and clusters of records | an interval | [`Clusters::estimate`] |
 //! | a value and an interval | a checked pair | [`Estimate`] |
 //! | a seed's name | random numbers with the same bits everywhere | [`streams`] |
 //!
@@ -21,23 +21,19 @@ pub mod bootstrap;
 pub mod boxplot;
 pub mod censored;
 pub mod clusters;
-pub mod confidence;
 pub mod estimate;
 pub mod lilliefors;
 pub mod lognormal;
 mod monte_carlo;
-pub mod multiple;
 pub mod normal;
 pub mod normality;
 pub mod paired;
-pub mod power;
 pub mod proportion;
 pub mod quantile;
 pub mod regression;
 pub mod resampling;
 pub mod sample;
 mod search;
-pub mod step_down;
 pub mod streams;
 pub mod two_sample;
 

@@ -3,16 +3,14 @@
 //! A replicate is a *multiplicity* for each record: how often the replicate
 //! holds that record. A measure is a function of the multiplicities, so that
 //! blocks, stripes and intensity measures that share records stay paired.
-//! [`Bootstrap`] draws with replacement;
-//! [`Subsampling`] draws without, for tests of distribution, which ties
-//! break.
+//! [`Bootstrap`] draws with replacement; [`Clusters::without_two`] leaves
+//! out, for tests of distribution, which ties break.
 
 use std::fmt;
 
-use super::bootstrap::{Bootstrap, BootstrapEstimate, estimate};
+use super::bootstrap::{Bootstrap, BootstrapEstimate};
 use super::clusters::{Clusters, SamplingUnit};
 use super::{Estimate, Interval, Range};
-use crate::streams::{Streams, below};
 use rocking::names::as_text;
 
 /// How often a draw of `places` holds each of `n` records.
@@ -102,8 +100,9 @@ as_text!(write IntervalRemark);
 impl Clusters {
     /// The subsets that leave two clusters out, as multiplicities: all
     /// G(G - 1)/2 of them. Of more than [`MOST_PAIRED`] clusters a part in
-    /// which each is left out equally often: the pairs of neighbours, of next
-    /// neighbours and so on in the order of the clusters.
+    /// which each is left out equally often: pairs some places apart on the
+    /// circle of the clusters, distances spread from neighbours to opposite
+    /// places, so that their order does not matter.
     ///
     /// ```
     /// use rocking_statistics::Clusters;
@@ -116,9 +115,17 @@ impl Clusters {
     pub fn without_two(&self) -> Vec<Vec<u32>> {
         let count = self.count();
         let all = MOST_PAIRED * (MOST_PAIRED - 1) / 2;
-        let reach = if count > MOST_PAIRED { all / count } else { count };
-        let is_near =
-            |a: usize, b: usize| b - a <= reach || count - (b - a) <= reach;
+        let half = count.saturating_sub(1) / 2;
+        let apart: Vec<usize> = match count > MOST_PAIRED {
+            true => {
+                let number = (all / count).max(1);
+                let of = |j: usize| 1 + (2 * j + 1) * half / (2 * number);
+                (0..number).map(of).collect()
+            }
+            false => (1..=count).collect(),
+        };
+        let is_taken =
+            |a: usize, b: usize| apart.contains(&(b - a).min(count - (b - a)));
         let places = 0..count;
         let pairs = places.flat_map(|a| (a + 1..count).map(move |b| (a, b)));
         let held = |(a, b)| -> Vec<u32> {
@@ -126,7 +133,7 @@ impl Clusters {
             let held = |r| u32::from(of(r) != a && of(r) != b);
             (0..self.records()).map(held).collect()
         };
-        pairs.filter(|(a, b)| is_near(*a, *b)).map(held).collect()
+        pairs.filter(|(a, b)| is_taken(*a, *b)).map(held).collect()
     }
 
     /// Bias and standard error over samples of a statistic on the scale of
@@ -227,7 +234,7 @@ impl Clusters {
     /// let without: Vec<f64> = without.collect();
     /// let how = Resampling::Without(1);
     /// let found = clusters
-    ///     .inferred(mean(&values), &without, how, Range::NotNegative, 0.95)
+    ///     .estimate(mean(&values), &without, how, Range::NotNegative, 0.95)
     ///     .unwrap();
     /// // s = 0.6931 * 1.2910/2, t of 3 = 3.1824.
     /// let half = 3.1824 * 0.6931 * 1.2910 / 2.0;
@@ -236,7 +243,7 @@ impl Clusters {
     /// assert!((low * high - mean(&values).powi(2)).abs() < 1e-12);
     /// ```
     #[must_use]
-    pub fn inferred(
+    pub fn estimate(
         &self,
         point: f64,
         values: &[f64],
@@ -263,131 +270,6 @@ impl Clusters {
             used: values.iter().filter(|x| x.is_finite()).count(),
             replicates: values.len(),
         })
-    }
-}
-
-/// Draws of some of n records, or of the clusters of records, without
-/// replacement.
-///
-/// Draw i is a shuffle by stream i of the family of that name and seed.
-#[derive(Clone, Debug)]
-pub struct Subsampling {
-    streams: Streams,
-    clusters: Clusters,
-    size: usize,
-}
-
-impl Subsampling {
-    /// Subsamples of `size` out of `n` records; of all n where `size` is
-    /// larger.
-    #[must_use]
-    pub fn new(name: &str, seed: u64, n: usize, size: usize) -> Self {
-        Self::of_clusters(name, seed, &Clusters::singletons(n), size)
-    }
-
-    /// Subsamples of the clusters whose share of all is nearest to that of
-    /// `size` among the records. A subsample holds about `size` records.
-    #[must_use]
-    pub fn of_clusters(
-        name: &str,
-        seed: u64,
-        clusters: &Clusters,
-        size: usize,
-    ) -> Self {
-        let (n, count) = (clusters.records(), clusters.count());
-        let share = (2 * size.min(n) * count + n) / (2 * n).max(1);
-        let clusters = clusters.clone();
-        Self { streams: Streams::new(name, seed), clusters, size: share }
-    }
-
-    /// The multiplicities of one draw: 1 for each record of a cluster drawn,
-    /// 0 for the rest.
-    ///
-    /// ```
-    /// use rocking_statistics::resampling::Subsampling;
-    /// let counts = Subsampling::new("doc", 0, 5, 3).multiplicities(0);
-    /// assert_eq!(counts.iter().filter(|count| **count == 1).count(), 3);
-    /// ```
-    #[must_use]
-    pub fn multiplicities(&self, index: u64) -> Vec<u32> {
-        let mut stream = self.streams.stream(index);
-        let count = self.clusters.count();
-        let mut places: Vec<usize> = (0..count).collect();
-        for i in 0..self.size {
-            let j = i + below(&mut stream, count - i);
-            places.swap(i, j);
-        }
-        let mut counts = vec![0; self.clusters.records()];
-        for cluster in &places[..self.size] {
-            for record in self.clusters.members(*cluster) {
-                counts[*record] = 1;
-            }
-        }
-        counts
-    }
-
-    /// f = sqrt(size/(n - size)): the standard deviation of a mean over n
-    /// records over that of a mean over `size` of n, drawn without
-    /// replacement, which varies by s^2 (1/size - 1/n) instead of s^2/n. Of
-    /// clusters, n and size count clusters.
-    fn factor(&self) -> f64 {
-        let (n, size) = (self.clusters.count() as f64, self.size as f64);
-        (size / (n - size)).sqrt()
-    }
-
-    /// Deviations of suites of all records from the truth, as the values
-    /// over subsamples tell them: f times their deviations from their mean,
-    /// with f of [`Self::interval`].
-    #[must_use]
-    pub fn deviations(&self, values: &[f64]) -> Vec<f64> {
-        let (centre, factor) = (finite_mean(values), self.factor());
-        values.iter().map(|x| factor * (x - centre)).collect()
-    }
-
-    /// The interval of a measure from its values over subsamples, at a
-    /// level: with the quantiles q of type 7 of the values' deviations from
-    /// their mean and f = sqrt(size/(n - size)), from `point` - f q(high) to
-    /// `point` - f q(low), and at least as wide as the range of
-    /// `without_one`, the measure without each record in turn: what one
-    /// record carries across a limit is not known. `without_one` may be
-    /// empty. Of clusters, n and size count clusters, `without_one` leaves
-    /// out each cluster in turn, and f is wider by t/z, with Student's t of
-    /// [`Clusters::degrees_of_freedom`] and the normal quantile z.
-    ///
-    /// None where [`estimate`] gives none. Politis and Romano,
-    /// Ann. Statist. 22 (1994) 2031; with size near n the delete-d jackknife
-    /// of Shao and Wu, Ann. Statist. 17 (1989) 1176.
-    #[must_use]
-    pub fn interval(
-        &self,
-        point: f64,
-        values: &[f64],
-        without_one: &[f64],
-        level: f64,
-    ) -> Option<BootstrapEstimate> {
-        let plain = estimate(point, values, level)?;
-        let (centre, factor) = (finite_mean(values), self.factor());
-        let wider = factor * self.clusters.student_over_normal(level);
-        if !wider.is_finite() {
-            return None;
-        }
-        let reflected = |end: f64| point - wider * (end - centre);
-        let drawn = plain.estimate.interval()?.map(reflected);
-        let (mut low, mut high) = drawn.ends();
-        for x in without_one {
-            if *x < low {
-                low = *x;
-            }
-            if *x > high {
-                high = *x;
-            }
-        }
-        let standard_error = factor * plain.standard_error;
-        let interval = Interval::try_new(low, high).ok()?;
-        // About the mean of the subsamples, not about the value; Real, since
-        // a reflected end may lie beyond the range of the quantity.
-        let estimate = Estimate::beside(point, interval, Range::Real).ok()?;
-        Some(BootstrapEstimate { estimate, standard_error, ..plain })
     }
 }
 
@@ -496,21 +378,13 @@ mod tests {
     use super::*;
     use crate::{ExtendedSample, QuantileType, Sample};
 
+    /// Of 60 values the standard error of a mean, by a bootstrap and by the
+    /// subsets without one or two, and what leaves none.
     #[test]
-    fn an_interval_holds_what_each_record_does() {
-        let draws = Subsampling::new("test", 0, 20, 18);
-        let values = [0.9, 1.0, 1.1, 1.0];
-        let ends = |without: &[f64]| {
-            let found = draws.interval(1.0, &values, without, 0.95).unwrap();
-            found.estimate.interval().unwrap().ends()
-        };
-        assert_eq!(ends(&[-3.0, 1.0]), (-3.0, ends(&[]).1));
-    }
-
-    #[test]
-    fn subsamples_of_a_mean_have_its_standard_error() {
+    fn a_mean_has_its_standard_error() {
         let n = 60;
         let values: Vec<f64> = (0..n).map(|i| (i * i) as f64).collect();
+        let records = Clusters::singletons(n);
         let mean = |counts: &[u32]| {
             let used: u32 = counts.iter().sum();
             let sum = values
@@ -522,21 +396,57 @@ mod tests {
         let sample = Sample::try_new(&values).unwrap();
         let variance = sample.sum_of_squares() / (n as f64 - 1.0);
         let expected = (variance / n as f64).sqrt();
-        for size in [30, 54] {
-            let draws = Subsampling::new("test", 0, n, size);
-            let found: Vec<f64> =
-                (0..8000).map(|i| mean(&draws.multiplicities(i))).collect();
-            let interval =
-                draws.interval(sample.mean(), &found, &[], 0.95).unwrap();
-            // Four standard errors of a deviation of 8000 values.
-            let error = interval.standard_error / expected - 1.0;
-            assert!(error.abs() < 4.0 / 16_000.0_f64.sqrt(), "{error}");
-            let (low, high) = interval.estimate.interval().unwrap().ends();
-            let half = 0.5 * (high - low);
-            assert!((half / (1.96 * expected) - 1.0).abs() < 0.04);
+        let of = |values: &[f64], how| {
+            let (point, range) = (sample.mean(), Range::Real);
+            records.estimate(point, values, how, range, 0.95)
+        };
+        let draws = Bootstrap::new("test", 0, n, 8000);
+        let drawn: Vec<f64> =
+            (0..8000).map(|i| mean(&draws.multiplicities(i))).collect();
+        let one = (0..n).map(|k| mean(&records.without(k)));
+        // Of the 1770 pairs 480; the values are in order.
+        let two = records.without_two();
+        let two = two.iter().map(|counts| mean(counts));
+        for (values, how, error) in [
+            (drawn.clone(), Resampling::Bootstrap, 4.0 / 16_000f64.sqrt()),
+            (one.collect(), Resampling::Without(1), 1e-12),
+            (two.collect(), Resampling::Without(2), 0.1),
+        ] {
+            let found = of(&values, how).unwrap();
+            let off = found.standard_error / expected - 1.0;
+            assert!(off.abs() < error, "{how:?} {off}");
+            let (low, high) = found.estimate.ends();
+            // Student's t of 59.
+            let half = 2.000_995 * found.standard_error;
+            assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-6);
         }
-        let all = Subsampling::new("test", 0, n, n);
-        assert!(all.interval(1.0, &[1.0, 2.0], &[], 0.95).is_none());
+        let mut some = drawn.clone();
+        some[..799].fill(f64::NAN);
+        let found = of(&some, Resampling::Bootstrap).unwrap();
+        assert_eq!((found.used, found.replicates), (7201, 8000));
+        some[799] = f64::INFINITY;
+        assert!(of(&some, Resampling::Bootstrap).is_none());
+        assert!(of(&[1.0; 9], Resampling::Bootstrap).is_none());
+        assert!(of(&[], Resampling::Bootstrap).is_none());
+    }
+
+    /// Cells that leave a region bias their share; the ends lie in the
+    /// range.
+    #[test]
+    fn the_bias_of_a_share_is_taken_off() {
+        let records = Clusters::singletons(9);
+        let values = [0.5, 0.6, 0.7, 0.8];
+        let of = |range| {
+            let how = Resampling::Bootstrap;
+            let found = records.estimate(0.9, &values, how, range, 0.5);
+            found.unwrap().estimate.ends()
+        };
+        let (low, high) = of(Range::Real);
+        let (own_low, own_high) = of(Range::Share);
+        assert!((0.5 * (low + high) - 0.9).abs() < 1e-12);
+        // 0.9 - 0.65 above the plain ends; it holds the value.
+        assert_eq!((own_low, own_high), (0.9, 1.0));
+        assert!(low > 0.65 && high < 1.15);
     }
 
     #[test]

@@ -151,7 +151,7 @@ impl Resamples {
         let one = |(k, point): (usize, &f64)| {
             let own: Vec<f64> = of.rows.iter().map(|row| row[k]).collect();
             clusters
-                .inferred(*point, &own, of.how, range, level)
+                .estimate(*point, &own, of.how, range, level)
                 .map_or(Estimate::exact(*point), |found| found.estimate)
         };
         of.points.par_iter().enumerate().map(one).collect()

@@ -80,8 +80,7 @@ pub fn null_band(
 /// Central 95 % of a null band.
 #[must_use]
 pub fn ends(band: &NullBand) -> Option<(f64, f64)> {
-    let band = band.band(1.0 - LEVEL, 0.95)?.estimate;
-    band.interval().map(Interval::ends)
+    band.central(0.95).map(Interval::ends)
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ impl IntervalBasis {
         range: Range,
     ) -> Option<BootstrapEstimate> {
         let how = Resampling::Bootstrap;
-        self.drawn.inferred(value, drawn, how, range, self.level)
+        self.drawn.estimate(value, drawn, how, range, self.level)
     }
 }
 

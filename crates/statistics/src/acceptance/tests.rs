@@ -33,7 +33,10 @@ fn correlation_widens_the_band() {
         .collect();
     let spread = |levels: &[Vec<f64>]| {
         let band = NullBand::simulate(levels, 0.1385, 2000, "t", 1).unwrap();
-        band.band(0.95, 0.95).unwrap().standard_error
+        let shares = Sample::try_new(&band.shares).unwrap();
+        let (low, high) = band.central(0.95).unwrap().ends();
+        assert!(low < high || shares.sum_of_squares() == 0.0);
+        (shares.sum_of_squares() / 1999.0).sqrt()
     };
     // Independent levels: sqrt(0.05 0.95/20) = 0.049; one level: 0.218.
     assert!((spread(&apart) - 0.049).abs() < 0.01);

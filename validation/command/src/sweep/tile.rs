@@ -304,7 +304,7 @@ fn fragility(
         let of = |found: &Option<[f64; 2]>| found.map_or(f64::NAN, |x| x[k]);
         let values: Vec<f64> = replicates.iter().map(of).collect();
         let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
-        let ends = clusters.inferred(of(&found), &values, how, range, 0.95);
+        let ends = clusters.estimate(of(&found), &values, how, range, 0.95);
         ends.map_or([f64::NAN; 2], |found| found.estimate.ends().into())
     };
     let found = found.unwrap_or([f64::NAN; 2]);

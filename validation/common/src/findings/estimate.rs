@@ -48,7 +48,7 @@ impl TryFrom<Keys> for Estimate {
             return Ok(Self::exact(value));
         }
         // The unit of the quantity, not its range, is in the file.
-        Self::beside(value, Interval::try_new(low, high)?, Range::Real)
+        Self::try_new(value, Interval::try_new(low, high)?, Range::Real)
     }
 }
 

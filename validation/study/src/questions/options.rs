@@ -10,7 +10,10 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 use rocking_procedures::fragility::options::{Centre, Recipe};
 use rocking_statistics::bootstrap::Bootstrap;
-use rocking_statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
+use rocking_statistics::resampling::Resampling;
+use rocking_statistics::{
+    Clusters, ExtendedSample, Lognormal, QuantileType, Range,
+};
 
 use self::drawing::RecipeSummary;
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
@@ -145,7 +148,9 @@ fn entries<'a>(
             [f.kolmogorov_distance(&sample), area.unwrap_or(f64::NAN)]
         });
         let interval = |k: usize| {
-            let found = clusters.estimate(distances[k], &drawn[k], 0.95);
+            let of = [Range::Share, Range::NotNegative][k];
+            let (point, how) = (distances[k], Resampling::Bootstrap);
+            let found = clusters.estimate(point, &drawn[k], how, of, 0.95);
             found.map_or((f64::NAN, f64::NAN), |e| e.estimate.ends())
         };
         RecipeFit {

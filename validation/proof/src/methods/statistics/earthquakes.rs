@@ -202,7 +202,7 @@ impl Simulated {
             let drawn: Vec<f64> = drawn.collect();
             let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
             let point = of(&fitted);
-            let found = self.drawn.inferred(point, &drawn, how, range, 0.95);
+            let found = self.drawn.estimate(point, &drawn, how, range, 0.95);
             holds(found.map(|found| found.estimate), &drawn, truth)
         };
         let band = sampled.band(&fitted, &[AT]).points[0].probability;

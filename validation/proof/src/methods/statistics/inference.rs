@@ -176,7 +176,7 @@ impl Trials {
             return percentiles(&values, LEVEL);
         }
         let how = Resampling::Bootstrap;
-        let found = self.drawn.inferred(point, &values, how, range, LEVEL);
+        let found = self.drawn.estimate(point, &values, how, range, LEVEL);
         found.and_then(|found| found.estimate.interval())
     }
 
@@ -282,7 +282,7 @@ impl Trials {
             })
             .collect::<Result<Vec<f64>>>()?;
         let (how, range) = (Resampling::Without(2), Range::Real);
-        let found = self.drawn.inferred(point, &values, how, range, LEVEL);
+        let found = self.drawn.estimate(point, &values, how, range, LEVEL);
         Ok((point, found.and_then(|found| found.estimate.interval())))
     }
 }

@@ -108,7 +108,7 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
             .map(|fit| fit.map_or(f64::NAN, |fit| fit.score(x)))
             .collect();
         let drawn =
-            records.inferred(whole.score(x), &column, how, range, LEVEL);
+            records.estimate(whole.score(x), &column, how, range, LEVEL);
         let (low, high) = drawn.context("no interval")?.estimate.ends();
         let found = match context.wrong {
             Some(WrongModel::KnownDispersion) => {

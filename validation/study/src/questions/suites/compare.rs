@@ -4,8 +4,9 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rocking::ida::Adjust;
 use rocking_statistics::bootstrap::Bootstrap;
+use rocking_statistics::resampling::Resampling;
 use rocking_statistics::two_sample::kolmogorov_smirnov;
-use rocking_statistics::{Clusters, Estimate, ExtendedSample};
+use rocking_statistics::{Clusters, Estimate, ExtendedSample, Range};
 
 use super::row::{Quantiles, QuantityRow, RowGroup};
 use crate::analyses::normalised;
@@ -197,7 +198,9 @@ impl SuitePair {
     }
 
     fn estimate(&self, value: f64, replicates: &[f64]) -> Estimate {
-        let found = self.clusters.estimate(value, replicates, 0.95);
+        let (how, range) = (Resampling::Bootstrap, Range::Real);
+        let found =
+            self.clusters.estimate(value, replicates, how, range, 0.95);
         found.map_or(Estimate::exact(value), |found| found.estimate)
     }
 }

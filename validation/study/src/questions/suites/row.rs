@@ -153,7 +153,7 @@ pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
         let estimate = |k: usize| {
             let value = number(k);
             Interval::try_new(number(k + 1), number(k + 2))
-                .and_then(|ends| Estimate::beside(value, ends, Range::Real))
+                .and_then(|ends| Estimate::try_new(value, ends, Range::Real))
                 .unwrap_or(Estimate::exact(value))
         };
         Some(QuantityRow {

@@ -16,7 +16,6 @@ use rocking_draw::figures::{
 
 const SINGLES: &str = rocking_fixtures::text("speed/singles.csv");
 const MANY: &str = rocking_fixtures::text("speed/throughput.csv");
-const WINDOW_STEP: &str = rocking_fixtures::text("speed/window-step.csv");
 const CONDITIONS: &str = rocking_fixtures::text("speed/conditions.csv");
 
 /// The work that the paper's study is made of.
@@ -75,8 +74,6 @@ pub struct Timings {
     peer: Throughput,
     many: Vec<Throughput>,
     conditions: Vec<(String, String)>,
-    /// Header and rows of a trial.
-    window_step: (Vec<String>, Vec<Vec<String>>),
 }
 
 impl Timings {
@@ -104,7 +101,6 @@ impl Timings {
             singles,
             many,
             conditions: parse(CONDITIONS)?,
-            window_step: table(WINDOW_STEP)?,
         })
     }
 
@@ -138,7 +134,7 @@ impl Timings {
         self.singles.iter().filter(own).collect()
     }
 
-    /// Error against time and work.
+    /// Error against time.
     pub fn figure(&self) -> Figure {
         let series = |x: fn(&Total) -> f64, y: fn(&Total) -> f64| {
             let line = |(label, tool, method, without)| {
@@ -172,12 +168,6 @@ impl Timings {
                 series(|t| t.ratio, |t| t.peak_error),
             ),
             ChartPanel::new(
-                "peak, by work",
-                logarithmic("Taylor polynomials, or derivatives evaluated"),
-                logarithmic(error),
-                series(|t| t.work, |t| t.peak_error),
-            ),
-            ChartPanel::new(
                 "first ten impacts, by time",
                 time(),
                 logarithmic("median error of their times (s)"),
@@ -203,13 +193,13 @@ impl Timings {
                     format!(
                         "Error of the peak and of impact times, and share of \
                          analyses with another number of impacts, against \
-                         processor time and work. {}",
+                         processor time. {}",
                         self.measured_on()
                     ),
                 )
             },
             panels,
-            columns: 2,
+            columns: 3,
         };
         drawing.figure(self.reading())
     }
@@ -394,14 +384,6 @@ fn on_one_thread<'a>(
     work: &str,
 ) -> Option<&'a Throughput> {
     many.iter().find(|t| t.threads == 1 && t.work == work)
-}
-
-/// Header and rows.
-fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let header = reader.headers()?.iter().map(str::to_owned).collect();
-    let rows = reader.deserialize().collect::<Result<_, _>>()?;
-    Ok((header, rows))
 }
 
 fn logarithmic(label: &str) -> ChartAxis {

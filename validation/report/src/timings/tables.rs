@@ -17,35 +17,9 @@ const USES: [(&str, &str); 6] = [
 ];
 
 impl Timings {
-    /// Tools and settings; many analyses; what was tried and not kept.
+    /// Tools and settings; many analyses.
     pub fn tables(&self) -> Vec<PlainTable> {
-        vec![self.tools(), self.throughput(), self.window_step()]
-    }
-
-    fn window_step(&self) -> PlainTable {
-        let (header, rows) = &self.window_step;
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        PlainTable::new(
-            "speed-window-step",
-            "Tried, and not kept: steps of several samples",
-            "Within a window the record is taken as a straight line, and \
-             products of moments of what that leaves out, made once a \
-             record, correct the end of one Taylor step. Errors of the peak \
-             over whole analyses (median, and 90 % are below) of ten \
-             recorded motions, 356 analyses; a step of eight lanes, timed \
-             in a trial of its own, per sample that a window covers (75 to \
-             90 % of those in flight for 4 samples, 51 to 81 % for 8). The \
-             last column is an estimate: the step is 57 % of the time of \
-             the whole analysis, and the rest stays. A single window of 4 \
-             samples holds 1e-11 in nine cases of ten, an analysis does not \
-             where p = 3 or 4. At p = 1, where windows gain most, order 6 \
-             sample by sample is more accurate than both, faster than those \
-             of 4 samples and a tenth slower than those of 8; where p = 3 \
-             or 4, order 7 is faster than both and no less accurate. \
-             Windows would take 60 to 100 MB of tables besides.",
-            &header,
-            rows.clone(),
-        )
+        vec![self.tools(), self.throughput()]
     }
 
     fn tools(&self) -> PlainTable {

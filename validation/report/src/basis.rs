@@ -5,7 +5,7 @@
 use anyhow::Context as _;
 
 use rocking_common::findings::{Findings, SuiteSummary};
-use rocking_common::words::{percent, rounded};
+use rocking_common::words::{capital, percent, rounded, rounded_text};
 use rocking_draw::figures::{DIGITS, Figure, Motions};
 use rocking_study::Study;
 use rocking_study::kept;
@@ -126,6 +126,15 @@ impl<'a> FindingSets<'a> {
         )
     }
 
+    /// What the work on each suite was, and what rounding may have changed.
+    pub fn work(&self) -> Vec<String> {
+        let of = |(name, findings): FindingColumn<'_>| -> Vec<String> {
+            let suites = findings.suites.iter();
+            suites.map(|suite| work_on(&capital(name), suite)).collect()
+        };
+        self.columns().into_iter().flat_map(of).collect()
+    }
+
     /// The figures of the study, each behind that of the recorded suites
     /// where this is kept.
     ///
@@ -159,6 +168,33 @@ impl<'a> FindingSets<'a> {
         }
         Ok(all)
     }
+}
+
+fn work_on(name: &str, suite: &SuiteSummary) -> String {
+    let work = format!(
+        "{name}: {} {} records, {} analyses",
+        suite.records, suite.kind, suite.analyses
+    );
+    if suite.unresolved == 0 {
+        return format!("{work}; double precision tells every one.");
+    }
+    let ends = suite.first_overturnings_reevaluated;
+    format!(
+        "{work}. In {} of them the motion is chaotic, and rounding in double \
+         precision may have changed the peak or the fate. First overturnings \
+         among these, on which capacities rest: {}. Assessed double precision \
+         resolves {}, double-double {}, octuple precision {}, none {}. Wrong \
+         in double precision: {}; the 16, 50 and 84 % overturning intensities \
+         would move by {} at most.",
+        suite.unresolved,
+        ends.all,
+        ends.resolved_by_double,
+        ends.resolved_by_double_double,
+        ends.resolved_by_octuple,
+        ends.unresolved,
+        ends.wrong_in_double,
+        rounded_text(suite.largest_shift_if_flipped)
+    )
 }
 
 fn of_motions(mut figure: Figure, motions: Motions) -> Figure {

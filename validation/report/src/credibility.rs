@@ -6,11 +6,12 @@ use rocking::block::{BlockError, Restitution};
 use crate::evidence::{NOT_RUN, Proof};
 use crate::words::{Factor, Words};
 use rocking_common::findings::{Claim, Findings};
-use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
+use rocking_common::paper::{
+    BLOCKS, GRAVITY_M_S2, RESTITUTION, SLENDERNESSES_RAD, closed_form,
+};
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
 use rocking_statistics::Estimate;
-use rocking_study::measures::without_closed_form;
 use rocking_study::results::StudyResults;
 
 /// Half width of a finding's 90 % interval in standard uncertainties.
@@ -28,6 +29,12 @@ const fn half_unit(unit: f64) -> Option<f64> {
 /// Claims that a ratio is 1.
 const RATIOS: [&str; 4] =
     ["ratios-p1", "ratios-p3-p4", "ratios-at-demand", "adjustment-ratios"];
+
+/// Those of responses on one stripe.
+const CLOSED: [&str; 2] = ["ratios-p1", "ratios-p3-p4"];
+
+/// The slenderness of the effect of these claims, in rad.
+const STOCKIEST: f64 = SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1];
 
 /// A number of ours beside the paper's.
 #[derive(Clone)]
@@ -84,30 +91,23 @@ fn printed() -> Result<Vec<PaperNumber>, BlockError> {
     ])
 }
 
-/// Ratios that the paper says to be 1: the cell that decides.
-fn ratios(results: &StudyResults, claims: &[Claim]) -> Vec<PaperNumber> {
+/// Ratios that the paper says to be 1. Of responses of alpha = 0.25 over
+/// those of 0.10 small rotations have a closed form.
+fn ratios(claims: &[Claim]) -> Vec<PaperNumber> {
     let mut out = Vec::new();
     for claim in claims.iter().filter(|c| RATIOS.contains(&c.id.as_str())) {
-        for result in &claim.results {
-            let Some(cell) = &result.deciding_cell else { continue };
-            let left = result.arm.map_or(Vec::new(), |arm| {
-                without_closed_form(results, result.suite, arm)
-            });
-            let left = left.into_iter().find(|(at, _)| *at == cell.name);
-            out.push(PaperNumber {
-                quantity: format!(
-                    "{} ({}; {})",
-                    claim.measure,
-                    result.place(),
-                    cell.name
-                ),
-                ours: cell.estimate,
+        let known = CLOSED.contains(&claim.id.as_str());
+        out.extend(
+            claim.results.iter().map(|result| PaperNumber {
+                quantity: format!("{} ({})", claim.measure, result.place()),
+                ours: result.estimate,
                 paper: 1.0,
                 rounding: None,
                 records: true,
-                without_closed_form: left.map(|(_, ratio)| ratio),
-            });
-        }
+                without_closed_form: known
+                    .then(|| result.estimate.value() / closed_form(STOCKIEST)),
+            }),
+        );
     }
     out
 }
@@ -125,7 +125,7 @@ pub fn comparison(
         .iter()
         .map(|s| s.work.certainty.largest_shift)
         .fold(0.0, |a: f64, b| if b > a { b } else { a });
-    let compared = [printed()?, ratios(results, claims)].concat();
+    let compared = [printed()?, ratios(claims)].concat();
     Ok(comparison_table(&compared, shift))
 }
 
@@ -155,8 +155,7 @@ fn comparison_table(compared: &[PaperNumber], shift: f64) -> PlainTable {
                   standard uncertainties: of the numerics, by the open \
                   fates, at most; of the input, by the choice of records, \
                   from the 90 % interval over 3.29; of D, by its printed \
-                  digits. Of several cells the one that decides is shown, with \
-                  the interval that holds for all cells at once. Other \
+                  digits. Other \
                   figures of the paper print no number that one could \
                   subtract. Where a small rotation has a closed form, \
                   sin(alpha)/alpha over that of the reference, E is also \

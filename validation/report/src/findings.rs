@@ -1,26 +1,32 @@
-//! Tables of claims: the limits of findings, and what is not judged.
+//! Tables of claims: the paper's own criteria, and what is not judged.
 
 use crate::quantity::rule_text;
 use rocking_common::findings::{Claim, Findings, Kind};
 use rocking_common::table::PlainTable;
 
-/// The limits of the findings and their reasons, each with what it is for.
+/// The paper's rules for its own sample, each with the statements that it
+/// decides.
 pub fn criteria(here: &Findings) -> PlainTable {
     let mut rows: Vec<Vec<String>> = Vec::new();
-    for claim in here.claims.iter().filter(|c| c.kind == Kind::Finding) {
-        let limit = [rule_text(claim), claim.reason.clone()];
-        match rows.iter_mut().find(|row| row[..2] == limit) {
-            Some(row) => row[2] += &format!("; {}", claim.plain),
-            None => rows.push(
-                [&limit[..], std::slice::from_ref(&claim.plain)].concat(),
-            ),
+    for claim in &here.claims {
+        for one in &claim.yardsticks {
+            let rule = [one.words.clone(), rule_text(one)];
+            match rows.iter_mut().find(|row| row[..2] == rule) {
+                Some(row) => row[2] += &format!("; {}", claim.plain),
+                None => {
+                    let plain = std::slice::from_ref(&claim.plain);
+                    rows.push([&rule, plain].concat());
+                }
+            }
         }
     }
-    let header = ["limit", "why there", "what has to lie within it"];
+    let header = ["number of the sample", "seen where it is", "statements"];
     PlainTable::new(
-        "criteria-by-limit",
+        "criteria-by-rule",
         "Acceptance criteria",
-        "Limits of the findings. The tolerance of each declared case stands \
+        "The paper's own criteria, in numbers. Most, and a sentence without a \
+         quantifier: more than half; almost all, the vast majority: at least \
+         90 %; few: below 10 %; curves coincide: within 10 %. The tolerance of each declared case stands \
          with the case in the annex.",
         &header,
         rows,

@@ -5,8 +5,7 @@ use std::collections::BTreeSet;
 use anyhow::{Context as _, bail};
 use serde::Deserialize;
 
-use rocking_common::findings::Claim;
-use rocking_common::paper::ClaimVerdict;
+use rocking_common::findings::{Claim, Seen};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot;
@@ -224,7 +223,7 @@ pub fn table(
             "{met} of {} requirements have executed evidence and no failed \
              case; {by_tests} more rest on tests of the gate alone, whose \
              results are not in these files. A finding is evidence that the \
-             claim was measured, whatever its verdict.",
+             claim was measured, seen or not.",
             rows.len()
         ),
         &header,
@@ -245,10 +244,9 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
         .iter()
         .filter(|claim| r.findings.contains(&claim.id))
         .flat_map(|claim| {
-            claim.results.iter().filter_map(|result| {
-                let verdict = result.by_equivalence?.name();
+            claim.results.iter().map(|result| {
                 let (id, place) = (&claim.id, result.place());
-                Some(format!("{id} ({place}) {verdict}"))
+                format!("{id} ({place}) seen: {}", result.seen)
             })
         })
         .collect();
@@ -274,7 +272,7 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
 }
 
 /// How a requirement stands, in words. A claim that was measured is not one
-/// that holds: its verdicts are counted.
+/// that is seen: its words are counted.
 fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     if !standing.failed.is_empty() {
         return format!("✗ failed: {}", standing.failed.join(", "));
@@ -300,18 +298,18 @@ fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     }
     if !r.findings.is_empty() {
         let own = claims.iter().filter(|c| r.findings.contains(&c.id));
-        let verdicts: Vec<ClaimVerdict> = own
+        let words: Vec<Seen> = own
             .flat_map(|claim| &claim.results)
-            .filter_map(|result| result.by_equivalence)
+            .map(|result| result.seen)
             .collect();
-        let counted = ClaimVerdict::ALL.into_iter().filter_map(|verdict| {
-            let n = verdicts.iter().filter(|v| **v == verdict).count();
-            (n > 0).then(|| format!("{n} {}", verdict.name()))
+        let counted = Seen::ALL.into_iter().filter_map(|word| {
+            let n = words.iter().filter(|own| **own == word).count();
+            (n > 0).then(|| format!("{n} {word}"))
         });
         let counted: Vec<String> = counted.collect();
         parts.push(match counted.as_slice() {
-            [] => "stated, not judged".into(),
-            some => format!("measured: {}", some.join(", ")),
+            [] => "stated, not measured".into(),
+            some => format!("measured, seen: {}", some.join(", ")),
         });
     }
     parts.join("; ")

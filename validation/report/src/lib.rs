@@ -13,10 +13,10 @@ pub mod output;
 mod page;
 mod quantity;
 pub mod scored;
+mod sentences;
 pub mod speed;
 pub mod stale;
 pub mod timings;
-mod verdicts;
 mod words;
 
 #[cfg(test)]

@@ -11,12 +11,12 @@ use crate::basis::{self, FindingSets};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
 use crate::page::{Page, TITLE, annexes, html};
-use crate::quantity::{rule_text, value_text};
+use crate::quantity::{count_text, effect_text};
 use crate::scored;
 use crate::timings::Timings;
 use crate::words::words;
 use rocking_common::files::{SUMS, sums};
-use rocking_common::findings::{Claim, Findings};
+use rocking_common::findings::{Claim, Exists, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, Table, number};
@@ -288,24 +288,25 @@ pub fn answers_text(
     Ok([done + "\n"].into_iter().chain(rows).collect())
 }
 
-/// The findings among the claims as a table for people.
+/// The findings among the claims as a table for people: whether each is seen
+/// and exists, its effect, and the numbers by which it is seen or not.
 pub fn claims_table(claims: &[Claim]) -> String {
     let mut out = String::new();
     for claim in claims {
         for result in &claim.results {
-            let Some(verdict) = result.by_equivalence else { continue };
-            let criterion = result.by_criterion.map_or(String::new(), |v| {
-                format!("; by the paper's criterion {}", v.name())
-            });
+            let both = claim.yardsticks.iter().zip(&result.counts);
+            let counts: Vec<String> =
+                both.map(|(y, n)| count_text(y, n)).collect();
             // Writing to a string cannot fail.
             let _ = writeln!(
                 out,
-                "{:<13}  {:<26} {:<17} {:<32} limit: {}{criterion}",
-                verdict.name(),
+                "{:<13} {:<13} {:<26} {:<17} {:<32} {}",
+                result.seen,
+                result.exists.map_or("-", Exists::name),
                 claim.id,
                 result.place(),
-                value_text(claim, result),
-                rule_text(claim),
+                effect_text(claim, result).whole(),
+                counts.join("; "),
             );
         }
     }

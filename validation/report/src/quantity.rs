@@ -1,14 +1,23 @@
-//! Values of findings as people read them, each in the unit of its limit.
+//! Numbers of findings as people read them, each in its unit: with the digits
+//! that decide as all digits do.
 
 use rocking_common::findings::{
-    Claim, ClaimResult, DecisionPower, Quantifier, Region, Unit,
+    Claim, ClaimResult, NoEffect, Region, SampleCount, StatedEffect, Unit,
+    Yardstick,
 };
-use rocking_common::words::{rounded, rounded_text};
 use rocking_statistics::Estimate;
+
+/// Digits beyond which no number is printed.
+const MOST_DECIMALS: usize = 12;
+
+/// The half-width of an interval over the unit of its last digit, at most.
+/// Ends of a bootstrap of 2,000 draws scatter by 1/63 of it, which is less
+/// than half of that unit.
+const UNITS: f64 = 30.0;
 
 /// How a number is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum ValueScale {
+pub enum ValueScale {
     /// As it is.
     Plain,
     /// In per cent.
@@ -19,31 +28,42 @@ enum ValueScale {
     Change,
 }
 
-/// How numbers are shown that are held against `region`. Ratios with limits
-/// that lie as far above 1 as below are shown as a change, and small
-/// differences in per cent.
-fn scale(unit: Unit, region: Option<Region>) -> ValueScale {
-    match (unit, region) {
-        (Unit::Share, _) => ValueScale::Percent,
-        (Unit::Points, _) => ValueScale::Points,
-        (Unit::One, Some(Region::Within(a, b)))
-            if (a + b - 2.0).abs() < 1e-9 =>
-        {
-            ValueScale::Change
-        }
-        (Unit::One, Some(Region::Below(x) | Region::Above(x))) if x < 0.5 => {
-            ValueScale::Percent
-        }
-        _ => ValueScale::Plain,
-    }
-}
-
 impl ValueScale {
-    fn of(self, x: f64) -> f64 {
+    /// The scale of a unit.
+    fn of(unit: Unit) -> Self {
+        match unit {
+            Unit::Share => Self::Percent,
+            Unit::Points => Self::Points,
+            _ => Self::Plain,
+        }
+    }
+
+    /// The scale of an effect: of a ratio that is said to be 1, or another
+    /// number, its change.
+    fn of_effect(unit: Unit, none: Option<NoEffect>) -> Self {
+        use StatedEffect::{Differs, Nothing};
+        match (unit, none) {
+            (
+                Unit::One,
+                Some(NoEffect { value: 1.0, says: Nothing | Differs }),
+            ) => Self::Change,
+            _ => Self::of(unit),
+        }
+    }
+
+    fn shown(self, x: f64) -> f64 {
         match self {
             Self::Plain => x,
             Self::Percent | Self::Points => 100.0 * x,
             Self::Change => 100.0 * (x - 1.0),
+        }
+    }
+
+    fn back(self, shown: f64) -> f64 {
+        match self {
+            Self::Plain => shown,
+            Self::Percent | Self::Points => shown / 100.0,
+            Self::Change => 1.0 + shown / 100.0,
         }
     }
 
@@ -55,188 +75,168 @@ impl ValueScale {
         }
     }
 
-    fn number(self, x: f64) -> String {
-        match self {
-            // A ratio near 1 needs its third digit.
-            Self::Plain if x.is_finite() => rounded(x, 3).to_string(),
-            Self::Change if x > 1.0 && x.is_finite() => {
-                format!("+{}", number(self.of(x)))
-            }
-            _ => number(self.of(x)),
+    /// Decimals with which the largest of these numbers has three digits; two
+    /// where it is a percentage below 10.
+    fn decimals(self, numbers: &[f64]) -> usize {
+        let sizes = numbers.iter().map(|x| self.shown(*x).abs());
+        let largest = sizes.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if largest == 0.0 {
+            return 0;
+        }
+        let few = self != Self::Plain && largest < 10.0;
+        let first = libm::floor(libm::log10(largest)) as i32;
+        let decimals = if few { 1 - first } else { 2 - first };
+        usize::try_from(decimals).unwrap_or(0).min(MOST_DECIMALS)
+    }
+
+    /// A number with so many decimals.
+    fn text(self, x: f64, decimals: usize) -> String {
+        if x.is_infinite() {
+            return if x > 0.0 { "infinite" } else { "-infinite" }.into();
+        }
+        let text = format!("{:.decimals$}", self.shown(x));
+        let digits = text.trim_start_matches('-');
+        match digits.contains(|c: char| ('1'..='9').contains(&c)) {
+            // No negative zero.
+            false => digits.into(),
+            true if self == Self::Change && x > 1.0 => format!("+{text}"),
+            true => text,
         }
     }
+
+    /// Decimals from these on with which printed numbers decide as they do
+    /// themselves.
+    fn deciding<T: PartialEq>(
+        self,
+        from: usize,
+        numbers: &[f64],
+        decide: impl Fn(f64) -> T,
+    ) -> usize {
+        let decides = |decimals: &usize| {
+            numbers.iter().filter(|x| x.is_finite()).all(|&x| {
+                let printed = format!("{:.decimals$}", self.shown(x));
+                let printed = printed.parse().map_or(x, |y| self.back(y));
+                decide(printed) == decide(x)
+            })
+        };
+        (from..MOST_DECIMALS).find(decides).unwrap_or(MOST_DECIMALS)
+    }
 }
 
-/// Two or three digits that matter; below 0.01 only that it is.
-pub fn number(x: f64) -> String {
-    if x.is_nan() {
-        return "none".into();
-    }
-    if x.is_infinite() {
-        return if x > 0.0 { "infinite".into() } else { "-infinite".into() };
-    }
-    let digits = if x.abs() < 10.0 { 2 } else { 3 };
-    let x = rounded((1e2 * x).round() / 1e2, digits);
-    // No negative zero.
-    if x == 0.0 { "0".into() } else { x.to_string() }
+/// An estimate as value with unit, and interval in brackets.
+pub struct EstimateText {
+    /// `12 %`.
+    pub value: String,
+    /// ` (8 to 17)`; empty without an interval.
+    pub interval: String,
 }
 
-fn text(estimate: &Estimate, scale: ValueScale) -> String {
-    if estimate.value().is_nan() {
+impl EstimateText {
+    /// The text of an estimate; with `limit`, as many digits as show on which
+    /// side of it an end lies.
+    pub fn of(
+        estimate: &Estimate,
+        scale: ValueScale,
+        limit: Option<f64>,
+    ) -> Self {
+        let value = estimate.value();
+        if value.is_nan() {
+            return Self { value: "no data".into(), interval: String::new() };
+        }
+        let Some(interval) = estimate.interval() else {
+            let decimals = scale.decimals(&[value]);
+            let value = shortened(scale.text(value, decimals)) + scale.unit();
+            return Self { value, interval: String::new() };
+        };
+        let (low, high) = interval.ends();
+        let halves =
+            [low, high].map(|x| (scale.shown(x) - scale.shown(value)).abs());
+        let half =
+            halves.into_iter().filter(|x| x.is_finite()).fold(0.0, f64::max);
+        let by_half = libm::floor(libm::log10(UNITS / half));
+        let by_value = scale.decimals(&[value, low, high]);
+        let decimals = by_half.clamp(0.0, by_value as f64) as usize;
+        let decimals = match limit {
+            Some(limit) => scale
+                .deciding(decimals, &[low, high], |x| x.partial_cmp(&limit)),
+            None => decimals,
+        };
+        let [value, low, high] =
+            [value, low, high].map(|x| scale.text(x, decimals));
+        Self {
+            value: value + scale.unit(),
+            interval: format!(" ({low} to {high})"),
+        }
+    }
+
+    /// Both.
+    pub fn whole(self) -> String {
+        self.value + &self.interval
+    }
+}
+
+/// A number without zeros behind its last digit.
+fn shortened(text: String) -> String {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').into(),
+        false => text,
+    }
+}
+
+/// A result's effect with its interval and unit: `12 % (8 to 17)`.
+pub fn effect_text(claim: &Claim, result: &ClaimResult) -> EstimateText {
+    let scale = ValueScale::of_effect(result.unit, claim.no_effect);
+    let limit = claim.no_effect.map(|none| none.value);
+    EstimateText::of(&result.estimate, scale, limit)
+}
+
+/// What a claim says of its effect, in the unit of its results: `above 0`,
+/// `below 1`, `not 0 %`, `0 %`.
+pub fn said_text(claim: &Claim) -> Option<String> {
+    let none = claim.no_effect?;
+    let unit = claim.results.first()?.unit;
+    let scale = ValueScale::of_effect(unit, Some(none));
+    let at = EstimateText::of(&Estimate::exact(none.value), scale, None).value;
+    Some(match none.says {
+        StatedEffect::Above => format!("above {at}"),
+        StatedEffect::Below => format!("below {at}"),
+        StatedEffect::Differs => format!("not {at}"),
+        StatedEffect::Nothing => at,
+    })
+}
+
+/// A number of a sample: `9 % (4 of 47)`.
+pub fn count_text(yardstick: &Yardstick, count: &SampleCount) -> String {
+    let SampleCount { value, of } = *count;
+    if value.is_nan() {
         return "no data".into();
     }
-    estimate.text(scale.unit(), |x| scale.number(x))
-}
-
-/// Whether a claim's value is a share of cells, and its region about one of
-/// them.
-fn of_cells(claim: &Claim) -> bool {
-    let quantifier = claim.quantifier;
-    matches!(quantifier, Some(Quantifier::Most | Quantifier::AlmostAll))
-}
-
-/// A result's value with its interval and unit: `12 % (8 to 17)`.
-pub fn measured_text(claim: &Claim, result: &ClaimResult) -> String {
-    let region = claim.region.filter(|_| !of_cells(claim));
-    text(&result.estimate, scale(result.unit, region))
-}
-
-/// That text; where the limit is about one cell of many, it is the share of
-/// the cells within it, and their number follows.
-pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
-    let text = measured_text(claim, result);
-    match &result.cells {
-        Some(cells) if of_cells(claim) && cells.deciding > 0 => format!(
-            "{text}, {}/{} cells",
-            cells.deciding,
-            cells.deciding + cells.too_few
-        ),
-        _ => text,
+    let scale = ValueScale::of(yardstick.unit);
+    let from = scale.decimals(&[value]);
+    let decides = |x| yardstick.holds.holds(x);
+    let decimals = scale.deciding(from, &[value], decides);
+    let text = shortened(scale.text(value, decimals)) + scale.unit();
+    match of {
+        Some(n) => format!("{text} ({:.0} of {n})", value * n as f64),
+        None => text,
     }
 }
 
-/// The number of a cell of a claim, in the unit of the claim's limit.
-pub fn cell_text(claim: &Claim, value: &Estimate) -> String {
-    text(value, scale(Unit::One, claim.region))
-}
-
-/// Where a claim's values have to lie: `-5 to +5 %, in every cell`; "most"
-/// is more than half.
-pub fn rule_text(claim: &Claim) -> String {
-    let (Some(quantifier), Some(region)) = (claim.quantifier, claim.region)
-    else {
-        return String::new();
-    };
-    let unit = match of_cells(claim) {
-        true => Unit::One,
-        false => claim.results.first().map_or(Unit::One, |r| r.unit),
-    };
-    let scale = scale(unit, Some(region));
-    let (number, unit) = (|x| scale.number(x), scale.unit());
-    let limits = match region {
-        Region::Within(a, b) => {
-            format!("{} to {}{unit}", number(a), number(b))
+/// Where the number of a yardstick lies if a statement is seen: `above 50 %`,
+/// `at least 90 %`.
+pub fn rule_text(yardstick: &Yardstick) -> String {
+    let scale = ValueScale::of(yardstick.unit);
+    let number = |x| EstimateText::of(&Estimate::exact(x), scale, None).value;
+    match yardstick.holds {
+        Region::Within(a, b) if a == b => number(a),
+        Region::Within(a, 1.0) if yardstick.unit == Unit::Share => {
+            format!("at least {}", number(a))
         }
-        Region::Below(x) => format!("below {}{unit}", number(x)),
-        Region::Above(x) => format!("above {}{unit}", number(x)),
-    };
-    match quantifier {
-        Quantifier::One => limits,
-        Quantifier::All => format!("{limits}, in every cell"),
-        Quantifier::AlmostAll => format!("{limits}, in 90 % of cells"),
-        Quantifier::Most => format!("{limits}, in most cells"),
+        Region::Within(a, b) => format!("{} to {}", number(a), number(b)),
+        Region::Below(x) => format!("below {}", number(x)),
+        Region::Above(x) => format!("above {}", number(x)),
     }
-}
-
-/// What a suite like this one is able to decide.
-fn power_text(power: DecisionPower) -> String {
-    let share = number(100.0 * power.probability);
-    let times = if power.times.is_finite() {
-        format!("{} times as many motions decide", number(power.times))
-    } else {
-        "100 times as many motions do not decide".into()
-    };
-    format!(
-        "power: were the value true, {share} % of such suites decide; {times} \
-         in 80 %"
-    )
-}
-
-/// What stands beside a result: cells, the deciding one, details, how the
-/// interval was made, and power.
-pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
-    let mut remarks = Vec::new();
-    match &result.cells {
-        Some(cells) => remarks.push(format!(
-            "{} of {} cells shown inside, {} refuted{}",
-            cells.inside,
-            cells.deciding,
-            cells.outside,
-            match cells.too_few {
-                0 => String::new(),
-                few => format!(", {few} with too few records"),
-            }
-        )),
-        None => remarks.push(result.at.clone()),
-    }
-    if let Some(cell) = &result.deciding_cell {
-        let value = cell_text(claim, &cell.estimate);
-        remarks.push(format!("deciding: {}, {value}", cell.name));
-    } else if result.cells.is_some() {
-        remarks.push(format!("deciding: {}", result.at));
-    }
-    for detail in &result.details {
-        let number = detail.estimate.text("", rounded_text);
-        remarks.push(format!("{}: {number}", detail.name));
-    }
-    if let Some(interval) = result.interval {
-        remarks.push(format!("interval: {}", interval.words()));
-    }
-    remarks.extend(result.power.map(power_text));
-    remarks
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use rocking_statistics::{Interval, Range};
-
-    #[test]
-    fn values_carry_the_unit_of_their_limit() {
-        let text = |unit, region, x, interval: Option<(f64, f64)>| {
-            let estimate = interval.map_or(Estimate::exact(x), |(a, b)| {
-                let interval = Interval::try_new(a, b).unwrap();
-                Estimate::try_new(x, interval, Range::Real).unwrap()
-            });
-            text(&estimate, scale(unit, region))
-        };
-        let (share, one) = (Unit::Share, Unit::One);
-        let ends = Some((0.95, 1.041));
-        let same = Some(Region::Within(0.9, 1.1));
-        assert_eq!(text(one, same, 1.0131, ends), "+1.3 % (-5 to +4.1)");
-        assert_eq!(text(share, None, 0.272, None), "27.2 %");
-        // A difference of shares is no share, a distance no percentage.
-        let (points, distance) = (Unit::Points, Unit::Distance);
-        let (above, wide) = (Some(Region::Above(0.1)), Some((-0.913, 0.406)));
-        let found = text(points, above, -0.25, wide);
-        assert_eq!(found, "-25 points (-91.3 to 40.6)");
-        let above = Some(Region::Above(0.05));
-        assert_eq!(text(distance, above, 0.0143, None), "0.0143");
-        let below = Some(Region::Below(0.05));
-        assert_eq!(text(one, below, 0.006_29, None), "0.63 %");
-        let wide = Some(Region::Within(0.74, 1.35));
-        assert_eq!(text(one, wide, 1.2087, None), "1.21");
-        assert_eq!(text(one, same, f64::NAN, None), "no data");
-        let open = Some((f64::NEG_INFINITY, f64::INFINITY));
-        let open = text(one, same, 1.2, open);
-        assert_eq!(open, "+20 % (-infinite to infinite)");
-    }
-
-    #[test]
-    fn numbers_have_digits_that_matter_and_no_powers() {
-        let all = [0.0, -1e-9, 0.0046, 7.3575, 27.204, 118.2, 1e-20];
-        let texts = all.map(number);
-        assert_eq!(texts, ["0", "0", "0", "7.4", "27.2", "118", "0"]);
-        assert_eq!(number(f64::INFINITY), "infinite");
-    }
-}
+mod tests;

@@ -18,7 +18,7 @@ use crate::head::{self, Signatures};
 use crate::ledger::requirements;
 use crate::output::{self, FINDINGS, Files};
 use crate::page::limits_of;
-use crate::quantity::measured_text;
+use crate::quantity::effect_text;
 use crate::words::words;
 use rocking_common::curves::Execution;
 use rocking_common::files::SUMS;
@@ -33,6 +33,16 @@ use rocking_study::certainty::Certainty;
 use rocking_study::findings::set_aside as findings_of;
 use rocking_study::results::StudyResults;
 use rocking_study::runs::{ChainWork, Setup};
+
+/// The findings of the committed report.
+pub fn committed() -> Findings {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../reports/data/findings.json"
+    );
+    let text = std::fs::read_to_string(path).expect("findings");
+    Findings::parse(&text).expect("form")
+}
 
 /// The plan whose settings kept results have.
 fn plan(way: Execution) -> Plan {
@@ -280,7 +290,7 @@ fn numbers(findings: &Findings) -> BTreeSet<String> {
     let claims = findings.claims.iter();
     let results = claims.flat_map(|c| c.results.iter().map(move |r| (c, r)));
     let bounded = results.filter(|(_, r)| r.estimate.interval().is_some());
-    let texts = bounded.map(|(c, r)| measured_text(c, r));
+    let texts = bounded.map(|(c, r)| effect_text(c, r).whole());
     let suites = findings.suites.iter();
     let suites =
         suites.flat_map(|s| [s.analyses.to_string(), s.sha256.clone()]);
@@ -390,14 +400,13 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let findings = Findings::parse(&text).expect("findings");
     assert_eq!(findings.text(), text);
     figure_18_is_about_its_claim(&findings, &page);
-    // Every finding is judged where it has an interval, and nowhere else.
+    // Every finding has results, and each a number for each yardstick.
     for claim in &findings.claims {
         let finding = claim.kind == Kind::Finding;
         assert_eq!(claim.results.is_empty(), !finding, "{}", claim.id);
         for result in &claim.results {
-            let known = result.estimate.interval().is_some();
-            let judged = result.by_equivalence.is_some();
-            assert_eq!(judged, known, "{}, {}", claim.id, result.place());
+            let (found, all) = (result.counts.len(), claim.yardsticks.len());
+            assert_eq!(found, all, "{}, {}", claim.id, result.place());
         }
     }
     // An identity names a case that there is.

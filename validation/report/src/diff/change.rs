@@ -10,7 +10,7 @@ use super::number::NumberChange;
 /// What two sets of results say differently.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Difference {
-    /// Number of changes that are relevant: of answers, verdicts, settings
+    /// Number of changes that are relevant: of answers, findings, settings
     /// and records, of numbers beyond the smallest effect of interest or
     /// their tolerance, and of what is on one side only.
     pub relevant: usize,
@@ -40,8 +40,8 @@ pub enum Subject {
     Answer,
     /// An answer that stays, with its words and numbers.
     Wording,
-    /// A verdict on a claim.
-    Verdict,
+    /// Whether a claim is seen, or its effect exists.
+    Finding,
     /// The verdict on a declared case.
     Case,
     /// A number.
@@ -66,9 +66,10 @@ pub struct Change {
     pub new: Option<String>,
     /// Whether it is more than words, or a move within the limit.
     pub relevant: bool,
-    /// Whether a verdict went from confirmed to not confirmed or back.
+    /// Whether a word on a claim went from yes to no or the opposite, or
+    /// back.
     pub opposite: bool,
-    /// How the number moved, or that under the verdict.
+    /// How the number moved, or that under the word.
     pub moved: Option<NumberChange>,
     /// Why one side lacks it, where that is known.
     pub why: Option<String>,

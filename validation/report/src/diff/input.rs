@@ -7,14 +7,14 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
 use rocking_common::files::{SUMS, is_whole};
-use rocking_common::findings::{Effect, Findings};
+use rocking_common::findings::{Effect, Findings, Seen};
 use rocking_common::json::{Extended, extended};
 use rocking_proof::verdict::snapshot::{self, QuantityResult};
 
 use super::number::LAST_DIGIT;
 use crate::answers::answers;
 use crate::output::{FINDINGS, PAGE};
-use crate::verdicts::first_arm;
+use crate::sentences::first_arm;
 
 /// Names of the files that can be compared.
 pub(super) const NAMES: [&str; 2] = ["findings.json", "validation.json"];
@@ -127,7 +127,7 @@ fn tree(findings: &Findings) -> anyhow::Result<Value> {
     let mut tree = serde_json::to_value(findings)?;
     named("findings", &mut tree)?;
     let answers = answers(findings)?.into_iter().map(|own| {
-        let answer = json!({ "lead": own.lead, "sentence": own.answer });
+        let answer = json!({ "lead": own.lead.map(Seen::name), "sentence": own.answer });
         (own.question, answer)
     });
     tree["answers"] = Value::Object(answers.collect());

@@ -5,15 +5,17 @@ use serde::Serialize;
 use rocking_common::findings::{Effect, Unit};
 use rocking_common::words::rounded;
 use rocking_statistics::Estimate;
-use rocking_study::inference::LEAST_DECIDING;
 
 /// Unit of the ninth significant digit, relative: files have no more.
 pub const LAST_DIGIT: f64 = 1e-8;
 
+/// Records below which a move is a matter of chance first.
+const LEAST: usize = 30;
+
 /// A number of both results.
 pub struct NumberPair {
-    /// What it may move by before that matters; none of what a verdict or a
-    /// share beside it judges.
+    /// What it may move by before that matters; none of what nobody decides
+    /// by.
     pub effect: Option<Effect>,
     /// Its unit.
     pub unit: Unit,
@@ -99,10 +101,10 @@ impl NumberChange {
     }
 
     /// What moves are sorted by, the highest first: whether there are
-    /// records enough to decide anything, then the change over its
+    /// records enough, then the change over its
     /// uncertainty or, where none is known, over the limit.
     pub fn weight(&self) -> (bool, u64) {
-        let few = self.n.iter().flatten().any(|n| *n < LEAST_DECIDING);
+        let few = self.n.iter().flatten().any(|n| *n < LEAST);
         let size = self.change_over_uncertainty;
         // Positive numbers are ordered as their bits are.
         (!few, size.unwrap_or(self.change_over_limit).to_bits())

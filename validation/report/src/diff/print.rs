@@ -38,13 +38,13 @@ impl Difference {
     /// What changed, the cause first, in a few sentences.
     fn head(&self) -> Vec<String> {
         let answers = self.count(&[Subject::Answer, Subject::Wording]);
-        let [verdicts, cases, numbers] =
-            [Subject::Verdict, Subject::Case, Subject::Number]
+        let [findings, cases, numbers] =
+            [Subject::Finding, Subject::Case, Subject::Number]
                 .map(|kind| self.count(&[kind]));
         if self.identical {
             return vec![format!(
-                "Identical: {answers} answers, {} verdicts, {numbers} numbers.",
-                verdicts + cases
+                "Identical: {answers} answers, {findings} words on claims, \
+                 {cases} cases, {numbers} numbers."
             )];
         }
         let mut out = vec![self.cause()];
@@ -61,10 +61,10 @@ impl Difference {
                 some(self.changes_of(Subject::Wording))
             ));
             let flips =
-                self.changes_of(Subject::Verdict).filter(|c| c.is_common());
+                self.changes_of(Subject::Finding).filter(|c| c.is_common());
             out.push(format!(
-                "Verdicts: {} of {verdicts} flipped, {} from confirmed to not \
-                 confirmed or back.",
+                "Words on claims (seen, exists): {} of {findings} changed, {} \
+                 from yes to no or the opposite, or back.",
                 some(flips.clone()),
                 some(flips.filter(|change| change.opposite))
             ));
@@ -128,7 +128,7 @@ impl Difference {
             ("Settings", settings),
             ("Answers that changed", common(Subject::Answer)),
             ("Answers in which only numbers moved", common(Subject::Wording)),
-            ("Verdicts that flipped", common(Subject::Verdict)),
+            ("Words on claims that changed", common(Subject::Finding)),
             (
                 "Largest single moves (u: change over the half-widths of both \
                  intervals; n: records or ratios behind the value)",

@@ -9,11 +9,11 @@ use super::change::{Change, Difference, Subject};
 use super::input::{bounded, text};
 use super::number::NumberPair;
 use rocking_common::findings::{
-    ClaimResult, Effect, Quantifier, Quantity, Region, RowPlace, SuiteSet,
-    TableRow, Topic, Unit,
+    ClaimResult, Effect, Exists, Quantity, RowPlace, Seen, SuiteSet, TableRow,
+    Topic, Unit,
 };
 use rocking_common::json::Extended;
-use rocking_common::paper::{Arm, ClaimVerdict, LEAST_USABLE};
+use rocking_common::paper::{Arm, LEAST_USABLE};
 use rocking_proof::verdict::snapshot::QuantityResult;
 use rocking_statistics::Estimate;
 
@@ -60,7 +60,7 @@ impl Walk<'_> {
             (
                 ["settings", _]
                 | ["suites", _, "source" | "component_rule"]
-                | ["claims", _, "region" | "quantifier"]
+                | ["claims", _, "yardsticks" | "no_effect"]
                 | ["cases", _, "kind" | "method" | "oracle"]
                 | ["cases", _, "quantities", _, "kind" | "bound" | "values"],
                 _,
@@ -180,55 +180,45 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// Compares the verdicts on a claim, and the value under them.
+    /// Compares the words on a claim, and its effect.
     fn result(&mut self, id: &str, [a, b]: Sides<ClaimResult>) {
         let claim = &self.roots[1]["claims"][id];
-        let region = Option::<Region>::deserialize(&claim["region"]);
-        let all = claim["quantifier"] == serde_json::json!(Quantifier::All);
         let plain = Some(&claim["plain"]).filter(|plain| *plain != "");
         let named = text(plain.or(claim.get("measure")));
         let what = format!("\"{named}\" ({id}), {}", b.place());
         let number = NumberPair {
-            effect: Effect::of_claim(region.unwrap_or_default(), b.unit),
+            effect: Effect::of(b.unit),
             unit: b.unit,
             estimates: [a.estimate, b.estimate],
             n: self.roots.map(|root| records(root, b.suite.name())),
         };
-        // Of "every cell", the value is that of the cell that decides.
-        let is_same = !all || a.at == b.at;
-        let moved = number.moved().filter(|_| is_same);
-        let is_decided = |v: ClaimVerdict| v != ClaimVerdict::Inconclusive;
-        for (by, [old, new], moved) in [
-            ("", [a.by_equivalence, b.by_equivalence], moved),
+        let seen = [a.seen, b.seen];
+        let exists = [a.exists, b.exists];
+        let turned = |seen: &[Seen; 2]| {
+            seen.contains(&Seen::Yes) && seen.contains(&Seen::No)
+        };
+        let against = [Some(Exists::Yes), Some(Exists::Opposite)];
+        for (of, words, opposite, moved) in [
+            ("seen", seen.map(|seen| Some(seen.name())), turned(&seen), None),
             (
-                ", by the paper's criterion",
-                [a.by_criterion, b.by_criterion],
-                None,
+                "exists",
+                exists.map(|exists| Some(exists?.name())),
+                against.iter().all(|word| exists.contains(word)),
+                number.moved(),
             ),
         ] {
-            let lacks = if old.is_none() { &a } else { &b };
-            let few = lacks.cells.is_some() && lacks.estimate.value().is_nan();
-            if old.and(new).is_some() {
-                self.tally(Subject::Verdict);
+            if words[0].and(words[1]).is_some() {
+                self.tally(Subject::Finding);
             }
-            if old != new {
-                let said = [old, new].map(|v| Some(v?.name().to_owned()));
-                let change =
-                    Change::of(Subject::Verdict, what.clone() + by, said);
-                self.out.changes.push(Change {
-                    opposite: [old, new]
-                        .iter()
-                        .all(|v| v.is_some_and(is_decided)),
-                    moved,
-                    why: few.then(|| "no cell with enough records".into()),
-                    ..change
-                });
+            if words[0] != words[1] {
+                let said = words.map(|word| word.map(str::to_owned));
+                let what = format!("{what}, {of}");
+                let change = Change::of(Subject::Finding, what, said);
+                let change = Change { opposite, moved, ..change };
+                self.out.changes.push(change);
             }
         }
-        if is_same && a.by_equivalence.is_some() == b.by_equivalence.is_some()
-        {
-            self.number(what, &number);
-        }
+        self.number(what, &number);
     }
 
     /// Compares the values of a quantity of a case.

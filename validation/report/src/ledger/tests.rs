@@ -136,7 +136,7 @@ fn a_failed_or_missing_case_is_red() {
 }
 
 #[test]
-fn a_claim_that_does_not_hold_is_not_shown_as_passed() {
+fn a_claim_that_is_not_seen_is_not_shown_as_passed() {
     let recorded = crate::basis::recorded();
     let id = "shift-gains-little-pgv";
     let mut claim =
@@ -156,11 +156,11 @@ fn a_claim_that_does_not_hold_is_not_shown_as_passed() {
     let standing = requirement.standing(None, &yes, &yes, &|_| true);
     assert!(standing.is_met());
     claim.results.truncate(1);
-    for (verdict, words) in [
-        (ClaimVerdict::NotConfirmed, "measured: 1 not confirmed"),
-        (ClaimVerdict::Confirmed, "measured: 1 confirmed"),
+    for (seen, words) in [
+        (Seen::No, "measured, seen: 1 no"),
+        (Seen::Yes, "measured, seen: 1 yes"),
     ] {
-        claim.results[0].by_equivalence = Some(verdict);
+        claim.results[0].seen = seen;
         let said = state(&requirement, &standing, &[claim.clone()]);
         assert_eq!(said, words);
     }

@@ -9,7 +9,6 @@ use crate::credibility;
 use crate::evidence::{self, Proof};
 use crate::ledger;
 use crate::scored;
-use crate::verdicts;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
@@ -81,11 +80,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
         ledger::table(proof.map(Proof::results), claims, page.figures)?;
     let mut all = vec![
         Annex {
-            text: basis
-                .columns()
-                .into_iter()
-                .flat_map(verdicts::work)
-                .collect(),
+            text: basis.work(),
             ..Annex::new("blocks", "The blocks", vec![table_1()?]).filed()
         },
         Annex::new(

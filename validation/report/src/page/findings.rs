@@ -1,4 +1,5 @@
-//! The findings: theme by theme, and every result.
+//! The findings: the paper by its own criteria, theme by theme, and every
+//! result.
 
 use maud::{Markup, html};
 
@@ -6,10 +7,13 @@ use super::chapter::{drawings, folded, labels};
 use super::content::Page;
 use crate::basis::FindingColumn;
 use crate::findings::identities;
-use crate::quantity::{remarks, rule_text, value_text};
-use crate::verdicts::{by_theme, first_arm, score};
-use rocking_common::findings::{Claim, ClaimResult, Kind, SuiteSet, Theme};
-use rocking_common::paper::{Arm, ClaimVerdict};
+use crate::quantity::{
+    EstimateText, ValueScale, count_text, effect_text, rule_text, said_text,
+};
+use crate::sentences::{SentenceCounts, SuiteResult, by_suite, by_theme};
+use rocking_common::findings::{
+    Claim, ClaimResult, Detail, Exists, Kind, SuiteSet, Theme,
+};
 use rocking_common::words::capital;
 use rocking_draw::figures::Place;
 use rocking_draw::page::table::{self, joined, scrolled};
@@ -23,6 +27,9 @@ const THEMES: [(Theme, &str); 6] = [
     (Theme::Choices, "theme-choices"),
     (Theme::Beyond, "theme-beyond"),
 ];
+
+/// What stands where there is nothing to say.
+const NOTHING: &str = "\u{2013}";
 
 /// The section.
 pub fn section(page: &Page<'_>) -> Markup {
@@ -41,11 +48,14 @@ pub fn section(page: &Page<'_>) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "A cell shows the value and the 90 % interval that decides: each end \
-         misses in a nominal 5 % (simulated: Coverage, under Method). Where the limit is \
-         about a share of cells, it is that of the cells with 30 records or \
-         more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
-         suites of the first column. Values on all suites and arms, measures and reasons: "
+        "The paper by its own criteria. Seen here: the paper's rule as a \
+         plain number of the sample, on the paper's grid (arm A) where this \
+         was run. Exists: whether the 90 % interval of the effect, by \
+         resampled earthquakes, leaves no effect out: yes, also of an effect \
+         that the sentence denies, or the opposite of what it says. How \
+         large: the effect with that interval, on the finer grid (arm C) where this was \
+         run. Figures are of the suites of the first columns. All suites and \
+         grids: "
         a href="#all-results" { "every result" } "."
     }
 }
@@ -61,45 +71,29 @@ fn counts((name, findings): FindingColumn<'_>) -> Markup {
                     " of " (earthquakes) " earthquakes"
                 }
             }
-            ". Of the paper's sentences, "
-            @let score = score(findings).into_iter();
-            @for (k, (verdict, count)) in score.enumerate() {
-                @if k > 0 { ", " }
-                (count) " " (mark(verdict))
-            }
-            "."
+            ". " (SentenceCounts::of(findings).words())
         }
     }
 }
 
-fn mark(verdict: ClaimVerdict) -> Markup {
-    let (class, sign) = looks(verdict);
+/// A word on a claim behind a sign that stands without colour.
+fn mark(word: &str) -> Markup {
+    let (class, sign) = match word {
+        "yes" => ("verdict yes", "✓"),
+        "no" | "the opposite" => ("verdict no", "✗"),
+        "in part" => ("verdict open", "◐"),
+        "no sign" => ("verdict open", "○"),
+        NOTHING => return html! { (NOTHING) },
+        _ => ("verdict open", "?"),
+    };
     html! {
-        span class=(class) {
-            span aria-hidden="true" { (sign) " " }
-            (verdict.name())
-        }
+        span class=(class) { span aria-hidden="true" { (sign) " " } (word) }
     }
 }
 
-/// The verdict as a sign, its name for those who do not see it.
-fn short(verdict: ClaimVerdict) -> Markup {
-    let (class, sign) = looks(verdict);
-    html! {
-        span class=(class) title=(verdict.name()) {
-            span aria-hidden="true" { (sign) }
-            span.unseen { (verdict.name()) }
-        }
-    }
-}
-
-/// Class, and a sign that stands without colour.
-fn looks(verdict: ClaimVerdict) -> (&'static str, &'static str) {
-    match verdict {
-        ClaimVerdict::Confirmed => ("verdict yes", "✓"),
-        ClaimVerdict::NotConfirmed => ("verdict no", "✗"),
-        ClaimVerdict::Inconclusive => ("verdict open", "?"),
-    }
+/// Whether an effect exists, in a word.
+fn existing(result: &ClaimResult) -> &'static str {
+    result.exists.map_or(NOTHING, Exists::name)
 }
 
 fn about(page: &Page<'_>, theme: Theme, anchor: &str) -> Markup {
@@ -127,57 +121,122 @@ fn claims<'a>(page: &Page<'a>, theme: Theme) -> Vec<&'a Claim> {
     page.basis.here.claims.iter().filter(is_own).collect()
 }
 
-/// The claim as a column has it, with each of its results.
-fn results<'a>(
-    claim: &Claim,
-    (_, findings): FindingColumn<'a>,
-) -> impl Iterator<Item = (&'a Claim, &'a ClaimResult)> {
-    let own = findings.claims.iter().find(|c| c.id == claim.id);
-    own.into_iter().flat_map(|own| own.results.iter().map(move |r| (own, r)))
+/// The claim as a column has it.
+fn own<'a>(claim: &Claim, column: FindingColumn<'a>) -> Option<&'a Claim> {
+    column.1.claims.iter().find(|c| c.id == claim.id)
 }
 
-/// Suites of the columns of a table of findings.
-const SUITES: [SuiteSet; 2] = [SuiteSet::Ordinary, SuiteSet::PulseType];
+/// What a column has on a suite.
+fn on<'a>(
+    claim: &Claim,
+    column: FindingColumn<'a>,
+    suite: SuiteSet,
+) -> Option<(&'a Claim, SuiteResult<'a>)> {
+    let own = own(claim, column)?;
+    let one = by_suite(own).into_iter().find(|one| one.suite == suite)?;
+    Some((own, one))
+}
+
+/// A row of a table of findings: a claim on a suite, with how many rows its
+/// sentence and the claim span where they begin.
+struct FindingRow<'a> {
+    claim: &'a Claim,
+    suite: SuiteSet,
+    sentence: Option<usize>,
+    claim_rows: Option<usize>,
+}
+
+/// The rows of claims of one sentence.
+fn rows<'a>(
+    group: &[&'a Claim],
+    columns: &[FindingColumn<'_>],
+) -> Vec<FindingRow<'a>> {
+    let mut rows = Vec::new();
+    for claim in group {
+        let tested =
+            |suite| columns.iter().any(|own| on(claim, *own, suite).is_some());
+        let suites: Vec<SuiteSet> =
+            SuiteSet::ALL.into_iter().filter(|s| tested(*s)).collect();
+        rows.extend(suites.iter().enumerate().map(|(k, suite)| FindingRow {
+            claim,
+            suite: *suite,
+            sentence: None,
+            claim_rows: (k == 0).then_some(suites.len()),
+        }));
+    }
+    let all = rows.len();
+    rows.iter_mut().take(1).for_each(|row| row.sentence = Some(all));
+    rows
+}
 
 fn findings(page: &Page<'_>, theme: Theme) -> Markup {
-    let claims = claims(page, theme);
     let columns = page.basis.columns();
-    // Claims that share a quotation stand under it.
+    let claims = claims(page, theme);
+    // Claims of one sentence stand under it.
     let groups = claims.chunk_by(|a, b| a.quote == b.quote);
     html! {
         table.cards.findings {
-            caption { span.unseen { "Claims and verdicts." } }
+            caption { span.unseen { "The paper by its own criteria." } }
             thead {
                 tr {
                     th scope="col" rowspan="2" { "The paper's words" }
                     th scope="col" rowspan="2" {
-                        "In plain words, and the limit in practice"
+                        "In plain words, with the paper's criterion and the \
+                         effect"
                     }
-                    @for (name, _) in &columns {
-                        th scope="colgroup" colspan=(SUITES.len()) {
-                            (name)
-                        }
+                    th scope="col" rowspan="2" { "Suite" }
+                    @for (k, (name, _)) in columns.iter().enumerate() {
+                        @let span = if k == 0 { 3 } else { 2 };
+                        th scope="colgroup" colspan=(span) { (name) }
                     }
                 }
                 tr {
-                    @for _ in &columns {
-                        @for suite in SUITES {
-                            th scope="col" { (suite.name()) }
-                        }
+                    @for k in 0..columns.len() {
+                        th scope="col" { "Seen here?" }
+                        th scope="col" { "Exists beyond?" }
+                        @if k == 0 { th scope="col" { "How large" } }
                     }
                 }
             }
             tbody {
-                @for group in groups {
-                    @for (k, one) in group.iter().enumerate() {
-                        tr id={ "finding-" (one.id) } {
-                            @if k == 0 {
-                                th scope="row" rowspan=(group.len()) {
-                                    (quotation(one))
-                                }
-                            }
-                            (finding(page, one))
-                        }
+                @for row in groups.flat_map(|group| rows(group, &columns)) {
+                    (finding(&row, &columns))
+                }
+            }
+        }
+    }
+}
+
+fn finding(row: &FindingRow<'_>, columns: &[FindingColumn<'_>]) -> Markup {
+    let FindingRow { claim, suite, .. } = *row;
+    let id = row.claim_rows.map(|_| format!("finding-{}", claim.id));
+    html! {
+        tr id=[id] {
+            @if let Some(rows) = row.sentence {
+                th scope="row" rowspan=(rows) { (quotation(claim)) }
+            }
+            @if let Some(rows) = row.claim_rows {
+                td data-label="In plain words" rowspan=(rows) {
+                    (statement(claim))
+                }
+            }
+            td data-label="Suite" { (suite.name()) }
+            @for (k, column) in columns.iter().enumerate() {
+                @let found = on(claim, *column, suite);
+                td data-label={ "Seen here, " (column.0) } {
+                    @if let Some((own, one)) = found {
+                        (mark(one.sample.seen.name()))
+                        @if k == 0 { " " (unbroken(&counted(own, one.sample))) }
+                    } @else { (NOTHING) }
+                }
+                td data-label={ "Exists, " (column.0) } {
+                    (mark(found.map_or(NOTHING, |(_, one)| existing(one.effect))))
+                }
+                @if k == 0 {
+                    td data-label="How large" {
+                        @if let Some((own, one)) = found {
+                            (unbroken(&effect_text(own, one.effect).whole()))
+                        } @else { (NOTHING) }
                     }
                 }
             }
@@ -196,83 +255,47 @@ fn quotation(claim: &Claim) -> Markup {
     }
 }
 
-fn finding(page: &Page<'_>, claim: &Claim) -> Markup {
-    let first = first_arm(page.basis.here);
+/// The statement, the paper's rules for its sample, and its effect.
+fn statement(claim: &Claim) -> Markup {
     html! {
-        td data-label="In plain words" {
-            (claim.plain) ": " span.source { (joined(&rule_text(claim))) }
-            @if !claim.criterion.is_empty() {
-                span.source { ". The paper: " (claim.criterion) }
+        (claim.plain)
+        span.source {
+            @for (k, one) in claim.yardsticks.iter().enumerate() {
+                (if k == 0 { ". Seen: " } else { "; " })
+                (one.words) ", " (joined(&rule_text(one)))
             }
-        }
-        @for (k, column) in page.basis.columns().into_iter().enumerate() {
-            @let outcomes =
-                |suite| outcomes(claim, column, first, suite, k == 0);
-            @let both = results(claim, column)
-                .any(|(_, r)| r.suite == SuiteSet::Both);
-            @if both {
-                td data-label=(column.0) colspan=(SUITES.len()) {
-                    (outcomes(SuiteSet::Both))
-                }
-            } @else {
-                @for suite in SUITES {
-                    td data-label={ (column.0) ", " (suite.name()) } {
-                        (outcomes(suite))
-                    }
-                }
+            ". Effect: " (claim.measure)
+            @if let Some(said) = said_text(claim) {
+                "; said: " (joined(&said))
             }
         }
     }
 }
 
-/// What came out on a suite, in the arm that stands among the findings: the
-/// first column has the value, the others the verdict alone.
-fn outcomes(
-    claim: &Claim,
-    column: FindingColumn<'_>,
-    first: Arm,
-    suite: SuiteSet,
-    value: bool,
-) -> Markup {
-    let shown = |r: &ClaimResult| {
-        r.suite == suite && r.arm.is_none_or(|arm| arm == first)
-    };
-    html! {
-        @for (own, one) in results(claim, column).filter(|(_, r)| shown(r)) {
-            @if value {
-                (outcome(own, one, ""))
-            } @else if let Some(verdict) = one.by_equivalence {
-                (short(verdict))
-            } @else {
-                "\u{2013}"
-            }
-        }
-    }
+/// Numbers that break before their brackets alone.
+fn unbroken(text: &str) -> String {
+    joined(text)
+        .replace(" of ", "\u{a0}of\u{a0}")
+        .replace(" to ", "\u{a0}to\u{a0}")
 }
 
-fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
-    html! {
-        div.outcome {
-            @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
-            @if !place.is_empty() { span.source { (place) ": " } }
-            (joined(&value_text(claim, one)))
-            @if let Some(verdict) = one.by_criterion {
-                "; the paper: " (short(verdict))
-            }
-        }
-    }
+/// The numbers by which a result is seen or not.
+fn counted(claim: &Claim, result: &ClaimResult) -> String {
+    let both = claim.yardsticks.iter().zip(&result.counts);
+    let all: Vec<String> = both.map(|(y, n)| count_text(y, n)).collect();
+    all.join("; ")
 }
 
 /// Every result on every claim.
 pub fn every_result(page: &Page<'_>) -> Markup {
     let columns = page.basis.columns();
-    let mut head = vec!["Claim and measure"];
+    let mut head = vec!["Claim and effect"];
     head.extend(columns.iter().map(|(name, _)| name));
     html! {
         @for (theme, _) in THEMES {
             @let question = theme.question();
             (scrolled(&format!("{question}, every result"), html! {
-                table.cards.findings {
+                table.cards.results {
                     caption { span { (question) } }
                     (table::head(&head))
                     tbody {
@@ -290,19 +313,37 @@ fn all_of(claim: &Claim, columns: &[FindingColumn<'_>]) -> Markup {
     html! {
         th scope="row" {
             a href={ "#finding-" (claim.id) } { (claim.id) }
-            p.source {
-                (claim.measure) " (" (claim.blocks)
-                "). Why this limit: " (claim.reason) "."
-            }
+            p.source { (claim.measure) " (" (claim.blocks) ")." }
             @if !claim.note.is_empty() { p.source { (claim.note) } }
         }
         @for column in columns {
             td data-label=(column.0) {
-                @for (own, one) in results(claim, *column) {
-                    (outcome(own, one, &one.place()))
-                    p.source { (remarks(own, one).join("; ")) "." }
+                @if let Some(own) = own(claim, *column) {
+                    @for one in &own.results { (result(own, one)) }
                 }
             }
         }
     }
+}
+
+/// A result with all its numbers.
+fn result(claim: &Claim, one: &ClaimResult) -> Markup {
+    let details: Vec<String> = one.details.iter().map(detail).collect();
+    html! {
+        div.outcome {
+            span.source { (one.place()) ": " }
+            (mark(one.seen.name())) ", " (joined(&counted(claim, one)))
+            "; exists: " (mark(existing(one))) ", "
+            (joined(&effect_text(claim, one).whole()))
+            @if !one.at.is_empty() { span.source { " (" (one.at) ")" } }
+            @if !details.is_empty() {
+                p.source { (joined(&details.join("; "))) "." }
+            }
+        }
+    }
+}
+
+fn detail(of: &Detail) -> String {
+    let number = EstimateText::of(&of.estimate, ValueScale::Plain, None);
+    format!("{}: {}", of.name, number.whole())
 }

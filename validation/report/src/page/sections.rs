@@ -11,7 +11,6 @@ use crate::credibility;
 use crate::evidence::{NOT_RUN, Proof};
 use crate::findings::criteria;
 use crate::head;
-use crate::verdicts;
 use rocking_common::table::PlainTable;
 use rocking_common::words::capital;
 use rocking_draw::figures::Place;
@@ -71,7 +70,7 @@ fn answers(page: &Page<'_>) -> anyhow::Result<Markup> {
     let table = html! {
         table.cards.answers {
             caption {
-                span.unseen { "Questions, and what the verdicts answer." }
+                span.unseen { "Questions, and what the findings answer." }
             }
             (table::head(&head))
             tbody {
@@ -111,7 +110,6 @@ fn scope(page: &Page<'_>) -> Markup {
 
 fn method(page: &Page<'_>) -> Markup {
     let mut paragraphs = page.words.method.clone();
-    paragraphs.push(verdicts::trust(page.basis));
     paragraphs.extend(page.proof.map(|proof| proof.coverage().words()));
     html! {
         (columns(&paragraphs))

@@ -1,5 +1,7 @@
 //! The page of a study without records.
 
+mod printed;
+
 use super::*;
 use crate::basis::{self, FindingSets};
 use crate::evidence::Proof;
@@ -7,6 +9,7 @@ use crate::head::Signatures;
 use crate::tests::on_embedded_suites;
 use crate::timings::Timings;
 use crate::words::words;
+use rocking_common::findings::Findings;
 use rocking_common::paper::Arm;
 use rocking_draw::colour;
 use rocking_draw::figures::Figure;
@@ -35,8 +38,8 @@ struct Names {
     own_suites: bool,
 }
 
-/// The page of a study without records that found what is kept.
-fn page_of(names: Names) -> String {
+/// The page of a study without records that found this.
+fn page_of(names: Names, findings: Findings) -> String {
     let mut results = on_embedded_suites();
     results.ordinary.component_rule = names.rule;
     let table = PlainTable::new(
@@ -57,7 +60,7 @@ fn page_of(names: Names) -> String {
     let study = Study {
         results,
         figures: Vec::new(),
-        findings: basis::recorded(),
+        findings,
         answers: vec![answer],
     };
     let page = Page {
@@ -79,30 +82,35 @@ fn page_of(names: Names) -> String {
     html(&page, &annexes, &PlainTable::default()).expect("page")
 }
 
+/// The page beside what is kept.
+fn page() -> String {
+    page_of(Names::default(), basis::recorded())
+}
+
 /// Writes the page where `ROCKING_FIGURES` says, to be looked at.
 #[test]
 fn writes_it_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    let html = page_of(Names::default());
+    let html = page();
     std::fs::write(format!("{folder}/index.html"), html).unwrap();
 }
 
 #[test]
 fn suites_are_named_without_a_second_article() {
     let names = Names { own_suites: true, ..Names::default() };
-    let html = page_of(names);
+    let html = page_of(names, basis::recorded());
     assert!(html.contains("Your suites, "), "your suites are not named");
     assert!(!html.contains("the your"));
 }
 
 #[test]
 fn same_bytes_twice() {
-    assert_eq!(page_of(Names::default()), page_of(Names::default()));
+    assert_eq!(page(), page());
 }
 
 #[test]
 fn asks_nothing_of_network_or_scripts() {
-    let html = page_of(Names::default());
+    let html = page();
     for word in ["<script", "<link", "@import", "url(", "src="] {
         assert!(!html.contains(word), "{word}");
     }
@@ -118,13 +126,14 @@ fn asks_nothing_of_network_or_scripts() {
 #[test]
 fn hostile_names_stay_text() {
     let name = || "<script>alert(1)</script>\" onload='b()' x=\"&lt;".into();
-    let html = page_of(Names {
+    let names = Names {
         rule: name(),
         signature: Some(name()),
         cell: name(),
         title: name(),
         own_suites: false,
-    });
+    };
+    let html = page_of(names, basis::recorded());
     let escaped = "&lt;script&gt;alert(1)&lt;/script&gt;&quot; onload='b()' \
                    x=&quot;&amp;lt;";
     // The title of a table also names its box.
@@ -134,7 +143,7 @@ fn hostile_names_stay_text() {
 
 #[test]
 fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
-    let html = page_of(Names::default());
+    let html = page();
     let values = |key: &str| -> Vec<String> {
         let parts = html.split(key).skip(1);
         parts.map(|p| p.split('"').next().unwrap().to_owned()).collect()
@@ -152,7 +161,7 @@ fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
 
 #[test]
 fn figures_share_one_style_sheet() {
-    let html = page_of(Names::default());
+    let html = page();
     assert_eq!(html.matches(colour::STYLE).count(), 1);
 }
 

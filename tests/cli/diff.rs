@@ -7,7 +7,7 @@ use rocking_common::files::{SUMS, sums};
 use super::support::{folder, json, refused_for, run};
 
 const FINDINGS: &str = r#"{
-  "schema": 6,
+  "schema": 7,
   "version": "0.1.0",
   "settings": {
     "arms": ["C"], "eta": 0.92, "overturning": "alpha", "refinement_im": 0.0001
@@ -15,21 +15,24 @@ const FINDINGS: &str = r#"{
   "suites": [],
   "claims": [
     {
-      "id": "ratios-p1", "kind": "finding", "theme": "statistics",
+      "id": "quantiles-coincide", "kind": "finding", "theme": "statistics",
       "section": { "number": 4, "shown": { "figure": 7 } },
       "quote": "The same.", "plain": "the same",
       "measure": "median paired ratio",
-      "blocks": "p = 3 and 4", "quantifier": "one",
-      "region": { "within": [0.95, 1.05] }, "reason": "5 %",
-      "criterion": "", "case": "", "note": "",
+      "blocks": "p = 3 and 4",
+      "yardsticks": [
+        { "words": "notches that hold 1", "unit": "share",
+          "holds": { "above": 0.5 } }
+      ],
+      "no_effect": { "value": 1.0, "says": "differs" },
+      "case": "", "note": "",
       "results": [
         {
           "suite": "ordinary", "arm": "C",
-          "value": 1.0, "low": 0.98, "high": 1.02, "unit": "1",
-          "by_criterion": null, "by_equivalence": "confirmed",
-          "at": "p = 3", "interval": "percentile", "cells": null,
-          "deciding_cell": null, "details": [],
-          "p": 0.01, "monte_carlo_error": 0.001
+          "seen": "yes", "counts": [{ "value": 0.75, "of": 4 }],
+          "exists": "yes",
+          "value": 1.1, "low": 1.01, "high": 1.2, "unit": "1",
+          "at": "p = 3", "details": []
         }
       ]
     },
@@ -38,18 +41,8 @@ const FINDINGS: &str = r#"{
       "section": { "number": 3, "shown": "text" },
       "quote": "15.36%.", "plain": "",
       "measure": "1 - eta^2", "blocks": "all 15",
-      "quantifier": null, "region": null, "reason": "",
-      "criterion": "", "case": "block-geometry/restitution", "note": "",
-      "results": [
-        {
-          "suite": "none", "arm": null,
-          "value": 0.1536, "low": null, "high": null, "unit": "1",
-          "by_criterion": null, "by_equivalence": null,
-          "at": "", "interval": null, "cells": null,
-          "deciding_cell": null, "details": [],
-          "p": 0.01, "monte_carlo_error": 0.001
-        }
-      ]
+      "yardsticks": [], "no_effect": null,
+      "case": "block-geometry/restitution", "note": "", "results": []
     }
   ],
   "tables": [
@@ -150,7 +143,7 @@ fn identical_results_say_so() {
 #[test]
 fn the_consequence_comes_first() {
     let changes = [
-        ("\"confirmed\"", "\"not confirmed\""),
+        ("\"seen\": \"yes\"", "\"seen\": \"no\""),
         ("\"eta\": 0.92", "\"eta\": 0.919"),
         ("2.31, \"low\": 2.27, \"high\": 2.3353", "2.6"),
         ("3.3,", "3.3002,"),
@@ -167,12 +160,13 @@ fn the_consequence_comes_first() {
          ordinary +6.3 %).\n",
         "Answers that rest on findings: 1 of 4 changed; only numbers moved in \
          none.\n",
-        "Verdicts: 1 of 1 flipped, 1 from confirmed to not confirmed or back.",
+        "Words on claims (seen, exists): 1 of 2 changed, 1 from yes to no or \
+         the opposite, or back.\n",
         "Declared cases: 1 of 2 verdicts changed.\n",
-        "Numbers: 2 of 6 moved by more than",
-        "Before: Hardly: median rotations differ by 0 %",
-        "  \"the same\" (ratios-p1), ordinary, arm C: confirmed -> not \
-         confirmed\n",
+        "Numbers: 2 of 5 moved by more than",
+        "Before: Hardly, if every impact loses the same share of energy.\n",
+        "  \"the same\" (quantiles-coincide), ordinary, arm C, seen: yes -> \
+         no\n",
         "  case free-rocking/one, peak, value 1 of 1: 0.5 -> 0.6, \
          +0.1\n",
         "  median overturning, PGA/(g tan alpha), ordinary, p = 3, alpha = \
@@ -197,7 +191,7 @@ fn equal_intensities_are_unchanged() {
 
 #[test]
 fn what_is_on_one_side_only_is_named() {
-    let renamed = [("\"ratios-p1\"", "\"ratio\"")];
+    let renamed = [("\"quantiles-coincide\"", "\"ratio\"")];
     let place = sides("presence", &renamed, &[("king/two", "king/three")]);
     let (status, out, error) = run(&place, "diff old new");
     assert_eq!(status, 1);
@@ -207,7 +201,7 @@ fn what_is_on_one_side_only_is_named() {
         lists.split_once("\nOnly in the new results\n").unwrap();
     for (list, names) in [
         (appeared, ["claim ratio\n", "case free-rocking/three\n"]),
-        (vanished, ["claim ratios-p1\n", "case free-rocking/two\n"]),
+        (vanished, ["claim quantiles-coincide\n", "case free-rocking/two\n"]),
     ] {
         for name in names {
             assert!(list.contains(name), "{name}: {out}");
@@ -216,26 +210,16 @@ fn what_is_on_one_side_only_is_named() {
 }
 
 #[test]
-fn a_result_that_lacks_records_says_so() {
-    let few = [
-        (
-            "1.0, \"low\": 0.98, \"high\": 1.02",
-            "null, \"low\": null, \"high\": null",
-        ),
-        ("\"confirmed\"", "null"),
-        (
-            "\"cells\": null",
-            "\"cells\": { \"deciding\": 18, \"inside\": 16, \"outside\": 0, \"too_few\": 1 }",
-        ),
+fn an_effect_that_turns_to_the_opposite_says_so() {
+    let turned = [
+        ("\"exists\": \"yes\"", "\"exists\": \"the opposite\""),
+        ("1.1, \"low\": 1.01, \"high\": 1.2", "0.9, \"low\": 0.8, \"high\": 0.95"),
     ];
-    let place = sides("few", &few, &[]);
-    for (arguments, when) in
-        [("diff old new", "now"), ("diff new old", "before")]
-    {
-        let (_, out, _) = run(&place, arguments);
-        let words = format!("arm C ({when}: no cell with enough records)\n");
-        assert!(out.contains(&words), "{out}");
-    }
+    let place = sides("turned", &turned, &[]);
+    let (_, out, _) = run(&place, "diff old new");
+    let words = "arm C, exists: yes -> the opposite; 1.1 -> 0.9, -18 %";
+    assert!(out.contains(words), "{out}");
+    assert!(out.contains(", 1 from yes to no or the opposite"), "{out}");
 }
 
 #[test]
@@ -316,7 +300,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("cut.json", &FINDINGS[..300], "expected JSON"),
         ("list.json", "[1]", "expected findings of a study"),
         ("other.json", "{\"a\": 1}", "expected findings of a study"),
-        ("first.json", "{\"claims\": []}", "schema 1, expected schema 6"),
+        ("first.json", "{\"claims\": []}", "schema 1, expected schema 7"),
     ];
     for (name, text, _) in files {
         fs::write(place.join(name), text).unwrap();
@@ -327,13 +311,13 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, &format!("diff new {name}"), &[name, words]);
     }
     let flawed = [
-        ("\"confirmed\"", "\"perhaps\"", "one of confirmed, not confirmed"),
-        ("0.98,", "1.03,", "expected rising numbers"),
-        ("0.98,", "null,", "expected rising numbers"),
-        ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
-        ("\"value\": 1.0,", "", "missing field `value` at line 25"),
+        ("\"seen\": \"yes\"", "\"seen\": \"maybe\"", "one of yes, in part"),
+        ("1.01,", "1.21,", "expected rising numbers"),
+        ("1.01,", "null,", "expected rising numbers"),
+        ("\"value\": 1.1", "\"value\": \"one\"", "found \"one\""),
+        ("\"value\": 1.1,", "", "missing field `value` at line"),
         ("\"p_rad_s\": 1.0", "\"p_rad_s\": 3.0", "twice"),
-        ("energy-loss", "ratios-p1", "twice"),
+        ("energy-loss", "quantiles-coincide", "twice"),
     ];
     for (from, to, words) in flawed {
         assert!(FINDINGS.contains(from));

@@ -93,8 +93,7 @@ fn what_changed_between_two_results() {
         ("\"eta\": 0.92", "\"eta\": 0.919"),
         ("2.31, \"low\": 2.27, \"high\": 2.3353", "2.6"),
         ("3.3, \"low\": 3.1, \"high\": 3.5", "3.4"),
-        ("0.1536,", "0.1554,"),
-        ("\"confirmed\"", "\"inconclusive\""),
+        ("\"seen\": \"yes\"", "\"seen\": \"in part\""),
     ];
     let cases = [("\"first\": [0.5]", "\"first\": [0.6]")];
     let place = sides("texts", &findings, &cases);

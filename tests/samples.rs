@@ -86,6 +86,27 @@ fn fragility_tells_intervals_in_rows_and_the_unit() {
     assert_eq!(out["bootstrap"]["remark"], rough);
 }
 
+/// Two values have no interval, and two draws a rough one.
+#[test]
+fn few_values_and_few_draws_are_said() {
+    let files = [("two.txt", "1.5\n2.5\n"), ("few.txt", "1.5\n2\n3.5\n")];
+    let place = with("few", &files);
+    let fit = |file: &str, draws: usize| {
+        let words = "--band 2 --bootstrap";
+        let words = format!("fragility fit --sample {file} {words} {draws}");
+        json(&place, &words)
+    };
+    let out = fit("two.txt", 200);
+    let found = &out["bootstrap"];
+    assert_eq!(found["remark"], "no intervals: 2 records, fewer than 8");
+    assert!(found["dispersion"].is_null() && found["median"].is_null());
+    assert!(out["band"]["points"][0]["low"].is_null(), "{out}");
+    let out = fit("few.txt", 2);
+    let rough = "intervals are rough: 3 records, fewer than 8; 2 draws, fewer than 200";
+    assert_eq!(out["bootstrap"]["remark"], rough);
+    assert_eq!(out["band"]["remark"], rough);
+}
+
 #[test]
 fn equations_are_undefined_with_their_limit() {
     let place = with("equations", &[]);

@@ -213,7 +213,10 @@ fn what_is_on_one_side_only_is_named() {
 fn an_effect_that_turns_to_the_opposite_says_so() {
     let turned = [
         ("\"exists\": \"yes\"", "\"exists\": \"the opposite\""),
-        ("1.1, \"low\": 1.01, \"high\": 1.2", "0.9, \"low\": 0.8, \"high\": 0.95"),
+        (
+            "1.1, \"low\": 1.01, \"high\": 1.2",
+            "0.9, \"low\": 0.8, \"high\": 0.95",
+        ),
     ];
     let place = sides("turned", &turned, &[]);
     let (_, out, _) = run(&place, "diff old new");

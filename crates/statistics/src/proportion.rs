@@ -29,12 +29,12 @@ pub struct Proportion {
     successes: usize,
     trials: usize,
     /// Of trials that are not independent.
-    design: Option<Design>,
+    design: Option<DesignEffect>,
 }
 
 /// What clusters make of trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Design {
+struct DesignEffect {
     /// Number of trials that are worth one independent trial.
     effect: f64,
     /// Degrees of freedom; NaN of a single cluster.
@@ -103,7 +103,7 @@ impl Proportion {
         // Also where nothing varies, and of a single cluster.
         let effect = if effect > 1.0 { effect } else { 1.0 };
         let freedom = clusters.degrees_of_freedom();
-        Ok(Self { design: Some(Design { effect, freedom }), ..found })
+        Ok(Self { design: Some(DesignEffect { effect, freedom }), ..found })
     }
 
     /// Number of trials n.
@@ -147,7 +147,7 @@ impl Proportion {
     pub fn interval(self, level: f64) -> Result<Interval, ProportionError> {
         checked(level)?;
         let mut n = self.trials as f64;
-        if let Some(Design { effect, freedom }) = self.design {
+        if let Some(DesignEffect { effect, freedom }) = self.design {
             let z = normal::quantile(0.5 + 0.5 * level);
             let Some(t) = student(freedom, level) else {
                 return Ok(Range::Share.interval());

@@ -4,7 +4,7 @@
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::scope::{
-    MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
+    COINCIDE, MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
     mean_ratio, ranks, ratios, weighted_mean,
 };
 use super::stripes::{STOCKIEST, conforming, notch_holds_1};
@@ -28,10 +28,6 @@ pub const DEMANDS: [f64; 10] =
 
 /// The quantiles of Figures 8 and 10.
 const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
-
-/// How far apart curves are that lie on each other: the paper prints no
-/// tolerance.
-pub(super) const COINCIDE: f64 = 0.1;
 
 /// Two samples whose quantiles are compared.
 type SamplePair = [RecordRanks; 2];

@@ -30,6 +30,10 @@ pub struct Scope<'a> {
     pub intensity: Intensity,
 }
 
+/// How far apart curves are that lie on each other: the paper prints no
+/// tolerance.
+pub(super) const COINCIDE: f64 = 0.1;
+
 /// What a measure found in a suite.
 pub struct Measured {
     /// The numbers of the sample, one for each yardstick of the claim.

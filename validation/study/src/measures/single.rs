@@ -1,7 +1,6 @@
 //! Section 4, Figures 2 to 5: measures of records one by one.
 
-use super::capacities::COINCIDE;
-use super::scope::{MeasureResult, Measured, Scope, geometric_mean};
+use super::scope::{COINCIDE, MeasureResult, Measured, Scope, geometric_mean};
 use crate::analyses::{Deviation, SingleRecords, SuiteResults};
 use crate::estimates::mean;
 use crate::inference::{Resample, least_counted};

@@ -3,10 +3,9 @@
 
 use libm::log;
 
-use super::capacities::COINCIDE;
 use super::scope::{
-    self, MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
-    weighted_count,
+    self, COINCIDE, MeasureResult, Measured, Scope, compared_blocks,
+    geometric_mean, weighted_count,
 };
 use crate::analyses::StripeDemands;
 use crate::facts::Facts;

@@ -72,9 +72,10 @@ class Estimate(Result):
     """A number with its bootstrap interval."""
 
     point: float
-    low: float
-    high: float
-    standard_error: float
+    low: float | None
+    """None of a number without an interval."""
+    high: float | None
+    standard_error: float | None
     """Of the logarithm, where the number is positive."""
     level: float
     used: int
@@ -427,8 +428,8 @@ class Ranked(Result):
 
     im: str
     median: float
-    dispersion: Estimate | None
-    ratio_to_first: Estimate | None
+    dispersion: Estimate
+    ratio_to_first: Estimate
     slopes: tuple[Slope, ...]
 
 

@@ -191,10 +191,9 @@ impl ObjectAssessment {
     #[must_use]
     pub fn best_im(&self) -> Option<(&str, f64)> {
         let measures = self.ranking.measures.iter();
-        let known = measures.filter_map(|m| {
-            let dispersion = m.dispersion.as_ref()?.estimate.value();
-            Some((m.im.as_str(), dispersion))
-        });
+        let known = measures
+            .map(|m| (m.im.as_str(), m.dispersion.estimate.value()))
+            .filter(|(_, dispersion)| dispersion.is_finite());
         known.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }

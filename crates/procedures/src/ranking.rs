@@ -74,9 +74,9 @@ pub struct MeasureRank {
     /// Median of the capacities, in the unit of the measure.
     pub median: f64,
     /// Dispersion of the capacities: the efficiency, small is good.
-    pub dispersion: Option<BootstrapEstimate>,
-    /// Dispersion over that of the first measure.
-    pub ratio_to_first: Option<BootstrapEstimate>,
+    pub dispersion: BootstrapEstimate,
+    /// Dispersion over the dispersion of the first measure.
+    pub ratio_to_first: BootstrapEstimate,
     /// Slopes of ln(capacity) on each covariate: the sufficiency, a small
     /// p-value is bad.
     pub slopes: Vec<Slope>,
@@ -172,7 +172,11 @@ pub fn rank(
     });
     let basis = IntervalBasis::new(draws, clusters);
     let positive = |value, drawn: &[f64]| {
-        basis.estimate(value, drawn, Range::NotNegative)
+        let found = basis.estimate(value, drawn, Range::NotNegative);
+        found.unwrap_or_else(|| {
+            let (level, drawn) = (basis.level, drawn.len());
+            BootstrapEstimate::without_interval(value, level, drawn)
+        })
     };
     let first = all.first().map_or(f64::NAN, |first| dispersion(first));
     let measure = |(i, candidate): (usize, &CandidateMeasure)| {

@@ -26,6 +26,20 @@ pub struct BootstrapEstimate {
     pub replicates: usize,
 }
 
+impl BootstrapEstimate {
+    /// A value of which so many resamples gave no interval.
+    #[must_use]
+    pub fn without_interval(
+        value: f64,
+        level: f64,
+        replicates: usize,
+    ) -> Self {
+        let estimate = Estimate::exact(value);
+        let standard_error = f64::NAN;
+        Self { estimate, standard_error, level, used: 0, replicates }
+    }
+}
+
 /// Draws with replacement, the same for every statistic that uses them:
 /// blocks and levels stay paired. G of G clusters are drawn, each with all
 /// its records; without clusters n of n records.

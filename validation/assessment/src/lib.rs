@@ -295,10 +295,9 @@ fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
                     " predicts the damage best. It leaves a dispersion of "
                     (short(beta)) "."
                     @for pga in one.ranking.measures.iter().take(1) {
-                        @if let Some(own) = &pga.dispersion
-                            && pga.im != best
-                        {
-                            " PGA leaves " (short(own.estimate.value())) "."
+                        @let beta = pga.dispersion.estimate.value();
+                        @if beta.is_finite() && pga.im != best {
+                            " PGA leaves " (short(beta)) "."
                         }
                     }
                 }

@@ -5,7 +5,6 @@ use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
 use rocking_procedures::Ranking;
 use rocking_records::intensity::{IntensityMeasure, Measures};
 use rocking_score::{Code, Score};
-use rocking_statistics::Estimate;
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Look, Mark,
@@ -137,10 +136,7 @@ pub fn ranking_svg(
     edp: f64,
 ) -> String {
     let rows = &ranking.measures;
-    let none = Estimate::exact(f64::NAN);
-    let beta = rows.iter().map(|row| {
-        row.dispersion.as_ref().map_or(none, |found| found.estimate)
-    });
+    let beta = rows.iter().map(|row| row.dispersion.estimate);
     let names = measures.iter().map(|m| markup::escape(&short(m)));
     let x = ChartAxis::named(names.collect());
     let label = format!("dispersion at EDP {}", edp);

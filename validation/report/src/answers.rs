@@ -344,6 +344,16 @@ fn backed(proof: Option<&Proof>) -> String {
     format!("{cases}; 0 tests on a shaking table are compared")
 }
 
+/// The suites of findings: `86 ordinary of 22 earthquakes`.
+pub(super) fn suites_of(findings: &Findings) -> Vec<String> {
+    let words = |suite: &SuiteSummary| {
+        let of = suite.earthquakes.map(|n| format!(" of {n} earthquakes"));
+        let (records, kind) = (suite.records, suite.kind);
+        format!("{records} {kind}{}", of.unwrap_or_default())
+    };
+    findings.suites.iter().map(words).collect()
+}
+
 /// What was done, in a few sentences.
 pub(super) fn done(basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
@@ -352,12 +362,6 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
         (true, None) => "synthetic ",
         (false, _) => "",
     };
-    let motions = |suite: &SuiteSummary| {
-        let of = suite.earthquakes.map(|n| format!(" of {n} earthquakes"));
-        let (records, kind) = (suite.records, suite.kind);
-        format!("{records} {kind}{}", of.unwrap_or_default())
-    };
-    let motions: Vec<String> = lead.suites.iter().map(motions).collect();
     let analyses = |findings: &Findings| -> u64 {
         findings.suites.iter().map(|s| s.analyses).sum()
     };
@@ -373,7 +377,7 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
     format!(
         "Fifteen blocks rocked under {source}motions, {} ({run}), to check a \
          paper by Lachanas, Vamvatsikos and Dimitrakopoulos [1]. {}",
-        motions.join(" and "),
+        suites_of(lead).join(" and "),
         SentenceCounts::of(lead).words()
     )
 }

@@ -155,14 +155,14 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
             words += &format!(". {start}: {}", named.join("; "));
         }
     }
-    if basis.recorded().is_none() {
-        return words + ".";
+    words += ".";
+    if basis.recorded().is_some() {
+        let (turned, all) = turned(basis.here, lead, own);
+        let other =
+            format!(" Embedded suites: {turned} of {all} results otherwise.");
+        words += &other;
     }
-    let (turned, all) = turned(basis.here, lead, own);
-    format!(
-        "On the recorded suites {words}. On the embedded suites {turned} of \
-         {all} results are seen otherwise."
-    )
+    words
 }
 
 /// How many of these claims are seen otherwise in other findings, suite by

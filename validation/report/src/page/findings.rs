@@ -5,6 +5,7 @@ use maud::{Markup, html};
 
 use super::chapter::{drawings, folded, labels};
 use super::content::Page;
+use crate::answers::suites_of;
 use crate::basis::FindingColumn;
 use crate::findings::identities;
 use crate::quantity::{
@@ -36,7 +37,7 @@ pub fn section(page: &Page<'_>) -> Markup {
     let identities = identities(page.basis.here);
     html! {
         p { (legend()) }
-        @for column in page.basis.columns() { (counts(column)) }
+        p { (counts(page)) }
         @for (theme, anchor) in THEMES { (about(page, theme, anchor)) }
         (folded(
             "true-by-definition",
@@ -48,32 +49,29 @@ pub fn section(page: &Page<'_>) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "The paper by its own criteria. Seen here: the paper's rule as a \
-         plain number of the sample, on the paper's grid (arm A) where this \
-         was run. Exists: whether the 90 % interval of the effect, by \
-         resampled earthquakes, leaves no effect out: yes, also of an effect \
+        "The paper by its own criteria. Seen here: its rule as a plain number \
+         of the sample, on its own grid (arm A) where this was run. Exists: \
+         whether, beyond these records, the 90 % interval of the effect by \
+         resampled earthquakes leaves no effect out: yes, also of an effect \
          that the sentence denies, or the opposite of what it says. How \
-         large: the effect with that interval, on the finer grid (arm C) where this was \
-         run. Figures are of the suites of the first columns. All suites and \
-         grids: "
+         large: the effect with that interval, on the finer grid (arm C) \
+         where this was run. Figures are of the suites of the first columns. \
+         All suites and grids: "
         a href="#all-results" { "every result" } "."
     }
 }
 
-fn counts((name, findings): FindingColumn<'_>) -> Markup {
-    html! {
-        p {
-            (capital(name)) ", "
-            @for (k, suite) in findings.suites.iter().enumerate() {
-                @if k > 0 { " + " }
-                (suite.records) " " (suite.kind)
-                @if let Some(earthquakes) = suite.earthquakes {
-                    " of " (earthquakes) " earthquakes"
-                }
-            }
-            ". " (SentenceCounts::of(findings).words())
+/// The suites, and the counts of those that do not lead.
+fn counts(page: &Page<'_>) -> String {
+    let mut out = String::new();
+    for (k, (name, findings)) in page.basis.columns().iter().enumerate() {
+        let suites = suites_of(findings).join(" + ");
+        out += &format!("{}, {suites}. ", capital(name));
+        if k > 0 {
+            out += &SentenceCounts::of(findings).words();
         }
     }
+    out
 }
 
 /// A word on a claim behind a sign that stands without colour.
@@ -137,52 +135,15 @@ fn on<'a>(
     Some((own, one))
 }
 
-/// A row of a table of findings: a claim on a suite, with how many rows its
-/// sentence and the claim span where they begin.
-struct FindingRow<'a> {
-    claim: &'a Claim,
-    suite: SuiteSet,
-    sentence: Option<usize>,
-    claim_rows: Option<usize>,
-}
-
-/// The rows of claims of one sentence.
-fn rows<'a>(
-    group: &[&'a Claim],
-    columns: &[FindingColumn<'_>],
-) -> Vec<FindingRow<'a>> {
-    let mut rows = Vec::new();
-    for claim in group {
-        let tested =
-            |suite| columns.iter().any(|own| on(claim, *own, suite).is_some());
-        let suites: Vec<SuiteSet> =
-            SuiteSet::ALL.into_iter().filter(|s| tested(*s)).collect();
-        rows.extend(suites.iter().enumerate().map(|(k, suite)| FindingRow {
-            claim,
-            suite: *suite,
-            sentence: None,
-            claim_rows: (k == 0).then_some(suites.len()),
-        }));
-    }
-    let all = rows.len();
-    rows.iter_mut().take(1).for_each(|row| row.sentence = Some(all));
-    rows
-}
-
 fn findings(page: &Page<'_>, theme: Theme) -> Markup {
     let columns = page.basis.columns();
-    let claims = claims(page, theme);
-    // Claims of one sentence stand under it.
-    let groups = claims.chunk_by(|a, b| a.quote == b.quote);
     html! {
         table.cards.findings {
             caption { span.unseen { "The paper by its own criteria." } }
             thead {
                 tr {
-                    th scope="col" rowspan="2" { "The paper's words" }
                     th scope="col" rowspan="2" {
-                        "In plain words, with the paper's criterion and the \
-                         effect"
+                        "The paper says; its criterion; the effect"
                     }
                     th scope="col" rowspan="2" { "Suite" }
                     @for (k, (name, _)) in columns.iter().enumerate() {
@@ -193,75 +154,84 @@ fn findings(page: &Page<'_>, theme: Theme) -> Markup {
                 tr {
                     @for k in 0..columns.len() {
                         th scope="col" { "Seen here?" }
-                        th scope="col" { "Exists beyond?" }
+                        th scope="col" { "Exists?" }
                         @if k == 0 { th scope="col" { "How large" } }
                     }
                 }
             }
             tbody {
-                @for row in groups.flat_map(|group| rows(group, &columns)) {
-                    (finding(&row, &columns))
+                @for claim in claims(page, theme) {
+                    (finding(claim, &columns))
                 }
             }
         }
     }
 }
 
-fn finding(row: &FindingRow<'_>, columns: &[FindingColumn<'_>]) -> Markup {
-    let FindingRow { claim, suite, .. } = *row;
-    let id = row.claim_rows.map(|_| format!("finding-{}", claim.id));
+/// The rows of a claim, one for each suite on which a column has it.
+fn finding(claim: &Claim, columns: &[FindingColumn<'_>]) -> Markup {
+    let tested = |suite: &SuiteSet| {
+        columns.iter().any(|own| on(claim, *own, *suite).is_some())
+    };
+    let suites: Vec<SuiteSet> =
+        SuiteSet::ALL.into_iter().filter(tested).collect();
     html! {
-        tr id=[id] {
-            @if let Some(rows) = row.sentence {
-                th scope="row" rowspan=(rows) { (quotation(claim)) }
-            }
-            @if let Some(rows) = row.claim_rows {
-                td data-label="In plain words" rowspan=(rows) {
-                    (statement(claim))
-                }
-            }
-            td data-label="Suite" { (suite.name()) }
-            @for (k, column) in columns.iter().enumerate() {
-                @let found = on(claim, *column, suite);
-                td data-label={ "Seen here, " (column.0) } {
-                    @if let Some((own, one)) = found {
-                        (mark(one.sample.seen.name()))
-                        @if k == 0 { " " (unbroken(&counted(own, one.sample))) }
-                    } @else { (NOTHING) }
-                }
-                td data-label={ "Exists, " (column.0) } {
-                    (mark(found.map_or(NOTHING, |(_, one)| existing(one.effect))))
-                }
+        @for (k, suite) in suites.iter().enumerate() {
+            tr id=[(k == 0).then(|| format!("finding-{}", claim.id))] {
                 @if k == 0 {
-                    td data-label="How large" {
-                        @if let Some((own, one)) = found {
-                            (unbroken(&effect_text(own, one.effect).whole()))
-                        } @else { (NOTHING) }
+                    th scope="row" rowspan=(suites.len()) {
+                        (statement(claim))
                     }
                 }
+                td data-label="Suite" { (suite.name()) }
+                @for (k, column) in columns.iter().enumerate() {
+                    (cells(claim, *column, *suite, k == 0))
+                }
             }
         }
     }
 }
 
-/// Where the paper says it; its words unfold.
-fn quotation(claim: &Claim) -> Markup {
+/// What came out on a suite: the words, and for the column that leads the
+/// numbers.
+fn cells(
+    claim: &Claim,
+    column: FindingColumn<'_>,
+    suite: SuiteSet,
+    leads: bool,
+) -> Markup {
+    let Some((own, one)) = on(claim, column, suite) else {
+        return html! {
+            @for _ in 0..(if leads { 3 } else { 2 }) { td { (NOTHING) } }
+        };
+    };
     html! {
-        details {
-            summary { "Section " (claim.section) }
-            "\u{201c}" (claim.quote) "\u{201d} "
-            span.source { "(" (claim.section) ")" }
+        td data-label={ "Seen here, " (column.0) } {
+            (mark(one.sample.seen.name()))
+            @if leads { " " (unbroken(&counted(own, one.sample))) }
+        }
+        td data-label={ "Exists, " (column.0) } {
+            (mark(existing(one.effect)))
+        }
+        @if leads {
+            td data-label="How large" {
+                (unbroken(&effect_text(own, one.effect).whole()))
+            }
         }
     }
 }
 
-/// The statement, the paper's rules for its sample, and its effect.
+/// The statement in plain words, behind which the paper's own unfold; its
+/// rules for its sample, and the effect.
 fn statement(claim: &Claim) -> Markup {
     html! {
-        (claim.plain)
+        details {
+            summary { (claim.plain) " (section " (claim.section) ")" }
+            "\u{201c}" (claim.quote) "\u{201d}"
+        }
         span.source {
             @for (k, one) in claim.yardsticks.iter().enumerate() {
-                (if k == 0 { ". Seen: " } else { "; " })
+                (if k == 0 { "Seen: " } else { "; " })
                 (one.words) ", " (joined(&rule_text(one)))
             }
             ". Effect: " (claim.measure)

@@ -129,7 +129,7 @@ impl PrintedClaim {
 
 /// The rules and the effect in a cell of statements.
 fn rules(cell: &str) -> (Vec<String>, Option<String>) {
-    let (_, rest) = cell.split_once(". Seen: ").expect(cell);
+    let (_, rest) = cell.split_once("Seen: ").expect(cell);
     let (rules, effect) = rest.split_once(". Effect: ").expect(cell);
     let rule = |words: &str| words.rsplit_once(", ").expect(cell).1.to_owned();
     let said = effect.rsplit_once("; said: ").map(|(_, said)| said.to_owned());
@@ -181,8 +181,9 @@ fn checked(html: &str) -> BTreeMap<String, PrintedClaim> {
                 sentence = quote.1.split('\u{201d}').next().unwrap().into();
             }
             let cells = cells(row);
-            if let Some(cell) = cells.get("In plain words") {
-                let (rules, said) = rules(cell);
+            if let Some(head) = row.split_once("<th") {
+                let head = head.1.split("</th>").next().unwrap();
+                let (rules, said) = rules(&text(head));
                 let (seen, exists) = (Vec::new(), Vec::new());
                 let (sentence, theme) = (sentence.clone(), name.into());
                 let one = PrintedClaim {

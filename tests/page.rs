@@ -115,8 +115,8 @@ fn words(browser: &mut Browser, selector: &str) -> Vec<String> {
 const SCREEN_PX: f64 = 900.0;
 
 /// Where the answers and the main part end, in px, and how many words the
-/// main part shows: those with a letter, without drawings and what is folded.
-/// Numbers of tables are looked up, not read.
+/// main part shows: those with a letter or a digit, without drawings and what
+/// is folded.
 const LENGTHS: &str = "(() => { \
     const end = (selector, side) => scrollY + \
         document.querySelector(selector).getBoundingClientRect()[side]; \
@@ -126,7 +126,7 @@ const LENGTHS: &str = "(() => { \
     shown.querySelectorAll('*').forEach((e) => e.append(' ')); \
     const words = shown.textContent.split(/\\s+/); \
     return [end('table.answers', 'bottom'), end('#annexes', 'top'), \
-        words.filter((w) => /\\p{L}/u.test(w)).length]; })()";
+        words.filter((w) => /[\\p{L}\\p{N}]/u.test(w)).length]; })()";
 
 /// One screen answers, fourteen say why: what a decision maker and a
 /// researcher have time for.

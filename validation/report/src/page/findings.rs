@@ -13,7 +13,7 @@ use crate::quantity::{
 };
 use crate::sentences::{SentenceCounts, SuiteResult, by_suite, by_theme};
 use rocking_common::findings::{
-    Claim, ClaimResult, Detail, Exists, Kind, SuiteSet, Theme,
+    Claim, ClaimResult, Detail, Exists, Kind, StatedEffect, SuiteSet, Theme,
 };
 use rocking_common::words::capital;
 use rocking_draw::figures::Place;
@@ -89,9 +89,16 @@ fn mark(word: &str) -> Markup {
     }
 }
 
-/// Whether an effect exists, in a word.
-fn existing(result: &ClaimResult) -> &'static str {
-    result.exists.map_or(NOTHING, Exists::name)
+/// Whether an effect exists, in a word. One that the sentence denies is no
+/// success.
+fn existing(claim: &Claim, result: &ClaimResult) -> Markup {
+    let says = claim.no_effect.map(|own| own.says);
+    match (result.exists, says) {
+        (Some(Exists::Yes), Some(StatedEffect::Nothing)) => html! {
+            span class="verdict open" { span aria-hidden="true" { "● " } "yes" }
+        },
+        (exists, _) => mark(exists.map_or(NOTHING, Exists::name)),
+    }
 }
 
 fn about(page: &Page<'_>, theme: Theme, anchor: &str) -> Markup {
@@ -143,7 +150,7 @@ fn findings(page: &Page<'_>, theme: Theme) -> Markup {
             thead {
                 tr {
                     th scope="col" rowspan="2" {
-                        "The paper says; its criterion; the effect"
+                        "The paper says; its criterion"
                     }
                     th scope="col" rowspan="2" { "Suite" }
                     @for (k, (name, _)) in columns.iter().enumerate() {
@@ -211,7 +218,7 @@ fn cells(
             @if leads { " " (unbroken(&counted(own, one.sample))) }
         }
         td data-label={ "Exists, " (column.0) } {
-            (mark(existing(one.effect)))
+            (existing(own, one.effect))
         }
         @if leads {
             td data-label="How large" {
@@ -221,22 +228,22 @@ fn cells(
     }
 }
 
-/// The statement in plain words, behind which the paper's own unfold; its
-/// rules for its sample, and the effect.
+/// The statement in plain words, behind which the paper's own unfold, and
+/// what the effect is; its rules for its sample, and what it says of the
+/// effect.
 fn statement(claim: &Claim) -> Markup {
     html! {
         details {
             summary { (claim.plain) " (section " (claim.section) ")" }
-            "\u{201c}" (claim.quote) "\u{201d}"
+            "\u{201c}" (claim.quote) "\u{201d} How large: " (claim.measure) "."
         }
         span.source {
             @for (k, one) in claim.yardsticks.iter().enumerate() {
                 (if k == 0 { "Seen: " } else { "; " })
                 (one.words) ", " (joined(&rule_text(one)))
             }
-            ". Effect: " (claim.measure)
             @if let Some(said) = said_text(claim) {
-                "; said: " (joined(&said))
+                ". Exists: " (joined(&said))
             }
         }
     }
@@ -303,7 +310,7 @@ fn result(claim: &Claim, one: &ClaimResult) -> Markup {
         div.outcome {
             span.source { (one.place()) ": " }
             (mark(one.seen.name())) ", " (joined(&counted(claim, one)))
-            "; exists: " (mark(existing(one))) ", "
+            "; exists: " (existing(claim, one)) ", "
             (joined(&effect_text(claim, one).whole()))
             @if !one.at.is_empty() { span.source { " (" (one.at) ")" } }
             @if !details.is_empty() {

@@ -200,22 +200,17 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
 }
 
 /// Largest over smallest median overturning intensity of the slendernesses,
-/// minus 1; the interval is that of the ratio, which is 1 at least.
+/// minus 1. It has no interval: resamples only spread such a number more.
 fn spread(scope: &Scope<'_>, frequency: usize) -> anyhow::Result<Estimate> {
-    let of = |s| samples(scope, frequency, s, 1.0);
-    let all =
-        (0..SLENDERNESSES_RAD.len()).map(|s| Ok(RecordRanks::new(of(s)?[0])));
-    let all: Vec<RecordRanks> = all.collect::<anyhow::Result<_>>()?;
-    let measured = scope.one(|counts| {
-        let medians: Vec<f64> =
-            all.iter().map(|own| own.median(counts)).collect();
-        let is_reached = medians.iter().all(|x| x.is_finite());
-        let ends = span(medians, true).filter(|_| is_reached);
-        ends.map_or(f64::NAN, |(low, high)| high / low)
-    });
-    let ratio = scope.estimate(Range::NotNegative, &measured);
-    let least = |x: f64| if x < 1.0 { 0.0 } else { x - 1.0 };
-    Ok(ratio.map(least))
+    let mut medians = Vec::new();
+    for slenderness in 0..SLENDERNESSES_RAD.len() {
+        let [own, _] = samples(scope, frequency, slenderness, 1.0)?;
+        medians.push(RecordRanks::new(own).median(scope.every()));
+    }
+    let is_reached = medians.iter().all(|x| x.is_finite());
+    let ends = span(medians, true).filter(|_| is_reached);
+    let spread = ends.map_or(f64::NAN, |(low, high)| high / low - 1.0);
+    Ok(Estimate::exact(spread))
 }
 
 /// Figure 10: both quantiles, slenderness adjusted over records scaled.

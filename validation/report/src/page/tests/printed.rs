@@ -130,9 +130,11 @@ impl PrintedClaim {
 /// The rules and the effect in a cell of statements.
 fn rules(cell: &str) -> (Vec<String>, Option<String>) {
     let (_, rest) = cell.split_once("Seen: ").expect(cell);
-    let (rules, effect) = rest.split_once(". Effect: ").expect(cell);
     let rule = |words: &str| words.rsplit_once(", ").expect(cell).1.to_owned();
-    let said = effect.rsplit_once("; said: ").map(|(_, said)| said.to_owned());
+    let (rules, said) = match rest.split_once(". Exists: ") {
+        Some((rules, said)) => (rules, Some(said.to_owned())),
+        None => (rest, None),
+    };
     (rules.split("; ").map(rule).collect(), said)
 }
 

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::lilliefors::fast::{LANES, Scratch};
-use super::lilliefors::{LillieforsError, LillieforsTest, standardised};
+use super::lilliefors::{LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
-use super::{Interval, QuantileType, Sample, monte_carlo};
+use super::{Interval, QuantileType, Sample};
 use crate::streams::{Streams, standard_normal};
 use rocking::number::dispatch::{Isa, Kernel};
 use rocking::stop;
@@ -44,65 +44,6 @@ pub enum AcceptanceError {
     /// No level, or a value that is not finite.
     #[error("no level with finite values")]
     Empty,
-}
-
-/// How many levels accept a distribution, by the plain decision D <= critical
-/// value at each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct AcceptedShare {
-    /// Levels tested.
-    pub tested: usize,
-    /// Of those, accepted.
-    pub accepted: usize,
-    /// Levels that could not be tested.
-    pub not_applicable: usize,
-}
-
-impl AcceptedShare {
-    /// Counts the decisions of a list of tests.
-    #[must_use]
-    pub fn from_tests(tests: &[LillieforsTest]) -> Self {
-        let decisions = || tests.iter().map(LillieforsTest::exceeds);
-        Self {
-            tested: decisions().flatten().count(),
-            accepted: decisions().filter(|d| *d == Some(false)).count(),
-            not_applicable: decisions().filter(Option::is_none).count(),
-        }
-    }
-
-    /// Tests the values of many levels, all of one size, against a critical
-    /// value; a level with a value that is not finite, or whose values do not
-    /// vary, is not applicable.
-    ///
-    /// D is that of [`distances`].
-    ///
-    /// ```
-    /// use rocking_statistics::acceptance::AcceptedShare;
-    /// let level: Vec<f64> = (0..20).map(f64::from).collect();
-    /// let found = AcceptedShare::of_values(&[level], 0.1919);
-    /// assert_eq!((found.tested, found.accepted), (1, 1));
-    /// ```
-    ///
-    /// # Panics
-    /// If the levels have different sizes.
-    #[must_use]
-    pub fn of_values(levels: &[Vec<f64>], critical_value: f64) -> Self {
-        let found = distances(levels);
-        let tested: Vec<&f64> = found.iter().filter(|d| !d.is_nan()).collect();
-        let accepted = tested.iter().filter(|d| ***d <= critical_value);
-        Self {
-            tested: tested.len(),
-            accepted: accepted.count(),
-            not_applicable: levels.len() - tested.len(),
-        }
-    }
-
-    /// Accepted over tested; none if no level was tested.
-    #[must_use]
-    pub fn share(&self) -> Option<f64> {
-        (self.tested > 0).then(|| self.accepted as f64 / self.tested as f64)
-    }
 }
 
 /// Lilliefors' D of the values of each level, all of one size; NaN for a
@@ -149,11 +90,6 @@ pub fn distances(levels: &[Vec<f64>]) -> Vec<f64> {
 pub struct NullBand {
     /// Accepted share of each replicate, in order.
     pub shares: Vec<f64>,
-    /// Mean over the levels of D/critical value, of each replicate.
-    pub mean_ratios: Vec<f64>,
-    /// How many independent levels would scatter as much: K^2/sum r_jk^2,
-    /// with r the correlations between the K levels.
-    pub effective_levels: f64,
 }
 
 impl NullBand {
@@ -188,14 +124,10 @@ impl NullBand {
     ) -> Result<Self, AcceptanceError> {
         let scores = scores(levels)?;
         let (n, count) = (scores[0].len(), scores.len());
-        let correlations = correlations(&scores);
-        let squares = correlations.iter().flatten();
-        let norm = squares.fold(0.0, |sum, r| f64::mul_add(*r, *r, sum));
-        let effective_levels = (count * count) as f64 / norm;
         let root = root(&scores);
         let streams = Streams::new(name, seed);
         let isa = Isa::best();
-        let rows: Vec<(f64, f64)> = (0..replicates)
+        let shares: Vec<f64> = (0..replicates)
             .into_par_iter()
             .panic_fuse()
             .map(|index| {
@@ -208,16 +140,12 @@ impl NullBand {
                     }
                 }
                 let drawn = isa.run(Mixture { root: &root, own: &own });
-                let (mut accepted, mut ratios) = (0.0, 0.0);
-                for d in distances(&drawn) {
-                    accepted += f64::from(u8::from(d <= critical_value));
-                    ratios += d / critical_value;
-                }
-                (accepted / count as f64, ratios / count as f64)
+                let found = distances(&drawn).into_iter();
+                let accepted = found.filter(|d| *d <= critical_value);
+                accepted.count() as f64 / count as f64
             })
             .collect();
-        let (shares, mean_ratios) = rows.into_iter().unzip();
-        Ok(Self { shares, mean_ratios, effective_levels })
+        Ok(Self { shares })
     }
 
     /// The central part of the shares, of probability `level`.
@@ -228,22 +156,6 @@ impl NullBand {
         let at = |p| rule.quantile(&sample, p).ok();
         let ends = (at(0.5 - 0.5 * level)?, at(0.5 + 0.5 * level)?);
         Interval::try_new(ends.0, ends.1).ok()
-    }
-
-    /// One-sided p-value of an observed share: how often the null accepts
-    /// as few levels, (b + 1)/(N + 1).
-    #[must_use]
-    pub fn p_value(&self, observed: f64) -> f64 {
-        let b = self.shares.iter().filter(|&&s| s <= observed).count();
-        monte_carlo::p_value(b, self.shares.len())
-    }
-
-    /// One-sided p-value of an observed mean of D/critical value: how often
-    /// the null's is as large.
-    #[must_use]
-    pub fn p_value_of_mean_ratio(&self, observed: f64) -> f64 {
-        let b = self.mean_ratios.iter().filter(|&&r| r >= observed).count();
-        monte_carlo::p_value(b, self.mean_ratios.len())
     }
 }
 
@@ -293,15 +205,6 @@ fn scores(levels: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, AcceptanceError> {
         scores.push(values.iter().map(|x| (x - centre) / norm).collect());
     }
     Ok(scores)
-}
-
-/// Correlations between the levels.
-fn correlations(scores: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let of = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).fold(0.0, |sum, (x, y)| f64::mul_add(*x, *y, sum))
-    };
-    let row = |a: &Vec<f64>| scores.iter().map(|b| of(a, b)).collect();
-    scores.iter().map(row).collect()
 }
 
 /// The lower triangle L with L L^T the correlations of the levels, row by

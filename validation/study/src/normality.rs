@@ -1,7 +1,8 @@
 //! Lilliefors' test along the demand.
 
 use rayon::prelude::*;
-use rocking_statistics::acceptance::{AcceptedShare, NullBand};
+use rocking_common::findings::SampleCount;
+use rocking_statistics::acceptance::NullBand;
 use rocking_statistics::lilliefors::{
     LillieforsTable, LillieforsTest, Null, Scale,
 };
@@ -41,7 +42,8 @@ pub fn over_critical(assessment: &LillieforsTest) -> f64 {
 /// NaN if none was.
 #[must_use]
 pub fn accepted_share(assessments: &[LillieforsTest]) -> f64 {
-    AcceptedShare::from_tests(assessments).share().unwrap_or(f64::NAN)
+    let decisions = assessments.iter().filter_map(LillieforsTest::exceeds);
+    SampleCount::among(decisions, |exceeds| !exceeds).value
 }
 
 /// One level in eight enters the null band, which a denser choice does not

@@ -201,7 +201,7 @@ pub fn said_text(claim: &Claim) -> Option<String> {
         StatedEffect::Above => format!("above {at}"),
         StatedEffect::Below => format!("below {at}"),
         StatedEffect::Differs => format!("not {at}"),
-        StatedEffect::Nothing => at,
+        StatedEffect::Nothing => format!("none ({at})"),
     })
 }
 

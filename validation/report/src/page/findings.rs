@@ -243,7 +243,7 @@ fn statement(claim: &Claim) -> Markup {
                 (one.words) ", " (joined(&rule_text(one)))
             }
             @if let Some(said) = said_text(claim) {
-                ". Exists: " (joined(&said))
+                ". Effect: " (joined(&said))
             }
         }
     }

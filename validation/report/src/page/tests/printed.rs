@@ -96,7 +96,7 @@ fn exists(said: Option<&str>, effect: Option<&PrintedEstimate>) -> String {
     let words: Vec<&str> = said.splitn(2, ' ').collect();
     let (how, none) = match words[..] {
         [how @ ("above" | "below" | "not"), none] => (how, number(none)),
-        _ => ("", number(said)),
+        _ => ("none", number(said.trim_start_matches("none ("))),
     };
     let ends = effect.and_then(|effect| effect.ends);
     let Some((low, high)) = ends else { return "no sign".into() };
@@ -131,7 +131,7 @@ impl PrintedClaim {
 fn rules(cell: &str) -> (Vec<String>, Option<String>) {
     let (_, rest) = cell.split_once("Seen: ").expect(cell);
     let rule = |words: &str| words.rsplit_once(", ").expect(cell).1.to_owned();
-    let (rules, said) = match rest.split_once(". Exists: ") {
+    let (rules, said) = match rest.split_once(". Effect: ") {
         Some((rules, said)) => (rules, Some(said.to_owned())),
         None => (rest, None),
     };

@@ -37,7 +37,8 @@ pub fn section(page: &Page<'_>) -> Markup {
     let identities = identities(page.basis.here);
     html! {
         p { (legend()) }
-        p { (counts(page)) }
+        @let others = counts(page);
+        @if !others.is_empty() { p { (others) } }
         @for (theme, anchor) in THEMES { (about(page, theme, anchor)) }
         (folded(
             "true-by-definition",
@@ -50,26 +51,22 @@ pub fn section(page: &Page<'_>) -> Markup {
 fn legend() -> Markup {
     html! {
         "The paper by its own criteria. Seen here: its rule as a plain number \
-         of the sample, on its own grid (arm A) where this was run. Exists: \
-         whether, beyond these records, the 90 % interval of the effect by \
-         resampled earthquakes leaves no effect out: yes, also of an effect \
-         that the sentence denies, or the opposite of what it says. How \
-         large: the effect with that interval, on the finer grid (arm C) \
-         where this was run. Figures are of the suites of the first columns. \
-         All suites and grids: "
+         of the sample, on its own grid (arm A) where run. Exists: whether, \
+         beyond these records, the 90 % interval of the effect by resampled \
+         earthquakes leaves no effect out (●: one that the sentence denies). \
+         How large: the effect with that interval, on the finer grid (arm C) \
+         where run. All suites and grids: "
         a href="#all-results" { "every result" } "."
     }
 }
 
-/// The suites, and the counts of those that do not lead.
+/// The suites that do not lead, and their counts.
 fn counts(page: &Page<'_>) -> String {
     let mut out = String::new();
-    for (k, (name, findings)) in page.basis.columns().iter().enumerate() {
+    for (name, findings) in page.basis.columns().iter().skip(1) {
         let suites = suites_of(findings).join(" + ");
-        out += &format!("{}, {suites}. ", capital(name));
-        if k > 0 {
-            out += &SentenceCounts::of(findings).words();
-        }
+        let counts = SentenceCounts::of(findings).words();
+        out += &format!("{}, {suites}. {counts}", capital(name));
     }
     out
 }

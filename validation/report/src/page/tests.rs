@@ -99,7 +99,7 @@ fn writes_it_to_be_looked_at() {
 fn suites_are_named_without_a_second_article() {
     let names = Names { own_suites: true, ..Names::default() };
     let html = page_of(names, basis::recorded());
-    assert!(html.contains("Your suites, "), "your suites are not named");
+    assert!(html.contains(">your suites<"), "your suites are not named");
     assert!(!html.contains("the your"));
 }
 

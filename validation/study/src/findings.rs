@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use rocking_records::{AsideCount, SetAside};
+use rocking_statistics::resampling::RecordRanks;
 use rocking_statistics::{Estimate, Proportion, Range};
 use serde::Deserialize;
 
@@ -10,7 +11,7 @@ use crate::analyses::{Deviation, StripeDemands, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
-use crate::inference::REPLICATES;
+use crate::inference::{REPLICATES, Resample, Resamples};
 use crate::questions::{self, StudyAnswer};
 use crate::results::StudyResults;
 use crate::runs::capacities_at;
@@ -25,7 +26,6 @@ use rocking_common::paper::{
 };
 use rocking_common::suites::earthquakes;
 use rocking_common::words::capital;
-use rocking_draw::figures::Stripe;
 
 /// All findings of a study.
 ///
@@ -33,16 +33,17 @@ use rocking_draw::figures::Stripe;
 /// Where a number cannot be computed.
 pub fn study_findings(
     results: &StudyResults,
+    draws: &Resamples,
     claims: Vec<Claim>,
     answers: &[StudyAnswer],
 ) -> anyhow::Result<Findings> {
     let tables = [
         table(Topic::AcceptedShares, shares(results)),
         table(Topic::SlendernessAdjustment, adjustment(results)?),
-        table(Topic::Overturning, overturning(results)),
+        table(Topic::Overturning, overturning(results, draws)),
         table(Topic::Resurrections, resurrections(results)),
         table(Topic::SingleRecords, single(results)),
-        table(Topic::Sensitivities, varied(results)?),
+        table(Topic::Sensitivities, varied(results, draws)?),
         table(Topic::UpliftUnscaled, uplift(results)),
     ];
     Ok(Findings {
@@ -209,14 +210,20 @@ fn single(results: &StudyResults) -> Vec<TableRow> {
 
 /// Paired overturning capacities by choice and block, the choice over the
 /// study's.
-fn varied(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
+fn varied(
+    results: &StudyResults,
+    draws: &Resamples,
+) -> anyhow::Result<Vec<TableRow>> {
     let mut rows = Vec::new();
     for (v, base) in results.varied(&OtherChoice::ALL)? {
         let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
         let base = capacities_at(base.iter().map(Some), 1.0)?;
-        let ratios = own.iter().zip(&base).map(|(own, base)| own / base);
-        let ratios: Vec<f64> =
-            ratios.filter(|x| x.is_finite() && *x > 0.0).collect();
+        let ratio = |(own, base): (&f64, &f64)| {
+            let ratio = own / base;
+            if ratio.is_finite() && ratio > 0.0 { ratio } else { f64::NAN }
+        };
+        let ratios: Vec<f64> = own.iter().zip(&base).map(ratio).collect();
+        let ratios = RecordRanks::new(&ratios);
         let at = RowPlace {
             choice: Some(v.choice.name().into()),
             p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
@@ -224,10 +231,27 @@ fn varied(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
             edp: Some(1.0),
             ..RowPlace::default()
         };
-        let values = vec![count(ratios.len()), estimates::median(&ratios)];
+        let used = count(ratios.records());
+        let median = medians(draws, SuiteKind::Ordinary, &[ratios]);
+        let values = [vec![used], median].concat();
         rows.push(TableRow { at, values });
     }
     Ok(rows)
+}
+
+/// Medians of values by record, with their 95 % intervals by earthquake.
+fn medians(
+    draws: &Resamples,
+    suite: SuiteKind,
+    values: &[RecordRanks],
+) -> Vec<Estimate> {
+    let of = |draw: Resample<'_>| -> Vec<f64> {
+        let counts = draw.of(suite);
+        values.iter().map(|own| own.median(counts)).collect()
+    };
+    let found = draws.smooth(suite.into(), &of);
+    let limits = (Range::NotNegative, estimates::LEVEL);
+    draws.estimates(suite.into(), limits, &found)
 }
 
 /// Figure 9, a row a box: usable count with its exact 95 % interval, and
@@ -241,7 +265,9 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
         for (frequency, (p_rad_s, stripes)) in boxes {
             let splits =
                 adjusted_split(suite, suite.stripes(arm)?, frequency)?;
-            for (stripe, split) in stripes.iter().zip(splits) {
+            let pairs = suite.stripes(arm)?.compared(frequency, None);
+            let boxes = stripes.iter().zip(splits).zip(pairs);
+            for ((stripe, split), (_, adjusted, scaled)) in boxes {
                 let median = stripe.summary.as_ref().map(|b| b.median);
                 let part = |of: &[f64]| {
                     Estimate::exact(estimates::median(of).value())
@@ -254,7 +280,7 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
                 };
                 let values = vec![
                     count(stripe.records),
-                    usable(stripe)?,
+                    usable(suite, adjusted, scaled)?,
                     Estimate::exact(median.unwrap_or(f64::NAN)),
                     part(&split.within),
                     part(&split.above),
@@ -267,24 +293,38 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
     Ok(rows)
 }
 
-/// Of as many records of the kind, how many would be usable.
-fn usable(stripe: &Stripe) -> anyhow::Result<Estimate> {
-    let share = Proportion::try_new(stripe.usable, stripe.records)?;
-    let n = stripe.records as f64;
+/// Of as many records of the kind, how many would be usable: exact, with the
+/// effective number of records.
+fn usable(
+    suite: &SuiteResults,
+    adjusted: &[f64],
+    scaled: &[f64],
+) -> anyhow::Result<Estimate> {
+    let both = adjusted.iter().zip(scaled);
+    let is_usable = |(a, b): (&f64, &f64)| a.is_finite() && b.is_finite();
+    let held: Vec<bool> = both.map(is_usable).collect();
+    let share = Proportion::of_clusters(&held, &suite.clusters)?;
+    let n = held.len() as f64;
     let interval = share.interval(estimates::LEVEL)?.map(|p| p * n);
-    let usable = stripe.usable as f64;
+    let usable = held.iter().filter(|held| **held).count() as f64;
     Ok(Estimate::try_new(usable, interval, Range::NotNegative)?)
 }
 
 /// Median overturning intensities, a row a block, suite and measure, in the
-/// arm that figures share, with the order-statistic interval.
-fn overturning(results: &StudyResults) -> Vec<TableRow> {
+/// arm that figures share.
+fn overturning(results: &StudyResults, draws: &Resamples) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for (suite, found) in results.common() {
-        rows.extend(found.blocks.iter().map(|block| TableRow {
-            at: place_of(suite.kind, found, block),
-            values: vec![estimates::median(block.overturning())],
-        }));
+        let blocks = found.blocks.iter();
+        let ranks: Vec<RecordRanks> =
+            blocks.map(|b| RecordRanks::new(b.overturning())).collect();
+        let medians = medians(draws, suite.kind, &ranks);
+        rows.extend(found.blocks.iter().zip(medians).map(
+            |(block, median)| TableRow {
+                at: place_of(suite.kind, found, block),
+                values: vec![median],
+            },
+        ));
     }
     rows
 }

@@ -47,7 +47,7 @@ impl Study {
             figures.append(&mut answer.figures);
         }
         let claims = claims::measured_claims(&results, &draws)?;
-        let findings = study_findings(&results, claims, &answers)?;
+        let findings = study_findings(&results, &draws, claims, &answers)?;
         Ok(Self { results, figures, findings, answers })
     }
 }

@@ -1,6 +1,6 @@
 //! Figures 15 to 17: the fragilities with their bands.
 
-use rocking_statistics::{Lognormal, Range};
+use rocking_statistics::{Lognormal, Range, normal};
 
 use super::curves::{
     KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,
@@ -139,15 +139,20 @@ fn panel(
         let Some(at) = read.at(draw.of(kind), place) else {
             return vec![f64::NAN; 2 * grid.len()];
         };
+        // On the scale of the normal score, as the bands of `fragility fit`.
         let of = |fit: Option<Lognormal>| {
-            let p = move |x: &f64| fit.map_or(f64::NAN, |f| f.cdf(*x));
+            let score =
+                |p: f64| if p > 0.0 { normal::quantile(p) } else { f64::NAN };
+            let p = move |x: &f64| fit.map_or(f64::NAN, |f| score(f.cdf(*x)));
             grid.iter().map(p)
         };
         of(pair.first(&at)).chain(of(pair.second(&at))).collect()
     };
     let bands = scope.draws.smooth(scope.tested, &over);
-    let limits = (Range::Share, BAND);
+    let limits = (Range::Real, BAND);
     let bands = scope.draws.estimates(scope.tested, limits, &bands);
+    let bands: Vec<Estimate> =
+        bands.into_iter().map(|score| score.map(normal::cdf)).collect();
     let (of_first, of_second) = bands.split_at(grid.len());
     let at_place = (scope.intensity, THRESHOLDS[place]);
     let band = |(name, pen): (&str, Pen), of: &[Estimate]| {

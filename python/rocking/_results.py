@@ -457,14 +457,13 @@ class Ranking(Result):
         """Draws the dispersions with their intervals; gives the matplotlib
         axes."""
         ax = axes(ax)
-        shown = [(m.im, m.dispersion) for m in self.measures if m.dispersion]
+        shown = [m.dispersion for m in self.measures]
+        below = [0.0 if e.low is None else e.point - e.low for e in shown]
+        above = [0.0 if e.high is None else e.high - e.point for e in shown]
         ax.errorbar(
-            [im for im, _ in shown],
-            [e.point for _, e in shown],
-            [
-                [e.point - e.low for _, e in shown],
-                [e.high - e.point for _, e in shown],
-            ],
+            [m.im for m in self.measures],
+            [e.point for e in shown],
+            [below, above],
             fmt="o",
         )
         ax.set_ylabel("dispersion")

@@ -27,7 +27,7 @@ pub struct BootstrapEstimate {
 }
 
 impl BootstrapEstimate {
-    /// A value of which so many resamples gave no interval.
+    /// A value without an interval, and the number of its resamples.
     #[must_use]
     pub fn without_interval(
         value: f64,

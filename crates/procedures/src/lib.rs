@@ -29,6 +29,7 @@ pub mod normality;
 pub mod pivot;
 pub mod ranking;
 pub mod risk;
+pub mod shaking;
 pub mod stripes;
 pub mod summary;
 

@@ -1,0 +1,282 @@
+//! A block against shaking-table tests: what the model is worth.
+//!
+//! A test is one motion of the table at one level, and whether the specimen
+//! overturned. Tests of one motion at several levels are no independent
+//! draws: the unit of every interval is the motion.
+
+use rocking::accelerogram::Accelerogram;
+use rocking::block::{Block, Restitution};
+use rocking::integrator::Model;
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Estimate;
+
+use crate::Draws;
+
+rocking::named! {
+    /// What became of a specimen in a test.
+    pub enum TestFate: "fate" {
+        /// It overturned.
+        Overturned = "overturned",
+        /// It did not.
+        Stood = "stood",
+        /// Nobody knows: the test is counted, and left out.
+        Unknown = "unknown",
+    }
+}
+
+/// One shaking-table test.
+#[derive(Clone, Debug)]
+pub struct ShakingTest {
+    /// The motion of the table as it was run.
+    pub record: Accelerogram,
+    /// Name of the motion that the test repeats, at its own level.
+    pub motion: String,
+    /// What became of the specimen.
+    pub fate: TestFate,
+}
+
+/// The slenderness of the specimen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Slenderness {
+    /// The block is known.
+    Given(Block),
+    /// The frequency parameter p in rad/s is known; alpha is fitted so that
+    /// the median of measured over computed capacity is 1.
+    Fitted {
+        /// Frequency parameter in rad/s.
+        p_rad_s: f64,
+    },
+}
+
+/// How a block is compared with tests.
+#[derive(Clone, Debug)]
+pub struct TestOptions {
+    /// The block, or what is known of it.
+    pub slenderness: Slenderness,
+    /// Coefficient of restitution.
+    pub restitution: Restitution,
+    /// Equation of motion.
+    pub model: Model,
+    /// Gravity in m/s2.
+    pub gravity_m_s2: f64,
+    /// Intensity measures that predict the same fates by themselves.
+    pub measures: Vec<IntensityMeasure>,
+    /// Draws of motions with all their tests.
+    pub draws: Draws,
+}
+
+/// Level of the intervals of a comparison with tests.
+pub const TEST_LEVEL: f64 = 0.9;
+
+/// A block compared with shaking-table tests.
+///
+/// Capacities are the factors on the motion of a test at which the block
+/// first overturns.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TestComparison {
+    /// Number of tests with a known fate.
+    pub tests: usize,
+    /// Number of motions of these tests, the unit of all intervals.
+    pub motions: usize,
+    /// Tests in which the specimen overturned.
+    pub overturned: usize,
+    /// Tests whose fate is unknown, which are left out.
+    pub unknown: usize,
+    /// Tests whose motion does not overturn the block at any level that was
+    /// run: their capacity counts as the last level.
+    pub never_overturned: usize,
+    /// Slenderness of the block in rad; with an interval if it was fitted.
+    pub alpha_rad: Estimate,
+    /// Whether the slenderness was fitted to these fates.
+    pub alpha_is_fitted: bool,
+    /// Frequency parameter of the block in rad/s.
+    pub p_rad_s: f64,
+    /// Coefficient of restitution.
+    pub eta: f64,
+    /// Equation of motion.
+    pub model: Model,
+    /// Level of the intervals.
+    pub level: f64,
+    /// Draws of motions behind the intervals.
+    pub replicates: usize,
+    /// Repetition of the draws.
+    pub seed: u64,
+    /// What makes the intervals rough, if anything does.
+    pub remark: Option<String>,
+    /// The block as a predictor of fates.
+    pub computed: Predictor,
+    /// Intensity measures as predictors of the same fates.
+    pub rivals: Vec<Predictor>,
+    /// Predicted and observed shares of overturning, by tenths of the tests
+    /// in ascending order of the predicted probability.
+    pub reliability: Vec<ReliabilityClass>,
+    /// How well the tests repeat themselves.
+    pub repeatability: Repeatability,
+    /// Tests in which the block stands although it overturns at a lower
+    /// level of the motion.
+    pub resurrected: Resurrected,
+    /// Whether the scatter of the model acts on the whole capacity, or on
+    /// its part above the onset of rocking.
+    pub onset: OnsetComparison,
+    /// Measured and computed fragilities of the same tests.
+    pub distributions: Vec<DistributionComparison>,
+    /// The tests, in their order.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub each: Vec<TestResult>,
+}
+
+/// How well a number of each test predicts the fates.
+///
+/// The probability of overturning is Phi(ln(x/m)/s) of the number x; m and s
+/// are of the highest likelihood. Probabilities that predict are of a fit
+/// that leaves the motion of the test out.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Predictor {
+    /// What predicts: the block, or an intensity measure.
+    pub predictor: String,
+    /// Share of fates that are right: of the block as computed, of a measure
+    /// by a predicted probability above 0.5.
+    pub right: Estimate,
+    /// Median m: of the block the bias, the median of measured over computed
+    /// capacity; of a measure in its unit.
+    pub median: Estimate,
+    /// Dispersion s.
+    pub dispersion: Estimate,
+    /// Probability that a test that overturned the specimen has a larger
+    /// number than one that did not (area under the ROC curve).
+    pub auc: Estimate,
+    /// Mean of -ln of the predicted probability of the fate; small is good.
+    pub log_score: Estimate,
+    /// Log-likelihood of the fit to all tests.
+    pub log_likelihood: f64,
+}
+
+/// Predicted and observed overturning of some tests.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ReliabilityClass {
+    /// Number of tests.
+    pub tests: usize,
+    /// Mean of the predicted probabilities.
+    pub predicted: f64,
+    /// Share that overturned, with an interval by motion where it has one.
+    pub observed: Estimate,
+}
+
+/// How well tests repeat themselves.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Repeatability {
+    /// Pairs of tests of one motion whose PGA differ by 5 % or less.
+    pub pairs: usize,
+    /// Pairs of different fates among them.
+    pub different: usize,
+    /// Motions with both fates.
+    pub mixed_motions: usize,
+    /// Motions among them that overturned the specimen at a lower PGA than
+    /// one at which it stood.
+    pub not_monotone: usize,
+    /// Dispersion of the capacity within a motion, each motion with its own
+    /// median, of the highest likelihood: biased low. None where no motion
+    /// overlaps.
+    pub dispersion: Option<f64>,
+}
+
+/// Tests at levels at which the block stands again.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Resurrected {
+    /// Number of tests.
+    pub tests: usize,
+    /// Number of them that overturned the specimen.
+    pub overturned: usize,
+    /// Number expected of their first overturning, by a fit to the others.
+    pub expected: Option<f64>,
+    /// Share of right fates of all tests if the block at the level of the
+    /// test decides instead of the first overturning.
+    pub right_at_level: f64,
+}
+
+/// Log-likelihood of the fates above the onset of rocking, g tan(alpha)
+/// (g alpha for Eq. 2), by what the scatter of the model multiplies.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct OnsetComparison {
+    /// Onset of rocking in g.
+    pub onset_g: f64,
+    /// Number of tests at a PGA above the onset.
+    pub tests: usize,
+    /// Tests at or below the onset that overturned the specimen.
+    pub overturned_below: usize,
+    /// Tests at or below the onset.
+    pub below: usize,
+    /// The whole capacity: median m c, dispersion s.
+    pub whole: Option<f64>,
+    /// The part above the onset r: median r + m (c - r), dispersion s above
+    /// r.
+    pub above: Option<f64>,
+    /// Log-likelihood of a fragility of all tests in PGA without a shift.
+    pub pga_unshifted: Option<f64>,
+    /// Log-likelihood of a fragility in PGA above the onset; none if a test
+    /// below the onset overturned the specimen.
+    pub pga_shifted: Option<f64>,
+}
+
+/// Two fragilities fitted in the same way to the same tests: to the fates
+/// that were measured and to those that the block has.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DistributionComparison {
+    /// Intensity measure.
+    pub im: String,
+    /// Unit of the medians.
+    pub unit: String,
+    /// Measured median.
+    pub measured_median: f64,
+    /// Measured dispersion.
+    pub measured_dispersion: f64,
+    /// Computed median.
+    pub computed_median: f64,
+    /// Computed dispersion.
+    pub computed_dispersion: f64,
+    /// Measured over computed median.
+    pub median_ratio: Estimate,
+    /// Measured less computed dispersion.
+    pub dispersion_difference: Estimate,
+    /// Root of the difference of the squares of both dispersions, 0 where
+    /// the computed one is larger: what the model leaves out.
+    pub missing_dispersion: Estimate,
+}
+
+/// One test of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TestResult {
+    /// Name of the record.
+    pub test: String,
+    /// Name of the motion.
+    pub motion: String,
+    /// PGA in g.
+    pub pga_g: f64,
+    /// Factor on the motion at which the block first overturns.
+    pub capacity_factor: f64,
+    /// Whether the block overturns at the level of the test.
+    pub overturns_at_level: bool,
+    /// Predicted probability of overturning.
+    pub probability: f64,
+    /// Whether the specimen overturned.
+    pub overturned: bool,
+}

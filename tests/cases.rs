@@ -119,7 +119,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         }
         Err(Failed::from(
             "reports/data/validation.json is stale: see what changed with \
-             `rocking validate --check --out reports`, accept it with \
+             `rocking verify --check --out reports`, accept it with \
              `.ci/accept`",
         ))
     };

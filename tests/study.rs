@@ -128,7 +128,7 @@ fn proof(name: &str, change: impl Fn(&str) -> String) {
 #[test]
 fn results_of_cases_that_are_missing_damaged_or_of_others() {
     let args = ["--proof", "absent"];
-    refused("no-proof", &args, &["absent", "validation.json", "validate"]);
+    refused("no-proof", &args, &["absent", "validation.json", "verify"]);
     let args = ["--proof", "input"];
     proof("cut-proof", |text| text[..text.len() / 2].into());
     refused("cut-proof", &args, &["validation.json"]);

@@ -42,7 +42,7 @@ fn prepared(name: &str) -> crate::support::Place {
 fn no_command_takes_threads_that_it_does_not_ask_for() {
     let place = prepared("threads");
     for command in [
-        "validate --family block-geometry",
+        "verify --family block-geometry",
         "suite export --out export",
         "records suite",
         "records suite --intensity",
@@ -67,7 +67,7 @@ fn threads_that_cannot_be_started_are_a_refusal() {
     let place = prepared("no-threads");
     // A thread takes some MiB of addresses; the stacks of none fit in.
     let line = "ulimit -v 4000000; export RUST_MIN_STACK=8000000000; \
-                rocking validate --family free-rocking";
+                rocking verify --family free-rocking";
     let (status, error) = shell(&place, line);
     assert_eq!(status, 2, "{error}");
     assert!(error.contains("threads cannot be started: "), "{error}");

@@ -40,7 +40,7 @@ pub mod stripes;
 pub mod study;
 pub mod suite;
 pub mod sweep;
-mod validate;
+mod verify;
 pub mod way;
 
 /// The work of a command with the flags that were parsed.
@@ -91,8 +91,8 @@ fn entries() -> Vec<CommandEntry> {
         entry("Decide", "contrast", contrast::run_contrast),
         entry("Decide", "lilliefors", lilliefors::run_lilliefors),
         entry("Prove", "study", study::run_study),
-        entry("Prove", "validate", |args| {
-            with_threads(None, || validate::run_validate(args)).flatten()
+        entry("Prove", "verify", |args| {
+            with_threads(None, || verify::run_verify(args)).flatten()
         }),
         entry("Prove", "score", score::run_score),
         entry("Prove", "diff", diff::run_diff),

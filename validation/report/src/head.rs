@@ -158,7 +158,7 @@ fn command(results: &StudyResults, proved: bool) -> String {
         false => " --ordinary ORDINARY --pulse PULSE",
     };
     let proof = match proved {
-        true => " --proof FOLDER/data, after rocking validate --out FOLDER",
+        true => " --proof FOLDER/data, after rocking verify --out FOLDER",
         false => "",
     };
     let full = if results.plan.full { " --full" } else { "" };

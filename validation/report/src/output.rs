@@ -33,7 +33,7 @@ pub const PAGE: &str = "index.html";
 /// The files that are put into place last: where they are, all others are.
 pub const LAST: [&str; 2] = [PAGE, SUMS];
 
-/// Results of the declared cases, which `rocking validate` writes.
+/// Results of the declared cases, which `rocking verify` writes.
 pub(super) const CASES: [&str; 2] =
     ["data/precision.csv", "data/validation.json"];
 

@@ -246,7 +246,7 @@ fn the_command_names_the_proof_only_where_one_was_handed_in() {
     let results = on_embedded_suites();
     let plain = command(&results, false);
     assert!(!plain.contains("--proof"), "{plain}");
-    assert!(!plain.contains("validate"), "{plain}");
+    assert!(!plain.contains("rocking verify"), "{plain}");
     assert!(command(&results, true).contains("--proof FOLDER/data"));
 }
 

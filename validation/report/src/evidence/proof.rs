@@ -1,4 +1,4 @@
-//! The results of the declared cases as `rocking validate` wrote them,
+//! The results of the declared cases as `rocking verify` wrote them,
 //! handed in to be shown.
 
 use std::collections::BTreeSet;
@@ -26,7 +26,7 @@ const COVERAGE: &str = "coverage-of-inference";
 
 /// How to get what is not there.
 pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
-    validate --out FOLDER` runs them and writes their results to \
+    verify --out FOLDER` runs them and writes their results to \
     FOLDER/data, and `rocking study --proof FOLDER/data` shows them.";
 
 /// Results of the declared cases: one for each case of this program that is
@@ -80,7 +80,7 @@ impl Coverage {
 }
 
 impl Proof {
-    /// Reads the folder into which `rocking validate` wrote them.
+    /// Reads the folder into which `rocking verify` wrote them.
     ///
     /// # Errors
     /// For a file that is missing or damaged, and for results
@@ -235,7 +235,7 @@ impl fmt::Display for Proof {
             f,
             "By the results handed in ({}): {} of {} declared cases pass \
              against closed forms, trajectories with 36 digits and other \
-             oracles, found by `rocking validate`, not by this study; of the \
+             oracles, found by `rocking verify`, not by this study; of the \
              {} numbers compared half use less than {:.0e} of their \
              tolerance.",
             self.place,
@@ -251,7 +251,7 @@ fn file_text(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path).map_err(|error| {
         anyhow!(
             "cannot read {}: {error}; expected {RESULTS} and {DIGITS} as \
-             `rocking validate --out` writes them",
+             `rocking verify --out` writes them",
             path.display()
         )
     })
@@ -273,7 +273,7 @@ fn same_cases(
         if ids.is_empty() { "none".into() } else { ids.join(", ") }
     };
     bail!(
-        "{}: not the cases of this program; `rocking validate` runs those. \
+        "{}: not the cases of this program; `rocking verify` runs those. \
          Missing: {}. Unknown: {}",
         path.display(),
         less(&declared, &found),
@@ -411,6 +411,6 @@ mod tests {
         fs::copy(committed().join(RESULTS), folder.join(RESULTS)).unwrap();
         let message = Proof::find(&folder).unwrap_err().to_string();
         fs::remove_dir_all(&folder).unwrap();
-        refused(&message, &[DIGITS, "rocking validate"]);
+        refused(&message, &[DIGITS, "rocking verify"]);
     }
 }

@@ -1,4 +1,4 @@
-//! `rocking validate`: the declared cases, judged.
+//! `rocking verify`: the declared cases, judged.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use rocking_report::diff::{self, ResultFiles};
 // reach.
 /// Runs the declared cases and writes or checks their results.
 #[derive(clap::Args)]
-pub struct ValidateCommand {
+pub struct VerifyCommand {
     /// Run this family alone.
     #[arg(long, conflicts_with = "out")]
     family: Option<String>,
@@ -39,12 +39,12 @@ pub struct ValidateCommand {
     json: JsonArg,
 }
 
-/// Runs `rocking validate`.
+/// Runs `rocking verify`.
 ///
 /// # Errors
 /// [`Failure`] for unreadable cases or an unknown family (status 2), for a
 /// case that is not accepted and for results that differ (status 1).
-pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
+pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     let cases = selected(args)?;
     let outputs = match &args.out {
         Some(out) if !args.check => {
@@ -60,7 +60,7 @@ pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
         _ => None,
     };
     let outcomes = run_all(&cases);
-    say(&shown(args.json.json, &ValidateSummary::of(&outcomes))?)?;
+    say(&shown(args.json.json, &VerifySummary::of(&outcomes))?)?;
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
@@ -85,7 +85,7 @@ pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
     Err(stale(&digits_path))
 }
 
-fn selected(args: &ValidateCommand) -> Result<Vec<Case>, Failure> {
+fn selected(args: &VerifyCommand) -> Result<Vec<Case>, Failure> {
     let mut cases = load_all()?;
     if let Some(family) = &args.family {
         let names: Vec<&str> = FAMILIES.iter().map(|f| f.0).collect();
@@ -113,14 +113,14 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
 
 fn stale(path: &Path) -> Failure {
     Failure::gate(format!(
-        "{} is stale: `rocking validate --out DIR` accepts what is there now",
+        "{} is stale: `rocking verify --out DIR` accepts what is there now",
         path.display()
     ))
 }
 
 /// What the cases came to.
 #[derive(Serialize)]
-struct ValidateSummary<'a> {
+struct VerifySummary<'a> {
     cases: Vec<CaseMargin<'a>>,
     messages: Vec<CaseMessage<'a>>,
     /// Checks whose margin is below 1e-3 or above 0.9.
@@ -158,7 +158,7 @@ struct VerdictCount<'a> {
     cases: usize,
 }
 
-impl<'a> ValidateSummary<'a> {
+impl<'a> VerifySummary<'a> {
     fn of(outcomes: &'a [CaseOutcome]) -> Self {
         let judged = |outcome: &'a CaseOutcome| CaseMargin {
             case: &outcome.id,

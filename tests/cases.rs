@@ -109,16 +109,16 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
         std::fs::read_to_string(Path::new(data).join(name)).unwrap_or_default()
     };
-    let validation = move || {
+    let verification = move || {
         let cases: Vec<Case> = quick.iter().map(|j| j.case.clone()).collect();
         let outcomes = quick.iter().map(|j| j.outcome().clone());
         let outcomes: Vec<CaseOutcome> = outcomes.collect();
         let own = snapshot::text(&cases, &outcomes);
-        if committed("validation.json") == own {
+        if committed("verification.json") == own {
             return Ok(());
         }
         Err(Failed::from(
-            "reports/data/validation.json is stale: see what changed with \
+            "reports/data/verification.json is stale: see what changed with \
              `rocking verify --check --out reports`, accept it with \
              `.ci/accept`",
         ))
@@ -134,7 +134,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         ))
     };
     [
-        Trial::test("snapshot/validation-json", validation),
+        Trial::test("snapshot/verification-json", verification),
         Trial::test("snapshot/precision-csv", precision),
     ]
 }

@@ -70,7 +70,7 @@ fn a_folder_that_no_study_wrote() {
     let args = ["--arms", "A", "--out", "input"];
     for (files, words) in [
         (&["index.html", "data/findings.json"][..], "data/findings.json"),
-        (&["data/mine.csv", "data/validation.json"], "data/mine.csv"),
+        (&["data/mine.csv", "data/verification.json"], "data/mine.csv"),
         (&["figures/mine.svg"], "figures"),
         (&["notes.txt"], "notes.txt"),
     ] {
@@ -101,7 +101,7 @@ fn a_folder_of_an_earlier_study_is_known() {
     let copy = |name: &str| {
         std::fs::copy(reports.join(name), own.join(name)).expect("copy");
     };
-    copy("data/validation.json");
+    copy("data/verification.json");
     assert_eq!(output::foreign(&own), None, "declared cases alone");
     copy(output::FINDINGS);
     std::fs::write(own.join("notes.txt"), "mine").expect("write");
@@ -118,7 +118,7 @@ fn proof(name: &str, change: impl Fn(&str) -> String) {
     let input = folder(name).join("input");
     std::fs::create_dir_all(&input).expect("folder");
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
-    for file in ["validation.json", "precision.csv"] {
+    for file in ["verification.json", "precision.csv"] {
         let path = PathBuf::from(data).join(file);
         let text = std::fs::read_to_string(path).expect("read");
         std::fs::write(input.join(file), change(&text)).expect("write");
@@ -128,10 +128,10 @@ fn proof(name: &str, change: impl Fn(&str) -> String) {
 #[test]
 fn results_of_cases_that_are_missing_damaged_or_of_others() {
     let args = ["--proof", "absent"];
-    refused("no-proof", &args, &["absent", "validation.json", "verify"]);
+    refused("no-proof", &args, &["absent", "verification.json", "verify"]);
     let args = ["--proof", "input"];
     proof("cut-proof", |text| text[..text.len() / 2].into());
-    refused("cut-proof", &args, &["validation.json"]);
+    refused("cut-proof", &args, &["verification.json"]);
     let renamed = |text: &str| {
         text.replace("\"hard-cases/hs-graze-0.001\"", "\"hard-cases/other\"")
     };

@@ -111,9 +111,9 @@ pub fn sides(
         &format!("diff-{name}"),
         &[
             ("old/findings.json", FINDINGS),
-            ("old/validation.json", CASES),
+            ("old/verification.json", CASES),
             ("new/data/findings.json", &changed(FINDINGS, findings)),
-            ("new/data/validation.json", &changed(CASES, cases)),
+            ("new/data/verification.json", &changed(CASES, cases)),
         ],
     )
 }
@@ -124,7 +124,7 @@ fn identical_results_say_so() {
     for (old, new) in [
         ("old", "new"),
         ("old/findings.json", "new/data/findings.json"),
-        ("old/validation.json", "new"),
+        ("old/verification.json", "new"),
     ] {
         let (status, out, error) = run(&place, &format!("diff {old} {new}"));
         assert_eq!((status, error.as_str()), (0, ""), "{old} {new}");
@@ -134,10 +134,10 @@ fn identical_results_say_so() {
     assert_eq!(answer["identical"], true);
     assert_eq!(answer["relevant"], 0);
     // A file on one side only is named.
-    fs::remove_file(place.join("old/validation.json")).unwrap();
+    fs::remove_file(place.join("old/verification.json")).unwrap();
     let (status, out, _) = run(&place, "diff old new");
     assert_eq!(status, 0);
-    assert!(out.contains("validation.json, which only the new"), "{out}");
+    assert!(out.contains("verification.json, which only the new"), "{out}");
 }
 
 #[test]
@@ -348,10 +348,10 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
     }
     for (arguments, words) in [
         ("diff absent new", "absent: "),
-        ("diff old absent", "expected findings.json, validation.json"),
-        ("diff old empty", "expected findings.json or validation.json"),
+        ("diff old absent", "expected findings.json, verification.json"),
+        ("diff old empty", "expected findings.json or verification.json"),
         (
-            "diff old/findings.json new/data/validation.json",
+            "diff old/findings.json new/data/verification.json",
             "nothing in common",
         ),
     ] {

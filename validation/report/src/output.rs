@@ -35,7 +35,7 @@ pub const LAST: [&str; 2] = [PAGE, SUMS];
 
 /// Results of the declared cases, which `rocking verify` writes.
 pub(super) const CASES: [&str; 2] =
-    ["data/precision.csv", "data/validation.json"];
+    ["data/precision.csv", "data/verification.json"];
 
 /// Where a report's findings lie.
 pub const FINDINGS: &str = "data/findings.json";
@@ -217,7 +217,7 @@ fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
         ("findings", "Every statement with its results by suite and grid"),
         ("precision", "Digits that three precisions reach"),
         ("single-records", "Records one by one: Figures 2 to 5 for all"),
-        ("validation", "Every declared case with its result"),
+        ("verification", "Every declared case with its result"),
     ];
     let known = known.map(|(name, words)| (name.to_owned(), words.to_owned()));
     figures.chain(questions).chain(known).collect()

@@ -94,7 +94,7 @@ mod tests {
         write("data/same.csv", "1\n");
         write("data/moved.csv", "1\n");
         write("data/gone.csv", "1\n");
-        write("data/validation.json", "{}\n");
+        write("data/verification.json", "{}\n");
         write("notes.txt", "mine\n");
         write(FINDINGS, "{}");
         let new = |names: &[&str]| -> Files {

@@ -369,7 +369,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         let hash = sha256_hex(content);
         assert!(page.contains(name) && page.contains(&hash), "{name}");
     }
-    assert!(page.contains("data/validation.json"));
+    assert!(page.contains("data/verification.json"));
     // Up to what the proof says, they are the same.
     let findings = |page: &str| {
         let start = page.find("<section id=\"findings\"").expect("findings");

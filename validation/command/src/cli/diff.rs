@@ -11,7 +11,7 @@ use rocking_report::diff::{ResultFiles, compare};
 /// What changed between two results, and whether it matters.
 ///
 /// OLD and NEW are each a folder of a study, a folder of reports, or one
-/// file: findings.json or validation.json; without them, the committed
+/// file: findings.json or verification.json; without them, the committed
 /// reports and what `rocking study` wrote last. The first lines name the
 /// settings and records that changed, the effect on overturning intensities,
 /// and how many answers, words on claims (seen, exists) and numbers changed. A

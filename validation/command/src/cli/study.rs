@@ -83,7 +83,7 @@ pub struct StudyCommand {
     threads: ThreadsArg,
     #[command(flatten)]
     way: WayArgs,
-    /// Folder into which `rocking verify --out` wrote validation.json and
+    /// Folder into which `rocking verify --out` wrote verification.json and
     /// precision.csv, the results of the declared cases, which the page
     /// then shows; the folder data of the report if it holds them.
     #[arg(long, value_name = "DIR")]

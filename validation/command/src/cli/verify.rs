@@ -16,7 +16,7 @@ use rocking_proof::methods::{digits, digits_csv};
 use rocking_proof::verdict::{CaseOutcome, CaseVerdict, run_all, snapshot};
 use rocking_report::diff::{self, ResultFiles};
 
-// With `--out` it writes the results to OUT/data/validation.json, and to
+// With `--out` it writes the results to OUT/data/verification.json, and to
 // OUT/data/precision.csv what single, double and double-double precision
 // reach.
 /// Runs the declared cases and writes or checks their results.
@@ -53,7 +53,7 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
             std::fs::create_dir_all(&folder).at(place)?;
             let mut outputs = Outputs::default();
             Some([
-                outputs.open(&folder.join("validation.json"))?,
+                outputs.open(&folder.join("verification.json"))?,
                 outputs.open(&folder.join("precision.csv"))?,
             ])
         }
@@ -70,7 +70,7 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     }
     let Some(out) = &args.out else { return Ok(()) };
     let folder = out.join("data");
-    let path = folder.join("validation.json");
+    let path = folder.join("verification.json");
     let text = snapshot::text(&cases, &outcomes);
     let digits_path = folder.join("precision.csv");
     let digits = digits_csv(&digits()?);

@@ -17,7 +17,7 @@ use crate::output::{FINDINGS, PAGE};
 use crate::sentences::first_arm;
 
 /// Names of the files that can be compared.
-pub(super) const NAMES: [&str; 2] = ["findings.json", "validation.json"];
+pub(super) const NAMES: [&str; 2] = ["findings.json", "verification.json"];
 
 /// What must stand in a file of results.
 const EXPECTED: &str =
@@ -69,7 +69,7 @@ impl ResultFiles {
         if results.trees.iter().all(Option::is_none) {
             bail!(
                 "{shown}: no results there, expected findings.json or \
-                 validation.json in it or in its folder data"
+                 verification.json in it or in its folder data"
             );
         }
         Ok(results)

@@ -17,7 +17,7 @@ use rocking_proof::methods::DIGITS_HEADER;
 use rocking_proof::verdict::snapshot::{self, CaseResult};
 
 /// File of the results of the declared cases.
-const RESULTS: &str = "validation.json";
+const RESULTS: &str = "verification.json";
 /// File of the digits that each precision reaches.
 const DIGITS: &str = "precision.csv";
 
@@ -364,7 +364,7 @@ mod tests {
         let proof = Proof::read(&committed()).unwrap();
         let (passed, all) = (proof.passed(), proof.results().len());
         assert_eq!(passed, all);
-        let own = "By the results handed in (data/validation.json): ";
+        let own = "By the results handed in (data/verification.json): ";
         let count = format!("{own}{all} of {all} declared cases pass");
         let text = proof.to_string();
         assert!(text.starts_with(&count), "{text}");

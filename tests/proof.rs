@@ -35,7 +35,7 @@ bounds = { x = "exact", y = { relative = 1e-9 } }
 "#;
 
 #[test]
-fn validates_a_good_file_and_refuses_each_flaw() {
+fn accepts_a_good_file_and_refuses_each_flaw() {
     let case = &load_family("f", GOOD).unwrap()[0];
     assert_eq!(case.id, "f/a");
     assert_eq!((case.cost, &case.status), (Cost::Quick, &Status::Pass));

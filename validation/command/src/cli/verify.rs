@@ -19,7 +19,7 @@ use rocking_report::diff::{self, ResultFiles};
 // With `--out` it writes the results to OUT/data/verification.json, and to
 // OUT/data/precision.csv what single, double and double-double precision
 // reach.
-/// Runs the declared cases and writes or checks their results.
+/// Runs the declared cases against closed forms and references.
 #[derive(clap::Args)]
 pub struct VerifyCommand {
     /// Run this family alone.

@@ -14,7 +14,7 @@ named! {
         CodeVerification = "code-verification",
         /// The numerical error is what the method promises.
         SolutionVerification = "solution-verification",
-        /// The model against measured or published results.
+        /// The model against experiments.
         ModelValidation = "model-validation",
         /// A statistical procedure keeps its stated error rates.
         StatisticalCalibration = "statistical-calibration",

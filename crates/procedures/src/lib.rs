@@ -49,6 +49,7 @@ pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
 pub use risk::{FragilityInput, Risk, RiskError, risk};
+pub use shaking::{TestComparison, compare_with_tests};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 

@@ -4,6 +4,17 @@
 //! overturned. Tests of one motion at several levels are no independent
 //! draws: the unit of every interval is the motion.
 
+mod capacities;
+mod distribution;
+mod error;
+mod fates;
+mod numbers;
+mod onset;
+mod predictor;
+mod repeats;
+
+use std::collections::BTreeMap;
+
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::integrator::Model;
@@ -11,6 +22,9 @@ use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Estimate;
 
 use crate::Draws;
+use capacities::TestRecords;
+pub use error::ShakingError;
+pub use numbers::{ComputedTest, ComputedTests};
 
 rocking::named! {
     /// What became of a specimen in a test.
@@ -33,6 +47,8 @@ pub struct ShakingTest {
     pub motion: String,
     /// What became of the specimen.
     pub fate: TestFate,
+    /// Values of the test by name, for measures that are a column.
+    pub columns: BTreeMap<String, f64>,
 }
 
 /// The slenderness of the specimen.
@@ -63,6 +79,28 @@ pub struct TestOptions {
     pub measures: Vec<IntensityMeasure>,
     /// Draws of motions with all their tests.
     pub draws: Draws,
+}
+
+/// Compares a block with shaking-table tests.
+///
+/// Each record is scaled until the block first overturns, at 0.1 of the
+/// onset of rocking and bisected; over the record that is the test's
+/// capacity factor c. A record that does not overturn the block up to 100
+/// times the onset has the last level. 1/c, and each measure, predict the
+/// fates by a lognormal fragility of the highest likelihood (probit). All
+/// intervals draw motions with all their tests. Tests of unknown fate are
+/// left out.
+///
+/// # Errors
+/// [`ShakingError`] for fewer than three motions, fates of one kind, fates
+/// that one factor on the capacity separates, measures that a test does not
+/// have, and analyses that are refused.
+pub fn compare_with_tests(
+    tests: &[ShakingTest],
+    options: &TestOptions,
+) -> Result<TestComparison, ShakingError> {
+    let records = TestRecords::new(tests, options);
+    records.computed()?.compare(options.draws)
 }
 
 /// Level of the intervals of a comparison with tests.
@@ -109,6 +147,13 @@ pub struct TestComparison {
     pub computed: Predictor,
     /// Intensity measures as predictors of the same fates.
     pub rivals: Vec<Predictor>,
+    /// Measures that are no predictor, or have no fragility of the computed
+    /// fates.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub unfitted: Vec<UnfittedMeasure>,
     /// Predicted and observed shares of overturning, by tenths of the tests
     /// in ascending order of the predicted probability.
     pub reliability: Vec<ReliabilityClass>,
@@ -156,6 +201,20 @@ pub struct Predictor {
     pub log_score: Estimate,
     /// Log-likelihood of the fit to all tests.
     pub log_likelihood: f64,
+}
+
+/// A measure that has no fit.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct UnfittedMeasure {
+    /// Intensity measure.
+    pub im: String,
+    /// Whether the computed fates have no fit; else the measured ones, of
+    /// all tests or of those of all motions but one.
+    pub computed: bool,
+    /// Why.
+    pub reason: String,
 }
 
 /// Predicted and observed overturning of some tests.

@@ -15,6 +15,8 @@ named! {
         Record = "record",
         /// Earthquakes, each with all its records.
         Earthquake = "earthquake",
+        /// Motions of a shaking table, each with all its tests.
+        Motion = "motion",
     }
 }
 
@@ -41,10 +43,28 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// Clusters from one label a record: records with the same label make a
-    /// cluster.
+    /// Earthquakes from one label a record: records with the same label make
+    /// a cluster.
     #[must_use]
     pub fn from_labels(labels: impl IntoIterator<Item: AsRef<str>>) -> Self {
+        Self::of_unit(SamplingUnit::Earthquake, labels)
+    }
+
+    /// Clusters that are this unit from one label a record.
+    ///
+    /// ```
+    /// use rocking_statistics::clusters::{Clusters, SamplingUnit};
+    /// let motions = Clusters::of_unit(SamplingUnit::Motion, ["a", "b", "c"]);
+    /// assert_eq!(
+    ///     motions.remark(200).unwrap().to_string(),
+    ///     "intervals are rough: 3 motions, fewer than 8"
+    /// );
+    /// ```
+    #[must_use]
+    pub fn of_unit(
+        unit: SamplingUnit,
+        labels: impl IntoIterator<Item: AsRef<str>>,
+    ) -> Self {
         let mut known = std::collections::BTreeMap::new();
         let mut members: Vec<Vec<usize>> = Vec::new();
         let mut place = |(record, label): (usize, _)| {
@@ -61,7 +81,7 @@ impl Clusters {
         for label in labels.into_iter().enumerate() {
             of.push(place(label));
         }
-        Self { unit: SamplingUnit::Earthquake, of, members }
+        Self { unit, of, members }
     }
 
     /// Clusters of `n` records without a label: each record is a cluster.
@@ -110,7 +130,7 @@ impl Clusters {
         let labels = records.iter().map(|record| self.of[*record].to_string());
         match self.unit {
             SamplingUnit::Record => Self::singletons(records.len()),
-            SamplingUnit::Earthquake => Self::from_labels(labels),
+            unit => Self::of_unit(unit, labels),
         }
     }
 
@@ -203,9 +223,9 @@ impl std::fmt::Display for Clusters {
             SamplingUnit::Record => {
                 write!(f, "{records} records; unit: record")
             }
-            SamplingUnit::Earthquake => write!(
+            unit => write!(
                 f,
-                "{records} records of {} earthquakes; unit: earthquake",
+                "{records} records of {} {unit}s; unit: {unit}",
                 self.count()
             ),
         }

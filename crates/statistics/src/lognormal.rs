@@ -5,6 +5,7 @@ mod censored;
 mod counts;
 mod fit;
 mod profile;
+mod within;
 
 use libm::{exp, expm1, log, sqrt};
 use thiserror::Error;
@@ -14,6 +15,7 @@ pub use fit::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals, shifted_finite,
 };
 pub use profile::{ShiftProfile, profile_shift};
+pub use within::dispersion_within;
 
 use super::{ExtendedSample, normal};
 

@@ -1,0 +1,109 @@
+//! Why tests were not compared.
+
+use thiserror::Error;
+
+use crate::ProcedureError;
+use rocking::block::BlockError;
+use rocking::ida::IdaError;
+use rocking_records::intensity::IntensityError;
+use rocking_statistics::lognormal::FitError;
+
+/// Why a block was not compared with tests.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShakingError {
+    /// There is no test with a known fate.
+    #[error("{unknown} tests, none with a known fate: expected both fates")]
+    NoTests {
+        /// Tests whose fate is unknown.
+        unknown: usize,
+    },
+    /// Motions are the unit of the intervals.
+    #[error("{found} motions of {tests} tests: expected at least 3")]
+    Motions {
+        /// Number of motions with a known fate.
+        found: usize,
+        /// Number of tests with a known fate.
+        tests: usize,
+    },
+    /// Fates of one kind tell one side of the capacity alone.
+    #[error("all {0} tests overturned the specimen: expected both fates")]
+    AllOverturned(usize),
+    /// Fates of one kind tell one side of the capacity alone.
+    #[error("none of {0} tests overturned the specimen: expected both fates")]
+    NoneOverturned(usize),
+    /// The fates give no scatter of the capacity.
+    #[error("demand over capacity of the tests{}: {source}", less(.without))]
+    Fit {
+        /// The motion that was left out, if one was.
+        without: Option<String>,
+        /// Why there is no fit.
+        #[source]
+        source: FitError,
+    },
+    /// A test has no value of a measure.
+    #[error("test {test}: {measure} is {found}: expected a positive number")]
+    Measure {
+        /// The test.
+        test: String,
+        /// The measure.
+        measure: String,
+        /// Its value; NaN if there is none.
+        found: f64,
+    },
+    /// Another number of values than of measures.
+    #[error("test {test}: {found} values of {expected} measures")]
+    Values {
+        /// The test.
+        test: String,
+        /// Number of values.
+        found: usize,
+        /// Number of measures.
+        expected: usize,
+    },
+    /// A capacity is a positive factor on the motion.
+    #[error("test {test}: {what} is {found}: expected a positive number")]
+    Number {
+        /// The test.
+        test: String,
+        /// The quantity.
+        what: &'static str,
+        /// What was found.
+        found: f64,
+    },
+    /// No slenderness makes measured capacities the computed ones.
+    #[error(
+        "no slenderness between {low} and {high} rad makes the median of measured over computed capacity 1"
+    )]
+    Slenderness {
+        /// The smallest slenderness that was tried, in rad.
+        low: f64,
+        /// The largest, in rad.
+        high: f64,
+    },
+    /// The measures of a record.
+    #[error("test {test}: {source}")]
+    Record {
+        /// The test.
+        test: String,
+        /// What was wrong.
+        #[source]
+        source: IntensityError,
+    },
+    /// Gravity or periods of measures.
+    #[error(transparent)]
+    Settings(IntensityError),
+    /// The block.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// The draws.
+    #[error(transparent)]
+    Draws(#[from] ProcedureError),
+    /// An analysis.
+    #[error(transparent)]
+    Ida(#[from] IdaError),
+}
+
+fn less(motion: &Option<String>) -> String {
+    motion.as_ref().map_or(String::new(), |m| format!(" without motion {m}"))
+}

@@ -1,0 +1,127 @@
+//! A number of each test as a predictor of the fates.
+
+use super::Predictor;
+use super::fates::{Fates, left_out, log_likelihood, of_overturning, probit};
+use rocking_statistics::lognormal::FitError;
+use rocking_statistics::{Lognormal, Range};
+
+/// One number of each test.
+pub(super) struct PredictorNumbers {
+    pub name: String,
+    pub x: Vec<f64>,
+    /// Tests in ascending order of the number.
+    order: Vec<usize>,
+    /// Whether each fate is right.
+    right: Vec<bool>,
+    /// ln of the predicted probability of each fate.
+    ln_of_fate: Vec<f64>,
+    pub fit: Lognormal,
+}
+
+/// What a draw makes of a predictor: right, median, dispersion, AUC, score.
+pub(super) type Scores = [f64; 5];
+
+impl PredictorNumbers {
+    /// Fits the fates; `threshold` is the number from which a test is taken
+    /// to overturn the specimen, none where the probability decides.
+    ///
+    /// # Errors
+    /// The motion that was left out, if one was, and why there is no fit.
+    pub fn new(
+        name: String,
+        x: Vec<f64>,
+        fates: &Fates,
+        threshold: Option<f64>,
+    ) -> Result<Self, (Option<usize>, FitError)> {
+        let fit = probit(&x, &fates.overturned, &fates.once(), 0.0)
+            .map_err(|source| (None, source))?;
+        let ln_of_fate = left_out(&x, fates)
+            .map_err(|(motion, source)| (Some(motion), source))?;
+        let mut order: Vec<usize> = (0..x.len()).collect();
+        order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+        let is_right = |i: usize| match threshold {
+            Some(least) => (x[i] >= least) == fates.overturned[i],
+            None => ln_of_fate[i] > -std::f64::consts::LN_2,
+        };
+        let right = (0..x.len()).map(is_right).collect();
+        Ok(Self { name, order, right, ln_of_fate, fit, x })
+    }
+
+    /// Predicted probability of overturning of each test.
+    pub fn probabilities(&self, fates: &Fates) -> Vec<f64> {
+        let tests = self.ln_of_fate.iter().zip(&fates.overturned);
+        tests.map(|(ln, fate)| of_overturning(*ln, *fate)).collect()
+    }
+
+    /// The scores of a fit to the tests as often as they are drawn; the
+    /// predicted probabilities stay.
+    pub fn scores(
+        &self,
+        fit: Option<&Lognormal>,
+        fates: &Fates,
+        counts: &[u32],
+    ) -> Scores {
+        let (mut right, mut score, mut all) = (0.0, 0.0, 0.0);
+        for (i, count) in counts.iter().enumerate() {
+            let n = f64::from(*count);
+            all += n;
+            right += if self.right[i] { n } else { 0.0 };
+            score -= n * self.ln_of_fate[i];
+        }
+        [
+            right / all,
+            fit.map_or(f64::NAN, Lognormal::median),
+            fit.map_or(f64::NAN, Lognormal::dispersion),
+            self.auc(fates, counts),
+            score / all,
+        ]
+    }
+
+    /// Probability that a test that overturned the specimen has a larger
+    /// number than one that did not; equal numbers count half.
+    fn auc(&self, fates: &Fates, counts: &[u32]) -> f64 {
+        let (mut pairs, mut stood, mut fell) = (0.0, 0.0, 0.0);
+        let (x, mut from) = (&self.x, 0);
+        while from < self.order.len() {
+            let value = x[self.order[from]];
+            let (mut stands, mut falls) = (0.0, 0.0);
+            while from < self.order.len() && x[self.order[from]] <= value {
+                let test = self.order[from];
+                let n = f64::from(counts[test]);
+                let own = if fates.overturned[test] {
+                    &mut falls
+                } else {
+                    &mut stands
+                };
+                *own += n;
+                from += 1;
+            }
+            pairs += falls * f64::mul_add(0.5, stands, stood);
+            stood += stands;
+            fell += falls;
+        }
+        pairs / (stood * fell)
+    }
+
+    /// The predictor with its intervals from its scores in the draws.
+    pub fn predictor(&self, fates: &Fates, drawn: &[Scores]) -> Predictor {
+        let points = self.scores(Some(&self.fit), fates, &fates.once());
+        let estimate = |k: usize, range: Range| {
+            let drawn: Vec<f64> = drawn.iter().map(|own| own[k]).collect();
+            fates.estimate(points[k], &drawn, range)
+        };
+        Predictor {
+            predictor: self.name.clone(),
+            right: estimate(0, Range::Share),
+            median: estimate(1, Range::NotNegative),
+            dispersion: estimate(2, Range::NotNegative),
+            auc: estimate(3, Range::Share),
+            log_score: estimate(4, Range::NotNegative),
+            log_likelihood: log_likelihood(
+                &self.fit,
+                &self.x,
+                &fates.overturned,
+            ),
+        }
+    }
+}

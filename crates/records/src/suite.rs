@@ -74,6 +74,8 @@ pub struct SuiteMember<M = Accelerogram> {
     pub event: Option<String>,
     /// What the caller gave because neither file nor index states it.
     pub given: Fallback,
+    /// Line of the index that lists the record, counted from 1.
+    pub line: Option<usize>,
     /// Other columns of the index (magnitude, distance, ...): name and cell,
     /// in the index's order.
     pub attributes: Vec<(Arc<str>, String)>,
@@ -102,6 +104,7 @@ impl SuiteMember {
             study_component: false,
             event: None,
             given: record.given,
+            line: None,
             attributes: Vec::new(),
         }
     }
@@ -120,6 +123,7 @@ impl SuiteMember {
             study_component: self.study_component,
             event: self.event,
             given: self.given,
+            line: self.line,
             attributes: self.attributes,
         }
     }

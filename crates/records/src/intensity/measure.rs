@@ -336,8 +336,15 @@ impl IntensityMeasure {
     pub fn usual() -> Vec<Self> {
         let mut all: Vec<Self> = Self::words_alone().collect();
         all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(Self::Sa));
-        all.push(Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
+        all.push(Self::usual_average());
         all
+    }
+
+    /// The average spectral acceleration among the [`usual`](Self::usual)
+    /// measures.
+    #[must_use]
+    pub fn usual_average() -> Self {
+        Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0])
     }
 
     /// Unit of its [`value`](Self::value); empty for a column.

@@ -385,7 +385,15 @@ impl IndexRow {
         }
         let pair = self.pair.as_deref().or_else(|| self.cell("pair"));
         let (pair, event) = (pair.map(str::to_owned), self.event()?);
-        Ok(SuiteMember { pair, study_component, event, attributes, ..member })
+        let line = Some(self.line);
+        Ok(SuiteMember {
+            pair,
+            study_component,
+            event,
+            line,
+            attributes,
+            ..member
+        })
     }
 
     fn check_sum(&self, content: &[u8]) -> Result<(), SuiteError> {

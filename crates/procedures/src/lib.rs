@@ -30,6 +30,7 @@ pub mod pivot;
 pub mod ranking;
 pub mod risk;
 pub mod shaking;
+pub mod shaking_table;
 pub mod stripes;
 pub mod summary;
 

@@ -330,6 +330,8 @@ pub struct TestResult {
     pub motion: String,
     /// PGA in g.
     pub pga_g: f64,
+    /// Intensities in the measures of the fragilities, in their order.
+    pub intensities: Vec<f64>,
     /// Factor on the motion at which the block first overturns.
     pub capacity_factor: f64,
     /// Whether the block overturns at the level of the test.

@@ -177,7 +177,7 @@ impl ComputedTests {
             distributions: (0..rivals.len())
                 .filter_map(of_distribution)
                 .collect(),
-            each: self.each(&probabilities),
+            each: self.each(&probabilities, &rivals),
         })
     }
 
@@ -266,12 +266,27 @@ impl ComputedTests {
         (rivals, unfitted)
     }
 
-    fn each(&self, probabilities: &[f64]) -> Vec<TestResult> {
+    fn each(
+        &self,
+        probabilities: &[f64],
+        rivals: &[Rival<'_>],
+    ) -> Vec<TestResult> {
+        let shown = |im: &&IntensityMeasure| {
+            let fitted = |r: &Rival<'_>| r.im == *im && r.computed.is_some();
+            rivals.iter().any(fitted)
+        };
         let tests = self.tests.iter().zip(probabilities);
         let result = |(test, probability): (&ComputedTest, &f64)| TestResult {
             test: test.test.clone(),
             motion: test.motion.clone(),
             pga_g: test.pga_g,
+            intensities: self
+                .measures
+                .iter()
+                .zip(&test.measures)
+                .filter(|(im, _)| shown(im))
+                .map(|(_, value)| *value)
+                .collect(),
             capacity_factor: test.capacity_factor,
             overturns_at_level: test.overturns_at_level,
             probability: *probability,

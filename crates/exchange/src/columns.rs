@@ -71,6 +71,7 @@ tables!(
     ASSESSED_FRAGILITIES = "assessed fragilities",
     ASSESSED_CAPACITIES = "assessed capacities",
     ASSESSED_RESPONSES = "assessed responses",
+    COMPARED_TESTS = "compared tests",
     FRAGILITIES = "fragilities",
     SWEEP_FRAGILITIES = "sweep fragilities",
     SWEEP_CAPACITIES = "sweep capacities",

@@ -14,11 +14,11 @@ use crate::About;
 const SCHEMA: u32 = 1;
 
 #[derive(Serialize)]
-struct AssessmentFile<'a> {
+struct ResultFile<'a, T> {
     schema: u32,
     version: &'static str,
     #[serde(flatten)]
-    found: &'a Assessment,
+    found: &'a T,
     provenance: Vec<Provenance<'a>>,
 }
 
@@ -33,11 +33,19 @@ struct Provenance<'a> {
 /// # Errors
 /// None in practice.
 pub fn json(found: &Assessment, about: &About) -> anyhow::Result<String> {
+    of(found, about)
+}
+
+/// A result with its provenance, as JSON.
+pub(crate) fn of<T: Serialize>(
+    found: &T,
+    about: &About,
+) -> anyhow::Result<String> {
     let provenance = about.provenance.iter();
     let provenance =
         provenance.map(|(what, is)| Provenance { what, is }).collect();
     let version = env!("CARGO_PKG_VERSION");
-    let file = AssessmentFile { schema: SCHEMA, version, found, provenance };
+    let file = ResultFile { schema: SCHEMA, version, found, provenance };
     Ok(serde_json::to_string_pretty(&file)? + "\n")
 }
 

@@ -3,6 +3,7 @@
 
 mod charts;
 mod data;
+pub mod shaking;
 mod words;
 
 #[cfg(test)]

@@ -37,7 +37,12 @@ pub(crate) fn in_years(answer: &Answer) -> Option<String> {
 
 /// The intensity measure.
 pub(crate) fn measure(found: &Assessment) -> String {
-    match &found.im {
+    symbol(&found.im)
+}
+
+/// An intensity measure without its unit.
+pub(crate) fn symbol(im: &IntensityMeasure) -> String {
+    match im {
         IntensityMeasure::Axis(intensity) => intensity.row().symbol.to_owned(),
         other => {
             let words = other.words();

@@ -1,0 +1,275 @@
+//! The page of a comparison with shaking-table tests.
+
+mod charts;
+mod words;
+
+use std::collections::BTreeMap;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use rocking::integrator::Model;
+use rocking_common::table::columns::COMPARED_TESTS;
+use rocking_common::table::{Table, number};
+use rocking_draw::figures::{Chart, Layout};
+use rocking_draw::grid::Grid;
+use rocking_draw::page::{head, inline};
+use rocking_procedures::shaking::TestComparison;
+
+use crate::{About, PAGE, data, provenance, table};
+
+/// The name of its JSON.
+const JSON: &str = "tests.json";
+/// Room for words right of a figure of one panel, in px.
+const EDGE_PX: f64 = 56.0;
+/// The name of its CSV.
+const CSV: &str = "tests.csv";
+
+/// The files of a comparison, by their names.
+///
+/// # Errors
+/// None in practice.
+pub fn files(
+    found: &TestComparison,
+    about: &About,
+) -> anyhow::Result<BTreeMap<String, Vec<u8>>> {
+    let named = [
+        (JSON, data::of(found, about)?),
+        (CSV, csv(found)),
+        (PAGE, page(found, about)),
+    ];
+    let bytes =
+        |(name, text): (&str, String)| (name.to_owned(), text.into_bytes());
+    Ok(named.into_iter().map(bytes).collect())
+}
+
+/// What the terminal shows.
+#[must_use]
+pub fn text(found: &TestComparison) -> String {
+    words::text(found)
+}
+
+/// Each test, as CSV.
+fn csv(found: &TestComparison) -> String {
+    let mut table = Table::of(&COMPARED_TESTS);
+    for test in &found.each {
+        table.row([
+            test.test.clone(),
+            test.motion.clone(),
+            number(test.pga_g),
+            number(test.capacity_factor),
+            test.overturns_at_level.to_string(),
+            number(test.probability),
+            test.overturned.to_string(),
+        ]);
+    }
+    table.finish()
+}
+
+/// The page, beside which its other files lie.
+#[must_use]
+pub fn page(found: &TestComparison, about: &About) -> String {
+    let title =
+        format!("A rigid block against {} shaking-table tests", found.tests);
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            (head(&title))
+            body {
+                header {
+                    h1 { (title) }
+                    p { strong { (words::first(found)) } }
+                    p {
+                        (words::counts(found)) " " (about.ground)
+                        " The block: " (words::block(found)) ". "
+                        (words::intervals(found))
+                    }
+                }
+                main id="main" {
+                    (fates(found))
+                    (fragility(found))
+                    (each(found))
+                    (repeats(found))
+                    (limits(found))
+                    (provenance(about, &[JSON, CSV]))
+                }
+            }
+        }
+    }
+    .into_string()
+        + "\n"
+}
+
+/// A figure with its number and its words.
+fn figure(chart: Chart, number: u8, words: &str) -> Markup {
+    let title = chart.heading.title.clone();
+    let wide = chart.panels.len() > 1;
+    let drawn = match wide {
+        true => chart.figure(""),
+        false => {
+            // Legible in the width of a phone.
+            let grid = Grid::new(1, 1).plot(400.0, 300.0);
+            let grid = Some(Grid { right: EDGE_PX, ..grid });
+            chart.laid_out(&Layout { grid, ..Layout::default() }, "")
+        }
+    };
+    html! {
+        figure.figure {
+            figcaption {
+                p.title { "Figure " (number) ". " (title) }
+                p { (words) }
+            }
+            div class={ "scroll drawing" @if wide { " wide" } } role="region"
+                aria-label={ (title) ", drawing" } tabindex="0"
+            {
+                (PreEscaped(inline(&drawn.svg())))
+            }
+        }
+    }
+}
+
+fn fates(found: &TestComparison) -> Markup {
+    let rows = words::predictors(found);
+    let words = format!(
+        "The predicted probability of each test is of a fit that leaves its \
+         motion out. Marks are tenths of the tests in ascending order of \
+         this probability, with {} % intervals. Below the line the \
+         prediction is too high, above it too low.",
+        100.0 * found.level
+    );
+    html! {
+        section {
+            h2 { "Fates" }
+            @if let Some(line) = words::rivals(found) { p { (line) } }
+            (table(
+                "The block and intensity measures as predictors",
+                &words::predictor_heads(found),
+                &rows
+            ))
+            p {
+                "The block decides by its first overturning: it overturns \
+                 in a test whose level is at or above it. A measure \
+                 overturns where its predicted probability is above 0.5."
+                @if let Some(line) = words::resurrected(found) {
+                    " " (line)
+                }
+            }
+            (figure(charts::reliability(found), 1, &words))
+        }
+    }
+}
+
+fn fragility(found: &TestComparison) -> Markup {
+    html! {
+        section {
+            h2 { "Fragility" }
+            p {
+                @for one in &found.distributions {
+                    (words::left_out(one)) " "
+                }
+            }
+            (table(
+                "Measured and computed fragilities",
+                &words::fragility_heads(),
+                &words::fragilities(found)
+            ))
+            @for line in words::unfitted(found) { p { (line) } }
+            (figure(
+                charts::fragilities(found),
+                2,
+                "Both curves are fitted in the same way to the same tests: \
+                 one to the fates that were measured, one to those that the \
+                 block has. Marks are shares of overturning in ten classes \
+                 of equal numbers of tests."
+            ))
+            h3 { "Onset of rocking" }
+            p { (words::below(found)) }
+            (table(
+                "Log-likelihood by the part that scatters",
+                &["Fit".to_owned(), "Log-likelihood".to_owned()],
+                &words::onsets(found)
+            ))
+            p {
+                "The first two are of the " (found.onset.tests)
+                " tests above the onset, the last two of all tests. The \
+                 larger one of each pair fits these fates better."
+            }
+        }
+    }
+}
+
+fn each(found: &TestComparison) -> Markup {
+    let lines = if found.alpha_is_fitted {
+        "The line is the computed capacity."
+    } else {
+        "The unbroken line is the computed capacity, the broken one the \
+         median of the measured capacity."
+    };
+    let by = match charts::velocity(found) {
+        None => "",
+        Some(_) => {
+            " PGV/PGA grows with the period of the motion: a bias that \
+             changes from left to right is one of the frequency content."
+        }
+    };
+    let words = format!(
+        "{lines} The block overturns in the tests above the line at 1. A \
+         filled mark below it and an open mark above it are wrong fates.{by}"
+    );
+    html! {
+        section {
+            h2 { "Each test" }
+            (figure(charts::levels(found), 3, &words))
+        }
+    }
+}
+
+fn repeats(found: &TestComparison) -> Markup {
+    let all = words::repeatability(found);
+    html! {
+        @if !all.is_empty() {
+            section {
+                h2 { "Repeatability of the tests" }
+                ul { @for line in &all { li { (line) } } }
+            }
+        }
+    }
+}
+
+fn limits(found: &TestComparison) -> Markup {
+    let equation = match found.model {
+        Model::Nonlinear => "Eq. 1",
+        Model::Linearized => "Eq. 2",
+    };
+    html! {
+        section {
+            h2 { "Limits" }
+            ul {
+                li {
+                    "These numbers are of this specimen, this table and \
+                     these motions. They do not carry over to another \
+                     object by themselves."
+                }
+                li {
+                    "The model is one rigid block in a plane (" (equation)
+                    " of Lachanas, Vamvatsikos and Dimitrakopoulos) with a \
+                     sharp base and a constant coefficient of restitution. \
+                     The specimen may slide, twist, jump or rock on a rounded \
+                     or uneven base."
+                }
+                li {
+                    "The dispersion holds the faults of the model and the \
+                     scatter of the tests alike."
+                }
+                @if found.alpha_is_fitted {
+                    li {
+                        "The slenderness was fitted to the fates. Shares and \
+                         dispersions of a block that was measured beforehand \
+                         would not be better."
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

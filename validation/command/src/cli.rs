@@ -40,6 +40,7 @@ pub mod stripes;
 pub mod study;
 pub mod suite;
 pub mod sweep;
+mod validate;
 mod verify;
 pub mod way;
 
@@ -94,6 +95,7 @@ fn entries() -> Vec<CommandEntry> {
         entry("Prove", "verify", |args| {
             with_threads(None, || verify::run_verify(args)).flatten()
         }),
+        entry("Prove", "validate", validate::run_validate),
         entry("Prove", "score", score::run_score),
         entry("Prove", "diff", diff::run_diff),
         entry("Prove", "speed", |args| {

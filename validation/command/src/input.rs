@@ -10,6 +10,7 @@ use rocking_records::intensity::Intensity;
 
 use crate::failure::{AtPlace as _, Failure};
 use crate::terminal::note;
+use rocking_common::suites::inputs::sha256_hex;
 
 fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
     if path == Path::new("-") {
@@ -40,6 +41,19 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
 pub fn text(path: &Path) -> Result<String, Failure> {
     let read = opened(path).and_then(io::read_to_string);
     read.at(format_args!("cannot read {}", path.display()))
+}
+
+/// Name and SHA-256 of a file that was read.
+///
+/// # Errors
+/// As [`text`].
+pub fn named(path: &Path) -> Result<String, Failure> {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    let mut bytes = Vec::new();
+    let read = opened(path).and_then(|mut file| file.read_to_end(&mut bytes));
+    read.at(format_args!("cannot read {}", path.display()))?;
+    let sha256 = sha256_hex(&bytes);
+    Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
 }
 
 /// A sample file.

@@ -1,6 +1,6 @@
 //! `rocking assess`: objects, records and a hazard curve to one page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ArgGroup;
 use rocking::accelerogram::Accelerogram;
@@ -25,7 +25,7 @@ use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE};
 use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
-use rocking_common::suites::{StudySuite, inputs::sha256_hex};
+use rocking_common::suites::StudySuite;
 
 /// The kind of the suite, where nothing else is said.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
@@ -128,13 +128,6 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     say(&format!("{text}\nPage: {}\n", page.display()))
 }
 
-/// Name and SHA-256 of a file that was read.
-fn named(path: &Path) -> Result<String, Failure> {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    let sha256 = sha256_hex(input::text(path)?.as_bytes());
-    Ok(format!("{}, SHA-256 {sha256}", name.to_string_lossy()))
-}
-
 impl AssessCommand {
     fn objects(&self) -> Result<Vec<Object>, Failure> {
         let gravity_m_s2 = STANDARD_GRAVITY_M_S2;
@@ -195,8 +188,9 @@ impl AssessCommand {
         let aside = &suite.set_aside;
         some("Set aside", (!aside.is_empty()).then(|| aside.to_string()));
         some("Remarks", suite.remarks.words());
-        let named =
-            |path: &Option<PathBuf>| path.as_deref().map(named).transpose();
+        let named = |path: &Option<PathBuf>| {
+            path.as_deref().map(input::named).transpose()
+        };
         some("Objects", named(&self.objects)?);
         some("Floors", named(&self.floors)?);
         some("Hazard curve", named(&self.hazard)?);

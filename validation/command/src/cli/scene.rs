@@ -4,6 +4,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_procedures::shaking::Slenderness;
 
 use super::names;
 use super::shared::positive;
@@ -24,7 +25,6 @@ pub struct BlockArgs {
     #[arg(
         long,
         value_name = "P",
-        requires = "alpha",
         conflicts_with_all = ["width_m", "height_m"]
     )]
     p: Option<f64>,
@@ -65,6 +65,20 @@ impl BlockArgs {
             _ => {
                 bail!("expected --alpha and --p, or --width-m and --height-m")
             }
+        }
+    }
+
+    /// The block, or of `--p` alone one whose slenderness is to be fitted.
+    ///
+    /// # Errors
+    /// As [`BlockArgs::block`].
+    pub fn slenderness(
+        &self,
+        gravity_m_s2: f64,
+    ) -> Result<Slenderness, Failure> {
+        match (self.alpha, self.p) {
+            (None, Some(p_rad_s)) => Ok(Slenderness::Fitted { p_rad_s }),
+            _ => Ok(Slenderness::Given(self.block(gravity_m_s2)?)),
         }
     }
 }

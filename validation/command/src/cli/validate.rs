@@ -1,0 +1,202 @@
+//! `rocking validate`: a block against shaking-table tests.
+
+use std::path::PathBuf;
+
+use rocking::block::Restitution;
+use rocking::integrator::Model;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_procedures::shaking::{
+    ShakingTest, Slenderness, TestOptions, compare_with_tests,
+};
+use rocking_procedures::shaking_table::{FATE_COLUMN, TestTable};
+use rocking_records::intensity::IntensityMeasure as M;
+use rocking_records::{RemarkInput, SuiteError};
+
+use super::names;
+use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
+use super::scene::{BlockArgs, Eta};
+use super::shared::{BootstrapArgs, JsonArg, ThreadsArg, positive};
+use crate::failure::{Failure, bail};
+use crate::input;
+use crate::terminal::{SOFTWARE, note, say};
+use rocking_assessment::{About, PAGE, shaking};
+use rocking_common::files::{OutputFolder, SUMS, sums};
+use rocking_common::suites::inputs::visit;
+use rocking_common::suites::remarks::Remarks;
+
+/// A rigid block against shaking-table tests: how many fates it gets right,
+/// its bias, and the scatter that it leaves out.
+///
+/// TESTS.csv is an index of the motions of the table, one row a test, with
+/// two more columns: the fate of the specimen (overturned, stood or unknown,
+/// or 1, 0 or empty), and the motion that the test repeats (event, or
+/// motion). A column scale is a factor on the motion of the file. Tests of
+/// one motion are no independent draws: the motion is the unit of every
+/// interval. With --p alone the slenderness is fitted to the fates.
+#[derive(clap::Args)]
+#[command(mut_arg("p", |arg| arg.help(
+    "Frequency parameter p in rad/s; without --alpha the slenderness is \
+     fitted to the fates"
+)))]
+#[command(after_help = "Examples:\n  \
+    rocking validate tests.csv --alpha 0.15 --p 4.5 --out page\n  \
+    rocking validate tests.csv --fate overturned_specimen_1 --p 4.55")]
+pub struct ValidateCommand {
+    /// Table of the tests.
+    #[arg(value_name = "TESTS.csv")]
+    tests: PathBuf,
+    /// Column of the fates.
+    #[arg(long, value_name = "COLUMN", default_value = FATE_COLUMN)]
+    fate: String,
+    #[command(flatten)]
+    block: BlockArgs,
+    /// Coefficient of restitution (ratio of angular velocities), or
+    /// `housner` for 1 - 1.5 sin^2(alpha) of a block whose alpha is given.
+    #[arg(long, value_name = "E|housner", default_value = "0.92")]
+    eta: Eta,
+    /// Equation of motion: Eq. 1 or Eq. 2.
+    #[arg(
+        long,
+        value_parser = names::model(),
+        default_value_t = Model::Nonlinear
+    )]
+    model: Model,
+    /// Gravity in m/s2, where sizes or SI records meet it.
+    #[arg(
+        long,
+        value_name = "G",
+        value_parser = positive,
+        default_value_t = STANDARD_GRAVITY_M_S2
+    )]
+    gravity: f64,
+    /// An intensity measure that predicts the same fates by itself: pga,
+    /// pgv, pgd, arias, cav, pgv-d575, sa:T or avgsa:T1,T2,.. (periods in
+    /// s); again for each one [default: pga, pgv and
+    /// avgsa:0.5,1,1.5,2,3].
+    #[arg(long, value_name = "MEASURE")]
+    im: Vec<M>,
+    #[command(flatten)]
+    reading: ReadArgs,
+    #[command(flatten)]
+    processing: ProcessingArgs,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    /// Folder of a page with three figures and its numbers: a new or an
+    /// empty one.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArg,
+}
+
+/// Runs `rocking validate`.
+///
+/// # Errors
+/// [`Failure`] for a table that is refused, with all its faults, or a folder
+/// that is not empty.
+pub fn run_validate(args: &ValidateCommand) -> Result<(), Failure> {
+    // All of it: a signal that stops it finds the threads that heed it.
+    args.threads.run(|| in_threads(args))?
+}
+
+fn in_threads(args: &ValidateCommand) -> Result<(), Failure> {
+    let options = args.options()?;
+    let (tests, remarks) = args.tests()?;
+    let folder = args.out.as_deref().map(OutputFolder::open_new);
+    let folder = folder.transpose()?;
+    let found = compare_with_tests(&tests, &options)?;
+    if let Some(folder) = folder {
+        let about = args.about(&remarks)?;
+        let mut files = shaking::files(&found, &about)?;
+        files.insert(SUMS.into(), sums(&files));
+        folder.write(&files, &[PAGE, SUMS])?;
+    }
+    if args.json.json {
+        return args.json.show(&found);
+    }
+    if let Some(words) = remarks.words() {
+        note(&format!("remarks on {words}"));
+    }
+    let mut text = shaking::text(&found);
+    if let Some(out) = &args.out {
+        text += &format!("\nPage: {}\n", out.join(PAGE).display());
+    }
+    say(&text)
+}
+
+impl ValidateCommand {
+    fn options(&self) -> Result<TestOptions, Failure> {
+        let slenderness = self.block.slenderness(self.gravity)?;
+        let measures = match self.im.as_slice() {
+            [] => vec![M::PGA, M::PGV, M::usual_average()],
+            given => given.to_vec(),
+        };
+        Ok(TestOptions {
+            slenderness,
+            restitution: self.restitution(slenderness)?,
+            model: self.model,
+            gravity_m_s2: self.gravity,
+            measures,
+            draws: self.bootstrap.draws(),
+        })
+    }
+
+    fn restitution(
+        &self,
+        slenderness: Slenderness,
+    ) -> Result<Restitution, Failure> {
+        match (self.eta, slenderness) {
+            (Eta::Constant(eta), _) => Ok(Restitution::constant(eta)?),
+            (Eta::Housner, Slenderness::Given(block)) => {
+                self.eta.restitution(&block)
+            }
+            (Eta::Housner, Slenderness::Fitted { .. }) => bail!(
+                "--eta housner: alpha is fitted: expected a number, or \
+                 --alpha"
+            ),
+        }
+    }
+
+    /// The tests, and the remarks on their motions.
+    fn tests(&self) -> Result<(Vec<ShakingTest>, Remarks), Failure> {
+        let options = self.reading.options(self.gravity);
+        let survey = visit(&self.tests, options, Ok::<_, SuiteError>)?;
+        let members = survey.members.iter().flatten();
+        let remarks = members.map(RemarkInput::from).collect::<Vec<_>>();
+        let remarks = Remarks::of(&remarks);
+        let table = TestTable {
+            path: &self.tests.display().to_string(),
+            fate: &self.fate,
+            processing: self.processing.processing()?,
+        };
+        let tests = table.tests(survey.members)?;
+        self.reading.judge(&survey.set_aside, &remarks)?;
+        Ok((tests, remarks))
+    }
+
+    fn about(&self, remarks: &Remarks) -> Result<About, Failure> {
+        let name = self.tests.file_name().unwrap_or_default();
+        let name = name.to_string_lossy();
+        let table = input::named(&self.tests)?;
+        let draws = self.bootstrap.draws();
+        let some = [
+            ("Program", Some(SOFTWARE.to_owned())),
+            ("Table of tests", Some(table)),
+            ("Column of the fates", Some(self.fate.clone())),
+            ("Processing", words(&self.processing.processing()?)),
+            ("Remarks", remarks.words()),
+            ("Draws of the intervals", Some(draws.replicates.to_string())),
+            ("Repetition of the draws", Some(draws.seed.to_string())),
+        ];
+        let known = some
+            .into_iter()
+            .filter_map(|(what, is)| is.map(|is| (what.to_owned(), is)));
+        Ok(About {
+            ground: format!("The motions are those of {name}."),
+            provenance: known.collect(),
+        })
+    }
+}

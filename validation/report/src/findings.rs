@@ -1,37 +1,7 @@
-//! Tables of claims: the paper's own criteria, and what is not judged.
+//! The table of claims that are not judged.
 
-use crate::quantity::rule_text;
 use rocking_common::findings::{Claim, Findings, Kind};
 use rocking_common::table::PlainTable;
-
-/// The paper's rules for its own sample, each with the statements that it
-/// decides.
-pub fn criteria(here: &Findings) -> PlainTable {
-    let mut rows: Vec<Vec<String>> = Vec::new();
-    for claim in &here.claims {
-        for one in &claim.yardsticks {
-            let rule = [one.words.clone(), rule_text(one)];
-            match rows.iter_mut().find(|row| row[..2] == rule) {
-                Some(row) => row[2] += &format!("; {}", claim.plain),
-                None => {
-                    let plain = std::slice::from_ref(&claim.plain);
-                    rows.push([&rule, plain].concat());
-                }
-            }
-        }
-    }
-    let header = ["number of the sample", "seen where it is", "statements"];
-    PlainTable::new(
-        "criteria-by-rule",
-        "Acceptance criteria",
-        "The paper's own criteria, in numbers. Most, and a sentence without a \
-         quantifier: more than half; almost all, the vast majority: at least \
-         90 %; few: below 10 %; curves coincide: within 10 %. The tolerance of each declared case stands \
-         with the case in the annex.",
-        &header,
-        rows,
-    )
-}
 
 /// What is true by definition or arithmetic, and what describes.
 pub fn identities(here: &Findings) -> PlainTable {

@@ -135,27 +135,13 @@ impl SentenceCounts {
     }
 }
 
-/// What came out about a theme: how many of its sentences are seen, and
-/// which of its claims are not.
+/// What came out about a theme: how many of its sentences are seen.
 pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
     let own = |claim: &Claim| claim.theme == theme;
     let all = sentences(lead, own);
     let yes = all.iter().filter(|own| own.seen == Seen::Yes).count();
-    let mut words = format!("{yes} of {} sentences are seen", all.len());
-    for (word, start) in [
-        (Seen::No, "Not seen"),
-        (Seen::InPart, "In part"),
-        (Seen::NotTestable, "Not testable"),
-    ] {
-        let claims = lead.claims.iter().filter(|c| own(c));
-        let named = claims.filter(|c| seen(c) == Some(word));
-        let named: Vec<&str> = named.map(|c| c.plain.as_str()).collect();
-        if !named.is_empty() {
-            words += &format!(". {start}: {}", named.join("; "));
-        }
-    }
-    words += ".";
+    let mut words = format!("{yes} of {} sentences are seen.", all.len());
     if basis.recorded().is_some() {
         let (turned, all) = turned(basis.here, lead, own);
         let other =

@@ -11,7 +11,7 @@ use rocking_statistics::Clusters;
 
 use crate::answers;
 use crate::basis::{self, FindingSets};
-use crate::credibility::{assessment, comparison};
+use crate::credibility::assessment;
 use crate::evidence::{NOT_RUN, Proof};
 use crate::findings;
 use crate::head::{self, Signatures};
@@ -194,12 +194,8 @@ fn said_of(source: &SuiteSource) -> String {
     let results = empty(source);
     let limits = limits_of(&results).concat();
     let words = words().expect("words");
-    let tables = [
-        comparison(&results, &[]).expect("table"),
-        assessment(&results, None, None, &words).table(),
-    ];
-    let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
-    let cells: String = cells.collect();
+    let table = assessment(&results, None, None, &words).table();
+    let cells: String = table.rows.into_iter().flatten().collect();
     let mut found = basis::recorded();
     found.settings = results.plan.settings();
     let basis = FindingSets::of(results.embedded(), &found).expect("basis");
@@ -434,7 +430,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         let listed = named.iter().any(|name| name == key);
         assert!(listed, "the ledger does not name {key}");
     }
-    for table in ["ledger", "comparison-error", "credibility-assessment"] {
+    for table in ["ledger", "credibility-assessment"] {
         assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
     }
 }

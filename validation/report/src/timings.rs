@@ -204,21 +204,6 @@ impl Timings {
         drawing.figure(self.reading())
     }
 
-    /// Errors against double-double, in a sentence.
-    pub fn accuracy(&self) -> String {
-        let own = &self.own;
-        format!(
-            "Over {} analyses of the timings the peak of |theta|/alpha is \
-             off by {} (median), {} (90 % are below) and {} (largest), with \
-             {} wrong fates, against double-double.",
-            own.cases,
-            digits(own.peak_error),
-            digits(own.peak_error_90),
-            digits(own.peak_error_worst),
-            own.wrong_fates
-        )
-    }
-
     /// The error of the peak, in a few words.
     pub fn error(&self) -> String {
         format!(

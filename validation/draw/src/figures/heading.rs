@@ -55,8 +55,6 @@ pub enum Place {
     /// To the scores of other codes.
     Others,
     /// To the comparison of suites.
-    Suites,
-    /// To that comparison block by block.
     SuitesByBlock,
     /// To the questions beyond the paper.
     #[default]

@@ -5,7 +5,6 @@ use rocking::block::{BlockError, Restitution};
 
 use super::chapter::{drawings, tables};
 use super::content::Page;
-use crate::credibility;
 use crate::evidence::{self, Proof};
 use crate::ledger;
 use crate::scored;
@@ -65,8 +64,8 @@ impl<'a> Annex<'a> {
 /// # Errors
 /// For kept files that cannot be read.
 pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
-    let Page { study, basis, proof, timings, .. } = page;
-    let (results, claims) = (&study.results, &basis.here.claims);
+    let Page { study, basis, proof, .. } = page;
+    let claims = &basis.here.claims;
     let coverage = proof.map(Proof::coverage);
     let (compared, others): (Vec<&StudyAnswer>, Vec<&StudyAnswer>) =
         study.answers.iter().partition(|q| q.id == "suites");
@@ -108,18 +107,6 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
             compared.collect(),
         )
         .with(page.placed(Place::SuitesByBlock)),
-        Annex::new(
-            "comparison",
-            "Comparison with printed numbers",
-            vec![credibility::comparison(results, claims)?],
-        )
-        .filed(),
-        Annex::new(
-            "speed-tried",
-            "Speed: other tools, and settings tried",
-            timings.tables(),
-        )
-        .filed(),
         Annex::new(
             "others",
             "How do others do?",

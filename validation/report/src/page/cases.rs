@@ -8,47 +8,6 @@ use rocking_draw::page::table::{self, joined, scrolled};
 use rocking_proof::cases::{Bound, Case};
 use rocking_proof::verdict::snapshot::CaseResult;
 
-/// A row for each family.
-pub fn families(proof: &Proof) -> Markup {
-    let body = html! {
-        table.cards {
-            caption {
-                span {
-                    "One row a family of declared cases, with its largest \
-                     error as a share of the tolerance."
-                }
-            }
-            (table::head(&[
-                "Family", "Cases passed", "Worst share of tolerance",
-                "Wrong models rejected",
-            ]))
-            tbody {
-                @for (name, cases) in proof.families() {
-                    @let results = || cases.iter().map(|(_, result)| *result);
-                    @let passed = results().filter(|r| r.passed()).count();
-                    @let rejected =
-                        results().map(|r| r.rejected.len()).sum::<usize>();
-                    tr {
-                        th scope="row" {
-                            a href={ "#cases-" (name) } { (name) }
-                        }
-                        td data-label="Cases passed" {
-                            (passed) " of " (cases.len())
-                        }
-                        td data-label="Worst share of tolerance" {
-                            (worst(results()))
-                        }
-                        td data-label="Wrong models rejected" {
-                            (rejected)
-                        }
-                    }
-                }
-            }
-        }
-    };
-    scrolled("Families of declared cases", body)
-}
-
 /// Every case, family by family.
 pub fn every_case(proof: &Proof) -> Markup {
     html! {
@@ -64,7 +23,15 @@ pub fn every_case(proof: &Proof) -> Markup {
 fn family(name: &str, cases: &[(&Case, &CaseResult)]) -> Markup {
     html! {
         table.cards.cases {
-            caption { span { "Cases of the family " (name) "." } }
+            caption {
+                @let results = || cases.iter().map(|(_, result)| *result);
+                @let passed = results().filter(|r| r.passed()).count();
+                span {
+                    "Cases of the family " (name) ": " (passed) " of "
+                    (cases.len()) " passed; the largest error is "
+                    (worst(results())) "."
+                }
+            }
             (table::head(&[
                 "Case", "Claim", "Source", "Tolerance and why",
                 "Worst share of tolerance", "Rejects", "Result",

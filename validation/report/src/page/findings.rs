@@ -5,17 +5,15 @@ use maud::{Markup, html};
 
 use super::chapter::{drawings, folded, labels};
 use super::content::Page;
-use crate::answers::suites_of;
 use crate::basis::FindingColumn;
 use crate::findings::identities;
 use crate::quantity::{
     EstimateText, ValueScale, count_text, effect_text, rule_text, said_text,
 };
-use crate::sentences::{SentenceCounts, SuiteResult, by_suite, by_theme};
+use crate::sentences::{SuiteResult, by_suite, by_theme};
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Exists, Kind, StatedEffect, SuiteSet, Theme,
 };
-use rocking_common::words::capital;
 use rocking_draw::figures::Place;
 use rocking_draw::page::table::{self, joined, scrolled};
 
@@ -37,8 +35,6 @@ pub fn section(page: &Page<'_>) -> Markup {
     let identities = identities(page.basis.here);
     html! {
         p { (legend()) }
-        @let others = counts(page);
-        @if !others.is_empty() { p { (others) } }
         @for (theme, anchor) in THEMES { (about(page, theme, anchor)) }
         (folded(
             "true-by-definition",
@@ -50,25 +46,16 @@ pub fn section(page: &Page<'_>) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "The paper by its own criteria. Seen here: its rule as a plain number \
-         of the sample, on its own grid (arm A) where run. Exists: whether, \
+        "Seen here: yes where the sample, on the paper's own grid (arm A) \
+         where run, meets every criterion of the paper; no where it meets \
+         none; in part otherwise; not testable where a number is missing. A \
+         sentence is seen as its claims are on both suites. Exists: whether, \
          beyond these records, the 90 % interval of the effect by resampled \
-         earthquakes leaves no effect out (●: one that the sentence denies). \
-         How large: the effect with that interval, on the finer grid (arm C) \
-         where run. All suites and grids: "
+         earthquakes leaves no effect out (yes; ●: one that the sentence \
+         denies, whose size says whether it matters). How large: the effect \
+         on the finer grid (arm C) where run. All suites and grids: "
         a href="#all-results" { "every result" } "."
     }
-}
-
-/// The suites that do not lead, and their counts.
-fn counts(page: &Page<'_>) -> String {
-    let mut out = String::new();
-    for (name, findings) in page.basis.columns().iter().skip(1) {
-        let suites = suites_of(findings).join(" + ");
-        let counts = SentenceCounts::of(findings).words();
-        out += &format!("{}, {suites}. {counts}", capital(name));
-    }
-    out
 }
 
 /// A word on a claim behind a sign that stands without colour.

@@ -9,7 +9,6 @@ use super::{cases, findings};
 use crate::answers::{self, AnswerRow};
 use crate::credibility;
 use crate::evidence::{NOT_RUN, Proof};
-use crate::findings::criteria;
 use crate::head;
 use rocking_common::table::PlainTable;
 use rocking_common::words::capital;
@@ -51,12 +50,11 @@ pub fn page_sections(
 ) -> anyhow::Result<Vec<PageSection>> {
     Ok(vec![
         ("answers", "Answers", answers(page)?),
-        ("scope", "Scope", scope(page)),
+        ("scope", "Scope", columns(&page.words.scope)),
         ("findings", "Findings", findings::section(page)),
         ("method", "Method and glossary", method(page)),
         ("evidence", "Proof of the integrator", evidence(page)),
         ("speed", "Speed against error", speed(page)),
-        ("suites", "Suites", suites(page)),
         ("limits", "Limits and references", limits(page)),
         ("provenance", "Provenance and sign-off", provenance(page)),
         ("annexes", "Annexes", folded_annexes(page, annexes, files)),
@@ -101,31 +99,22 @@ fn links(shown: &[(String, String)]) -> Markup {
     }
 }
 
-fn scope(page: &Page<'_>) -> Markup {
-    html! {
-        (columns(&page.words.scope))
-        (folded_table("criteria", &criteria(page.basis.here)))
-    }
-}
-
 fn method(page: &Page<'_>) -> Markup {
     let mut paragraphs = page.words.method.clone();
     paragraphs.extend(page.proof.map(|proof| proof.coverage().words()));
     html! {
         (columns(&paragraphs))
         (folded("equations", "Equations", &PreEscaped(EQUATIONS.into())))
-        h3 { "Glossary" }
-        div.columns { (list(&page.words.glossary)) }
+        (folded("glossary", "Glossary", &html! {
+            div.columns { (list(&page.words.glossary)) }
+        }))
     }
 }
 
 fn evidence(page: &Page<'_>) -> Markup {
     let cases = page.proof.map_or(NOT_RUN.into(), Proof::to_string);
-    let (accuracy, rounding) =
-        (page.timings.accuracy(), page.basis.rounding());
     html! {
-        p { (cases) " " (accuracy) " " (capital(&rounding)) " (annex)." }
-        @if let Some(proof) = page.proof { (cases::families(proof)) }
+        p { (cases) " " (capital(&page.basis.rounding())) " (annex)." }
         (drawings(&page.placed(Place::Proof)))
     }
 }
@@ -138,14 +127,6 @@ fn speed(page: &Page<'_>) -> Markup {
     }
 }
 
-fn suites(page: &Page<'_>) -> Markup {
-    html! {
-        @let suites = page.study.answers.iter().filter(|q| q.id == "suites");
-        @for question in suites { p { (question.answer) } }
-        (drawings(&page.placed(Place::Suites)))
-    }
-}
-
 fn limits(page: &Page<'_>) -> Markup {
     let Page { study, basis, proof, words, .. } = page;
     let results = &study.results;
@@ -153,11 +134,16 @@ fn limits(page: &Page<'_>) -> Markup {
         credibility::assessment(results, *proof, basis.recorded(), words);
     html! {
         @for words in limits_of(results) { p { (words) } }
+        @if study.answers.iter().any(|q| q.id == "suites") {
+            p {
+                "How the embedded suites differ from recorded ones: "
+                a href="#suites-by-block" { "annex" } "."
+            }
+        }
         p {
             "No test was compared with the model. It leaves out "
             (answers::LEFT_OUT) ". " (answers::not_run(basis)) "."
         }
-        p { (credibility.levels()) }
         (folded(
             "deviations",
             "Deviations from the paper",

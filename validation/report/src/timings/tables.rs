@@ -1,9 +1,7 @@
-//! The timings as tables.
+//! Our settings as a table.
 
 use super::{Timings, digits};
-use crate::speed::measured::Total;
 use crate::speed::singles::BASE;
-use crate::speed::throughput::Throughput;
 use rocking_common::table::PlainTable;
 
 /// What our own settings are for.
@@ -17,59 +15,6 @@ const USES: [(&str, &str); 6] = [
 ];
 
 impl Timings {
-    /// Tools and settings; many analyses.
-    pub fn tables(&self) -> Vec<PlainTable> {
-        vec![self.tools(), self.throughput()]
-    }
-
-    fn tools(&self) -> PlainTable {
-        let sums = |t: &Total| match t.cases == self.own.cases {
-            true => t.mean_cpu_s / self.own.mean_cpu_s,
-            false => f64::NAN,
-        };
-        let row = |t: &Total| {
-            let [tool, version, method, setting] = &t.label;
-            vec![
-                format!("{tool} {version}, {method}, {setting}"),
-                digits(t.ratio),
-                digits(sums(t)),
-                digits(1e3 * t.cpu_s),
-                digits(t.peak_error),
-                digits(t.peak_error_90),
-                digits(t.impact_error_s),
-                format!("{} of {}", t.wrong_fates, t.cases),
-                format!("{} of {}", t.other_impacts, t.cases),
-                digits(t.work),
-            ]
-        };
-        let reference = |t: &&Total| t.key()[2] != "order 27";
-        PlainTable::new(
-            "speed-tools",
-            "Speed and error of single analyses",
-            format!(
-                "Medians over the cases; times are processor time, the ratio \
-                 is taken case by case, and that of the sums stands beside \
-                 it. heyoka was called from Python, once a sample: its time \
-                 is mostly that of the calls. Near overturning the dynamics \
-                 amplify any error. {}",
-                self.measured_on()
-            ),
-            &[
-                "tool and setting",
-                "time / ours as shipped",
-                "sum of times / ours",
-                "time (ms)",
-                "peak error",
-                "90 % below",
-                "impact times (s)",
-                "wrong fates",
-                "other number of impacts",
-                "evaluations",
-            ],
-            self.singles.iter().filter(reference).map(row).collect(),
-        )
-    }
-
     /// Which of our settings when.
     pub fn settings(&self) -> PlainTable {
         let shipped = self.paper.rate_per_s();
@@ -119,50 +64,5 @@ impl Timings {
             ],
             rows,
         )
-    }
-
-    fn throughput(&self) -> PlainTable {
-        let row = |t: &Throughput| {
-            vec![
-                t.work.clone(),
-                self.base(t).map_or(String::new(), |base| {
-                    digits(base.rate_per_s() / t.rate_per_s())
-                }),
-                t.threads.to_string(),
-                digits(t.cpu_s),
-                t.count.to_string(),
-                format!("{:.0}", t.rate_per_s()),
-                t.sample_ns().map_or(String::new(), digits),
-                t.moved.map_or(String::new(), |n| n.to_string()),
-            ]
-        };
-        PlainTable::new(
-            "speed-throughput",
-            "Many analyses",
-            format!(
-                "Levels of 0.01 g up to the first overturning, all embedded \
-                 records. {}",
-                self.measured_on()
-            ),
-            &[
-                "work",
-                "time an analysis / in lanes",
-                "threads",
-                "processor time (s)",
-                "analyses",
-                "analyses a second",
-                "ns a sample",
-                "chains moved",
-            ],
-            self.many.iter().map(row).collect(),
-        )
-    }
-
-    /// The same work in lanes on one thread, as shipped.
-    pub(super) fn base(&self, of: &Throughput) -> Option<&Throughput> {
-        self.many.iter().find(|t| {
-            let prefix = t.work.strip_suffix("in lanes");
-            t.threads == 1 && prefix.is_some_and(|p| of.work.starts_with(p))
-        })
     }
 }

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn kept_timings_have_every_line_and_a_base_for_ratios() {
+fn kept_timings_have_every_line() {
     let kept = Timings::kept().expect("tables");
     for (label, tool, method, without) in LINES {
         let of = kept.totals_of(tool, method, without);
@@ -13,8 +13,6 @@ fn kept_timings_have_every_line_and_a_base_for_ratios() {
         }
     }
     assert!(!kept.measured_on().contains("unknown"));
-    let based = kept.many.iter().filter(|t| kept.base(t).is_some());
-    assert!(based.count() > 8);
 }
 
 /// An integrator that shares nothing with ours agrees with the reference

@@ -23,7 +23,7 @@ pub(super) fn motions(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
     Chart {
-        heading: Heading { place: Place::Suites, ..heading("suites") },
+        heading: Heading { place: Place::SuitesByBlock, ..heading("suites") },
         panels,
         columns: 2,
     }

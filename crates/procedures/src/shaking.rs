@@ -57,7 +57,7 @@ pub enum Slenderness {
     /// The block is known.
     Given(Block),
     /// The frequency parameter p in rad/s is known; alpha is fitted so that
-    /// the median of measured over computed capacity is 1.
+    /// the median of measured over computed capacity is 1, to 0.001.
     Fitted {
         /// Frequency parameter in rad/s.
         p_rad_s: f64,
@@ -190,7 +190,7 @@ pub struct Predictor {
     /// by a predicted probability above 0.5.
     pub right: Estimate,
     /// Median m: of the block the bias, the median of measured over computed
-    /// capacity; of a measure in its unit.
+    /// capacity, 1 where alpha is fitted; of a measure in its unit.
     pub median: Estimate,
     /// Dispersion s.
     pub dispersion: Estimate,

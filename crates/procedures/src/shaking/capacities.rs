@@ -23,8 +23,9 @@ const START: f64 = 0.1;
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 1.2;
 
-/// A median this near 1, in logarithms, is 1.
-const NEAR: f64 = 1e-4;
+/// Ends of a fit, in logarithms of the median and of alpha. Capacities jump
+/// with alpha, and the median of 490 tests with them by as much.
+const NEAR: f64 = 1e-3;
 
 /// The tests of known fate, normalised.
 pub(super) struct TestRecords<'a> {

@@ -195,6 +195,9 @@ fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
 
 /// ln of the number of ways to choose k of n.
 fn ln_choose(n: u64, k: u64) -> f64 {
+    if k == 0 || k == n {
+        return 0.0;
+    }
     let ln_factorial = |n: u64| lgamma(n as f64 + 1.0);
     ln_factorial(n) - ln_factorial(k) - ln_factorial(n - k)
 }

@@ -142,6 +142,8 @@ named! {
         NormalForStudent = "normal-for-student",
         /// Records of one earthquake taken as independent.
         RecordsAsUnit = "records-as-unit",
+        /// Shaking-table tests of one motion taken as independent.
+        TestsAsUnit = "tests-as-unit",
         /// Replicates with replacement for a test that ties break.
         TiedReplicates = "tied-replicates",
         /// Oscillators 1 % too slow.

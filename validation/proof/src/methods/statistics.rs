@@ -11,6 +11,7 @@ mod lilliefors;
 mod nist;
 mod proportion;
 mod risk;
+mod shaking;
 mod truths;
 mod two_samples;
 
@@ -51,6 +52,8 @@ pub(super) const LEFT_OUT: &[Method] = &[
     ("proportions", proportion::intervals),
     ("proportions-of-clusters", proportion::of_clusters),
     ("earthquakes-of-other-packages", earthquakes::other_packages),
+    ("tests-of-other-packages", shaking::other_packages),
+    ("coverage-of-tests", shaking::coverage),
 ];
 #[cfg(target_family = "wasm")]
 pub(super) const LEFT_OUT: &[Method] = &[];

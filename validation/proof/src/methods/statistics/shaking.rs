@@ -1,0 +1,229 @@
+//! Shaking-table tests that are made up: numbers of another package, and
+//! intervals where the truth is known.
+
+use anyhow::{Result, anyhow};
+use libm::{exp, log, tan};
+use rayon::prelude::*;
+use rocking::integrator::Model;
+use rocking::{Block, Restitution};
+use rocking_procedures::Draws;
+use rocking_procedures::shaking::{ComputedTest, ComputedTests, Predictor};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::streams::{Streams, standard_normal};
+use rocking_statistics::{Estimate, Interval};
+
+use super::truths::share;
+use crate::methods::cells::{Csv, csv};
+use crate::methods::method::{Context, Reply, WrongModel};
+
+const VALUES: Csv = csv!("oracles/shaking.csv");
+
+/// Slenderness of the block in rad; the onset of rocking is its tangent in g.
+const ALPHA: f64 = 0.1;
+
+fn of_tests(
+    tests: Vec<ComputedTest>,
+    measures: Vec<IntensityMeasure>,
+) -> Result<ComputedTests> {
+    Ok(ComputedTests {
+        tests,
+        unknown: 0,
+        measures,
+        block: Block::try_new(ALPHA, 4.0)?,
+        restitution: Restitution::constant(0.92)?,
+        model: Model::Nonlinear,
+        fitted_slope: None,
+    })
+}
+
+/// The numbers of statsmodels and SciPy.
+pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
+    let alone = context.is(WrongModel::TestsAsUnit);
+    for row in VALUES.rows("tests")? {
+        let set = row.text(1);
+        let names: Vec<&str> = row.text(2).split(' ').collect();
+        let [pga, factors, at_level, fates, cav] =
+            [3, 4, 5, 6, 7].map(|column| row.list(column, ' '));
+        let (pga, factors, cav) = (pga?, factors?, cav?);
+        let (at_level, fates) = (at_level?, fates?);
+        let test = |i: usize| ComputedTest {
+            test: i.to_string(),
+            motion: if alone { i.to_string() } else { names[i].to_owned() },
+            pga_g: pga[i],
+            capacity_factor: factors[i],
+            overturns: true,
+            overturns_at_level: at_level[i] > 0.5,
+            overturned: fates[i] > 0.5,
+            measures: vec![pga[i], cav[i]],
+        };
+        let measures = vec!["pga".parse()?, "cav".parse()?];
+        let tests = (0..names.len()).map(test).collect();
+        let draws = Draws { replicates: 2, seed: 0 };
+        let found = of_tests(tests, measures)?.compare(draws)?;
+        let predictors = std::iter::once(&found.computed).chain(&found.rivals);
+        for own in predictors {
+            let row = VALUES.row(&["predictor", set, &own.predictor])?;
+            put_predictor(&row.list(3, ' ')?, own, answer)?;
+        }
+        for own in &found.distributions {
+            let row = VALUES.row(&["distribution", set, &own.im])?;
+            let seen = [
+                own.measured_median,
+                own.measured_dispersion,
+                own.computed_median,
+                own.computed_dispersion,
+                own.median_ratio.value(),
+                own.dispersion_difference.value(),
+                own.missing_dispersion.value(),
+            ];
+            answer.put("distribution", seen, row.list(3, ' ')?);
+        }
+        for (k, own) in found.reliability.iter().enumerate() {
+            let row = VALUES.row(&["reliability", set, &k.to_string()])?;
+            let seen = [own.tests as f64, own.predicted, own.observed.value()];
+            answer.put("reliability", seen, row.list(3, ' ')?);
+        }
+        let row = VALUES.row(&["repeats", set])?;
+        let own = &found.repeatability;
+        let counts =
+            [own.pairs, own.different, own.mixed_motions, own.not_monotone];
+        let counts = counts.map(|count| count as f64);
+        answer.put("repeats", counts, row.list(2, ' ')?);
+        let dispersion = own.dispersion.unwrap_or(f64::NAN);
+        row.put(answer, 3, &[("within-motions", dispersion)])?;
+        let row = VALUES.row(&["resurrected", set])?;
+        let own = &found.resurrected;
+        let seen = [
+            own.tests as f64,
+            own.overturned as f64,
+            own.expected.unwrap_or(f64::NAN),
+            own.right_at_level,
+        ];
+        answer.put("resurrected", seen, row.list(2, ' ')?);
+        let row = VALUES.row(&["onset", set])?;
+        let own = &found.onset;
+        let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
+        let seen = [
+            own.tests as f64,
+            own.overturned_below as f64,
+            own.below as f64,
+            or_nan(own.whole),
+            or_nan(own.above),
+            or_nan(own.pga_unshifted),
+        ];
+        answer.put("onset", seen, row.list(2, ' ')?);
+        row.put(answer, 3, &[("shifted", or_nan(own.pga_shifted))])?;
+    }
+    Ok(())
+}
+
+fn put_predictor(
+    expected: &[f64],
+    own: &Predictor,
+    answer: &mut Reply,
+) -> Result<()> {
+    let [right, median, dispersion, auc, score, likelihood] = expected[..]
+    else {
+        return Err(anyhow!("{}: expected six numbers", own.predictor));
+    };
+    let fit = [median, dispersion, likelihood];
+    let seen =
+        [own.median.value(), own.dispersion.value(), own.log_likelihood];
+    answer.put("fit", seen, fit);
+    answer.put("right", [own.right.value()], [right]);
+    answer.put("auc", [own.auc.value()], [auc]);
+    answer.put("log-score", [own.log_score.value()], [score]);
+    Ok(())
+}
+
+/// Median of measured over computed capacity of the simulated tests.
+const BIAS: f64 = 1.1;
+
+/// Dispersion of the ratio between motions, and within.
+const SHARED: f64 = 0.26;
+const OWN: f64 = 0.15;
+
+/// Median of the computed capacities in g, and their dispersion.
+const MEDIAN_G: f64 = 0.4;
+const DISPERSION: f64 = 0.3;
+
+/// Levels of each motion in g.
+const LEVELS_G: [f64; 5] = [0.22, 0.32, 0.44, 0.6, 0.85];
+
+/// A number and whether its interval holds the truth.
+type Held = (&'static str, f64, bool);
+
+/// Shares of simulated sets of tests whose 90 % intervals hold the truth,
+/// and the mean of what is estimated; `fragilities` compares the fragilities
+/// in PGA as well.
+///
+/// ln of measured over computed capacity of a test is ln 1.1 + 0.26 u_g +
+/// 0.15 e with standard normal u of its motion and e of its own.
+pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        motions: usize, trials: u64, replicates: usize, fragilities: bool,
+    }
+    let name = format!("cases/{}", context.case.id);
+    let streams = Streams::new(&name, 0);
+    let total = (SHARED * SHARED + OWN * OWN).sqrt();
+    let measures = match fragilities {
+        true => vec![IntensityMeasure::PGA],
+        false => Vec::new(),
+    };
+    let trial = |index: u64| -> Result<Vec<Held>> {
+        let mut stream = streams.stream(index);
+        let mut normal = || standard_normal(&mut stream);
+        let mut tests = Vec::new();
+        for motion in 0..motions {
+            let capacity_g = MEDIAN_G * exp(DISPERSION * normal());
+            let capacity_g = capacity_g.max(tan(ALPHA));
+            let shared = log(BIAS) + SHARED * normal();
+            for pga_g in LEVELS_G {
+                let measured_g = capacity_g * exp(shared + OWN * normal());
+                let test = tests.len().to_string();
+                let motion = motion.to_string();
+                let wrong = WrongModel::TestsAsUnit;
+                tests.push(ComputedTest {
+                    motion: context.or(wrong, test.clone(), motion),
+                    test,
+                    pga_g,
+                    capacity_factor: capacity_g / pga_g,
+                    overturns: true,
+                    overturns_at_level: capacity_g <= pga_g,
+                    overturned: measured_g <= pga_g,
+                    measures: vec![pga_g; measures.len()],
+                });
+            }
+        }
+        let all = of_tests(tests, measures.clone())?;
+        let found = all.compare(Draws { replicates, seed: index })?;
+        let of = |name, estimate: Estimate, truth: f64| {
+            let holds = |ends: Interval| ends.holds(truth);
+            let held = estimate.interval().is_some_and(holds);
+            (name, estimate.value() / truth, held)
+        };
+        let mut all = vec![
+            of("bias", found.computed.median, BIAS),
+            of("dispersion", found.computed.dispersion, total),
+        ];
+        for own in &found.distributions {
+            all.push(of("median-ratio", own.median_ratio, BIAS));
+            all.push(of("missing-dispersion", own.missing_dispersion, total));
+        }
+        Ok(all)
+    };
+    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
+    let found = found.collect::<Result<Vec<_>>>()?;
+    let quantities = if fragilities { 4 } else { 2 };
+    for k in 0..quantities {
+        let own = found.iter().filter_map(|one| one.get(k));
+        let held: Vec<bool> = own.clone().map(|one| one.2).collect();
+        let sum = own.clone().fold(0.0, |sum, one| sum + one.1);
+        for (name, _, _) in own.take(1) {
+            answer.put(name, [share(&held)], [0.9]);
+            let name = format!("{name}-over-truth");
+            answer.put(&name, [sum / trials as f64], [1.0]);
+        }
+    }
+    Ok(())
+}

@@ -11,6 +11,8 @@ pub mod engine;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
+#[cfg(not(target_family = "wasm"))]
+pub mod published;
 mod pulse;
 mod references;
 pub mod scene;

@@ -22,6 +22,8 @@ mod invariance;
 mod memo;
 mod points;
 mod precise;
+#[cfg(not(target_family = "wasm"))]
+mod published;
 mod response;
 mod schemes;
 #[cfg(not(target_family = "wasm"))]
@@ -108,6 +110,7 @@ const LEFT_OUT: &[Method] = &[
     ("certified-values", scored::certified),
     ("diagnosis", scored::diagnosis),
     ("velocity-pulse", velocity_pulse::pulses),
+    ("published-laws", published::laws),
 ];
 #[cfg(target_family = "wasm")]
 const LEFT_OUT: &[Method] = &[];

@@ -174,5 +174,9 @@ named! {
         KnownShift = "known-shift",
         /// The null by the dispersion above the smallest value.
         DispersionAboveTheSmallest = "dispersion-above-the-smallest",
+        /// Tilts of similar blocks for their displacements.
+        TiltForDisplacement = "tilt-for-displacement",
+        /// A block overturns as soon as it uplifts.
+        UpliftForOverturning = "uplift-for-overturning",
     }
 }

@@ -1,0 +1,43 @@
+//! Prints `fixtures/comparison/published.csv`: the statistics of the published
+//! laws under the recorded suites, whose index files are given.
+//!
+//! ```sh
+//! cargo run -p rocking-proof --example published -- ordinary.csv pulse.csv
+//! ```
+//!
+//! Without index files it prints those of the embedded suites. The study
+//! components count.
+
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use rocking::accelerogram::Accelerogram;
+use rocking_proof::published::{HEADER, PublishedLaw, PublishedResponses};
+use rocking_records::{ReadOptions, Suite};
+
+fn main() -> Result<()> {
+    let paths: Vec<String> = std::env::args().skip(1).collect();
+    let suites = match paths.as_slice() {
+        [] => [rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?]
+            .map(|suite| suite.into_iter().map(|p| p.components[0].clone()))
+            .map(Iterator::collect),
+        [ordinary, pulse] => [read(ordinary)?, read(pulse)?],
+        _ => bail!("expected ORDINARY and PULSE, or nothing"),
+    };
+    println!("{HEADER}");
+    for (name, motions) in ["ordinary", "pulse"].into_iter().zip(suites) {
+        let responses = PublishedResponses::of(&motions)?;
+        for law in PublishedLaw::ALL {
+            for value in responses.statistics(law, None)? {
+                println!("{name},{value}");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn read(path: &str) -> Result<Vec<Accelerogram>> {
+    let suite = Suite::read(Path::new(path), &ReadOptions::default())?;
+    let study = suite.study_components();
+    Ok(study.map(|member| member.accelerogram.clone()).collect())
+}

@@ -341,3 +341,6 @@ pub struct TestResult {
     /// Whether the specimen overturned.
     pub overturned: bool,
 }
+
+#[cfg(test)]
+mod tests;

@@ -292,12 +292,13 @@ impl<'de> serde::Deserialize<'de> for Estimate {
         from: D,
     ) -> Result<Self, D::Error> {
         #[derive(serde::Deserialize)]
-        struct Point {
+        struct EstimateFields {
             point: Option<f64>,
             low: Option<f64>,
             high: Option<f64>,
         }
-        let Point { point, low, high } = Point::deserialize(from)?;
+        let EstimateFields { point, low, high } =
+            EstimateFields::deserialize(from)?;
         let value = point.unwrap_or(f64::NAN);
         if low.or(high).is_none() {
             return Ok(Self::exact(value));

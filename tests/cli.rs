@@ -31,6 +31,8 @@ mod sweep;
 mod tables;
 #[path = "cli/texts.rs"]
 mod texts;
+#[path = "cli/validate.rs"]
+mod validate;
 
 use super::support::{
     self, answer, at2, close, folder, json, motion, refused, refused_for,

@@ -345,7 +345,7 @@ const IDA_END: &str =
 
 /// Commands that need more than their usage says, and what each reads in place
 /// of FILE.
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 22] = [
     "assess --objects FILE --out out",
     "assess --objects objects.csv --floors FILE --out out",
     "assess --objects objects.csv --suite FILE --out out",
@@ -367,6 +367,7 @@ const COMMANDS: [&str; 21] = [
     "suite export --suite FILE --units g --dt 0.01 --out out",
     "sweep plan --suite FILE --units g --dt 0.01 --blocks objects.csv --out out",
     "sweep plan --suite one --blocks FILE --out out",
+    "validate FILE --units g --dt 0.01 --alpha 0.2 --p 2",
 ];
 
 /// Commands that read a whole suite, here of equal records.

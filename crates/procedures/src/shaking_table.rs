@@ -17,6 +17,9 @@ const MOTION_COLUMN: &str = "motion";
 /// Column of the factor on the motion of the file.
 const SCALE_COLUMN: &str = "scale";
 
+/// Faults that one message shows, at most.
+const MOST_SHOWN: usize = 200;
+
 /// What a cell of fates holds.
 const FATES: &str = "overturned, stood or unknown, or 1, 0 or an empty cell";
 
@@ -104,11 +107,14 @@ pub struct TestTableError {
 
 impl fmt::Display for TestTableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, fault) in self.faults.iter().enumerate() {
+        for (k, fault) in self.faults.iter().take(MOST_SHOWN).enumerate() {
             let gap = if k == 0 { "" } else { "\n" };
             write!(f, "{gap}{fault}")?;
         }
-        Ok(())
+        match self.faults.len().saturating_sub(MOST_SHOWN) {
+            0 => Ok(()),
+            more => write!(f, "\nand {more} faults more"),
+        }
     }
 }
 
@@ -132,6 +138,18 @@ impl TestFate {
             "" => Some(Self::Unknown),
             name => name.parse().ok(),
         }
+    }
+}
+
+impl ShakingTest {
+    /// The positive numbers among cells, by the names of their columns.
+    pub fn columns<'a>(
+        cells: impl Iterator<Item = (&'a str, &'a str)>,
+    ) -> BTreeMap<String, f64> {
+        let number = |(name, cell): (&str, &str)| {
+            Some((name.to_owned(), positive(cell)?))
+        };
+        cells.filter_map(number).collect()
     }
 }
 
@@ -263,10 +281,10 @@ impl TestTable<'_> {
         let record = scaled(processed, scale).map_err(|source| {
             vec![TestFault::Scaled { path: path(), line, source }]
         })?;
-        let columns = member.attributes.iter().filter_map(|(name, cell)| {
-            Some((name.to_string(), positive(cell)?))
-        });
-        let (motion, columns) = (motion.to_owned(), columns.collect());
+        let columns = member.attributes.iter();
+        let columns = columns.map(|(name, cell)| (&**name, &**cell));
+        let columns = ShakingTest::columns(columns);
+        let motion = motion.to_owned();
         Ok(ShakingTest { record, motion, fate, columns })
     }
 }

@@ -340,10 +340,14 @@ impl IntensityMeasure {
         all
     }
 
-    /// The average spectral acceleration among the [`usual`](Self::usual)
-    /// measures.
+    /// The measures that shaking-table tests are compared by, where none are
+    /// named: PGA, PGV and the last of the [`usual`](Self::usual) ones.
     #[must_use]
-    pub fn usual_average() -> Self {
+    pub fn usual_of_tests() -> Vec<Self> {
+        vec![Self::PGA, Self::PGV, Self::usual_average()]
+    }
+
+    fn usual_average() -> Self {
         Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0])
     }
 

@@ -131,7 +131,7 @@ impl ValidateCommand {
     fn options(&self) -> Result<TestOptions, Failure> {
         let slenderness = self.block.slenderness(self.gravity)?;
         let measures = match self.im.as_slice() {
-            [] => vec![M::PGA, M::PGV, M::usual_average()],
+            [] => M::usual_of_tests(),
             given => given.to_vec(),
         };
         Ok(TestOptions {

@@ -29,6 +29,7 @@ a block, and no analysis  `surface_fragility`
 fragilities of blocks     `export`
 a hazard curve            `read_hazard`, then `risk`
 objects to decide about   `Object`, `Floor`, then `assess`: one page
+shaking-table tests       `read_tests`, then `compare_with_tests`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -84,6 +85,12 @@ from ._results import (
 )
 from ._rocking import __version__
 from ._score import Score, score
+from ._shaking import (
+    ShakingTest,
+    TestComparison,
+    compare_with_tests,
+    read_tests,
+)
 from ._statistics import (
     CountsFragility,
     Fragility,
@@ -130,14 +137,17 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Sample",
     "Score",
+    "ShakingTest",
     "StripeResponses",
     "Suite",
     "Summary",
     "SurfaceFragility",
+    "TestComparison",
     "VelocityPulse",
     "__version__",
     "assess",
     "compare",
+    "compare_with_tests",
     "contrast",
     "embedded_suite",
     "export",
@@ -151,6 +161,7 @@ __all__ = [
     "read_ida",
     "read_record",
     "read_suite",
+    "read_tests",
     "respond",
     "risk",
     "rotd50",

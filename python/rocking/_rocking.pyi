@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, TypedDict
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,6 +68,16 @@ class GivenObject(TypedDict):
 class AssessOptions(TypedDict):
     years: float
     certify: bool
+    replicates: int
+    seed: int
+    gravity: float
+
+class Comparing(TypedDict):
+    block: _Block | None
+    p: float | None
+    eta: float | None
+    model: str
+    ims: Sequence[str]
     replicates: int
     seed: int
     gravity: float
@@ -231,3 +241,15 @@ def assess(
 def surface(block: _Block) -> str: ...
 def score(csv: str, place: str) -> str: ...
 def score_scenes() -> str: ...
+def read_tests(
+    path: str | os.PathLike[str],
+    fate: str,
+    dt: float | None,
+    units: str | None,
+    gravity: float,
+) -> list[tuple[_Read, str, Literal["overturned", "stood", "unknown"]]]: ...
+def compare_with_tests(
+    tests: Sequence[tuple[Given, str, str, dict[str, str]]],
+    comparing: Comparing,
+    threads: int | None,
+) -> str: ...

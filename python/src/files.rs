@@ -8,8 +8,8 @@ use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking_records::{
-    Fallback, ReadOptions, RecordError, Remark, RemarkInput, Suite, remarks,
-    remarks_together,
+    Fallback, ReadOptions, RecordError, Remark, RemarkInput, Suite,
+    SuiteMember, remarks, remarks_together,
 };
 use rocking_synthesis::{Pair, SynthesisError, ordinary, pulse};
 
@@ -18,7 +18,7 @@ use crate::work::{self, refuse};
 
 /// Name, samples in g, interval in s, what the file says of itself, and what
 /// is suspicious.
-type Read<'py> = (
+pub type Read<'py> = (
     String,
     Bound<'py, PyArray1<f64>>,
     f64,
@@ -26,7 +26,7 @@ type Read<'py> = (
     Vec<String>,
 );
 
-fn options(
+pub fn options(
     dt: Option<f64>,
     units: Option<&str>,
     gravity: f64,
@@ -37,7 +37,7 @@ fn options(
 }
 
 /// A missing path is `FileNotFoundError`, everything else `ValueError`.
-fn refuse_at(path: &Path, error: impl std::fmt::Display) -> PyErr {
+pub fn refuse_at(path: &Path, error: impl std::fmt::Display) -> PyErr {
     if path.exists() {
         refuse(error)
     } else {
@@ -45,7 +45,7 @@ fn refuse_at(path: &Path, error: impl std::fmt::Display) -> PyErr {
     }
 }
 
-fn to_python<'py>(
+pub fn to_python<'py>(
     py: Python<'py>,
     record: &Accelerogram,
     attributes: BTreeMap<String, String>,
@@ -85,6 +85,20 @@ pub fn read_record<'py>(
     Ok(to_python(py, record, attributes, &remarks))
 }
 
+/// What the index and the file say of a record.
+pub fn attributes(member: &SuiteMember) -> BTreeMap<String, String> {
+    let mut attributes = member.attributes_by_name();
+    attributes.insert("file".to_owned(), member.file.clone());
+    let event = member.event.clone();
+    attributes.extend(event.map(|own| ("event".to_owned(), own)));
+    attributes.insert("format".to_owned(), member.format.name.to_owned());
+    attributes.insert("units".to_owned(), member.unit.to_string());
+    for (key, text) in [("site", &member.site), ("pair", &member.pair)] {
+        attributes.extend(text.clone().map(|text| (key.to_owned(), text)));
+    }
+    attributes
+}
+
 /// Name, what was set aside, the numbers of records whose files state no
 /// interval and no unit, records.
 type ReadSuite<'py> = (String, String, (usize, usize), Vec<Read<'py>>);
@@ -116,19 +130,8 @@ pub fn read_suite<'py>(
     let given = (count(|given| given.dt), count(|given| given.unit));
     let records =
         members.into_iter().zip(&together).map(|(member, remarks)| {
-            let mut attributes = member.attributes_by_name();
-            attributes.insert("file".to_owned(), member.file.clone());
-            let event = member.event.clone();
-            attributes.extend(event.map(|own| ("event".to_owned(), own)));
-            attributes
-                .insert("format".to_owned(), member.format.name.to_owned());
-            attributes.insert("units".to_owned(), member.unit.to_string());
-            let named = [("site", &member.site), ("pair", &member.pair)];
-            for (key, text) in named {
-                attributes
-                    .extend(text.clone().map(|text| (key.to_owned(), text)));
-            }
-            to_python(py, &member.accelerogram, attributes, remarks)
+            let known = attributes(member);
+            to_python(py, &member.accelerogram, known, remarks)
         });
     let (name, aside) = (suite.name(), suite.set_aside().to_string());
     Ok((name.to_owned(), aside, given, records.collect()))

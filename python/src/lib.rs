@@ -13,6 +13,7 @@ mod mechanics;
 mod peak;
 mod procedures;
 mod score;
+mod shaking;
 mod work;
 
 /// Native functions of the package `rocking`; its public names are in
@@ -59,6 +60,8 @@ mod _rocking {
 
     #[pymodule_export]
     use crate::score::{score, score_scenes};
+    #[pymodule_export]
+    use crate::shaking::{compare_with_tests, read_tests};
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {

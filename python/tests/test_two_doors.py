@@ -366,6 +366,34 @@ def surface(house: House) -> Pair:
     return Pair(rk.surface_fragility(rk.Block(alpha=0.15, p=3.0)), words)
 
 
+@pair("compare_with_tests")
+def tests_of_a_specimen(house: House) -> Pair:
+    rows = house.index.read_text().splitlines()
+    columns = rows[0].split(",")
+    lines = ["file,name,motion,scale,fate"]
+    for k, row in enumerate(rows[1:13]):
+        cells = dict(zip(columns, row.split(",")))
+        fates = ("0", "stood", str(k % 2), "1", "overturned", "")
+        for scale, fate in zip((0.2, 0.5, 1.0, 1.5, 3.0, 1.0), fates):
+            name = f"{k}-{scale}-{fate}"
+            lines.append(f"{cells['file']},{name},m{k},{scale},{fate}")
+    table = house.index.parent / "tests.csv"
+    table.write_text("\n".join(lines) + "\n")
+    words: list[object] = ["validate", table, "--alpha", 0.15, "--p", 3]
+    words += ["--bootstrap", 30, "--seed", 4, "--eta", "housner"]
+    words += ["--im", "pgv", "--im", "sa:1"]
+    found = rk.compare_with_tests(
+        rk.read_tests(table),
+        rk.Block(alpha=0.15, p=3.0),
+        eta="housner",
+        ims=["pgv", "sa:1"],
+        n_resamples=30,
+        rng=4,
+    )
+    assert found.unknown == 12 and found.tests == 60
+    return Pair(found, words)
+
+
 @pytest.fixture(scope="module")
 def house(
     ida: rk.Ida,

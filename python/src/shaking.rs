@@ -40,16 +40,16 @@ pub fn read_tests<'py>(
     })?;
     let members = survey.members.iter().flatten();
     let known: Vec<_> = members.map(attributes).zip(together).collect();
-    let shown = path.display().to_string();
+    let path = path.display().to_string();
     let processing = Processing::default();
-    let table = TestTable { path: &shown, fate, processing };
+    let table = TestTable { path: &path, fate, processing };
     let tests = table.tests(survey.members).map_err(refuse)?;
     let tests = tests.iter().zip(known);
-    let one = |(test, (known, remarks)): (&ShakingTest, _)| {
+    let shown = tests.map(|(test, (known, remarks))| {
         let record = to_python(py, &test.record, known, &remarks);
         (record, test.motion.clone(), test.fate.to_string())
-    };
-    Ok(tests.map(one).collect())
+    });
+    Ok(shown.collect())
 }
 
 /// What is known of the specimen, and how it is compared.

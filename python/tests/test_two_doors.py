@@ -367,7 +367,7 @@ def surface(house: House) -> Pair:
 
 
 @pair("compare_with_tests")
-def tests_of_a_specimen(house: House) -> Pair:
+def specimen_on_a_table(house: House) -> Pair:
     rows = house.index.read_text().splitlines()
     columns = rows[0].split(",")
     lines = ["file,name,motion,scale,fate"]

@@ -149,10 +149,7 @@ pub struct TestComparison {
     pub rivals: Vec<Predictor>,
     /// Measures that are no predictor, or have no fragility of the computed
     /// fates.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, skip_serializing_if = "Vec::is_empty")
-    )]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub unfitted: Vec<UnfittedMeasure>,
     /// Predicted and observed shares of overturning, by tenths of the tests
     /// in ascending order of the predicted probability.

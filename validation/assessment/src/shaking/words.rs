@@ -138,15 +138,15 @@ fn widths(found: &TestComparison) -> Option<String> {
         (!own.is_empty()).then(|| format!("{words} in {}", own.join(", ")))
     };
     let parts = [
-        of(Beside::Above, "more than the model gives"),
-        of(Beside::Holds, "not shown to be another than the model gives"),
-        of(Beside::Below, "less than the model gives"),
+        of(Beside::Above, "larger"),
+        of(Beside::Holds, "no difference is shown"),
+        of(Beside::Below, "smaller"),
         of(Beside::Unknown, "without an interval"),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "The dispersion of the measured fragility is {}.",
+            "Dispersion of the measured against the computed fragility: {}.",
             parts.join("; ")
         )
     })

@@ -189,6 +189,17 @@ def read_tests(
     ------
     FileNotFoundError, ValueError
         As `read_suite`; with every fault of the table and its line.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> rows = ["file,motion,scale,fate", "a.txt,Kobe,0.5,stood"]
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "a.txt").write_text("0.0\\n0.3\\n0.0\\n")
+    ...     table = Path(folder, "tests.csv")
+    ...     _ = table.write_text("\\n".join(rows))
+    ...     tests = read_tests(table, dt=0.1, units="g")
+    >>> tests[0].motion, tests[0].fate, tests[0].record.pga_g
+    ('Kobe', 'stood', 0.15)
     """
     found = _rocking.read_tests(path, fate, dt, units, gravity)
     return tuple(

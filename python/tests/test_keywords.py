@@ -32,6 +32,12 @@ OBJECT = rk.Object("vase", BLOCK)
 NAMED = rk.Sample(VALUES, records=[*"abcdefghij"])
 NEAR = rk.Sample([1.02 * x for x in VALUES], records=[*"bacdefghij"])
 
+BY_PGA = sorted(SUITE, key=lambda record: record.pga_g)
+MOTIONS = [*"abcdefghijabcdefghij"]
+FELL = {7, 9, *range(12, 20)}
+FATES: list[Any] = ["overturned" if k in FELL else "stood" for k in range(20)]
+TESTS = [rk.ShakingTest(*test) for test in zip(BY_PGA, MOTIONS, FATES)]
+
 LEVEL = 1.3 * np.tan(0.2) / MOTION.pga_g
 FORMATS: list[Any] = ["nrml", "csv"]
 
@@ -61,6 +67,9 @@ def files(folder: Path) -> dict[str, Path]:
     (nested / "inner").mkdir(parents=True)
     for name in ("outer.txt", "inner/inner.txt"):
         (nested / name).write_text("0.0\n1.0\n-1.0\n0.0\n")
+    tests = pair / "tests.csv"
+    rows = ["a-000.txt,A,1,0", "a-090.txt,B,0,1"]
+    tests.write_text("\n".join(["file,motion,fate,fell", *rows]))
     poe, sites = folder / "poe.csv", folder / "sites.csv"
     poe.write_text(POE)
     sites.write_text(SITES + "\n")
@@ -68,6 +77,7 @@ def files(folder: Path) -> dict[str, Path]:
         "one": one,
         "pair": pair,
         "nested": nested,
+        "tests": tests,
         "poe": poe,
         "sites": sites,
     }
@@ -190,6 +200,25 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 "gravity": 9.81,
                 "component": "both",
                 "recursive": ({"path": at["nested"]}, True),
+            },
+        ),
+        "read_tests": (
+            rk.read_tests,
+            {**one, "path": at["tests"]},
+            {"fate": "fell", "dt": 0.02, "units": "g", "gravity": 9.81},
+        ),
+        "compare_with_tests": (
+            rk.compare_with_tests,
+            {"tests": TESTS, "block": BLOCK, "ims": ["pgv"], **few},
+            {
+                "block": rk.Block(alpha=0.15, p=3.0),
+                "p": ({"block": None, "p": 3.0}, 2.5),
+                "eta": "housner",
+                "model": "linearized",
+                "ims": ["pga"],
+                "n_resamples": 21,
+                "rng": 1,
+                "gravity": 9.81,
             },
         ),
         "embedded_suite": (

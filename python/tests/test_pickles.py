@@ -19,6 +19,8 @@ HAZARD = rk.Hazard("h.csv", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")
 LAW = rk.Fragility(shift=1.0, log_mean=0.0, dispersion=0.5, median=2.0)
 FLOOR = rk.Floor("roof", 0.5, 0.05, 1.3)
 SUITE = rk.embedded_suite("pulse")[:8]
+FATES: list[Any] = ["stood", "overturned"] * 4
+TESTS = [rk.ShakingTest(one, one.name, fate) for one, fate in zip(SUITE, FATES)]
 VALUES = [1.3, 1.6, 1.7, 2.0, 2.1, 2.5, 2.6, 3.1, 3.4, 4.2]
 
 
@@ -72,6 +74,8 @@ def made() -> list[object]:
         rk.risk(HAZARD, {"law": LAW}),
         rk.surface_fragility(rk.Block(alpha=0.15, p=3.0)),
         rk.score(solve),
+        TESTS[0],
+        rk.compare_with_tests(TESTS, BLOCK, ims=["pga"], n_resamples=9),
     ]
 
 

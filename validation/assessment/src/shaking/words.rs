@@ -327,11 +327,11 @@ pub(super) fn fragility_heads() -> Vec<String> {
         "Intensity measure",
         "Measured median",
         "Computed median",
-        "Measured over computed median",
+        "Ratio of the medians",
         "Measured dispersion",
         "Computed dispersion",
         "Difference of the dispersions",
-        "Dispersion that the model leaves out",
+        "Dispersion left out by the model",
     ]
     .map(str::to_owned)
     .into()

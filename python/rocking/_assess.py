@@ -7,10 +7,10 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from . import _rocking
-from ._fragility import Hazard
+from ._fragility import Hazard, ModelError, ModelValue, model_error
 from ._ida import _events
 from ._inputs import (
     STANDARD_GRAVITY,
@@ -23,7 +23,7 @@ from ._inputs import (
 )
 from ._outputs import replace
 from ._results import Bounds, Result
-from ._statistics import seed
+from ._statistics import Fragility, seed
 
 
 @dataclass(frozen=True)
@@ -92,12 +92,15 @@ class Contribution(Result):
 
 @dataclass(frozen=True)
 class Answer(Result):
-    """What a fragility says; intensities are in the unit of the assessment."""
+    """What a fragility with the error of the model says; intensities are in
+    the unit of the assessment."""
 
     median_im: Bounds
     im_at_5_percent: Bounds
-    dispersion: float
-    shift: float
+    records: Fragility
+    """Fit of the records alone."""
+    model_bias: float
+    model_dispersion: float
     annual_frequency: Bounds | None
     probability: Bounds | None
 
@@ -155,6 +158,8 @@ class Assessment(Result):
     level: float
     remark: str | None
     """What makes the intervals rough: few records, earthquakes or draws."""
+    model_error: ModelError
+    """In every answer but that of the records alone."""
     years: float
     correlation: Bounds | None
     objects: tuple[AssessedObject, ...]
@@ -187,6 +192,8 @@ def assess(
     certify: bool = False,
     n_resamples: int = 1000,
     rng: int = 0,
+    model_dispersion: ModelValue | None = None,
+    model_bias: ModelValue | Literal["fitted"] | None = None,
     gravity: float = STANDARD_GRAVITY,
     threads: int | None = None,
 ) -> Assessment:
@@ -206,6 +213,8 @@ def assess(
     n_resamples, rng : int
         Draws of the bootstrap, of earthquakes where these are known, and
         their repetition.
+    model_dispersion, model_bias : float or (value, low, high), optional
+        Error of the model, as in `risk`.
 
     >>> cabinet = Object("cabinet", Block.from_dimensions(width_m=0.5, height_m=1.8))
     >>> lobe = [Record([0.0, 0.3, 0.0], 0.2 + 0.1 * k, units="g", name=f"r{k}")
@@ -229,6 +238,7 @@ def assess(
             "replicates": n_resamples,
             "seed": seed(rng),
             "gravity": number(gravity, "gravity"),
+            "model_error": model_error(model_dispersion, model_bias),
         },
         threads,
     )

@@ -7,14 +7,23 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from . import _rocking
 from ._choices import ExchangeFormat
-from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen, pair_of
+from ._inputs import (
+    STANDARD_GRAVITY,
+    Block,
+    Floats,
+    Model,
+    frozen,
+    number,
+    pair_of,
+)
 from ._outputs import replace
-from ._results import IntervalBasis, Result
+from ._results import Bounds, IntervalBasis, Result
 from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit, seed
 
 
@@ -172,8 +181,12 @@ def export(
     *,
     format: ExchangeFormat,
     gravity: float = STANDARD_GRAVITY,
+    model_dispersion: ModelValue | None = None,
+    model_bias: ModelValue | Literal["fitted"] | None = None,
 ) -> str:
     """Fragilities of blocks as one file of another program.
+
+    They hold the error of the model, as in `risk`.
 
     Formats: EXCHANGE_FORMATS.
 
@@ -193,7 +206,8 @@ def export(
     <fragilityFunction id="block_a0_2_p3" format="discrete">
     """
     wanted = [block._wanted() for block in blocks]
-    text, beside = _rocking.exchange(format, wanted, gravity)
+    error = model_error(model_dispersion, model_bias)
+    text, beside = _rocking.exchange(format, wanted, gravity, error)
     if path is None:
         return text
     files = [(Path(path), text)]
@@ -296,10 +310,36 @@ def read_hazard(
 
 
 @dataclass(frozen=True)
-class SamplingInterval(IntervalBasis):
-    """What few records leave open of a frequency and a probability; the
-    hazard curve counts as known."""
+class ModelError(Result):
+    """Bias and dispersion of the model: each a value, and the range over
+    which the draws of an interval spread it."""
 
+    bias: Bounds
+    dispersion: Bounds
+
+
+@dataclass(frozen=True)
+class TotalFragility(Result):
+    """A fragility with the error of the model: quantiles, and the parts.
+
+    A capacity is model_bias exp(model_dispersion Z) times one of `records`, Z
+    standard normal."""
+
+    im16: float
+    median: float
+    im84: float
+    model_bias: float
+    model_dispersion: float
+    records: Fragility
+
+
+@dataclass(frozen=True)
+class SamplingInterval(IntervalBasis):
+    """What few records and the model leave open of a frequency and a
+    probability; the hazard curve counts as known."""
+
+    model_error: ModelError | None
+    """None of the records alone."""
     annual_frequency_low: float
     annual_frequency_high: float
     probability_low: float
@@ -316,7 +356,7 @@ class FragilityRisk(Result):
 
     fragility: str
     """Its name."""
-    fitted: Fragility
+    fitted: TotalFragility
     """In the unit of the hazard curve."""
     annual_frequency_truncation_lower: float
     annual_frequency_truncation_upper: float
@@ -327,7 +367,7 @@ class FragilityRisk(Result):
     probability_at_first_point: float
     """Where it is not 0, weaker motions add to the frequency."""
     sampling: SamplingInterval | None
-    """None for a fragility that counts as known."""
+    """None for a fragility without a sample."""
 
 
 @dataclass(frozen=True)
@@ -353,6 +393,8 @@ def risk(
     gravity: float = STANDARD_GRAVITY,
     n_resamples: int = 1000,
     rng: int = 0,
+    model_dispersion: ModelValue | None = None,
+    model_bias: ModelValue | Literal["fitted"] | None = None,
 ) -> Risk:
     """Annual frequency of damage, and its probability in `years`.
 
@@ -364,12 +406,17 @@ def risk(
     fragilities : mapping of names to Fragility, FragilityFit or BlockFragility
         Fragilities in the unit of the hazard curve, and those of blocks,
         which are brought to it. Fits to a sample above a known shift have a
-        sampling interval; a Fragility counts as known.
+        sampling interval; a Fragility is taken as it is, without an error of
+        the model unless one is given.
     gravity : float
         In m/s2, for the PGV of blocks.
     n_resamples, rng : int
         Bootstrap samples of a fit's records, of earthquakes where they are
         known, and their repetition; 0 for no interval.
+    model_dispersion, model_bias : float or (value, low, high), optional
+        Error of the model. By default 0.2 (0 to 0.25) and 1 (0.77 to 1.3);
+        0 and 1 are none, "fitted" is the bias of an object whose slenderness
+        was fitted to its own tests. A value without a range counts as known.
 
     >>> text = "intensity,annual_frequency\\n1e-6,1e8\\n1e6,1e-16\\n"
     >>> hazard = Hazard("power law", text)
@@ -380,9 +427,32 @@ def risk(
     """
     exposed = [(name, *_exposed(one)) for name, one in fragilities.items()]
     found = _rocking.risk(
-        hazard._written, exposed, gravity, years, n_resamples, seed(rng)
+        hazard._written,
+        exposed,
+        gravity,
+        years,
+        n_resamples,
+        seed(rng),
+        model_error(model_dispersion, model_bias),
     )
     return Risk._of(found)
+
+
+ModelValue = float | tuple[float, float, float]
+
+
+def model_error(
+    dispersion: ModelValue | None, bias: ModelValue | str | None
+) -> _rocking.ModelError:
+    """Dispersion and bias as the command spells them."""
+
+    def text(value: ModelValue | str | None, what: str) -> str | None:
+        if value is None or isinstance(value, str):
+            return value
+        numbers = value if isinstance(value, tuple) else (value,)
+        return ",".join(repr(number(one, what)) for one in numbers)
+
+    return text(dispersion, "model_dispersion"), text(bias, "model_bias")
 
 
 def _exposed(

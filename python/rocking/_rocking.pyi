@@ -11,6 +11,7 @@ _Floats = NDArray[np.float64]
 Given = tuple[str, _Floats | None, float, dict[str, float]]
 _Block = tuple[float, float]
 Law = tuple[float, float, float]
+ModelError = tuple[str | None, str | None]
 Sample = tuple[
     _Floats, Sequence[float | None], Sequence[str], Sequence[str]
 ]
@@ -71,6 +72,7 @@ class AssessOptions(TypedDict):
     replicates: int
     seed: int
     gravity: float
+    model_error: ModelError
 
 class Comparing(TypedDict):
     block: _Block | None
@@ -216,7 +218,10 @@ def compare(a: Sample, b: Sample, margin: float) -> str: ...
 def contrast(a: Sample, b: Sample, replicates: int, seed: int) -> str: ...
 def lognormal(law: Law, function: str, numbers: _Floats) -> _Floats: ...
 def exchange(
-    format: str, blocks: Sequence[Wanted], gravity: float
+    format: str,
+    blocks: Sequence[Wanted],
+    gravity: float,
+    error: ModelError,
 ) -> tuple[str, tuple[str, str] | None]: ...
 def hazard(
     written: Written,
@@ -228,6 +233,7 @@ def risk(
     years: float,
     replicates: int,
     seed: int,
+    error: ModelError,
 ) -> str: ...
 def assess(
     objects: Sequence[GivenObject],

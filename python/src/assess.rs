@@ -7,11 +7,13 @@ use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
 use rocking_assessment::{About, files, set_surfaces};
 use rocking_procedures::assess::NamedFloor;
-use rocking_procedures::{AssessOptions, Draws, Object, assess as procedure};
+use rocking_procedures::{
+    AssessOptions, Draws, ModelError, Object, assess as procedure,
+};
 use rocking_records::floor::Floor;
 use rocking_statistics::Clusters;
 
-use crate::exchange::{HazardInput, read};
+use crate::exchange::{HazardInput, ModelErrorInput, model_error, read};
 use crate::given::{ExcitationInput, block_of, positive_gravity, suite_of};
 use crate::work::{self, refuse};
 
@@ -55,6 +57,7 @@ pub struct Options {
     replicates: usize,
     seed: u64,
     gravity: f64,
+    model_error: ModelErrorInput,
 }
 
 /// The files of an assessment by their names; records are `embedded`, or have
@@ -82,12 +85,15 @@ pub fn assess(
     };
     let hazard = hazard.as_ref().map(read).transpose()?;
     let Options { replicates, seed, .. } = options;
+    let model_error =
+        model_error(&options.model_error, ModelError::default())?;
     let own = AssessOptions {
         gravity_m_s2: positive_gravity(options.gravity)?,
         hazard: hazard.as_ref(),
         years: options.years,
         draws: Draws { replicates, seed },
         certify: options.certify,
+        model_error,
     };
     let ground = match embedded {
         true => "No records are given: the motions are synthetic, made by \

@@ -8,9 +8,10 @@ use rocking_exchange::{
 use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
 };
+use rocking_procedures::model_error::ModelErrorFault;
 use rocking_procedures::{
-    BootstrapFits, Draws, FitOptions, FragilityInput as ProcedureInput, Shift,
-    risk as procedure,
+    BootstrapFits, Draws, FitOptions, FragilityInput as ProcedureInput,
+    ModelError, Shift, risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
@@ -64,7 +65,11 @@ impl FragilityInput {
     }
 
     /// The fragilities in the block's own measure.
-    fn fragility(self, gravity: f64) -> PyResult<BlockFragility> {
+    fn fragility(
+        self,
+        gravity: f64,
+        model_error: ModelError,
+    ) -> PyResult<BlockFragility> {
         let factor = self.factor(gravity)?;
         let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
@@ -87,8 +92,27 @@ impl FragilityInput {
             im,
             limit_states,
             origin: self.origin.unwrap_or_else(|| origins.join("; ")),
+            model_error,
         })
     }
+}
+
+/// Dispersion and bias of the model, as the command spells them.
+pub type ModelErrorInput = (Option<String>, Option<String>);
+
+/// The error of the model, `usual` where nothing is given.
+pub fn model_error(
+    (dispersion, bias): &ModelErrorInput,
+    usual: ModelError,
+) -> PyResult<ModelError> {
+    let refused =
+        |name: &str, e: ModelErrorFault| refuse(format!("{name}: {e}"));
+    let bias = bias.as_deref().map(ModelError::parse_bias).transpose();
+    let dispersion = dispersion.as_deref().map(ModelError::parse_dispersion);
+    let bias = bias.map_err(|e| refused("model_bias", e))?;
+    let dispersion = dispersion.transpose();
+    let dispersion = dispersion.map_err(|e| refused("model_dispersion", e))?;
+    Ok(usual.or(bias, dispersion))
 }
 
 /// The text of a format, and where it has one that of a second file beside
@@ -98,9 +122,11 @@ pub fn exchange(
     format: &str,
     blocks: Vec<FragilityInput>,
     gravity: f64,
+    error: ModelErrorInput,
 ) -> PyResult<(String, Option<(&'static str, String)>)> {
     let format = ExchangeFormat::named(format).map_err(refuse)?;
-    let all = blocks.into_iter().map(|one| one.fragility(gravity));
+    let error = model_error(&error, ModelError::default())?;
+    let all = blocks.into_iter().map(|one| one.fragility(gravity, error));
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let texts = format.texts(&all).map_err(refuse)?;
     Ok((texts.main, format.beside.zip(texts.beside)))
@@ -180,24 +206,31 @@ pub fn risk(
     years: f64,
     replicates: usize,
     seed: u64,
+    error: ModelErrorInput,
 ) -> PyResult<String> {
     let hazard = read(&written)?;
+    // A law is taken as it is, unless an error is given.
+    let of_law = model_error(&error, ModelError::none())?;
+    let error = model_error(&error, ModelError::default())?;
     let draws = (replicates > 0).then_some(Draws { replicates, seed });
     let mut all = Vec::new();
     for (fragility, one, behind) in exposed {
+        let is_sampled = !behind.is_empty();
         let mut behind = behind.into_iter();
         let mut drawn = || sampled(py, behind.next().flatten(), draws);
         let name = fragility.clone();
         let block = match one {
             RiskInput::Law(law) => {
-                let (fitted, sampled) = (lognormal(law)?, drawn()?);
-                all.push(ProcedureInput { fragility, fitted, sampled });
+                let own = (lognormal(law)?, drawn()?);
+                let error = if is_sampled { error } else { of_law };
+                let own = ProcedureInput::with(fragility, own, &error);
+                all.push(own.map_err(refuse)?);
                 continue;
             }
             RiskInput::Block(block) => block,
         };
         let factor = block.factor(gravity)?;
-        let own = block.fragility(gravity)?;
+        let own = block.fragility(gravity, error)?;
         if hazard.im == HazardMeasure::Own || !hazard.im.is_of(&own.im) {
             let found = hazard.im.name();
             return Err(refuse(format!(
@@ -217,7 +250,9 @@ pub fn risk(
             };
             let scaled = |all: BootstrapFits| all.scaled(factor)?.scaled(unit);
             let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
-            all.push(ProcedureInput { fragility, fitted, sampled });
+            let own =
+                ProcedureInput::with(fragility, (fitted, sampled), &error);
+            all.push(own.map_err(refuse)?);
         }
     }
     answer(py, || procedure(&hazard, &all, years))

@@ -13,7 +13,7 @@ use rocking_procedures::fragility::points::PointsError;
 use rocking_statistics::lognormal::LognormalError;
 use thiserror::Error;
 
-use crate::fragility::{BlockFragility, Id};
+use crate::fragility::{BlockFragility, Id, crossed_by};
 use crate::table::number;
 
 /// Largest error in probability of a shifted fragility that is written as
@@ -186,15 +186,18 @@ impl ExchangeFormat {
         if one.limit_states.is_empty() {
             return Err(ExchangeError::NoState { id });
         }
-        let crossed = one.limit_states.windows(2).find_map(|pair| {
-            pair[0].crossed_by(&pair[1], CROSSING).map(|im| (im, pair))
+        let totals = one.totals(1.0)?;
+        let crossed = totals.windows(2).find_map(|pair| {
+            let [(own, law), (next, after)] = pair else { return None };
+            let im = crossed_by(law, after, CROSSING)?;
+            Some((im, &own.name, &next.name))
         });
         match crossed {
-            Some((im, pair)) if !self.may_cross => {
+            Some((im, name, next)) if !self.may_cross => {
                 Err(ExchangeError::Crossing {
                     id,
-                    name: pair[0].name.clone(),
-                    next: pair[1].name.clone(),
+                    name: name.clone(),
+                    next: next.clone(),
                     im: format!("{} {}", number(im), one.im.unit()),
                 })
             }

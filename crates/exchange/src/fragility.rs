@@ -10,8 +10,13 @@ use std::str::FromStr;
 use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
 use rocking::names::as_text;
+use rocking_procedures::ModelError;
+use rocking_procedures::fragility::total::TotalFragility;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::Lognormal;
+use rocking_statistics::lognormal::LognormalError;
+
+use crate::table::number;
 
 /// Most characters of a name that OpenQuake takes.
 const LONGEST: usize = 75;
@@ -90,6 +95,55 @@ pub struct BlockFragility {
     pub limit_states: Vec<LimitState>,
     /// Where they come from, in words.
     pub origin: String,
+    /// The error of the model, which files hold beside the records' scatter.
+    pub model_error: ModelError,
+}
+
+/// A limit state with its total.
+pub(crate) type StateTotal<'a> = (&'a LimitState, TotalFragility);
+
+impl BlockFragility {
+    /// The limit states with their totals, in the unit of which one of the
+    /// block's own has `units`.
+    pub(crate) fn totals(
+        &self,
+        units: f64,
+    ) -> Result<Vec<StateTotal<'_>>, LognormalError> {
+        let states = self.limit_states.iter();
+        let totals = states.map(|state| {
+            let own = self.model_error.total(state.fragility)?;
+            Ok((state, if units == 1.0 { own } else { own.scaled(units)? }))
+        });
+        totals.collect()
+    }
+
+    /// Where the fragilities come from, and their parts: the law of the
+    /// records and the error of the model; the origin alone where there is no
+    /// such error.
+    pub(crate) fn described(&self) -> String {
+        if self.model_error.is_none() {
+            return self.origin.clone();
+        }
+        let part = |state: &LimitState| {
+            let law = &state.fragility;
+            let [median, beta, shift] =
+                [law.median(), law.dispersion(), law.shift()].map(number);
+            let unit = self.im.unit();
+            let name = &state.name;
+            format!(
+                "{name}: median {median} {unit}, dispersion {beta} above \
+                 {shift} {unit}"
+            )
+        };
+        let parts: Vec<_> = self.limit_states.iter().map(part).collect();
+        format!(
+            "{}; {}; parts: records, {}; and {}",
+            self.origin,
+            self.id,
+            parts.join(", "),
+            self.model_error
+        )
+    }
 }
 
 /// A degree of damage, and how probable it is.
@@ -97,8 +151,8 @@ pub struct BlockFragility {
 pub struct LimitState {
     /// Its name.
     pub name: Id,
-    /// Probability of reaching it, in the unit of the block's own intensity
-    /// measure: g for PGA, m/s for PGV.
+    /// Probability of reaching it by the records alone, in the unit of the
+    /// block's own intensity measure: g for PGA, m/s for PGV.
     pub fragility: Lognormal,
 }
 
@@ -108,28 +162,21 @@ const STEPS: i32 = 1000;
 /// Largest score at which two curves are compared.
 const LARGEST_SCORE: f64 = 8.0;
 
-impl LimitState {
-    /// The intensity at which the probability of `next`, a state of greater
-    /// damage, is most above that of this state, where it is above it by more
-    /// than `tolerance`.
-    pub(crate) fn crossed_by(
-        &self,
-        next: &Self,
-        tolerance: f64,
-    ) -> Option<f64> {
-        let both = [&self.fragility, &next.fragility];
-        let step = LARGEST_SCORE / f64::from(STEPS);
-        let all = both.into_iter().flat_map(|law| {
-            (-STEPS..=STEPS).map(move |k| {
-                let score = f64::from(k) * step;
-                let log = law.log_mean() + law.dispersion() * score;
-                law.shift() + libm::exp(log)
-            })
-        });
-        let above = |im: f64| next.fragility.cdf(im) - self.fragility.cdf(im);
-        let worst = all.max_by(|a, b| above(*a).total_cmp(&above(*b)))?;
-        (above(worst) > tolerance).then_some(worst)
-    }
+/// The intensity at which the probability of `next`, a state of greater
+/// damage, is most above that of `own`, where it is above it by more than
+/// `tolerance`.
+pub(crate) fn crossed_by(
+    own: &TotalFragility,
+    next: &TotalFragility,
+    tolerance: f64,
+) -> Option<f64> {
+    let step = LARGEST_SCORE / f64::from(STEPS);
+    let all = [own, next].into_iter().flat_map(|law| {
+        (-STEPS..=STEPS).map(move |k| law.at_score(f64::from(k) * step))
+    });
+    let above = |im: f64| next.cdf(im) - own.cdf(im);
+    let worst = all.max_by(|a, b| above(*a).total_cmp(&above(*b)))?;
+    (above(worst) > tolerance).then_some(worst)
 }
 
 /// The number of g (PGA) or of m/s (PGV) that makes a dimensionless

@@ -7,6 +7,7 @@
 //! ```
 //! use rocking::Block;
 //! use rocking::integrator::Model;
+//! use rocking_procedures::ModelError;
 //! use rocking_records::intensity::Intensity;
 //! use rocking_statistics::Lognormal;
 //! use rocking_exchange::{
@@ -23,6 +24,7 @@
 //!     im: "pga".parse()?,
 //!     limit_states: vec![LimitState { name: "overturning".parse()?, fragility }],
 //!     origin: String::from("86 capacities"),
+//!     model_error: ModelError::default(),
 //! };
 //! let nrml = ExchangeFormat::named("nrml")?.texts(&[one])?.main;
 //! assert!(nrml.contains("<fragilityFunction id=\"block_a0_15_p3\""));

@@ -11,13 +11,15 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::ground::{AssessmentSuite, ObjectResult};
-use super::fit::IntervalBasis;
+use super::fit::{Band, IntervalBasis};
 use super::risk::FragilityRisk;
 use super::{
-    Draws, FragilityFit, ProcedureError, Ranking, RiskError, StripeResponses,
+    Draws, FragilityFit, ModelError, ProcedureError, Ranking, RiskError,
+    StripeResponses,
 };
 use crate::fragility::hazard::Hazard;
 use crate::fragility::risk::Contribution;
+use crate::fragility::total::TotalFragility;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::capacity::CapacityError;
@@ -75,6 +77,9 @@ pub struct AssessOptions<'a> {
     pub draws: Draws,
     /// Whether each fate is resolved in the arithmetic that it needs.
     pub certify: bool,
+    /// The error of the model, in every answer but that of the records
+    /// alone.
+    pub model_error: ModelError,
 }
 
 /// What counts as damage.
@@ -121,6 +126,8 @@ pub struct Assessment {
     /// What the intervals rest on.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub basis: IntervalBasis,
+    /// The error of the model in every answer but that of the records alone.
+    pub model_error: ModelError,
     /// Years of the probabilities.
     pub years: f64,
     /// Correlation of the logarithms of the intensities of damage of two
@@ -160,10 +167,12 @@ pub struct ObjectAssessment {
     /// object begins to rock.
     pub uplift_pga_g: f64,
     /// The intensities at which the records damage it, and their lognormal
-    /// fit with its band.
+    /// fit.
     pub fragility: FragilityFit,
-    /// What follows of the fit.
+    /// What follows of the fit with the error of the model.
     pub answer: Answer,
+    /// Probabilities of damage with their band.
+    pub band: Option<Band>,
     /// Annual frequency of damage by motions between two intensities of the
     /// hazard curve.
     pub contributions: Vec<Contribution>,
@@ -202,8 +211,8 @@ impl ObjectAssessment {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
-    /// The fitted distribution.
-    pub fitted: Lognormal,
+    /// The fitted distribution with the error of the model.
+    pub fitted: TotalFragility,
     /// Intensity that damages the object with probability 0.5.
     pub median_im: Estimate,
     /// Intensity that damages it with probability 0.05.
@@ -256,6 +265,8 @@ pub struct RecordCapacity {
 /// An assumption beside the one that is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Assumption {
+    /// The records alone, without the error of the model.
+    RecordsAlone,
     /// Another coefficient of restitution.
     Restitution(f64),
     /// A fragility without a shift.
@@ -274,6 +285,9 @@ impl fmt::Display for Assumption {
         match self {
             Self::Restitution(eta) => {
                 write!(f, "coefficient of restitution {eta}")
+            }
+            Self::RecordsAlone => {
+                f.write_str("records alone, no error of the model")
             }
             Self::NoShift => f.write_str("fragility without a shift"),
             Self::RecordsAsUnit => f.write_str("records drawn one by one"),
@@ -408,13 +422,14 @@ pub enum AssessError {
 /// distribution: in PGA above the intensity g tan(alpha) at which the object
 /// begins to rock, in other measures, and on a floor, from 0. On a
 /// [floor](Floor) the object rocks under the floor's motion; intensities stay
-/// those of the ground. Intervals are of the bootstrap,
-/// which draws earthquakes. The objects damaged together are counted record
+/// those of the ground. Each fit gets the error of the model. Intervals are
+/// of the bootstrap, which draws earthquakes, and for each draw and object an
+/// error of the model. The objects damaged together are counted record
 /// by record, since one earthquake moves all.
 ///
 /// ```
 /// use rocking_procedures::assess::{AssessOptions, Object, assess};
-/// use rocking_procedures::Draws;
+/// use rocking_procedures::{Draws, ModelError};
 /// use rocking::accelerogram::Accelerogram;
 /// use rocking_statistics::Clusters;
 /// use rocking::{Block, Restitution};
@@ -439,6 +454,7 @@ pub enum AssessError {
 ///     years: 50.0,
 ///     draws: Draws { replicates: 100, seed: 0 },
 ///     certify: true,
+///     model_error: ModelError::default(),
 /// };
 /// let clusters = Clusters::singletons(3);
 /// let found = assess(&[cabinet], &records, &clusters, &options)?;
@@ -490,6 +506,7 @@ pub fn assess(
         im: ground.im,
         records: records.len(),
         basis: IntervalBasis::new(options.draws, clusters),
+        model_error: options.model_error,
         years: options.years,
         correlation: ground::correlation(&found),
         objects: ObjectResult::sorted(found),

@@ -168,13 +168,12 @@ pub fn fit_outcomes(
     };
     let Some(draws) = draws else { return Ok(found) };
     let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
-    let dispersion = drawn.estimate(
-        found.dispersion.value(),
-        Range::NotNegative,
-        Lognormal::dispersion,
-    );
+    let dispersion =
+        drawn.estimate(found.dispersion.value(), Range::NotNegative, |fit| {
+            fit.records().dispersion()
+        });
     Ok(CountsFragility {
-        median: drawn.quantile(&found.fitted, 0.5),
+        median: drawn.quantile(&found.fitted.into(), 0.5),
         dispersion,
         intervals: Basis::Drawn(drawn.basis),
         ..found
@@ -203,11 +202,13 @@ pub fn sample_outcomes(
     let fitted = all.map(|places| {
         if let Some(brackets) = &brackets {
             let drawn: Vec<_> = places.iter().map(|k| brackets[*k]).collect();
-            return Some(fit_intervals(&drawn, shift).ok()?.distribution);
+            let law = fit_intervals(&drawn, shift).ok()?.distribution;
+            return Some(law.into());
         }
         let counts = multiplicities(places, clusters.records());
         let of = |record| u64::from(counts[place(record)]);
-        fit_counts_alone(&counted(outcomes, of), shift).ok()
+        let law = fit_counts_alone(&counted(outcomes, of), shift).ok()?;
+        Some(law.into())
     });
     let basis = IntervalBasis::new(draws, &clusters);
     Ok(BootstrapFits { basis, fitted })

@@ -13,7 +13,9 @@ pub use intervals::{Band, BandPoint, FitIntervals, IntervalBasis};
 pub use precision::SampleSize;
 pub use remark::FitRemark;
 
+use self::intervals::Replicate;
 use crate::capacities;
+use crate::fragility::total::TotalFragility;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::stop;
@@ -338,7 +340,7 @@ pub struct BootstrapFits {
     /// What their intervals rest on.
     pub basis: IntervalBasis,
     /// One a draw; none where it makes no fit.
-    pub fitted: Vec<Option<Lognormal>>,
+    pub fitted: Vec<Option<TotalFragility>>,
 }
 
 impl BootstrapFits {
@@ -348,9 +350,9 @@ impl BootstrapFits {
         &self,
         value: f64,
         range: Range,
-        number: impl Fn(&Lognormal) -> f64,
+        number: impl Fn(&TotalFragility) -> f64,
     ) -> Estimate {
-        let of = |fit: &Option<Lognormal>| {
+        let of = |fit: &Option<TotalFragility>| {
             stop::point();
             fit.as_ref().map_or(f64::NAN, &number)
         };
@@ -360,14 +362,25 @@ impl BootstrapFits {
     }
 
     /// The quantile of a fit at probability p with the 95 % interval of these
-    /// draws, symmetric in its logarithm above the shift.
-    pub(crate) fn quantile(&self, fitted: &Lognormal, p: f64) -> Estimate {
+    /// draws, symmetric in its logarithm above the shift that all have.
+    pub(crate) fn quantile(
+        &self,
+        fitted: &TotalFragility,
+        p: f64,
+    ) -> Estimate {
         let z = normal::quantile(p);
-        let of = |fit: &Lognormal| {
-            f64::mul_add(fit.dispersion(), z, fit.log_mean())
+        let shift = |fit: &TotalFragility| fit.closed().map(|law| law.shift());
+        let own = shift(fitted);
+        let same = self.fitted.iter().flatten().all(|fit| shift(fit) == own);
+        let above = own.filter(|_| same);
+        let of = |fit: &TotalFragility| match (above, fit.closed()) {
+            (Some(_), Some(law)) => {
+                f64::mul_add(law.dispersion(), z, law.log_mean())
+            }
+            _ => libm::log(fit.quantile(p)),
         };
         let found = self.estimate(of(fitted), Range::Real, of);
-        found.map(|y| fitted.shift() + libm::exp(y))
+        found.map(|y| above.unwrap_or(0.0) + libm::exp(y))
     }
 
     /// All of them in a unit of which one of theirs has `factor`.
@@ -435,7 +448,7 @@ impl FitOptions {
         let fitted = intervals::drawn(draws, &clusters, |places| {
             let (shift, above) =
                 self.shift.split(&sample.resample(places)).ok()?;
-            Some(above.fit(shift, self.method).ok()?.distribution)
+            Some(above.fit(shift, self.method).ok()?.distribution.into())
         });
         let basis = IntervalBasis::new(draws, &clusters);
         Ok(Some(BootstrapFits { basis, fitted }))
@@ -520,7 +533,8 @@ pub fn fit_sample(
         .clone()
         .map(|basis| FitIntervals::new(basis, &found, &replicates));
     let band = basis.filter(|_| !options.band.is_empty()).map(|basis| {
-        let fitted = replicates.iter().map(|(_, fitted)| *fitted).collect();
+        let of = |row: &Replicate| row.1.map(TotalFragility::from);
+        let fitted = replicates.iter().map(of).collect();
         let sampled = BootstrapFits { basis, fitted };
         Band::new(sample, options, &found.fit.distribution, &sampled)
     });

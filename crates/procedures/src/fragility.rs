@@ -11,6 +11,7 @@ pub mod hazard;
 pub mod options;
 pub mod points;
 pub mod risk;
+pub mod total;
 
 use libm::{exp, expm1, log, log1p};
 use thiserror::Error;

@@ -25,6 +25,7 @@ pub mod fit;
 pub mod fragility;
 pub mod ida_summary;
 mod inversion;
+pub mod model_error;
 pub mod normality;
 pub mod pivot;
 pub mod ranking;
@@ -46,6 +47,7 @@ pub use fit::{
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use inversion::inversion_discrepancy;
+pub use model_error::ModelError;
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};

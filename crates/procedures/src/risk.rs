@@ -4,11 +4,14 @@
 use libm::expm1;
 use thiserror::Error;
 
+use crate::ModelError;
 use crate::fit::{BootstrapFits, IntervalBasis};
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
+use crate::fragility::total::TotalFragility;
 use rocking::stop;
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
+use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::{Estimate, Interval, Lognormal, Range};
 
 /// Annual frequencies and probabilities of damage under one hazard curve.
@@ -51,7 +54,7 @@ pub struct FragilityInput {
     /// Its name.
     pub fragility: String,
     /// The fragility.
-    pub fitted: Lognormal,
+    pub fitted: TotalFragility,
     /// What the draws of its sample make of it; none for no interval.
     pub sampled: Option<BootstrapFits>,
 }
@@ -60,12 +63,29 @@ impl FragilityInput {
     /// A fragility that counts as known.
     #[must_use]
     pub fn known(name: &str, fitted: Lognormal) -> Self {
+        let fitted = fitted.into();
         Self { fragility: name.to_owned(), fitted, sampled: None }
+    }
+
+    /// A fragility of records, and what the draws of its sample make of it,
+    /// with the error of the model; the name is that of the stream from which
+    /// the draws get their errors.
+    ///
+    /// # Errors
+    /// [`LognormalError`] for an error that [`TotalFragility`] refuses.
+    pub fn with(
+        fragility: String,
+        (records, sampled): (Lognormal, Option<BootstrapFits>),
+        error: &ModelError,
+    ) -> Result<Self, LognormalError> {
+        let fitted = error.total(records)?;
+        let sampled = sampled.map(|all| all.with(error, &fragility));
+        Ok(Self { fragility, fitted, sampled })
     }
 }
 
-/// What few records leave open of a frequency; the hazard curve counts as
-/// known.
+/// What few records and the model leave open of a frequency; the hazard curve
+/// counts as known.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -73,6 +93,8 @@ pub struct SamplingInterval {
     /// What it rests on.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub basis: IntervalBasis,
+    /// The error of the model in each draw; none for the records alone.
+    pub model_error: Option<ModelError>,
     /// Annual frequency in 1/year, of the lower bound of truncation, with an
     /// interval up to the upper end of the upper bound.
     #[cfg_attr(
@@ -105,7 +127,7 @@ pub struct FragilityRisk {
     /// Name of the fragility.
     pub fragility: String,
     /// The fragility, in the unit of the hazard curve.
-    pub fitted: Lognormal,
+    pub fitted: TotalFragility,
     /// Annual frequency in 1/year at least.
     pub annual_frequency_truncation_lower: f64,
     /// Annual frequency in 1/year at most.
@@ -119,8 +141,8 @@ pub struct FragilityRisk {
     /// The fragility at the first point. Where it is not 0, weaker motions
     /// add to the frequency; how much, the curve does not tell.
     pub probability_at_first_point: f64,
-    /// The interval that the choice of the records leaves; none for a
-    /// fragility that counts as known.
+    /// The interval that the choice of the records and the error of the model
+    /// leave; none for a fragility without a sample.
     pub sampling: Option<SamplingInterval>,
 }
 
@@ -180,7 +202,7 @@ pub fn risk(
     };
     let within = |frequency: f64| -expm1(-frequency * years);
     let row = |one: &FragilityInput| {
-        let found = hazard.curve.annual_frequency(&one.fitted);
+        let found = hazard.curve.annual_frequency(one.fitted);
         let (lower, upper) = (found.truncation_lower, found.truncation_upper);
         FragilityRisk {
             fragility: one.fragility.clone(),
@@ -218,7 +240,7 @@ fn interval(
     let all = sampled.fitted.iter().map(|fitted| {
         stop::point();
         fitted.map_or((f64::NAN, f64::NAN), |fitted| {
-            let found = hazard.curve.annual_frequency(&fitted);
+            let found = hazard.curve.annual_frequency(fitted);
             (found.truncation_lower, found.truncation_upper)
         })
     });
@@ -235,6 +257,7 @@ fn interval(
         Estimate::try_new(lower, interval, Range::NotNegative).ok()?;
     Some(SamplingInterval {
         basis: basis.clone(),
+        model_error: basis.model_error,
         annual_frequency,
         probability: annual_frequency.map(within),
         drawn_annual_frequencies: lows,
@@ -264,7 +287,11 @@ mod tests {
         let ends = |clusters: &Clusters| {
             let sampled = BootstrapFits {
                 basis: IntervalBasis::new(draws, clusters),
-                fitted: [Some(beyond), Some(weaker)].repeat(20),
+                fitted: [beyond, weaker]
+                    .repeat(20)
+                    .into_iter()
+                    .map(|law| Some(law.into()))
+                    .collect(),
             };
             let one = FragilityInput {
                 sampled: Some(sampled),

@@ -33,7 +33,7 @@ pub mod quantile;
 pub mod regression;
 pub mod resampling;
 pub mod sample;
-mod search;
+pub mod search;
 pub mod streams;
 pub mod two_sample;
 

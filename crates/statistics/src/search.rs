@@ -1,11 +1,7 @@
 //! Searches for a maximum.
 
 /// The place of a maximum between two places, by golden sections.
-pub(super) fn golden(
-    f: impl Fn(f64) -> f64,
-    mut low: f64,
-    mut high: f64,
-) -> f64 {
+pub fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const SHARE: f64 = 0.618_033_988_749_894_8;
     let inner = |low: f64, high: f64| {
         (high - SHARE * (high - low), low + SHARE * (high - low))

@@ -76,7 +76,7 @@ pub(crate) fn curves(
 }
 
 fn fragility(one: &ObjectAssessment, axis: &str) -> ChartPanel {
-    let band = one.fragility.band.iter().flat_map(|b| &b.points);
+    let band = one.band.iter().flat_map(|b| &b.points);
     let last = one.answer.fitted.quantile(0.98);
     let band: Vec<_> = band.filter(|p| p.intensity <= last).collect();
     let x: Vec<f64> = band.iter().map(|p| p.intensity).collect();

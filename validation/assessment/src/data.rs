@@ -53,7 +53,7 @@ pub(crate) fn of<T: Serialize>(
 pub(crate) fn fragilities(found: &Assessment) -> String {
     let mut table = Table::of(&ASSESSED_FRAGILITIES);
     for one in &found.objects {
-        let band = one.fragility.band.iter().flat_map(|b| &b.points);
+        let band = one.band.iter().flat_map(|b| &b.points);
         for point in band {
             table.row([
                 one.id.clone(),
@@ -118,7 +118,8 @@ pub(crate) fn exchanged(
             name.parse::<Id>()
                 .map_err(|error| anyhow::anyhow!("{name}: {error}"))
         };
-        let own_unit = one.answer.fitted.scaled(1.0 / found.units_per_im_unit);
+        let own_unit =
+            one.fragility.fitted.scaled(1.0 / found.units_per_im_unit);
         let state = LimitState { name: id("damage")?, fragility: own_unit? };
         anyhow::Ok(BlockFragility {
             id: id(&one.id)?,
@@ -127,6 +128,7 @@ pub(crate) fn exchanged(
             im: found.im.clone(),
             limit_states: vec![state],
             origin: format!("{} records, rocking assess", found.records),
+            model_error: found.model_error,
         })
     };
     let all = found.objects.iter().map(fragility);

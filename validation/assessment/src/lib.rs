@@ -262,8 +262,9 @@ fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
                     (PreEscaped(inline(&chart.svg())))
                 }
                 figcaption {
-                    "(a) Probability of damage: the records (points), the \
-                     lognormal fit, and its 95 % band. (b) Rotation over \
+                    "(a) Probability of damage: the records (points), and \
+                     their lognormal fit with the error of the model and \
+                     its 95 % band. (b) Rotation over \
                      alpha of 16, 50 and 84 % of the records at rising \
                      intensity. At 1 the object is at the angle from which \
                      it does not come back on flat, quiet ground."
@@ -319,7 +320,7 @@ fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
             @if let Some(needed) = &one.fragility.needed {
                 li {
                     "For a 90 % interval of ±10 % about the median"
-                    @if one.answer.fitted.shift() > 0.0 {
+                    @if one.fragility.fitted.shift() > 0.0 {
                         " intensity above the onset of rocking"
                     }
                     ", "
@@ -364,14 +365,22 @@ fn limits(found: &Assessment) -> Markup {
                     }
                 }
                 li {
-                    "The uncertainty of the hazard curve. The intervals \
-                     hold what the choice of the records leaves ("
-                    (found.basis.drawn.to_string()) ")."
+                    "The uncertainty of the hazard curve. The intervals are "
+                    (words::held(found)) ". Drawn: "
+                    (found.basis.drawn.to_string()) "."
                 }
                 li {
+                    "A test of the object itself. "
+                    @if found.model_error.is_none() {
+                        "The numbers have no error of the model. "
+                    } @else {
+                        "The error of the model was measured on two rocks \
+                         with natural bases, in one laboratory; that of \
+                         another object may differ. "
+                    }
                     "A coefficient of restitution that was measured on the \
-                     object. The tables show what 0.85 and 0.97 make of the \
-                     answer."
+                     object would narrow the interval. The tables show what \
+                     0.85 and 0.97 make of the answer."
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {

@@ -10,9 +10,9 @@ use rocking::accelerogram::Accelerogram;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, REFINEMENT, curve, forces_at};
 use rocking::{Block, Restitution};
-use rocking_procedures::Draws;
 use rocking_procedures::assess::{AssessOptions, Assessment, Object, assess};
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
+use rocking_procedures::{Draws, ModelError};
 use rocking_statistics::Clusters;
 use serde_json::Value;
 
@@ -64,6 +64,7 @@ fn assessed(friction: Option<f64>) -> Assessment {
         years: 50.0,
         draws: Draws { replicates: 100, seed: 0 },
         certify: false,
+        model_error: ModelError::default(),
     };
     let records = records();
     let clusters = Clusters::singletons(records.len());

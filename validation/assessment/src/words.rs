@@ -76,7 +76,8 @@ pub(crate) fn first(found: &Assessment) -> String {
             found.unit
         ),
     };
-    let mut interval = "The brackets hold the 95 % interval.".to_owned();
+    let mut interval =
+        format!("The brackets hold the 95 % interval {}.", held(found));
     if let Some(remark) = found.basis.remark {
         interval += &format!(" Note: {remark}.");
     }
@@ -85,9 +86,18 @@ pub(crate) fn first(found: &Assessment) -> String {
     }
     format!(
         "{id} needs attention first: {often}. {interval} {id} comes first in \
-         {} of the resampled sets of records.",
+         {} of the draws.",
         percent(one.first_in_draws, 0)
     )
+}
+
+/// What the intervals hold.
+pub(crate) fn held(found: &Assessment) -> String {
+    let error = found.model_error;
+    if error.is_none() {
+        return "of the records alone, without an error of the model".into();
+    }
+    format!("of the choice of the records and of the model: {error}")
 }
 
 /// The heads of the table of all objects.
@@ -98,7 +108,7 @@ pub(crate) fn heads(found: &Assessment) -> Vec<String> {
     heads.push(format!("{im} of 5 % damage, {unit}"));
     heads.push(format!("{im} of 50 % damage, {unit}"));
     if found.objects.len() > 1 {
-        heads.push("Comes first in resampled records".to_owned());
+        heads.push("Comes first in draws".to_owned());
     }
     heads.push("Records under which it slides first".to_owned());
     heads

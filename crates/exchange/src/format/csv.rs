@@ -18,7 +18,7 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
 fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
     let mut table = Table::of(&FRAGILITIES);
     for one in fragilities {
-        for state in &one.limit_states {
+        for (state, total) in one.totals(1.0)? {
             let fragility = &state.fragility;
             table.row([
                 one.id.to_string(),
@@ -31,6 +31,11 @@ fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
                 number(fragility.shift()),
                 number(fragility.median()),
                 number(fragility.dispersion()),
+                number(total.bias()),
+                number(total.model_dispersion()),
+                number(total.quantile(0.16)),
+                number(total.median()),
+                number(total.quantile(0.84)),
                 one.origin.clone(),
             ]);
         }

@@ -13,11 +13,11 @@
 
 use maud::{Markup, PreEscaped, html};
 use rocking_procedures::fragility::points::points;
+use rocking_procedures::fragility::total::TotalFragility;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
-use rocking_statistics::Lognormal;
 
 use super::{ExchangeError, ExchangeFormat, TAIL, TOLERANCE, Texts};
-use crate::fragility::BlockFragility;
+use crate::fragility::{BlockFragility, StateTotal};
 use crate::table::number;
 
 /// The format.
@@ -71,10 +71,11 @@ fn states(one: &BlockFragility) -> String {
 
 /// Each origin once, or the first and the number of the others.
 fn description(fragilities: &[BlockFragility]) -> String {
-    let mut origins: Vec<&str> = Vec::new();
+    let mut origins: Vec<String> = Vec::new();
     for one in fragilities {
-        if !origins.contains(&one.origin.as_str()) {
-            origins.push(&one.origin);
+        let own = one.described();
+        if !origins.contains(&own) {
+            origins.push(own);
         }
     }
     match origins.len() {
@@ -106,26 +107,26 @@ fn measure(
 
 fn function(one: &BlockFragility) -> Result<Markup, ExchangeError> {
     let (imt, units) = measure(one)?;
-    let mut laws = Vec::new();
-    for state in &one.limit_states {
-        let law = state.fragility;
-        let law = units.map_or(Ok(law), |units| law.scaled(units))?;
-        laws.push((&state.name, law));
-    }
+    let totals = one.totals(units.unwrap_or(1.0))?;
     let line = PreEscaped("\n");
-    if laws.iter().any(|(_, law)| law.shift() > 0.0) {
-        let (levels, curves) = discrete(laws.iter().map(|(_, law)| law))?;
+    let closed = |(state, total): &StateTotal<'_>| {
+        let law = total.closed().filter(|law| law.shift() == 0.0)?;
+        Some((state.name.clone(), law))
+    };
+    let laws: Option<Vec<_>> = totals.iter().map(closed).collect();
+    let Some(laws) = laws else {
+        let (levels, curves) = discrete(totals.iter().map(|(_, law)| law))?;
         return Ok(html! {
             fragilityFunction id=(one.id) format="discrete" { (line)
                 imls imt=(imt) noDamageLimit=(number(levels[0])) {
                     (words(&levels))
                 } (line)
-                @for ((name, _), curve) in laws.iter().zip(&curves) {
-                    poes ls=(name) { (words(curve)) } (line)
+                @for ((state, _), curve) in totals.iter().zip(&curves) {
+                    poes ls=(state.name) { (words(curve)) } (line)
                 }
             }
         });
-    }
+    };
     let ends = |p: f64| laws.iter().map(move |(_, law)| law.quantile(p));
     let least = ends(TAIL).fold(f64::INFINITY, f64::min);
     let most = ends(1.0 - TAIL).fold(0.0, f64::max);
@@ -150,11 +151,11 @@ fn words(numbers: &[f64]) -> String {
 /// The levels of all curves' own points, and the probabilities of each curve
 /// there; the last is certainty.
 fn discrete<'a>(
-    laws: impl Iterator<Item = &'a Lognormal> + Clone,
+    laws: impl Iterator<Item = &'a TotalFragility> + Clone,
 ) -> Result<(Vec<f64>, Vec<Vec<f64>>), ExchangeError> {
     let mut levels = Vec::new();
     for law in laws.clone() {
-        levels.extend(points(law, TOLERANCE)?.iter().map(|point| point.0));
+        levels.extend(points(*law, TOLERANCE)?.iter().map(|point| point.0));
     }
     // Nine digits are written, and levels rise strictly; a level of nothing
     // is none to OpenQuake.
@@ -162,7 +163,7 @@ fn discrete<'a>(
     levels.dedup_by_key(|level| number(*level));
     levels.retain(|level| *level > 0.0);
     let last = levels.last().copied();
-    let at = |law: &Lognormal, level: f64| match Some(level) == last {
+    let at = |law: &TotalFragility, level: f64| match Some(level) == last {
         true => 1.0,
         false => law.cdf(level),
     };

@@ -75,8 +75,10 @@ fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
                 im: one.im.to_string(),
                 expected: "pga or pgv",
             })?;
-        for state in &one.limit_states {
-            let pact = Pact::of(intensity, &state.fragility)
+        for (state, total) in one.totals(1.0)? {
+            let closed = total.closed();
+            let pact = closed
+                .and_then(|law| Pact::of(intensity, &law))
                 .ok_or_else(|| ExchangeError::Shifted { id: id.clone() })?;
             table.row([
                 id.to_string(),

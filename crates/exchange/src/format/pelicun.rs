@@ -1,8 +1,8 @@
 //! Libraries of pelicun, as version 3.10 reads them: a CSV with the
 //! parameters, and a JSON that describes them.
 //!
-//! - A shifted lognormal is a `multilinear_CDF`, "x1,x2,..|p1,p2,..", which
-//!   begins with probability 0, ends with 1, and whose steps exceed 1e-8.
+//! - A shifted lognormal, and its total, is a `multilinear_CDF`,
+//!   "x1,x2,..|p1,p2,..", which begins with probability 0, ends with 1, and whose steps exceed 1e-8.
 //! - A limit state `LSk` is followed by `LSk+1`; the damage states `DSk` are
 //!   counted through all of them.
 //! - A name with `-` is split at it wherever a component is named by it.
@@ -11,8 +11,8 @@
 //!   that of the component applied.
 
 use rocking_procedures::fragility::points::points;
+use rocking_procedures::fragility::total::TotalFragility;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
-use rocking_statistics::Lognormal;
 use serde_json::{Map, json};
 
 use super::{ExchangeError, ExchangeFormat, TOLERANCE, Texts};
@@ -55,8 +55,8 @@ fn csv(fragilities: &[BlockFragility]) -> Result<String, ExchangeError> {
         let (demand, unit) = demand(one)?;
         let mut row = vec![one.id.to_string(), "0".into(), demand];
         row.extend([unit, "0", "1"].map(String::from));
-        for state in &one.limit_states {
-            row.extend(law(one, &state.fragility)?);
+        for (_, total) in one.totals(1.0)? {
+            row.extend(law(one, &total)?);
             row.push(String::new());
         }
         row.resize(6 + 4 * states, String::new());
@@ -93,10 +93,11 @@ fn demand(
 /// Family and parameters.
 fn law(
     one: &BlockFragility,
-    fragility: &Lognormal,
+    total: &TotalFragility,
 ) -> Result<[String; 3], ExchangeError> {
-    if fragility.shift() > 0.0 {
-        let points = points(fragility, TOLERANCE)?;
+    let closed = total.closed().filter(|law| law.shift() == 0.0);
+    let Some(law) = closed else {
+        let points = points(*total, TOLERANCE)?;
         let wide = |pair: &[(f64, f64)]| pair[1].0 - pair[0].0 > LEAST_STEP;
         if !points.windows(2).all(wide) {
             let unit = one.im.unit();
@@ -109,8 +110,8 @@ fn law(
         };
         let both = format!("{}|{}", join(|p| p.0), join(|p| p.1));
         return Ok(["multilinear_CDF".into(), both, String::new()]);
-    }
-    let (median, beta) = (fragility.median(), fragility.dispersion());
+    };
+    let (median, beta) = (law.median(), law.dispersion());
     Ok(["lognormal".into(), number(median), number(beta)])
 }
 
@@ -134,7 +135,7 @@ fn json(fragilities: &[BlockFragility]) -> String {
                 number(alpha),
                 number(p),
             ),
-            "Comments": one.origin,
+            "Comments": one.described(),
             "SuggestedComponentBlockSize": "1 EA",
             "RoundUpToIntegerQuantity": "True",
             "LimitStates": states.collect::<Map<_, _>>(),

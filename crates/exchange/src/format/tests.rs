@@ -7,6 +7,7 @@ use rocking_statistics::{Lognormal, normal};
 
 use super::*;
 use crate::fragility::{LimitState, unit_intensity};
+use rocking_procedures::ModelError;
 
 /// A block whose fragility in its own PGA or PGV has a shift or none.
 fn one(intensity: Intensity, shift: f64) -> BlockFragility {
@@ -24,6 +25,7 @@ fn one(intensity: Intensity, shift: f64) -> BlockFragility {
             fragility: fitted.scaled(factor).unwrap(),
         }],
         origin: "86 capacities of \"A & B\"".into(),
+        model_error: ModelError::none(),
     }
 }
 

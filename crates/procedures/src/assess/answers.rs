@@ -1,13 +1,15 @@
 //! What intensities of damage say of an object: fits, intervals and risk.
 
 use super::Answer;
-use super::ground::AssessmentSuite;
-use crate::fit::BootstrapFits;
+use super::ground::{AssessmentSuite, LAST};
+use crate::fit::Band;
 use crate::fragility::hazard::Hazard;
+use crate::fragility::total::TotalFragility;
 use crate::{
-    FitOptions, FragilityFit, FragilityInput, ProcedureError, Shift,
-    fit_sample, risk,
+    FitOptions, FragilityFit, FragilityInput, ModelError, ProcedureError,
+    Shift, fit_sample, risk,
 };
+use rocking_statistics::lognormal::FitError;
 use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 
 /// The small probability of damage whose intensity is stated.
@@ -17,104 +19,106 @@ const SMALL: f64 = 0.05;
 const POINTS: usize = 40;
 
 impl AssessmentSuite<'_> {
-    fn options(&self, shift: f64, clusters: &Clusters) -> FitOptions {
-        FitOptions {
-            shift: Shift::Given(shift),
-            draws: Some(self.options.draws),
-            clusters: Some(clusters.clone()),
-            ..FitOptions::default()
-        }
-    }
-
+    /// The fit to intensities of damage, without an interval.
     pub(super) fn fit(
         &self,
         values: &[(f64, f64)],
         shift: f64,
-        last: f64,
     ) -> Result<FragilityFit, ProcedureError> {
-        let sample = CensoredSample::from_intervals(values)?;
-        let step = (last - shift) / POINTS as f64;
-        let grid = (0..=POINTS).map(|k| shift + step * k as f64);
-        let hazard = self.options.hazard.into_iter();
-        let hazard = hazard.flat_map(|h| h.curve.points().iter().map(|p| p.0));
-        let mut band: Vec<f64> =
-            grid.chain(hazard).filter(|x| *x > 0.0).collect();
-        band.sort_by(f64::total_cmp);
-        band.dedup();
-        let options = self.options(shift, self.clusters);
-        fit_sample(&sample, &FitOptions { band, ..options })
+        let options = FitOptions {
+            shift: Shift::Given(shift),
+            clusters: Some(self.clusters.clone()),
+            ..FitOptions::default()
+        };
+        fit_sample(&CensoredSample::from_intervals(values)?, &options)
     }
 
-    pub(super) fn fitted(
-        values: &[(f64, f64)],
-        shift: f64,
-    ) -> Result<Lognormal, ProcedureError> {
-        let shift = Shift::Given(shift);
-        let options = FitOptions { shift, ..FitOptions::default() };
-        Ok(fit_sample(&CensoredSample::from_intervals(values)?, &options)?
-            .fitted)
+    /// What the fit to intensities of damage says, without an interval, with
+    /// the error of the model.
+    pub(super) fn point(
+        &self,
+        fitted: Lognormal,
+    ) -> Result<Answer, ProcedureError> {
+        let error = &self.options.model_error;
+        let own = FragilityInput::with(String::new(), (fitted, None), error);
+        Ok(self.answer(&own.map_err(FitError::from)?))
     }
 
-    /// What a fragility says, without an interval.
-    pub(super) fn point(&self, fitted: Lognormal) -> Answer {
-        self.answer(fitted, None)
-    }
-
-    /// What the fit to intensities of damage says, with the intervals of its
-    /// draws; and what objects are sorted by, of each draw.
+    /// The intensities of damage of an object, or of several, drawn with the
+    /// error of the model.
     pub(super) fn drawn(
         &self,
+        name: &str,
         values: &[(f64, f64)],
         shift: f64,
         clusters: &Clusters,
-    ) -> Result<(Answer, Vec<f64>), ProcedureError> {
-        let fitted = Self::fitted(values, shift)?;
-        let options = self.options(shift, clusters);
-        let sampled =
-            options.sampled(&CensoredSample::from_intervals(values)?)?;
-        let small = |law: &Option<Lognormal>| {
-            law.as_ref().map_or(f64::NAN, |law| law.quantile(SMALL))
+        error: &ModelError,
+    ) -> Result<FragilityInput, ProcedureError> {
+        let sample = CensoredSample::from_intervals(values)?;
+        let options = FitOptions {
+            shift: Shift::Given(shift),
+            draws: Some(self.options.draws),
+            clusters: Some(clusters.clone()),
+            ..FitOptions::default()
         };
-        let small =
-            sampled.iter().flat_map(|all| &all.fitted).map(small).collect();
-        let answer = self.answer(fitted, sampled);
-        let risk = answer.risk.as_ref().and_then(|r| r.sampling.as_ref());
-        let keys = match (self.options.hazard, risk) {
-            (None, _) => small,
-            (Some(_), None) => Vec::new(),
-            (Some(_), Some(drawn)) => {
-                drawn.drawn_annual_frequencies.iter().map(|x| -x).collect()
-            }
-        };
-        Ok((answer, keys))
+        let sampled = options.sampled(&sample)?;
+        let own = (self.fit(values, shift)?.fitted, sampled);
+        let own = FragilityInput::with(name.to_owned(), own, error);
+        Ok(own.map_err(FitError::from)?)
     }
 
-    fn answer(
-        &self,
-        fitted: Lognormal,
-        sampled: Option<BootstrapFits>,
-    ) -> Answer {
-        let at = |p: f64| {
-            let own = sampled.as_ref().map(|all| all.quantile(&fitted, p));
-            own.unwrap_or_else(|| Estimate::exact(fitted.quantile(p)))
+    /// What objects are sorted by, of each draw.
+    pub(super) fn keys(&self, own: &FragilityInput, of: &Answer) -> Vec<f64> {
+        if self.options.hazard.is_none() {
+            let fits = own.sampled.iter().flat_map(|all| &all.fitted);
+            let small = |fit: &Option<TotalFragility>| {
+                fit.as_ref().map_or(f64::NAN, |fit| fit.quantile(SMALL))
+            };
+            return fits.map(small).collect();
+        }
+        let risk = of.risk.as_ref().and_then(|risk| risk.sampling.as_ref());
+        let drawn = risk.iter().flat_map(|r| &r.drawn_annual_frequencies);
+        drawn.map(|x| -x).collect()
+    }
+
+    /// The band of a fragility at the intensities at which it is drawn, and
+    /// at those of the hazard curve.
+    pub(super) fn band(&self, own: &FragilityInput) -> Option<Band> {
+        let first = own.fitted.closed().map_or(0.0, |law| law.shift());
+        let step = (own.fitted.quantile(LAST) - first) / POINTS as f64;
+        let grid = (0..=POINTS).map(|k| first + step * k as f64);
+        let hazard = self.options.hazard.into_iter();
+        let hazard = hazard.flat_map(|h| h.curve.points().iter().map(|p| p.0));
+        let mut at: Vec<f64> =
+            grid.chain(hazard).filter(|x| *x > 0.0).collect();
+        at.sort_by(f64::total_cmp);
+        at.dedup();
+        Some(own.sampled.as_ref()?.band(&own.fitted, &at))
+    }
+
+    pub(super) fn answer(&self, own: &FragilityInput) -> Answer {
+        let at = |p: f64| match &own.sampled {
+            Some(all) => all.quantile(&own.fitted, p),
+            None => Estimate::exact(own.fitted.quantile(p)),
         };
-        let (median_im, small_im) = (at(0.5), at(SMALL));
         let exposed = |hazard: &Hazard| {
-            let fragility = String::new();
-            let one =
-                FragilityInput { fragility, fitted, sampled: sampled.clone() };
-            let found = risk(hazard, &[one], self.options.years).ok()?;
+            let own = std::slice::from_ref(own);
+            let found = risk(hazard, own, self.options.years).ok()?;
             found.fragilities.into_iter().next()
         };
-        let risk = self.options.hazard.and_then(exposed);
-        Answer { fitted, median_im, small_im, risk }
+        Answer {
+            fitted: own.fitted,
+            median_im: at(0.5),
+            small_im: at(SMALL),
+            risk: self.options.hazard.and_then(exposed),
+        }
     }
 
     /// What objects are sorted by: the annual frequency, falling, or the
     /// intensity of 5 % damage.
-    pub(super) fn key(&self, law: &Lognormal) -> f64 {
+    pub(super) fn key(&self, law: &TotalFragility) -> f64 {
         match self.options.hazard {
-            Some(h) => -h.curve.annual_frequency(law).truncation_lower,
+            Some(h) => -h.curve.annual_frequency(*law).truncation_lower,
             None => law.quantile(SMALL),
         }
     }

@@ -4,13 +4,16 @@ use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
 
 use super::{
-    Alternative, AssessError, AssessOptions, Assumption, Damage, JointDamage,
-    LEAST_RECORDS, NamedFloor, Object, ObjectAssessment, RecordCapacity,
+    Alternative, Answer, AssessError, AssessOptions, Assumption, Damage,
+    JointDamage, LEAST_RECORDS, NamedFloor, Object, ObjectAssessment,
+    RecordCapacity,
 };
 use crate::fragility::hazard::{Hazard, HazardMeasure};
 use crate::pivot::needs_more;
 use crate::ranking::CandidateMeasure;
-use crate::{ProcedureError, Ranking, StripeResponses, capacities, rank};
+use crate::{
+    ModelError, ProcedureError, Ranking, StripeResponses, capacities, rank,
+};
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
@@ -29,7 +32,7 @@ use rocking_statistics::{Clusters, Estimate, Interval, Range};
 const POINTS: usize = 40;
 
 /// Probability of damage up to which curves go.
-const LAST: f64 = 0.98;
+pub(super) const LAST: f64 = 0.98;
 
 /// Levels above the first overturning end at so many times it.
 const REACH: f64 = 2.0;
@@ -276,49 +279,56 @@ impl<'a> AssessmentSuite<'a> {
             IntensityMeasure::PGA if object.floor.is_none() => threshold,
             _ => 0.0,
         };
-        let (own, keys) =
-            self.drawn(&intervals, shift, self.clusters).map_err(refused)?;
-        let key = self.key(&own.fitted);
+        let error = &self.options.model_error;
+        let drawn = |clusters: &Clusters, error: &ModelError| {
+            self.drawn(id, &intervals, shift, clusters, error)
+        };
+        let own = drawn(self.clusters, error).map_err(refused)?;
+        let answer = self.answer(&own);
+        let (key, keys) = (self.key(&own.fitted), self.keys(&own, &answer));
         let mut alternatives = Vec::new();
-        let mut beside = |assumption, answer| {
+        let mut beside = |assumption, answer: Result<Answer, _>| {
+            let answer = answer.map_err(|source| {
+                AssessError::Alternative { id: id.clone(), assumption, source }
+            })?;
             alternatives.push(Alternative { assumption, answer });
+            Ok::<_, AssessError>(())
+        };
+        if !error.is_none() {
+            let alone = drawn(self.clusters, &ModelError::none());
+            let alone = alone.map(|own| self.answer(&own));
+            beside(Assumption::RecordsAlone, alone)?;
+        }
+        let fit = |values: &[(f64, f64)], shift| {
+            self.point(self.fit(values, shift)?.fitted)
         };
         for (curves, analysis) in made.iter().zip(analyses).skip(1) {
             let eta = analysis.restitution.velocity_ratio();
-            let assumption = Assumption::Restitution(eta);
-            let fitted = Self::fitted(&scaled(&onset(curves)?), shift);
-            let fitted = fitted.map_err(|source| {
-                AssessError::Alternative { id: id.clone(), assumption, source }
-            })?;
-            beside(assumption, self.point(fitted));
+            let answer = fit(&scaled(&onset(curves)?), shift);
+            beside(Assumption::Restitution(eta), answer)?;
         }
         if shift > 0.0 {
-            let fitted = Self::fitted(&intervals, 0.0).map_err(refused)?;
-            beside(Assumption::NoShift, self.point(fitted));
+            beside(Assumption::NoShift, fit(&intervals, 0.0))?;
         }
         if !self.clusters.is_singletons() {
             let single = Clusters::singletons(self.names.len());
-            let drawn = self.drawn(&intervals, shift, &single);
-            beside(Assumption::RecordsAsUnit, drawn.map_err(refused)?.0);
+            let answer = drawn(&single, error).map(|own| self.answer(&own));
+            beside(Assumption::RecordsAsUnit, answer)?;
         }
+        let fragility = self.fit(&intervals, shift).map_err(refused)?;
         if analyses[0].resurrections.is_some() {
-            let last = own.fitted.quantile(LAST);
+            let last = fragility.fitted.quantile(LAST);
             let stripes = resurrected(&made[0], threshold, last);
-            let assumption = Assumption::Resurrections;
-            let fitted = fit_counts_alone(&stripes, shift).map_err(|e| {
-                let (id, source) = (id.clone(), e.into());
-                AssessError::Alternative { id, assumption, source }
-            })?;
-            beside(assumption, self.point(fitted));
+            let fitted = fit_counts_alone(&stripes, shift);
+            let answer = fitted.map_err(ProcedureError::from);
+            let answer = answer.and_then(|fitted| self.point(fitted));
+            beside(Assumption::Resurrections, answer)?;
         }
         if let Some(surface) = object.surface
             && self.counts_overturning_in_pga(object)
         {
-            beside(Assumption::Surface, self.point(surface));
+            beside(Assumption::Surface, self.point(surface))?;
         }
-        let fragility = self
-            .fit(&intervals, shift, own.fitted.quantile(LAST))
-            .map_err(refused)?;
         let slides_first = match object.friction {
             None => None,
             Some(mu) => Some(self.slides(
@@ -346,16 +356,18 @@ impl<'a> AssessmentSuite<'a> {
                 eta: object.restitution.velocity_ratio(),
                 damage,
                 uplift_pga_g: threshold,
-                contributions: self.options.hazard.map_or(Vec::new(), |h| {
-                    h.curve.contributions(&own.fitted)
-                }),
+                contributions: self
+                    .options
+                    .hazard
+                    .map_or(Vec::new(), |h| h.curve.contributions(own.fitted)),
+                band: self.band(&own),
                 ida: self.ida(&made[0], threshold).map_err(refused)?,
                 by_record: self.by_record(&intervals),
                 ranking: self
                     .ranking(moved, &made[0], damage, threshold)?
                     .map_err(refused)?,
                 fragility,
-                answer: own,
+                answer,
                 alternatives,
                 slides_first,
                 resolution,
@@ -501,12 +513,11 @@ impl<'a> AssessmentSuite<'a> {
                 IntensityMeasure::PGA if on_ground => uplifts[at_least - 1],
                 _ => 0.0,
             };
-            let answer = self.drawn(&values, shift, self.clusters);
-            let answer = answer.map_err(|source| AssessError::Fit {
-                id: format!("{at_least} objects or more"),
-                source,
-            })?;
-            all.push(JointDamage { at_least, answer: answer.0 });
+            let id = format!("{at_least} objects or more");
+            let error = &self.options.model_error;
+            let own = self.drawn(&id, &values, shift, self.clusters, error);
+            let own = own.map_err(|source| AssessError::Fit { id, source })?;
+            all.push(JointDamage { at_least, answer: self.answer(&own) });
         }
         Ok(all)
     }

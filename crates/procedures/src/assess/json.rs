@@ -13,8 +13,10 @@ impl Answer {
         let Self { fitted, median_im, small_im, risk: _ } = self;
         to.serialize_entry("median_im", median_im)?;
         to.serialize_entry("im_at_5_percent", small_im)?;
-        to.serialize_entry("dispersion", &fitted.dispersion())?;
-        to.serialize_entry("shift", &fitted.shift())?;
+        to.serialize_entry("records", fitted.records())?;
+        to.serialize_entry("model_bias", &fitted.bias())?;
+        let dispersion = fitted.model_dispersion();
+        to.serialize_entry("model_dispersion", &dispersion)?;
         to.serialize_entry("annual_frequency", &self.annual_frequency())?;
         to.serialize_entry("probability", &self.probability())
     }
@@ -52,6 +54,7 @@ impl Serialize for ObjectAssessment {
             uplift_pga_g,
             fragility,
             answer,
+            band,
             contributions,
             ida: _,
             by_record,
@@ -65,7 +68,7 @@ impl Serialize for ObjectAssessment {
         let edges = contributions.iter();
         let edges: Vec<f64> =
             edges.flat_map(|c| [c.from_im, c.to_im]).collect();
-        let band = fragility.band.iter().flat_map(|band| &band.points);
+        let band = band.iter().flat_map(|band| &band.points);
         let at_hazard = band.filter(|point| edges.contains(&point.intensity));
         let p_damage = at_hazard.map(|point| DamagePoint {
             im: point.intensity,

@@ -8,6 +8,8 @@ use libm::exp;
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::LEVEL;
 use crate::fragility::FragilityError;
+use crate::fragility::total::TotalFragility;
+use crate::model_error::ModelError;
 use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
 #[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
@@ -33,13 +35,17 @@ pub struct IntervalBasis {
     /// What makes them rough; none of 8 earthquakes (records) and 200 draws
     /// or more.
     pub remark: Option<IntervalRemark>,
+    /// The error of the model, of which each draw has a bias and a
+    /// dispersion of its own; none where the draws are of the records alone.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub model_error: Option<ModelError>,
 }
 
 impl IntervalBasis {
     pub(crate) fn new(draws: Draws, clusters: &Clusters) -> Self {
         let drawn = clusters.clone();
         let remark = drawn.remark(draws.replicates);
-        Self { draws, drawn, level: LEVEL, remark }
+        Self { draws, drawn, level: LEVEL, remark, model_error: None }
     }
 
     /// A number with its interval from its values in the draws.
@@ -59,6 +65,9 @@ impl fmt::Display for IntervalBasis {
         let Draws { replicates, seed } = self.draws;
         let drawn = &self.drawn;
         write!(f, "bootstrap, {replicates} draws of seed {seed}, {drawn}")?;
+        if let Some(error) = &self.model_error {
+            write!(f, ", each with its own error of the model: {error}")?;
+        }
         let mut remark = self.remark.iter();
         remark.try_for_each(|remark| write!(f, "; {remark}"))
     }
@@ -216,7 +225,7 @@ impl Band {
             options.method,
             FitMethod::MaximumLikelihood | FitMethod::Moment
         );
-        let mut band = sampled.band(fitted, &options.band);
+        let mut band = sampled.band(&fitted.into(), &options.band);
         if complete && known && sampled.basis.drawn.is_singletons() {
             for point in &mut band.points {
                 point.delta = fitted.estimate_of_cdf(
@@ -235,7 +244,7 @@ impl BootstrapFits {
     /// these draws, symmetric in the normal score; the ends by the delta
     /// method are none.
     #[must_use]
-    pub fn band(&self, fitted: &Lognormal, intensities: &[f64]) -> Band {
+    pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
             let score = fitted.score(intensity);
             let found =

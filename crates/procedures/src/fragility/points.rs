@@ -3,7 +3,8 @@
 use libm::exp;
 use thiserror::Error;
 
-use rocking_statistics::{Lognormal, normal};
+use super::total::TotalFragility;
+use rocking_statistics::normal;
 
 /// Intervals tried before a tolerance is called too small.
 const MOST_INTERVALS: u32 = 1 << 14;
@@ -25,12 +26,12 @@ pub enum PointsError {
 /// Points (x, F(x)) of a fragility, so many that straight lines between
 /// them differ from F by at most a tolerance in probability.
 ///
-/// `fragility` above shift r, x in its unit; `tolerance` t from 1e-8 to 0.1.
-/// The first point is (r, 0), the last has probability 1, and both
-/// coordinates rise strictly. Between the scores of t/4 and 1 - t/4 the
-/// points stand at equal steps of the score (ln(x - r) - mu)/beta on either
-/// side of the mode, which is a point too: so F is convex or concave between
-/// two points, and the error of a chord is greatest where F has its slope.
+/// `fragility` above shift r, a total above 0, x in its unit; `tolerance` t
+/// from 1e-8 to 0.1. The first point is (r, 0), the last has probability 1,
+/// and both coordinates rise strictly. Between the scores of t/4 and 1 - t/4
+/// the points stand at equal steps of the normal score of F on either side of
+/// the mode, which is a point too: so F is convex or concave between two
+/// points, and the error of a chord is greatest where F has its slope.
 ///
 /// ```
 /// use rocking_procedures::fragility::points::points;
@@ -46,9 +47,10 @@ pub enum PointsError {
 /// # Errors
 /// [`PointsError::Tolerance`] for a tolerance out of range.
 pub fn points(
-    fragility: &Lognormal,
+    fragility: impl Into<TotalFragility>,
     tolerance: f64,
 ) -> Result<Vec<(f64, f64)>, PointsError> {
+    let fragility = &fragility.into();
     let refused = PointsError::Tolerance(tolerance);
     if !(1e-8..=0.1).contains(&tolerance) {
         return Err(refused);
@@ -67,19 +69,15 @@ pub fn points(
 
 /// Points at about `intervals` equal steps of the score, with the mode.
 fn at_equal_scores(
-    fragility: &Lognormal,
+    fragility: &TotalFragility,
     tail: f64,
     intervals: u32,
 ) -> Vec<(f64, f64)> {
-    let (shift, beta) = (fragility.shift(), fragility.dispersion());
     let last = -normal::quantile(tail);
-    let place = |z: f64| {
-        let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));
-        (shift + excess, normal::cdf(z))
-    };
-    // The density is greatest at the score -beta.
-    let mode = (-beta).clamp(-last, last);
+    let place = |z: f64| (fragility.at_score(z), normal::cdf(z));
+    let mode = fragility.mode_score().clamp(-last, last);
     let step = 2.0 * last / f64::from(intervals);
+    let shift = fragility.closed().map_or(0.0, |law| law.shift());
     let mut found = vec![(shift, 0.0)];
     let mut add = |(x, p): (f64, f64)| {
         // Two scores may lie closer than doubles tell.
@@ -99,7 +97,7 @@ fn at_equal_scores(
 
 /// The largest difference between F and straight lines between the points,
 /// which F crosses no inflection between; F is 1 - tail beyond the last.
-fn largest_error(fragility: &Lognormal, points: &[(f64, f64)]) -> f64 {
+fn largest_error(fragility: &TotalFragility, points: &[(f64, f64)]) -> f64 {
     let end = points[points.len() - 1];
     let mut largest = fragility.survival(end.0);
     for pair in points.windows(2) {
@@ -126,10 +124,12 @@ fn largest_error(fragility: &Lognormal, points: &[(f64, f64)]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rocking_statistics::Lognormal;
+
     use super::*;
 
     /// Largest difference to linear interpolation at many intensities.
-    fn difference(fragility: &Lognormal, points: &[(f64, f64)]) -> f64 {
+    fn difference(fragility: &TotalFragility, points: &[(f64, f64)]) -> f64 {
         let end = points[points.len() - 1].0;
         (0..=20_000).map(|k| 1.2 * end * f64::from(k) / 2e4).fold(
             0.0,
@@ -150,12 +150,21 @@ mod tests {
 
     #[test]
     fn straight_lines_hold_the_tolerance_and_not_much_more() {
-        for (shift, beta) in
-            [(0.0, 0.4), (0.15, 0.713), (1.0, 0.2), (1.0, 1.5), (0.3, 4.5)]
-        {
-            let fragility = Lognormal::try_new(shift, -0.3, beta).unwrap();
-            for tolerance in [1e-2, 5e-4, 1e-5] {
-                let found = points(&fragility, tolerance).unwrap();
+        for (shift, beta, s) in [
+            (0.0, 0.4, 0.0),
+            (0.15, 0.713, 0.0),
+            (1.0, 0.2, 0.0),
+            (1.0, 1.5, 0.0),
+            (0.3, 4.5, 0.0),
+            (0.0, 0.4, 0.2),
+            (0.15, 0.713, 0.2),
+            (1.0, 1.5, 0.05),
+        ] {
+            let records = Lognormal::try_new(shift, -0.3, beta).unwrap();
+            let fragility = TotalFragility::try_new(records, 1.1, s).unwrap();
+            let finest = if s > 0.0 { 2 } else { 3 };
+            for tolerance in [1e-2, 5e-4, 1e-5].into_iter().take(finest) {
+                let found = points(fragility, tolerance).unwrap();
                 let error = difference(&fragility, &found);
                 assert!(error <= tolerance, "{shift} {beta}: {error:e}");
                 let rising = found

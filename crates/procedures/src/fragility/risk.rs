@@ -4,6 +4,7 @@
 use libm::{exp, log};
 use thiserror::Error;
 
+use super::total::TotalFragility;
 use rocking::stop;
 use rocking_statistics::{Lognormal, normal};
 
@@ -174,7 +175,8 @@ impl HazardCurve {
     /// Without a shift the integral has a closed form on each segment; with
     /// one it is taken over z = (ln(x - r) - mu)/beta by Gauss and Legendre.
     /// For H = k0 x^-k and no shift the frequency is
-    /// k0 m^-k exp(k^2 beta^2/2) with the median m.
+    /// k0 m^-k exp(k^2 beta^2/2) with the median m. Of a total it is the mean
+    /// over its parts, which have no shift.
     ///
     /// ```
     /// use rocking_procedures::fragility::risk::HazardCurve;
@@ -191,20 +193,29 @@ impl HazardCurve {
     /// Cornell, Jalayer, Hamburger and Foutch, Journal of Structural
     /// Engineering 128, 2002, Eqs. 6 and 12.
     #[must_use]
-    pub fn annual_frequency(&self, fragility: &Lognormal) -> AnnualFrequency {
+    pub fn annual_frequency(
+        &self,
+        fragility: impl Into<TotalFragility>,
+    ) -> AnnualFrequency {
+        let fragility = fragility.into();
         let (first, last) =
             (self.points[0], self.points[self.points.len() - 1]);
+        let segments = self.segments();
+        let of = |law: &Lognormal| {
+            segments.iter().fold(0.0, |sum, own| sum + own.integral(law))
+        };
         let first_probability = fragility.cdf(first.0);
-        let inner = self.points.windows(2).fold(0.0, |sum, pair| {
-            sum + Segment::between(pair).integral(fragility)
-        });
-        let low = first_probability * first.1 + inner;
+        let low = first_probability * first.1 + mean(&fragility, of);
         AnnualFrequency {
             truncation_lower: low,
             truncation_upper: low + fragility.survival(last.0) * last.1,
             covered: low - fragility.cdf(last.0) * last.1,
             first_probability,
         }
+    }
+
+    fn segments(&self) -> Vec<Segment> {
+        self.points.windows(2).map(Segment::between).collect()
     }
 
     /// The annual frequency by intensity (deaggregated): the integral of F(x)
@@ -222,19 +233,30 @@ impl HazardCurve {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn contributions(&self, fragility: &Lognormal) -> Vec<Contribution> {
-        let one = |pair: &[(f64, f64)]| {
+    pub fn contributions(
+        &self,
+        fragility: impl Into<TotalFragility>,
+    ) -> Vec<Contribution> {
+        let fragility = fragility.into();
+        let one = |own: &Segment| {
             let within = |(im, frequency)| fragility.cdf(im) * frequency;
-            let ends = within(pair[0]) - within(pair[1]);
+            let ends = within(own.from) - within(own.to);
             Contribution {
-                from_im: pair[0].0,
-                to_im: pair[1].0,
+                from_im: own.from.0,
+                to_im: own.to.0,
                 annual_frequency: ends
-                    + Segment::between(pair).integral(fragility),
+                    + mean(&fragility, |law| own.integral(law)),
             }
         };
-        self.points.windows(2).map(one).collect()
+        self.segments().iter().map(one).collect()
     }
+}
+
+/// A function that is linear in the law, of a total.
+fn mean(fragility: &TotalFragility, of: impl Fn(&Lognormal) -> f64) -> f64 {
+    fragility
+        .mixture()
+        .fold(0.0, |sum, (weight, law)| f64::mul_add(weight, of(&law), sum))
 }
 
 /// Part of a hazard curve between two points: ln H falls by k with ln x.
@@ -246,6 +268,9 @@ struct Segment {
 
 /// Scores beyond which the normal density is nothing beside any frequency.
 const LAST_SCORE: f64 = 38.0;
+
+/// Score beyond which a segment adds less than 1e-18 of the frequency.
+const CERTAIN: f64 = 9.0;
 
 /// Fall of ln H with the score up to which the closed form keeps 13 digits.
 const STEEPEST: f64 = 8.0;
@@ -282,7 +307,8 @@ impl Segment {
         stop::point();
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
         let (from, to) = scores(fragility, self.from.0, self.to.0);
-        if !(to > from) {
+        // Above the median H is below that of the median.
+        if !(to > from && from < CERTAIN) {
             return 0.0;
         }
         let drop = self.k * beta;

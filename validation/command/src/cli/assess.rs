@@ -9,7 +9,9 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::fragility::hazard::Hazard;
-use rocking_procedures::{AssessOptions, Assessment, Object, assess};
+use rocking_procedures::{
+    AssessOptions, Assessment, ModelError, Object, assess,
+};
 use rocking_records::floor::Floor;
 
 use super::blocks::{self, BlockRow};
@@ -18,7 +20,7 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::risk::SiteArgs;
 use super::scene::BlockArgs;
-use super::shared::{BootstrapArgs, ThreadsArg};
+use super::shared::{BootstrapArgs, ModelErrorArgs, ThreadsArg};
 use crate::failure::{Failure, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
@@ -79,6 +81,8 @@ pub struct AssessCommand {
     /// analyses are counted. It takes some thirty times as long.
     #[arg(long)]
     certify: bool,
+    #[command(flatten)]
+    model_error: ModelErrorArgs,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
     #[command(flatten)]
@@ -232,6 +236,7 @@ impl AssessCommand {
             years: self.site.years(),
             draws: self.bootstrap.draws(),
             certify: self.certify,
+            model_error: self.model_error.or(ModelError::default()),
         };
         Ok(assess(objects, &records, &suite.clusters, &options)?)
     }

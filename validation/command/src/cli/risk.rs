@@ -4,12 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
-use rocking_procedures::{FitOptions, FragilityInput, Shift, risk};
+use rocking_procedures::{
+    FitOptions, FragilityInput, ModelError, Shift, risk,
+};
 use rocking_statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::{FragilitySource, SourceArgs};
-use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
+use super::shared::{
+    BootstrapArgs, JsonArg, ModelErrorArgs, PlotArg, ThreadsArg,
+};
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::note;
@@ -26,9 +30,10 @@ use rocking_draw::figures::of_suite::risk_svg;
 /// and finds 10 to 17 % more on a curve of 20 points. Beyond the last point
 /// nothing is assumed: lower and upper are bounds of that truncation and no
 /// confidence interval. Beside them stands the 95 % interval that the choice
-/// of the records leaves, of a fit to --sample, --ida or --counts by record
-/// above a known shift: by a bootstrap, which draws earthquakes where they
-/// are known.
+/// of the records and the error of the model leave, of a fit to --sample,
+/// --ida or --counts by record above a known shift: by a bootstrap, which
+/// draws earthquakes where they are known. A fragility of --median is taken
+/// as it is, without an error of the model unless one is given.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
@@ -65,6 +70,8 @@ pub struct RiskCommand {
     fit: FitArgs,
     #[command(flatten)]
     source: SourceArgs,
+    #[command(flatten)]
+    model_error: ModelErrorArgs,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
     #[command(flatten)]
@@ -151,7 +158,8 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
             .threads
             .run(|| of_source(args, source, options, &hazard))??,
         RiskBasis::Parameters(median, beta) => {
-            given(options.shift, *median, *beta)?
+            let error = args.model_error.or(ModelError::none());
+            given(options.shift, *median, *beta, &error)?
         }
     };
     let years = args.site.years();
@@ -180,13 +188,15 @@ fn given(
     shift: Shift,
     median: f64,
     beta: f64,
+    error: &ModelError,
 ) -> Result<Vec<FragilityInput>, Failure> {
     let Shift::Given(shift) = shift else {
         bail!("--shift min or free: expected a number with --median");
     };
     let log_mean = rocking_procedures::fragility::eq5(median, shift)?;
     let law = Lognormal::try_new(shift, log_mean, beta)?;
-    Ok(vec![FragilityInput::known(kind(&law), law)])
+    let name = kind(&law).to_owned();
+    Ok(vec![FragilityInput::with(name, (law, None), error)?])
 }
 
 fn kind(law: &Lognormal) -> &'static str {
@@ -212,6 +222,7 @@ fn of_source(
     if fits[0].shift != unshifted.shift {
         fits.push(unshifted);
     }
+    let error = args.model_error.or(ModelError::default());
     let mut all = Vec::new();
     for options in &fits {
         let unit = hazard.units_per_im_unit;
@@ -221,7 +232,8 @@ fn of_source(
             let name = name.map_or(String::new(), |name| name + ", ");
             let fragility = name + kind(&fitted);
             let sampled = sampled.map(|all| all.scaled(unit)).transpose()?;
-            all.push(FragilityInput { fragility, fitted, sampled });
+            let drawn = (fitted, sampled);
+            all.push(FragilityInput::with(fragility, drawn, &error)?);
         }
     }
     Ok(all)

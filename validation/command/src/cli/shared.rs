@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use rocking_common::files::{Output, Outputs};
-use rocking_procedures::Draws;
+use rocking_procedures::{Draws, ModelError};
+use rocking_statistics::Estimate;
 use serde::Serialize;
 
 use super::show::shown;
@@ -108,5 +109,35 @@ impl BootstrapArgs {
     #[must_use]
     pub fn draws(self) -> Draws {
         Draws { replicates: self.bootstrap, seed: self.seed }
+    }
+}
+
+/// The error of the model.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct ModelErrorArgs {
+    /// Dispersion of the model, 0 for none, and the range of its draws;
+    /// without a range it counts as known [default: 0.2,0,0.25].
+    #[arg(
+        long,
+        value_name = "S[,LOW,HIGH]",
+        value_parser = ModelError::parse_dispersion
+    )]
+    model_dispersion: Option<Estimate>,
+    /// Bias of the model, 1 for none, and the range of its draws; `fitted`
+    /// where the slenderness was fitted to tests of the object
+    /// [default: 1,0.77,1.3].
+    #[arg(
+        long,
+        value_name = "B[,LOW,HIGH]|fitted",
+        value_parser = ModelError::parse_bias
+    )]
+    model_bias: Option<Estimate>,
+}
+
+impl ModelErrorArgs {
+    /// The error, `usual` where no flag is given.
+    #[must_use]
+    pub fn or(self, usual: ModelError) -> ModelError {
+        usual.or(self.model_bias, self.model_dispersion)
     }
 }

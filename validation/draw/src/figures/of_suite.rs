@@ -163,7 +163,7 @@ pub fn risk_svg(hazard: &Hazard, all: &[FragilityInput]) -> String {
     let levels: Vec<f64> = (0..=STEPS).map(at).collect();
     let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
     let part = |(k, one): (usize, &FragilityInput)| {
-        let parts = hazard.curve.contributions(&one.fitted);
+        let parts = hazard.curve.contributions(one.fitted);
         let look = Look {
             bins: Some(Fill::tint(Ink::Series(k), 20)),
             ..Look::line(Pen::of_series(k))

@@ -120,6 +120,8 @@ named! {
         DeltaMethod = "delta-method",
         /// The fragility of the same median and dispersion from 0.
         WithoutShift = "without-shift",
+        /// The error of the model on the part of a capacity above the shift.
+        ErrorAboveTheShift = "error-above-the-shift",
         /// No motion beyond the last point of a hazard curve.
         NothingBeyond = "nothing-beyond",
         /// The hazard at the median for the annual frequency.

@@ -31,6 +31,7 @@ pub(super) const METHODS: &[Method] = &[
     ("inversion", inversion::inversion),
     ("equations-5-to-7", equations::transforms),
     ("annual-frequency", risk::annual_frequency),
+    ("total-fragility", risk::total),
     ("cornell", risk::cornell),
 ];
 

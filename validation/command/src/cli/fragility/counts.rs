@@ -116,8 +116,8 @@ impl CountTable {
         found: &CountsFragility,
         draws: Draws,
     ) -> Result<String, Failure> {
-        let fitted = found.fitted;
-        let sampled = self.sampled(fitted.shift(), draws).transpose()?;
+        let fitted = found.fitted.into();
+        let sampled = self.sampled(found.fitted.shift(), draws).transpose()?;
         let share =
             |one: &Stripe| (one.im, one.exceeded as f64 / one.n as f64);
         let stripes = self.stripes().unwrap_or_default();

@@ -4,23 +4,27 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::TypedValueParser;
 use rocking_exchange::{ExchangeFormat, Id};
+use rocking_procedures::ModelError;
 use rocking_statistics::QuantileType;
 use serde::Serialize;
 
 use super::fit::FitArgs;
 use super::source::SourceArgs;
 use crate::cli::names::named;
-use crate::cli::shared::JsonArg;
+use crate::cli::shared::{JsonArg, ModelErrorArgs};
 use crate::failure::{Failure, bail};
 use rocking_common::files::Outputs;
 
-/// Writes fragilities of blocks for another program.
+/// Writes fragilities of blocks for another program, with the error of the
+/// model.
 #[derive(clap::Args)]
 pub(super) struct FragilityExportCommand {
     #[command(flatten)]
     source: SourceArgs,
     #[command(flatten)]
     fit: FitArgs,
+    #[command(flatten)]
+    model_error: ModelErrorArgs,
     /// Format of the file.
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     format: &'static ExchangeFormat,
@@ -39,10 +43,11 @@ fn formats() -> impl TypedValueParser<Value = &'static ExchangeFormat> {
 
 #[derive(Serialize)]
 struct ExportSummary<'a> {
+    model_error: ModelError,
     blocks: Vec<LimitStateRow<'a>>,
 }
 
-/// A limit state of a block.
+/// A limit state of a block: the law of its records.
 #[derive(Serialize)]
 struct LimitStateRow<'a> {
     id: &'a Id,
@@ -52,6 +57,8 @@ struct LimitStateRow<'a> {
     shift: f64,
     median: f64,
     beta: f64,
+    /// With the error of the model.
+    total_median: f64,
 }
 
 /// Runs `rocking fragility export`.
@@ -68,25 +75,30 @@ pub(super) fn run_fragility_export(
     let file = outputs.open(&args.out)?;
     let second = outputs.open_some(args.beside()?.as_ref())?;
     let options = args.fit.options(QuantileType::default());
-    let fragilities = source.fragilities(&options)?;
+    let model_error = args.model_error.or(ModelError::default());
+    let fragilities = source.fragilities(&options, model_error)?;
     let texts = args.format.texts(&fragilities)?;
     file.write(texts.main)?;
     if let (Some(second), Some(text)) = (second, texts.beside) {
         second.write(text)?;
     }
-    let states = fragilities.iter().flat_map(|one| {
-        one.limit_states.iter().map(|state| LimitStateRow {
-            id: &one.id,
-            limit_state: &state.name,
-            im: one.im.to_string(),
-            unit: one.im.unit(),
-            shift: state.fragility.shift(),
-            median: state.fragility.median(),
-            beta: state.fragility.dispersion(),
-        })
-    });
-    let blocks = states.collect();
-    args.json.show_beside(&outputs, &ExportSummary { blocks })
+    let mut blocks = Vec::new();
+    for one in &fragilities {
+        for state in &one.limit_states {
+            let law = state.fragility;
+            blocks.push(LimitStateRow {
+                id: &one.id,
+                limit_state: &state.name,
+                im: one.im.to_string(),
+                unit: one.im.unit(),
+                shift: law.shift(),
+                median: law.median(),
+                beta: law.dispersion(),
+                total_median: model_error.total(law)?.median(),
+            });
+        }
+    }
+    args.json.show_beside(&outputs, &ExportSummary { model_error, blocks })
 }
 
 impl FragilityExportCommand {

@@ -227,6 +227,7 @@ fn svg(
     let (mut fits, mut points) = (Vec::new(), Vec::new());
     for (fragility, sample, fitted) in all {
         let sampled = options.sampled(&sample)?;
+        let fitted = fitted.into();
         fits.push(FragilityInput { fragility, fitted, sampled });
         points.push(sample.points());
     }

@@ -13,7 +13,7 @@ use rocking_exchange::{
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
 use rocking_procedures::{
-    BootstrapFits, FitOptions, Shift, capacities, fit_sample,
+    BootstrapFits, FitOptions, ModelError, Shift, capacities, fit_sample,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
@@ -449,7 +449,8 @@ impl FragilitySource {
         Ok(blocks.into_iter().flat_map(named).collect())
     }
 
-    /// The fragilities of all blocks, each in its own unit.
+    /// The fragilities of all blocks, each in its own unit, with this error
+    /// of the model.
     ///
     /// # Errors
     /// [`Failure`] for values that make no fit, and for a block that they do
@@ -457,9 +458,11 @@ impl FragilitySource {
     pub fn fragilities(
         &self,
         options: &FitOptions,
+        model_error: ModelError,
     ) -> Result<Vec<BlockFragility>, Failure> {
         let all = self.all(options)?.into_iter();
-        Ok(all.map(|(fragility, _)| fragility).collect())
+        let of = |(own, _)| BlockFragility { model_error, ..own };
+        Ok(all.map(of).collect())
     }
 
     fn all(&self, options: &FitOptions) -> Result<Vec<BlockDraws>, Failure> {
@@ -512,6 +515,7 @@ impl FragilitySource {
             im: first.im()?.clone(),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),
+            model_error: ModelError::none(),
         };
         Ok((fragility, draws))
     }

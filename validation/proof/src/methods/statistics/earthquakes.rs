@@ -10,6 +10,7 @@ use libm::{exp, pow};
 use rayon::prelude::*;
 use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
+use rocking_procedures::fragility::total::TotalFragility;
 use rocking_procedures::{
     Draws, FitOptions, FragilityInput, fit_outcomes, fit_sample, risk,
 };
@@ -198,15 +199,17 @@ impl Simulated {
         };
         let of_law = |of: fn(&Lognormal) -> f64, truth: f64| {
             let laws = sampled.fitted.iter();
-            let drawn = laws.map(|law| law.as_ref().map_or(f64::NAN, of));
+            let drawn = laws.map(|law| {
+                law.as_ref().map_or(f64::NAN, |law| of(law.records()))
+            });
             let drawn: Vec<f64> = drawn.collect();
             let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
             let point = of(&fitted);
             let found = self.drawn.estimate(point, &drawn, how, range, 0.95);
             holds(found.map(|found| found.estimate), &drawn, truth)
         };
-        let band = sampled.band(&fitted, &[AT]).points[0].probability;
-        let probability = |law: &Option<Lognormal>| {
+        let band = sampled.band(&fitted.into(), &[AT]).points[0].probability;
+        let probability = |law: &Option<TotalFragility>| {
             law.as_ref().map_or(f64::NAN, |law| law.cdf(AT))
         };
         let drawn: Vec<f64> = sampled.fitted.iter().map(probability).collect();
@@ -218,10 +221,11 @@ impl Simulated {
             let hazard = Hazard::parse("h", text, &HazardOptions::default())?;
             let above = |law: &Lognormal| {
                 Lognormal::try_new(shift, law.log_mean(), law.dispersion())
+                    .map(TotalFragility::from)
             };
             let mut sampled = sampled.clone();
             for law in sampled.fitted.iter_mut().flatten() {
-                *law = above(law)?;
+                *law = above(law.records())?;
             }
             let of = FragilityInput {
                 fragility: "block".into(),

@@ -4,6 +4,7 @@
 use anyhow::{Context as _, Result};
 use libm::{exp, log};
 use rocking_procedures::fragility::risk::HazardCurve;
+use rocking_procedures::fragility::total::TotalFragility;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lognormal::{FitMethod, fit};
 use rocking_statistics::resampling::Resampling;
@@ -13,6 +14,7 @@ use crate::methods::cells::{Csv, csv};
 use crate::methods::method::{Context, Reply, WrongModel};
 
 const RISK: Csv = csv!("oracles/risk.csv");
+const TOTAL: Csv = csv!("oracles/total.csv");
 
 /// Annual frequencies under a hazard curve against quadrature over x.
 pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
@@ -42,6 +44,38 @@ pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
         answer.put("at-most", [found.truncation_upper], [high]);
         // A difference, of numbers below `high`.
         answer.put("covered", [found.covered / high], [covered / high]);
+    }
+    Ok(())
+}
+
+/// Probabilities, quantiles and annual frequencies of fragilities with the
+/// error of the model, against quadrature over that error.
+pub fn total(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        /// Points of the hazard curve: intensity, annual frequency.
+        points: Vec<(f64, f64)>,
+    }
+    let hazard = HazardCurve::try_new(&points)?;
+    for what in ["cdf", "quantile", "frequency"] {
+        for row in TOTAL.rows(what)? {
+            let [shift, mu, beta, bias, s, x, value] = row.numbers(1)?;
+            let records = Lognormal::try_new(shift, mu, beta)?;
+            let right = TotalFragility::try_new(records, bias, s)?;
+            let model = match context.wrong {
+                // The part above the onset alone has the larger dispersion.
+                Some(WrongModel::ErrorAboveTheShift) => {
+                    let both = libm::hypot(beta, s);
+                    Lognormal::try_new(shift, mu, both)?.scaled(bias)?.into()
+                }
+                _ => right,
+            };
+            let found = match what {
+                "cdf" => model.cdf(x),
+                "quantile" => model.quantile(x),
+                _ => hazard.annual_frequency(model).truncation_lower,
+            };
+            answer.put(what, [found], [value]);
+        }
     }
     Ok(())
 }

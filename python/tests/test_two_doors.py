@@ -360,6 +360,27 @@ def risk_of_a_block(house: House) -> Pair:
     return Pair(rk.risk(hazard, {"not shifted": one}), words)
 
 
+@pair("risk")
+def risk_with_an_error_of_the_model(house: House) -> Pair:
+    file = house.file("own.csv", ["pga_g,annual_frequency", "0.1,0.1", "1,1e-3"])
+    words = ["risk", "--hazard", file, "--median", 0.43, "--dispersion", 0.71]
+    words += ["--shift", 0.15, "--model-dispersion", "0.1,0.05,0.2"]
+    words += ["--model-bias", "fitted"]
+    law = rk.Fragility(
+        shift=0.15, log_mean=np.log(0.28), dispersion=0.71, median=0.43
+    )
+    found = rk.risk(
+        rk.read_hazard(file),
+        {"shifted": law},
+        model_dispersion=(0.1, 0.05, 0.2),
+        model_bias="fitted",
+    )
+    assert found.fragilities[0].fitted.model_dispersion == 0.1
+    with pytest.raises(ValueError, match="model_dispersion: found"):
+        rk.risk(rk.read_hazard(file), {"law": law}, model_dispersion=0.001)
+    return Pair(found, words)
+
+
 @pair("surrogate")
 def surface(house: House) -> Pair:
     words = ["fragility", "surface", "--alpha", 0.15, "--p", 3]

@@ -90,6 +90,15 @@ fn object<'a>(found: &'a Value, id: &str) -> &'a Value {
     all.iter().find(|one| one["id"] == id).unwrap()
 }
 
+/// The answer without the error of the model.
+fn alone(object: &Value) -> &Value {
+    let all = object["alternatives"].as_array().unwrap();
+    let is_alone = |one: &&Value| {
+        one["assumption"].as_str().unwrap().starts_with("records alone")
+    };
+    all.iter().find(is_alone).unwrap()
+}
+
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
@@ -108,11 +117,24 @@ fn frequencies_are_those_of_another_quadrature() {
     let found = assessed(&place);
     for id in ["stele", "vase", "case"] {
         let one = object(&found, id);
-        let parts = ["shift", "dispersion"].map(|key| number(&one[key]));
-        let median = number(&one["median_im"]["point"]);
-        let expected = frequency(parts[0], median, parts[1]);
-        let own = number(&one["annual_frequency"]["point"]);
+        let alone = alone(one);
+        let parts = ["shift", "median", "dispersion"];
+        let parts = parts.map(|key| number(&alone["records"][key]));
+        let expected = frequency(parts[0], parts[1], parts[2]);
+        let own = number(&alone["annual_frequency"]["point"]);
         near(id, own / expected, 1.0, 1e-9);
+        near(id, number(&alone["median_im"]["point"]), parts[1], 1e-12);
+        // The error of the model makes weaker motions dangerous, and its
+        // range the interval wider.
+        let total = number(&one["annual_frequency"]["point"]);
+        assert!(total > own, "{id}: {total} of {own}");
+        let width = |of: &Value| {
+            let [low, high] =
+                ["low", "high"].map(|k| number(&of["annual_frequency"][k]));
+            log(high / low)
+        };
+        assert!(width(one) > width(alone) + 0.5, "{id}");
+        let own = total;
         let years = 1.0 - exp(-50.0 * own);
         near(id, number(&one["probability"]["point"]), years, 1e-12);
         let parts = one["contributions"].as_array().unwrap().iter();
@@ -152,17 +174,15 @@ fn numbers_are_those_of_separate_commands() {
             place,
             &format!(
                 "risk --hazard hazard.csv --sample {id}.txt --shift 1 {size} \
-             --bootstrap 50"
+             --bootstrap 50 --model-dispersion 0 --model-bias 1"
             ),
         );
         let row = &risk["fragilities"][0];
-        for (own, name) in [
-            (&one["median_im"]["point"], "median"),
-            (&one["dispersion"], "dispersion"),
-            (&one["shift"], "shift"),
-        ] {
-            let other = number(&row["fitted"][name]);
-            near(name, number(own) / other, 1.0, 1e-12);
+        let one = alone(one);
+        for name in ["median", "dispersion", "shift"] {
+            let [own, other] = [&one["records"], &row["fitted"]["records"]]
+                .map(|law| number(&law[name]));
+            near(name, own / other, 1.0, 1e-12);
         }
         let sampling = &row["sampling"];
         for (own, other) in [
@@ -209,13 +229,13 @@ fn objects_together_are_counted_record_by_record() {
         values.sort_by(f64::total_cmp);
     }
     for (k, row) in found["together"].as_array().unwrap().iter().enumerate() {
-        let shift = number(&row["shift"]);
+        let shift = number(&row["records"]["shift"]);
         let logs: Vec<f64> =
             records.values().map(|v| log(v[k] - shift)).collect();
         let mean = logs.iter().sum::<f64>() / logs.len() as f64;
         let median = shift + exp(mean);
         // The file has ten digits.
-        near("median", number(&row["median_im"]["point"]), median, 1e-9);
+        near("median", number(&row["records"]["median"]), median, 1e-9);
     }
 }
 

@@ -361,3 +361,36 @@ fn a_description_does_not_grow_with_the_number_of_blocks() {
         (0..1000).map(|k| of(k, format!("sample {k}"))).collect();
     assert_eq!(length(&others), "sample 0; and 999 other origins".len());
 }
+
+/// With the error of the model every format holds the total, and says its
+/// parts. The unshifted total has dispersion sqrt(0.713^2 + 0.2^2) = 0.74052.
+#[test]
+fn the_error_of_the_model_is_in_every_format() {
+    let with = |shift| BlockFragility {
+        model_error: ModelError::unfitted(),
+        ..one(Intensity::Pga, shift)
+    };
+    let text =
+        |format: &ExchangeFormat, shift| format.texts(&[with(shift)]).unwrap();
+    let law = law(Intensity::Pga, 0.0);
+    let row = text(&pact::FORMAT, 0.0).main;
+    let cells: Vec<&str> = row.lines().nth(1).unwrap().split(',').collect();
+    let [median, beta] = [5, 6].map(|k| cells[k].parse::<f64>().unwrap());
+    assert!((median / law.median() - 1.0).abs() < 1e-8);
+    assert!((beta - 0.740_519).abs() < 1e-5, "{beta}");
+    let pelicun = text(&pelicun::FORMAT, 0.0);
+    assert!(pelicun.main.contains(&format!(",lognormal,{}", cells[5])));
+    for words in [pelicun.beside.unwrap(), text(&nrml::FORMAT, 1.0).main] {
+        let parts = "model bias 1 (0.77 to 1.3), model dispersion 0.2";
+        assert!(words.contains(parts) && words.contains("Wittich"));
+        assert!(words.contains("dispersion 0.713 above"), "{words}");
+    }
+    // Points of the total: some objects are damaged below the shift.
+    let nrml = text(&nrml::FORMAT, 1.0).main;
+    let (levels, curve) = (element(&nrml, "imls"), element(&nrml, "poes"));
+    let shift = super::tests::law(Intensity::Pga, 1.0).shift();
+    let below = interpolated(&levels, &curve, shift);
+    assert!(below > 0.005 && below < 0.1, "{below}");
+    let error = pact::FORMAT.texts(&[with(1.0)]).unwrap_err();
+    assert!(matches!(error, ExchangeError::Shifted { .. }));
+}

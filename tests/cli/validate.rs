@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use libm::{exp, log};
+use libm::{exp, log, tan};
 use rocking_common::files::is_whole;
 use rocking_common::table::columns::COMPARED_TESTS;
 use serde_json::Value;
@@ -55,7 +55,7 @@ fn scene(name: &str, bias: f64) -> Place {
         let k: usize = record.trim_start_matches('r').parse().unwrap();
         let im: f64 = im.parse().unwrap();
         // The factor on the record at which the block overturns.
-        let factor = im * ALPHA.tan() / pga_g[k];
+        let factor = im * tan(ALPHA) / pga_g[k];
         for (level, ratio) in LEVELS.iter().enumerate() {
             let scale = factor * bias * exp(scatter + ratio);
             let fell = u8::from(*ratio > 0.0);

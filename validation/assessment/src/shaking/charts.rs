@@ -106,8 +106,8 @@ fn fragility(
     for ((label, pen, marker, y), law) in looks.into_iter().zip(laws) {
         series.extend(curve(label, Look::line(pen), law, last));
         let marks = Look::marks(marker, MARK_PX, pen.ink);
-        let of = Series::of(marks, x.clone(), y);
-        series.push(of.labelled(format!("{label}, share of a class")));
+        let label = format!("{label}, share of a class");
+        series.push(Series::new(label, Mark::Own(marks), x.clone(), y));
     }
     let unit = &one.unit;
     let label = format!("{} ({unit})", markup::escape(&measure(&one.im)));

@@ -184,3 +184,25 @@ fn a_page_has_three_drawings_and_the_numbers_of_its_files() {
     assert_eq!(of("tests.csv").lines().count(), 101);
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
 }
+
+/// Made-up tests are in the order of their PGA, ten in a class; the block
+/// overturns from the 58th on, the specimen in every second test and from the
+/// 62nd on.
+#[test]
+fn shares_of_classes_are_counted() {
+    let found = comparison("/tests", json!(100));
+    let csv = super::charts::fragilities(&found).figure("").csv();
+    let shares = |name: &str| {
+        let rows = csv.lines().filter(|line| {
+            line.starts_with("a,")
+                && line.contains(name)
+                && line.contains("share")
+        });
+        let y = rows.map(|line| line.rsplit(',').nth(2).unwrap());
+        y.map(|y| y.parse::<f64>().unwrap()).collect::<Vec<f64>>()
+    };
+    let computed = [0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0, 1.0];
+    assert_eq!(shares("computed"), computed);
+    let measured = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.9, 1.0, 1.0, 1.0];
+    assert_eq!(shares("measured"), measured);
+}

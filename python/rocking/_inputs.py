@@ -556,15 +556,20 @@ def read_suite(
     if aside:
         warnings.warn(f"suite {name}: set aside: {aside}", stacklevel=2)
     suite = Suite(name, tuple(Record._read(*record) for record in records))
-    remarked = [record for record in suite if record.remarks]
+    warn_of_remarks(f"suite {name}", suite.records)
+    return suite
+
+
+def warn_of_remarks(place: str, records: Sequence[Record]) -> None:
+    """A `UserWarning` that counts records with remarks, if there are any."""
+    remarked = [record for record in records if record.remarks]
     if remarked:
         first = remarked[0]
         warnings.warn(
-            f"suite {name}: remarks on {len(remarked)} of {len(suite)} "
+            f"{place}: remarks on {len(remarked)} of {len(records)} "
             f"records; {first.name}: {first.remarks[0]}",
-            stacklevel=2,
+            stacklevel=3,
         )
-    return suite
 
 
 def embedded_suite(

@@ -19,6 +19,7 @@ from ._inputs import (
     given,
     number,
     pair_of,
+    warn_of_remarks,
 )
 from ._results import Bounds, Result
 from ._statistics import seed
@@ -183,7 +184,8 @@ def read_tests(
     The table is an index of a suite, as `read_suite` reads it, with two more
     columns: `fate` ("overturned", "stood" or "unknown", or 1, 0 or an empty
     cell), and the motion that a test repeats (`event`, or `motion`). A column
-    `scale` is a factor on the motion of the file.
+    `scale` is a factor on the motion of the file. A `UserWarning` counts
+    the motions with remarks.
 
     Raises
     ------
@@ -202,10 +204,12 @@ def read_tests(
     ('Kobe', 'stood', 0.15)
     """
     found = _rocking.read_tests(path, fate, dt, units, gravity)
-    return tuple(
+    tests = tuple(
         ShakingTest(Record._read(*record), motion, became)
         for record, motion, became in found
     )
+    warn_of_remarks(os.fspath(path), [test.record for test in tests])
+    return tests
 
 
 def compare_with_tests(

@@ -18,6 +18,9 @@ const SOURCE: &str = "490 shaking-table tests of two granite rocks (Saifullah an
 /// Least and largest bias.
 const BIAS: (f64, f64) = (0.1, 10.0);
 
+/// A bias or a dispersion, with its range; without one it counts as known.
+pub type ModelErrorPart = Estimate;
+
 /// A text that says no bias or no dispersion of the model.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("found `{found}`: expected {expected}")]
@@ -55,8 +58,8 @@ pub struct ModelErrorFault {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ModelError {
-    bias: Estimate,
-    dispersion: Estimate,
+    bias: ModelErrorPart,
+    dispersion: ModelErrorPart,
 }
 
 impl Default for ModelError {
@@ -100,8 +103,8 @@ impl ModelError {
     #[must_use]
     pub fn or(
         self,
-        bias: Option<Estimate>,
-        dispersion: Option<Estimate>,
+        bias: Option<ModelErrorPart>,
+        dispersion: Option<ModelErrorPart>,
     ) -> Self {
         let bias = bias.unwrap_or(self.bias);
         Self { bias, dispersion: dispersion.unwrap_or(self.dispersion) }
@@ -111,7 +114,7 @@ impl ModelError {
     ///
     /// # Errors
     /// [`ModelErrorFault`] for another text, and numbers beyond 0.1 to 10.
-    pub fn parse_bias(text: &str) -> Result<Estimate, ModelErrorFault> {
+    pub fn parse_bias(text: &str) -> Result<ModelErrorPart, ModelErrorFault> {
         let expected = "B or B,LOW,HIGH with numbers from 0.1 to 10 and \
                         LOW <= B <= HIGH, or `fitted`";
         if text == "fitted" {
@@ -125,7 +128,9 @@ impl ModelError {
     /// # Errors
     /// [`ModelErrorFault`] for another text, and numbers that are neither 0
     /// nor from 0.01 to 1.
-    pub fn parse_dispersion(text: &str) -> Result<Estimate, ModelErrorFault> {
+    pub fn parse_dispersion(
+        text: &str,
+    ) -> Result<ModelErrorPart, ModelErrorFault> {
         let expected = "S or S,LOW,HIGH with numbers that are 0 or from 0.01 \
                         to 1, and LOW <= S <= HIGH";
         let (least, most) = MODEL_DISPERSION;

@@ -20,20 +20,16 @@ use crate::terminal::note;
 use rocking_common::files::Outputs;
 use rocking_draw::figures::of_suite::risk_svg;
 
-/// Mean annual frequency of overturning, or of exceeding a demand, and its
-/// probability in T years, from a hazard curve and a fragility.
+/// Annual frequency of overturning, or of exceeding a demand, and its
+/// probability in T years.
 ///
 /// The hazard curve is OpenQuake's CSV, or a CSV with the columns `pga_g`,
 /// `pgv_m_s`, `pgv_cm_s` or `intensity` (the fragility's own unit), and
-/// `annual_frequency` or `probability_of_exceedance`. Between its points the
-/// frequency is a power of the intensity. OpenQuake interpolates linearly
-/// and finds 10 to 17 % more on a curve of 20 points. Beyond the last point
-/// nothing is assumed: lower and upper are bounds of that truncation and no
-/// confidence interval. Beside them stands the 95 % interval that the choice
-/// of the records and the error of the model leave, of a fit to --sample,
-/// --ida or --counts by record above a known shift: by a bootstrap, which
-/// draws earthquakes where they are known. A fragility of --median is taken
-/// as it is, without an error of the model unless one is given.
+/// `annual_frequency` or `probability_of_exceedance`; a power of the
+/// intensity between its points. Lower and upper are bounds of its truncation
+/// at the last point. The 95 % interval holds the choice of the records, by a
+/// bootstrap that draws earthquakes where they are known, and the error of the
+/// model; a fragility of --median has that only if it is given.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
@@ -88,7 +84,7 @@ pub struct SiteArgs {
     /// Site in OpenQuake's CSV of several: its place or its custom_site_id.
     #[arg(long, value_name = "LON,LAT|ID", allow_hyphen_values = true)]
     site: Option<Site>,
-    /// Years of probabilities, also of a curve's without its own [default: 50].
+    /// Years of probabilities, also of a curve's without any [default: 50].
     #[arg(long, value_name = "T")]
     years: Option<f64>,
 }

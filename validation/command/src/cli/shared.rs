@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use rocking_common::files::{Output, Outputs};
-use rocking_procedures::{Draws, ModelError};
-use rocking_statistics::Estimate;
+use rocking_procedures::Draws;
+use rocking_procedures::model_error::{ModelError, ModelErrorPart};
 use serde::Serialize;
 
 use super::show::shown;
@@ -115,23 +115,20 @@ impl BootstrapArgs {
 /// The error of the model.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ModelErrorArgs {
-    /// Dispersion of the model, 0 for none, and the range of its draws;
-    /// without a range it counts as known [default: 0.2,0,0.25].
+    /// Dispersion of the model, S or S,LOW,HIGH [default: 0.2,0,0.25].
     #[arg(
         long,
-        value_name = "S[,LOW,HIGH]",
+        value_name = "S",
         value_parser = ModelError::parse_dispersion
     )]
-    model_dispersion: Option<Estimate>,
-    /// Bias of the model, 1 for none, and the range of its draws; `fitted`
-    /// where the slenderness was fitted to tests of the object
-    /// [default: 1,0.77,1.3].
+    model_dispersion: Option<ModelErrorPart>,
+    /// Bias of the model, B, B,LOW,HIGH or `fitted` [default: 1,0.77,1.3].
     #[arg(
         long,
-        value_name = "B[,LOW,HIGH]|fitted",
+        value_name = "B",
         value_parser = ModelError::parse_bias
     )]
-    model_bias: Option<Estimate>,
+    model_bias: Option<ModelErrorPart>,
 }
 
 impl ModelErrorArgs {

@@ -71,7 +71,7 @@ pub struct SourceArgs {
     /// Name of the block [default: from alpha and p].
     #[arg(long, value_name = "NAME")]
     id: Option<Id>,
-    /// Name of the limit state; again for each [default: exceeded, or LS1, ..].
+    /// Name of the limit state; again for each [default: exceeded, LS1, ..].
     #[arg(long, value_name = "NAME")]
     limit_state: Vec<Id>,
     /// Gravity in m/s2.

@@ -88,6 +88,18 @@ impl ModelError {
         Self::measured(0.77, 1.3)
     }
 
+    /// The bias, with its range if it has one.
+    #[must_use]
+    pub fn bias(&self) -> &Estimate {
+        &self.bias
+    }
+
+    /// The dispersion, with its range if it has one.
+    #[must_use]
+    pub fn dispersion(&self) -> &Estimate {
+        &self.dispersion
+    }
+
     fn measured(low: f64, high: f64) -> Self {
         let of = |value, low, high| {
             let interval = Interval::try_new(low, high).ok();

@@ -8,6 +8,7 @@ use crate::basis::FindingSets;
 use crate::evidence::Proof;
 use crate::quantity::{EstimateText, ValueScale, count_text, effect_text};
 use crate::sentences::{SentenceCounts, SuiteResult, by_suite, seen, turned};
+use crate::shaking::RockTests;
 use crate::timings::Timings;
 use rocking_common::findings::{
     Claim, Findings, Seen, SuiteSet, SuiteSummary, Theme,
@@ -27,6 +28,9 @@ struct ReaderQuestion {
     leads: [String; 4],
     facts: Vec<AnswerFact>,
     figures: Vec<u32>,
+    /// Whether shaking-table tests answer as well.
+    #[serde(default)]
+    tested: bool,
 }
 
 /// A clause of an answer, with numbers where it has braces.
@@ -208,6 +212,7 @@ pub(super) struct QuestionAnswer {
     pub answer: String,
     numbers: String,
     figures: Vec<u32>,
+    tested: bool,
 }
 
 /// The questions that claims answer, with their answers.
@@ -227,6 +232,7 @@ pub(super) fn answers(
             numbers,
             question: asked.question,
             figures: asked.figures,
+            tested: asked.tested,
         }
     };
     Ok(asked()?.into_iter().map(answered).collect())
@@ -242,8 +248,12 @@ pub(super) fn rows(
     proof: Option<&Proof>,
     figures: &[&Figure],
 ) -> anyhow::Result<Vec<AnswerRow>> {
-    let lead = basis.lead();
-    let claimed = answers(lead)?.into_iter().map(|own| {
+    let (lead, tests) = (basis.lead(), RockTests::kept()?);
+    let claimed = answers(lead)?.into_iter().map(|mut own| {
+        if own.tested {
+            own.answer += &format!(" {}.", tests.on_fragility());
+            own.numbers += &format!("; {}", tests.below_uplift());
+        }
         let shown = own.figures.iter().filter_map(|number| {
             let is = |f: &&&Figure| f.heading.number == Some(*number);
             let name = figures.iter().find(is)?.heading.name.clone();
@@ -267,8 +277,8 @@ pub(super) fn rows(
     let (fast, rate) = timings.speed();
     let others = [
         row(
-            "How sure is the integrator?",
-            sure(proof, lead),
+            "How sure are integrator and model?",
+            format!("{} The model: {}.", sure(proof, lead), tests.right()),
             format!("{}; {}", timings.error(), basis.open()),
             ("evidence", "proof"),
         ),
@@ -276,16 +286,16 @@ pub(super) fn rows(
         row(
             "What was not checked?",
             format!(
-                "The model against shaking-table tests. It leaves out \
-                 {LEFT_OUT}."
+                "What the model leaves out: {LEFT_OUT}; and tests of other \
+                 objects than two rocks."
             ),
             not_run(basis),
             ("limits", "limits"),
         ),
         row(
             "May I sign?",
-            signed(proof, basis.recorded().is_some()),
-            backed(proof),
+            signed(proof, basis.recorded().is_some(), &tests),
+            format!("{}; {} are compared", backed(proof), tests.counted()),
             ("provenance", "sign-off"),
         ),
     ];
@@ -311,8 +321,9 @@ fn sure(proof: Option<&Proof>, lead: &Findings) -> String {
     match proof.map(|proof| (proof.failed(), proof.results().len())) {
         None => "Open: the cases with known answers were not run here.".into(),
         Some((0, all)) => format!(
-            "Very: all {all} cases with known answers pass. Rounding moves \
-             no percentile of overturning by more than {}.",
+            "The integrator, very: all {all} cases with known answers pass, \
+             and rounding moves no percentile of overturning by more than \
+             {}.",
             rounded_text(shifts.fold(0.0, f64::max))
         ),
         Some((failed, all)) => format!(
@@ -321,7 +332,7 @@ fn sure(proof: Option<&Proof>, lead: &Findings) -> String {
     }
 }
 
-fn signed(proof: Option<&Proof>, kept: bool) -> String {
+fn signed(proof: Option<&Proof>, kept: bool, tests: &RockTests) -> String {
     let kept = match kept {
         true => "; recorded results are kept, not run here",
         false => "",
@@ -329,19 +340,19 @@ fn signed(proof: Option<&Proof>, kept: bool) -> String {
     match proof.map(Proof::failed) {
         None => "Not yet: the cases with known answers were not run.".into(),
         Some(0) => format!(
-            "For the computation, yes{kept}. For real objects, no: no test \
-             backs the model."
+            "For the computation, yes{kept}. For a real object only with the \
+             error of the model: {}, with one fitted angle each, back it.",
+            tests.counted()
         ),
         Some(_) => "Not before every case with a known answer passes.".into(),
     }
 }
 
 fn backed(proof: Option<&Proof>) -> String {
-    let cases = proof.map_or("No declared case was run".into(), |proof| {
+    proof.map_or("No declared case was run".into(), |proof| {
         let (failed, all) = (proof.failed(), proof.results().len());
         format!("{} of {all} declared cases pass", all - failed)
-    });
-    format!("{cases}; 0 tests on a shaking table are compared")
+    })
 }
 
 /// The suites of findings: `86 ordinary of 22 earthquakes`.
@@ -362,21 +373,10 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
         (true, None) => "synthetic ",
         (false, _) => "",
     };
-    let analyses = |findings: &Findings| -> u64 {
-        findings.suites.iter().map(|s| s.analyses).sum()
-    };
-    let run = match basis.recorded() {
-        Some(_) => format!(
-            "{} analyses of an earlier run, {} under synthetic motions in \
-             this one",
-            analyses(lead),
-            analyses(basis.here)
-        ),
-        None => format!("{} analyses", analyses(lead)),
-    };
     format!(
-        "Fifteen blocks rocked under {source}motions, {} ({run}), to check a \
-         paper by Lachanas, Vamvatsikos and Dimitrakopoulos [1]. {}",
+        "Fifteen blocks rocked under {source}motions, {}, to check a paper by \
+         Lachanas, Vamvatsikos and Dimitrakopoulos [1]; and two tested rocks \
+         were computed, to check the model. {}",
         suites_of(lead).join(" and "),
         SentenceCounts::of(lead).words()
     )

@@ -14,6 +14,7 @@ mod page;
 mod quantity;
 pub mod scored;
 mod sentences;
+pub mod shaking;
 pub mod speed;
 pub mod stale;
 pub mod timings;

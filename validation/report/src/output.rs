@@ -13,6 +13,7 @@ use crate::head::Signatures;
 use crate::page::{Page, TITLE, annexes, html};
 use crate::quantity::{count_text, effect_text};
 use crate::scored;
+use crate::shaking::{self, RockTests};
 use crate::timings::Timings;
 use crate::words::words;
 use rocking_common::files::{SUMS, sums};
@@ -107,9 +108,10 @@ pub fn files(
     lab: bool,
 ) -> anyhow::Result<Files> {
     let mut files = Files::new();
-    let timings = Timings::kept()?;
+    let (timings, tests) = (Timings::kept()?, RockTests::kept()?);
     let mut charts = vec![timings.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
+    charts.extend(tests.figures());
     let basis = FindingSets::of(study.results.embedded(), &study.findings)?;
     let figures = basis.figures(&study.figures)?;
     for figure in figures.iter().chain(&charts) {
@@ -119,6 +121,7 @@ pub fn files(
     }
     put(&mut files, "single-records.csv", single_csv(&study.results))?;
     put(&mut files, "findings.json", study.findings.text())?;
+    put(&mut files, "shaking-table.json", shaking::KEPT)?;
     if !basis.embedded {
         put(&mut files, "figures.json", basis::kept(study)?)?;
     }
@@ -132,6 +135,7 @@ pub fn files(
         charts: &charts,
         proof,
         signatures,
+        tests: &tests,
         timings: &timings,
         words: words()?,
         lab,
@@ -216,6 +220,7 @@ fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
     let known = [
         ("findings", "Every statement with its results by suite and grid"),
         ("precision", "Digits that three precisions reach"),
+        ("shaking-table", "Tests on a shaking table, and the model's"),
         ("single-records", "Records one by one: Figures 2 to 5 for all"),
         ("verification", "Every declared case with its result"),
     ];

@@ -124,13 +124,20 @@ impl SentenceCounts {
     /// The score in a sentence.
     pub fn words(&self) -> String {
         let Self { all, seen: [yes, no, part, not], .. } = self;
-        let Self { shown, opposite, denied, .. } = self;
         format!(
             "Of the paper's {all} testable sentences {yes} are seen again by \
              the authors' own criteria, {no} are not, {part} in part; {not} \
-             cannot be tested with these records. Beyond these records, the \
-             effect that a sentence names is shown for {shown}, the opposite \
-             for {opposite}; {denied} deny one that exists, however small."
+             cannot be tested with these records."
+        )
+    }
+
+    /// What exists beyond the records, in a sentence.
+    pub fn effects(&self) -> String {
+        let Self { shown, opposite, denied, .. } = self;
+        format!(
+            "Beyond these records, the effect that a sentence names is shown \
+             for {shown}, the opposite for {opposite}; {denied} deny one that \
+             exists, however small."
         )
     }
 }

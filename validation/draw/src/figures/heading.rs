@@ -50,6 +50,8 @@ pub enum Place {
     Proof,
     /// To the folded checks of the proof.
     Checks,
+    /// To the tests on a shaking table.
+    ShakingTable,
     /// To the speed of the program.
     Speed,
     /// To the scores of other codes.
@@ -160,6 +162,7 @@ impl Heading {
     pub fn label(&self) -> String {
         let Some(number) = self.number else {
             return match self.place {
+                Place::ShakingTable => "Shaking table".into(),
                 Place::Speed => "Speed".into(),
                 Place::Others => "Other codes".into(),
                 _ => "Beyond the paper".into(),

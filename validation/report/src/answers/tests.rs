@@ -183,7 +183,7 @@ fn other_answers_follow_from_the_cases_that_passed() {
         assert!(sure(None).starts_with("Open: "));
         assert!(signed(None).starts_with("Not yet: "));
         let known = "cases with known answers";
-        let very = format!("Very: all {all} {known} pass. Rounding moves no ");
+        let very = format!("The integrator, very: all {all} {known} pass, ");
         assert!(sure(Some(&green)).starts_with(&very));
         let found = signed(Some(&green));
         assert!(found.starts_with("For the computation, yes"), "{found}");
@@ -191,17 +191,39 @@ fn other_answers_follow_from_the_cases_that_passed() {
         for red in &reds {
             let failed = red.failed();
             let words = format!("Not sure: {failed} of {all} {known} fail.");
-            assert_eq!(sure(Some(red)), words);
+            assert!(sure(Some(red)).starts_with(&words));
             let found = signed(Some(red));
             assert!(found.starts_with("Not before every case"), "{found}");
             assert!(!found.contains("yes"), "{found}");
         }
         for proof in [None, Some(&green), Some(&reds[0])] {
             for text in [sure(proof), signed(proof)] {
-                assert!(words(&text) <= 25 && is_plain(&text), "{text}");
+                assert!(words(&text) <= 55 && is_plain(&text), "{text}");
             }
         }
     }
+}
+
+/// No more is claimed than two rocks, their tests and one fitted angle, and
+/// the answer turns with what the tests say.
+#[test]
+fn tests_of_two_rocks_stand_in_the_answers() {
+    let here = recorded();
+    let basis = FindingSets::of(true, &here).unwrap();
+    let green = Proof::committed(0);
+    let said = |start: &str| answered(&basis, Some(&green), start);
+    let tests = RockTests::kept().unwrap();
+    let fragility = said("Which fragility");
+    let words = format!(" {}.", tests.on_fragility());
+    assert!(fragility.ends_with(&words), "{fragility}");
+    assert_eq!(fragility.matches("rocks").count(), 1);
+    assert!(!said("May I shift").contains("rocks"));
+    for start in ["How sure", "May I sign"] {
+        let own = said(start);
+        assert!(own.contains("490") && own.contains("two rocks"), "{own}");
+        assert!(own.contains("one fitted angle each"), "{own}");
+    }
+    assert!(said("What was not checked").contains("other objects"));
 }
 
 #[test]
@@ -209,7 +231,7 @@ fn results_of_other_settings_are_left_out_and_named() {
     let mut here = recorded();
     let basis = FindingSets::of(true, &here).unwrap();
     assert!(basis.recorded().is_some() && basis.left_out().unwrap().is_none());
-    assert!(done(&basis).contains("analyses of an earlier run"));
+    assert!(done(&basis).contains("under recorded motions, 86 "));
     // Suites of files have no kept results beside them.
     let own = FindingSets::of(false, &here).unwrap();
     assert!(own.recorded().is_none() && otherwise(&own).unwrap().is_none());
@@ -220,7 +242,7 @@ fn results_of_other_settings_are_left_out_and_named() {
     let words = otherwise(&basis).unwrap().unwrap();
     assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
     assert!(done(&basis).contains("under synthetic motions, 86 "));
-    assert!(!done(&basis).contains("earlier run"));
+    assert!(!done(&basis).contains("recorded"));
 }
 
 #[test]

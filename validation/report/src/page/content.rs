@@ -3,6 +3,7 @@
 use crate::basis::FindingSets;
 use crate::evidence::Proof;
 use crate::head::Signatures;
+use crate::shaking::RockTests;
 use crate::timings::Timings;
 use crate::words::Words;
 use rocking_common::paper::Arm;
@@ -26,6 +27,8 @@ pub(crate) struct Page<'a> {
     pub proof: Option<&'a Proof>,
     /// Who signs.
     pub signatures: &'a Signatures,
+    /// The kept tests on a shaking table.
+    pub tests: &'a RockTests,
     /// The kept timings.
     pub timings: &'a Timings,
     /// Words that no run changes.

@@ -53,6 +53,7 @@ pub fn page_sections(
         ("scope", "Scope", columns(&page.words.scope)),
         ("findings", "Findings", findings::section(page)),
         ("method", "Method and glossary", method(page)),
+        ("shaking", "Against shaking-table tests", shaking(page)),
         ("evidence", "Proof of the integrator", evidence(page)),
         ("speed", "Speed against error", speed(page)),
         ("limits", "Limits and references", limits(page)),
@@ -111,6 +112,20 @@ fn method(page: &Page<'_>) -> Markup {
     }
 }
 
+fn shaking(page: &Page<'_>) -> Markup {
+    let tests = page.tests;
+    html! {
+        p { (tests.introduction()) }
+        p { (tests.fates()) }
+        (table::untitled(&tests.predictors()))
+        p { (tests.left_out()) }
+        (drawings(&page.placed(Place::ShakingTable)))
+        (table::plain(&tests.sentences()))
+        (folded_table("shaking-choices", &tests.sensitivity()))
+        p { (tests.unknown()) }
+    }
+}
+
 fn evidence(page: &Page<'_>) -> Markup {
     let cases = page.proof.map_or(NOT_RUN.into(), Proof::to_string);
     html! {
@@ -141,8 +156,8 @@ fn limits(page: &Page<'_>) -> Markup {
             }
         }
         p {
-            "No test was compared with the model. It leaves out "
-            (answers::LEFT_OUT) ". " (answers::not_run(basis)) "."
+            "The model leaves out " (answers::LEFT_OUT) ". "
+            (answers::not_run(basis)) "."
         }
         (folded(
             "deviations",
@@ -172,12 +187,13 @@ pub(crate) fn limits_of(results: &StudyResults) -> Vec<&'static str> {
 
 /// Where the page comes from, and who signs for it, or lines to sign on.
 fn provenance(page: &Page<'_>) -> Markup {
-    let inputs = head::inputs(
+    let mut inputs = head::inputs(
         &page.study.results,
         page.proof.is_some(),
         page.signatures,
         page.basis.recorded(),
     );
+    inputs.extend(page.tests.origin());
     html! {
         (folded("inputs", "Program, suites, command", &list(&inputs)))
         ul.signatures {

@@ -6,6 +6,7 @@ use super::*;
 use crate::basis::{self, FindingSets};
 use crate::evidence::Proof;
 use crate::head::Signatures;
+use crate::shaking::RockTests;
 use crate::tests::on_embedded_suites;
 use crate::timings::Timings;
 use crate::words::words;
@@ -74,6 +75,7 @@ fn page_of(names: Names, findings: Findings) -> String {
             approved_by: names.signature,
             ..Signatures::default()
         },
+        tests: &RockTests::kept().expect("tests"),
         timings: &Timings::kept().expect("timings"),
         words: words().expect("words"),
         lab: false,

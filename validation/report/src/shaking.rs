@@ -1,0 +1,133 @@
+//! Shaking-table tests that are kept: two rocks, and what the model makes of
+//! their fates.
+
+mod drawing;
+mod sentences;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use anyhow::Context as _;
+use rocking_procedures::shaking::{
+    DistributionComparison, Predictor, TestComparison,
+};
+use serde::Deserialize;
+
+/// The kept results.
+pub const KEPT: &str = rocking_fixtures::text("tests/granite.json");
+
+/// The kept results of tests on two rocks.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RockTests {
+    /// Who tested what, and when.
+    source: String,
+    /// Where the data lie.
+    repository: String,
+    /// SHA-256 of the tables, and of the list of motions.
+    sha256: BTreeMap<String, String>,
+    /// Number of motions of all tests.
+    motions: usize,
+    /// Most tests of one motion.
+    levels: usize,
+    /// Tests whose motion is not at hand.
+    missing_motions: usize,
+    /// Tests whose stated peak is a target that the measured one misses.
+    targets: usize,
+    /// What the fates of all tests say without a motion.
+    measured: [MeasuredFates; 2],
+    /// With a fitted slenderness; words are about these.
+    fitted: [TestComparison; 2],
+    /// Without the tests that have a target.
+    without_targets: [TestComparison; 2],
+    /// With a rounded slenderness, which is given.
+    given: [TestComparison; 2],
+    /// With that slenderness and Housner's restitution.
+    housner: [TestComparison; 2],
+    /// Changes of the fitted block.
+    varied: Vec<ChangedRocks>,
+}
+
+/// What the fates of all tests of a rock say by themselves.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeasuredFates {
+    tests: usize,
+    overturned: usize,
+    /// Onset of rocking in g, of the rounded slenderness.
+    onset_g: f64,
+    /// Tests at or below the onset, and those of them that overturned.
+    below: usize,
+    overturned_below: usize,
+    /// Their number by a lognormal in PGA without a shift.
+    expected_below: f64,
+    /// Log-likelihoods of the tests above the onset without and with a shift
+    /// to it.
+    pga_unshifted: f64,
+    pga_shifted: f64,
+    /// The same in PGV above the paper's shift.
+    pgv_unshifted: f64,
+    pgv_shifted: f64,
+}
+
+/// Both rocks with a change of the block or of the motions.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ChangedRocks {
+    change: String,
+    rocks: [TestComparison; 2],
+}
+
+/// An intensity measure of the comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum TestMeasure {
+    Pga,
+    Pgv,
+    AverageSa,
+}
+
+impl TestMeasure {
+    const ALL: [Self; 3] = [Self::Pga, Self::Pgv, Self::AverageSa];
+
+    /// Its name, and what its name in the results begins with.
+    const fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Pga => ["PGA", "pga"],
+            Self::Pgv => ["PGV", "column:"],
+            Self::AverageSa => ["average SA", "avgsa:"],
+        }
+    }
+
+    /// The measure as a predictor.
+    fn predictor(self, of: &TestComparison) -> Option<&Predictor> {
+        let is = |p: &&Predictor| p.predictor.starts_with(self.names()[1]);
+        of.rivals.iter().find(is)
+    }
+
+    /// The fragilities in the measure.
+    fn fragilities(
+        self,
+        of: &TestComparison,
+    ) -> Option<&DistributionComparison> {
+        let is =
+            |d: &&DistributionComparison| d.im.starts_with(self.names()[1]);
+        of.distributions.iter().find(is)
+    }
+}
+
+impl RockTests {
+    /// The kept results.
+    ///
+    /// # Errors
+    /// Where the file has been damaged.
+    pub fn kept() -> anyhow::Result<Self> {
+        serde_json::from_str(KEPT).context("fixtures/tests/granite.json")
+    }
+
+    /// Tests that are compared with the model.
+    fn compared(&self) -> usize {
+        self.fitted[0].tests
+    }
+}

@@ -1,0 +1,349 @@
+//! What the tests say, in sentences that rules choose.
+
+use rocking_common::findings::Seen;
+use rocking_common::table::PlainTable;
+use rocking_common::words::{percent, rounded_text};
+use rocking_procedures::ModelError;
+use rocking_procedures::shaking::TestComparison;
+use rocking_statistics::Estimate;
+
+use super::{RockTests, TestMeasure};
+use crate::quantity::{EstimateText, ValueScale};
+
+/// What a log-likelihood gains at least if one more number of a fit matters,
+/// at a level of 5 %.
+const GAIN: f64 = 1.92;
+
+/// An estimate with its interval.
+pub(super) fn plain(estimate: &Estimate) -> String {
+    EstimateText::of(estimate, ValueScale::Plain, None).whole()
+}
+
+/// A share with its interval.
+pub(super) fn share(estimate: &Estimate) -> String {
+    EstimateText::of(estimate, ValueScale::Percent, None).whole()
+}
+
+/// A number of each rock.
+fn both(rocks: [String; 2]) -> String {
+    rocks.join(" and ")
+}
+
+/// What a sentence is, by what holds of each rock.
+fn seen(holds: [bool; 2]) -> Seen {
+    match holds {
+        [true, true] => Seen::Yes,
+        [false, false] => Seen::No,
+        _ => Seen::InPart,
+    }
+}
+
+/// A sentence beside measured fates: its words, the numbers of each rock, and
+/// whether they agree with it.
+struct TestedSentence {
+    words: &'static str,
+    rocks: [String; 2],
+    seen: Seen,
+}
+
+impl RockTests {
+    /// The facts of each rock, and what holds of them.
+    fn each<T>(&self, of: impl Fn(usize) -> T) -> [T; 2] {
+        [of(0), of(1)]
+    }
+
+    /// A number of the fitted block of each rock.
+    fn fitted_each(&self, of: impl Fn(&TestComparison) -> String) -> String {
+        both(self.each(|k| of(&self.fitted[k])))
+    }
+
+    fn shift_at_uplift(&self) -> TestedSentence {
+        TestedSentence {
+            words: "In PGA the fragility starts at uplift",
+            rocks: self.each(|k| {
+                let own = &self.measured[k];
+                format!(
+                    "{} of {} overturned up to uplift at {} g; {} \
+                     expected without a shift",
+                    own.overturned_below,
+                    own.below,
+                    rounded_text(own.onset_g),
+                    rounded_text(own.expected_below)
+                )
+            }),
+            seen: seen(self.each(|k| {
+                let own = &self.measured[k];
+                (own.overturned_below as f64) < 0.5 * own.expected_below
+            })),
+        }
+    }
+
+    fn no_shift_in_pgv(&self) -> TestedSentence {
+        let gains = self.each(|k| {
+            let own = &self.measured[k];
+            [
+                own.pgv_shifted - own.pgv_unshifted,
+                own.pga_shifted - own.pga_unshifted,
+            ]
+        });
+        TestedSentence {
+            words: "In PGV the shift gains less than in PGA",
+            rocks: gains.map(|[pgv, pga]| {
+                format!("log-likelihood: PGV {pgv:+.1}, PGA {pga:+.1}")
+            }),
+            seen: seen(gains.map(|[pgv, pga]| pgv < pga && pga > GAIN)),
+        }
+    }
+
+    fn best_measure(&self) -> TestedSentence {
+        let found = self
+            .each(|k| TestMeasure::ALL.map(|m| m.predictor(&self.fitted[k])));
+        TestedSentence {
+            words: "PGV predicts overturning better than PGA, and average SA \
+                    better than both",
+            rocks: found.map(|all| {
+                let of = |k: usize| {
+                    let name = TestMeasure::ALL[k].names()[0];
+                    let value =
+                        all[k].map_or(f64::NAN, |own| own.dispersion.value());
+                    format!("{name} {}", rounded_text(value))
+                };
+                format!("dispersion: {}, {}, {}", of(0), of(1), of(2))
+            }),
+            seen: seen(found.map(|all| {
+                let score = |k: usize| {
+                    all[k].map_or(f64::NAN, |own| own.log_score.value())
+                };
+                score(1) < score(0) && score(2) < score(1)
+            })),
+        }
+    }
+
+    fn first_overturning(&self) -> TestedSentence {
+        TestedSentence {
+            words: "Resurrections may be left out",
+            rocks: self.each(|k| {
+                let own = &self.fitted[k];
+                let again = &own.resurrected;
+                format!(
+                    "right: {} by first overturning, {} at the level; where \
+                     the block stands again {} of {} overturned",
+                    percent(own.computed.right.value(), 1),
+                    percent(again.right_at_level, 1),
+                    again.overturned,
+                    again.tests,
+                )
+            }),
+            seen: seen(self.each(|k| {
+                let own = &self.fitted[k];
+                own.computed.right.value() >= own.resurrected.right_at_level
+            })),
+        }
+    }
+
+    fn restitution(&self) -> TestedSentence {
+        let found = self.each(|k| {
+            [&self.given[k], &self.housner[k]].map(|own| &own.computed)
+        });
+        TestedSentence {
+            words: "A restitution below Housner's serves better",
+            rocks: found.map(|[own, housner]| {
+                format!(
+                    "log-likelihood {:.1}, Housner's {:.1}; bias {}, \
+                     Housner's {}",
+                    own.log_likelihood,
+                    housner.log_likelihood,
+                    rounded_text(own.median.value()),
+                    rounded_text(housner.median.value())
+                )
+            }),
+            seen: seen(found.map(|[own, housner]| {
+                own.log_likelihood - housner.log_likelihood > GAIN
+            })),
+        }
+    }
+
+    fn tested(&self) -> [TestedSentence; 5] {
+        [
+            self.shift_at_uplift(),
+            self.no_shift_in_pgv(),
+            self.best_measure(),
+            self.first_overturning(),
+            self.restitution(),
+        ]
+    }
+
+    /// Sentences beside the measured fates.
+    pub fn sentences(&self) -> PlainTable {
+        let row = |one: TestedSentence| {
+            let [first, second] = one.rocks;
+            vec![one.words.into(), one.seen.to_string(), first, second]
+        };
+        PlainTable::new(
+            "tested-sentences",
+            "Sentences beside the measured fates",
+            "The first, second and fourth are the paper's. The first two are \
+             of all tests and need no motion.",
+            &["sentence", "seen in these tests", "rock 1", "rock 2"],
+            self.tested().into_iter().map(row).collect(),
+        )
+    }
+
+    /// Who tested what, and with which block it is compared.
+    pub fn introduction(&self) -> String {
+        let [first, second] = &self.measured;
+        let own = &self.fitted[0];
+        format!(
+            "Saifullah and Wittich [12] shook two free-standing granite \
+             rocks with {} motions, each at up to {} levels: {} tests, in \
+             which rock 1 overturned {} and rock 2 {} times. The motions of \
+             the table in {} of these tests are at hand. A block with p = {} \
+             rad/s, by the volume of the scanned rocks, and an assumed eta \
+             of {} rocks under each of them. One angle of each rock is fitted \
+             to the fates: alpha = {} rad. All intervals here are of 90 %, \
+             by draws of the motions with all their tests.",
+            self.motions,
+            self.levels,
+            first.tests,
+            first.overturned,
+            second.overturned,
+            self.compared(),
+            own.p_rad_s,
+            own.eta,
+            self.fitted_each(|own| plain(&own.alpha_rad)),
+        )
+    }
+
+    /// How many fates are right, and whether a measure alone does as well.
+    pub fn fates(&self) -> String {
+        let score = |k: usize| self.fitted[k].computed.log_score.value();
+        let better = |m: TestMeasure| {
+            self.each(|k| {
+                m.predictor(&self.fitted[k])
+                    .is_some_and(|own| own.log_score.value() < score(k))
+            })
+        };
+        let words = |m: TestMeasure| match seen(better(m)) {
+            Seen::Yes => "better",
+            Seen::No => "less well",
+            _ => "better on one rock, less well on the other",
+        };
+        let without = both(
+            self.each(|k| share(&self.without_targets[k].computed.right)),
+        );
+        let pairs = self.fitted_each(|own| {
+            let own = &own.repeatability;
+            format!("{} of {}", own.different, own.pairs)
+        });
+        format!(
+            "The first overturning of the block tells {} of the fates. By the \
+             log score average SA (0.3 to 1.5 s) alone predicts them {}, PGV \
+             {}, PGA {}. Tests do not repeat themselves either: of pairs of \
+             one motion within 5 % in PGA, {pairs} have different fates. In \
+             {} tests the stated peak is a target that the measured one \
+             misses by more than 10 %; without them {without} are right.",
+            self.fitted_each(|own| share(&own.computed.right)),
+            words(TestMeasure::AverageSa),
+            words(TestMeasure::Pgv),
+            words(TestMeasure::Pga),
+            self.targets,
+        )
+    }
+
+    /// Dispersions that the model leaves out in a measure, rock by rock.
+    fn missing(&self, measure: TestMeasure) -> [Option<Estimate>; 2] {
+        self.each(|k| {
+            let own = measure.fragilities(&self.fitted[k]);
+            own.map(|own| own.missing_dispersion)
+        })
+    }
+
+    /// What the model leaves out, and what decisions take for it.
+    pub fn left_out(&self) -> String {
+        let text = |m: TestMeasure| {
+            let rocks = self
+                .missing(m)
+                .map(|own| own.map_or("no fit".into(), |own| plain(&own)));
+            format!("{} in {}", both(rocks), m.names()[0])
+        };
+        let usual = ModelError::default();
+        let range = usual.dispersion();
+        let held = [TestMeasure::Pgv, TestMeasure::AverageSa]
+            .into_iter()
+            .flat_map(|m| self.missing(m));
+        let holds = |own: Option<Estimate>| {
+            own.is_some_and(|own| {
+                range.interval().is_some_and(|all| all.holds(own.value()))
+            })
+        };
+        let held = match held.map(holds).all(|is| is) {
+            true => "This holds what is missing in PGV and in average SA",
+            false => {
+                "This does not hold all that is missing in PGV and in \
+                      average SA"
+            }
+        };
+        format!(
+            "Lognormals are fitted in the same way to the measured and to the \
+             computed fates. Where the measured one is wider, the model \
+             leaves out a dispersion, the root of the difference of both \
+             squares: {}, {}, {}. `assess`, `risk` and the exports therefore \
+             multiply each capacity by an error of dispersion {} and bias \
+             {}. {held}. Of a fitted object the bias is {}.",
+            text(TestMeasure::Pgv),
+            text(TestMeasure::AverageSa),
+            text(TestMeasure::Pga),
+            plain(range),
+            plain(usual.bias()),
+            plain(ModelError::fitted().bias()),
+        )
+    }
+
+    /// What is not known of these tests.
+    pub fn unknown(&self) -> String {
+        format!(
+            "Not known: the azimuth of the table to the rocks, the protocol, \
+             and the {} longest motions. The rocks have one shape and natural \
+             bases, which roll before they tip; a flat base was not tested. \
+             PGV is the authors'. The band of average SA was chosen after the \
+             tests. Another object needs tests of its own.",
+            self.missing_motions
+        )
+    }
+
+    /// How the answer on fragilities stands beside the tests.
+    pub fn on_fragility(&self) -> &'static str {
+        let both = [self.shift_at_uplift(), self.no_shift_in_pgv()];
+        match both.map(|own| own.seen) {
+            [Seen::Yes, Seen::Yes] => "Tests of two rocks agree",
+            [Seen::No, Seen::No] => "Tests of two rocks disagree",
+            _ => "Tests of two rocks agree in part",
+        }
+    }
+
+    /// The numbers behind it.
+    pub fn below_uplift(&self) -> String {
+        let of = self.each(|k| {
+            let own = &self.measured[k];
+            format!("{} of {}", own.overturned_below, own.below)
+        });
+        format!("overturned at or below uplift in tests: {}", both(of))
+    }
+
+    /// How many fates are right, in a sentence.
+    pub fn right(&self) -> String {
+        let of =
+            self.each(|k| percent(self.fitted[k].computed.right.value(), 0));
+        format!(
+            "with one fitted angle each, {} of {} fates of two rocks on a \
+             shaking table are right",
+            both(of),
+            self.compared()
+        )
+    }
+
+    /// What was compared, in a few words.
+    pub fn counted(&self) -> String {
+        format!("{} tests of two rocks", self.compared())
+    }
+}

@@ -64,7 +64,8 @@ def test_names_and_origin_are_those_given() -> None:
     text = nrml(fit, limit_states=["fallen"], id="statue", origin="A & B")
     assert '<fragilityFunction id="statue" ' in text
     assert "<limitStates>fallen</limitStates>" in text
-    assert "<description>A &amp; B</description>" in text
+    assert "<description>A &amp; B; statue; parts: records, fallen: " in text
+    assert "model bias 1 (0.77 to 1.3), model dispersion 0.2" in text
     own = nrml(fit)
     assert "12 capacities in PGA/(g tan alpha), response level" in own
     linearized = nrml(fit, model="linearized")

@@ -149,11 +149,11 @@ fn hazard(bytes: &[u8]) -> Result<(), String> {
         let law = Lognormal::try_new(shift, 0.0, 0.5);
         let law = law.and_then(|law| law.scaled(im));
         let law = law.map_err(|error| error.to_string())?;
-        let found = curve.annual_frequency(&law);
+        let found = curve.annual_frequency(law);
         let (low, high) = (found.truncation_lower, found.truncation_upper);
         assert!(low >= 0.0 && low <= high, "{low} {high}");
         assert!(high <= most * (1.0 + 1e-9), "{high} {most}");
-        let parts = curve.contributions(&law);
+        let parts = curve.contributions(law);
         assert_eq!(parts.len() + 1, curve.points().len());
     }
     Ok(())

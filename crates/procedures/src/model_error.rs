@@ -265,7 +265,11 @@ mod tests {
         let all = (0..4000).map(|k| streams.stream(k).uniform());
         let all: Vec<f64> = all.collect();
         for (of, range, ends) in [
-            (&error.bias, Range::NotNegative, (0.77f64.ln(), 1.3f64.ln())),
+            (
+                &error.bias,
+                Range::NotNegative,
+                (libm::log(0.77), libm::log(1.3)),
+            ),
             (&error.dispersion, Range::Real, (-0.2, 0.05)),
         ] {
             let off = |u: &f64| {

@@ -303,7 +303,7 @@ mod tests {
             Some((ends(found.annual_frequency), ends(found.probability)))
         };
         let (frequency, probability) = ends(&Clusters::singletons(9)).unwrap();
-        let upper = hazard.curve.annual_frequency(&weaker).truncation_upper;
+        let upper = hazard.curve.annual_frequency(weaker).truncation_upper;
         // Half of the draws each: t of 8 is 2.3060.
         let s =
             0.5 * log(upper / 0.0003) * (40.0 / 39.0 * 9.0 / 8.0f64).sqrt();

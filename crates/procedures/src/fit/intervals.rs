@@ -225,7 +225,7 @@ impl Band {
             options.method,
             FitMethod::MaximumLikelihood | FitMethod::Moment
         );
-        let mut band = sampled.band(&fitted.into(), &options.band);
+        let mut band = sampled.band(&(*fitted).into(), &options.band);
         if complete && known && sampled.basis.drawn.is_singletons() {
             for point in &mut band.points {
                 point.delta = fitted.estimate_of_cdf(

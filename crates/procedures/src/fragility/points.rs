@@ -37,7 +37,7 @@ pub enum PointsError {
 /// use rocking_procedures::fragility::points::points;
 /// use rocking_statistics::Lognormal;
 /// let fragility = Lognormal::try_new(1.0, 0.4, 0.7)?;
-/// let found = points(&fragility, 5e-4)?;
+/// let found = points(fragility, 5e-4)?;
 /// assert_eq!(found[0], (1.0, 0.0));
 /// assert_eq!(found[found.len() - 1].1, 1.0);
 /// assert!(found.len() < 100);
@@ -183,7 +183,7 @@ mod tests {
     fn a_tolerance_out_of_range_is_refused() {
         let fragility = Lognormal::try_new(1.0, 0.0, 0.5).unwrap();
         for tolerance in [0.0, -1e-3, 1e-9, 0.2, f64::NAN] {
-            let error = points(&fragility, tolerance).unwrap_err();
+            let error = points(fragility, tolerance).unwrap_err();
             assert!(matches!(error, PointsError::Tolerance(_)));
         }
     }

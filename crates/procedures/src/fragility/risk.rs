@@ -184,7 +184,7 @@ impl HazardCurve {
     /// // H = 1e-4 x^-2, median 1, dispersion 0.5.
     /// let hazard = HazardCurve::try_new(&[(1e-6, 1e8), (1e6, 1e-16)])?;
     /// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
-    /// let found = hazard.annual_frequency(&fragility);
+    /// let found = hazard.annual_frequency(fragility);
     /// let cornell = 1e-4 * 0.5f64.exp();
     /// assert!((found.truncation_lower / cornell - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -228,7 +228,7 @@ impl HazardCurve {
     /// let points = [(0.1, 1e-2), (0.4, 1e-3), (1.0, 1e-4)];
     /// let hazard = HazardCurve::try_new(&points)?;
     /// let fragility = Lognormal::try_new(0.15, -1.0, 0.5)?;
-    /// let found = hazard.contributions(&fragility);
+    /// let found = hazard.contributions(fragility);
     /// assert_eq!((found[1].from_im, found[1].to_im), (0.4, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

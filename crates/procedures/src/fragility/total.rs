@@ -65,12 +65,6 @@ impl From<Lognormal> for TotalFragility {
     }
 }
 
-impl From<&Lognormal> for TotalFragility {
-    fn from(records: &Lognormal) -> Self {
-        Self::from(*records)
-    }
-}
-
 impl TotalFragility {
     /// The total of the records' law, a bias b > 0, and a dispersion s of
     /// the model, 0 or as [`MODEL_DISPERSION`] says.

@@ -293,7 +293,7 @@ fn rate_of(fit: Option<Lognormal>, k: f64, at: &DemandFits) -> f64 {
     let end = |x: f64| (x, libm::exp(-k * log(x)));
     let hazard = HazardCurve::try_new(&[end(1e-3), end(1e3)]);
     let (Some(fit), Ok(hazard)) = (fit, hazard) else { return f64::NAN };
-    hazard.annual_frequency(&fit).truncation_lower / sample_rate(at, k, 0.0)
+    hazard.annual_frequency(fit).truncation_lower / sample_rate(at, k, 0.0)
 }
 
 /// Whether one fit gives the annual frequency of the sample better than

@@ -4,7 +4,7 @@ use super::*;
 fn what_lies_beyond_the_last_point_is_bounded_and_below_the_first_reported() {
     let hazard = HazardCurve::try_new(&[(0.3, 0.004), (0.9, 0.0003)]).unwrap();
     let certain = Lognormal::try_new(0.0, -9.0, 0.1).unwrap();
-    let found = hazard.annual_frequency(&certain);
+    let found = hazard.annual_frequency(certain);
     // Every motion that the curve has does the damage.
     assert!((found.truncation_lower / 0.004 - 1.0).abs() < 1e-13);
     assert!((found.covered / 0.0037 - 1.0).abs() < 1e-13);
@@ -14,7 +14,7 @@ fn what_lies_beyond_the_last_point_is_bounded_and_below_the_first_reported() {
     );
     // None of them does it, and those beyond may or may not.
     let never = Lognormal::try_new(5.0, 0.0, 0.1).unwrap();
-    let found = hazard.annual_frequency(&never);
+    let found = hazard.annual_frequency(never);
     assert_eq!(
         (found.truncation_lower, found.truncation_upper),
         (0.0, 0.0003)
@@ -116,7 +116,7 @@ fn the_steepest_segments_end() {
         for shift in [0.0, 1e-300, from.0, 0.5 * (from.0 + to.0)] {
             for beta in [1e-300, 1e-3, 0.5, 10.0, 1e300] {
                 let law = Lognormal::try_new(shift, -0.7, beta).unwrap();
-                let found = hazard.annual_frequency(&law);
+                let found = hazard.annual_frequency(law);
                 let (low, high) =
                     (found.truncation_lower, found.truncation_upper);
                 let bound = from.1 * (1.0 + 1e-9);
@@ -131,11 +131,11 @@ fn contributions_add_up_to_what_the_points_cover() {
     let points = [(0.05, 0.1), (0.2, 0.01), (0.6, 8e-4), (2.0, 1e-5)];
     let hazard = HazardCurve::try_new(&points).expect("a curve");
     let fragility = Lognormal::try_new(0.15, -0.9, 0.7).expect("a law");
-    let found = hazard.contributions(&fragility);
+    let found = hazard.contributions(fragility);
     assert!(found.iter().all(|part| part.annual_frequency > 0.0));
     let parts = found.iter().map(|part| part.annual_frequency);
     let sum = parts.fold(0.0, |sum, part| sum + part);
-    let covered = hazard.annual_frequency(&fragility).covered;
+    let covered = hazard.annual_frequency(fragility).covered;
     assert!((sum / covered - 1.0).abs() < 1e-12, "{sum} {covered}");
 }
 

@@ -34,7 +34,7 @@ pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
             }
             _ => right,
         };
-        let found = hazard.annual_frequency(&fragility);
+        let found = hazard.annual_frequency(fragility);
         let least = context.or(
             WrongModel::NothingBeyond,
             found.covered,
@@ -99,7 +99,7 @@ pub fn cornell(context: &Context, answer: &mut Reply) -> Result<()> {
         let fragility = Lognormal::try_new(0.0, log(median), beta)?;
         let found = match context.wrong {
             Some(WrongModel::HazardAtTheMedian) => hazard(median),
-            _ => curve.annual_frequency(&fragility).truncation_lower,
+            _ => curve.annual_frequency(fragility).truncation_lower,
         };
         let closed = hazard(median) * exp(0.5 * k * k * beta * beta);
         answer.put("annual-frequency", [found], [closed]);

@@ -89,13 +89,11 @@ impl ModelError {
     }
 
     /// The bias, with its range if it has one.
-    #[must_use]
     pub fn bias(&self) -> &Estimate {
         &self.bias
     }
 
     /// The dispersion, with its range if it has one.
-    #[must_use]
     pub fn dispersion(&self) -> &Estimate {
         &self.dispersion
     }

@@ -332,13 +332,11 @@ impl Timings {
         };
         let (good, bad) = range(best.iter().map(|t| t.peak_error));
         format!(
-            "As shipped, an analysis takes {} ms at a median error of {}. \
-             The most accurate setting of each compiled tool takes {} as \
-             long, of each interpreted one {}. Their errors are {} to {}. A \
-             line joins the settings of a tool, dashed where an interpreter \
+            "As shipped the median error is {}. The most accurate setting of \
+             each compiled tool takes {} as long, of each interpreted one {}. \
+             Their errors are {} to {}. A line joins the settings of a tool, dashed where an interpreter \
              evaluates the equation. All ran the same {} cases{} under one \
              rest rule, against double-double.",
-            digits(1e3 * own.cpu_s),
             digits(own.peak_error),
             by(false),
             by(true),

@@ -2,7 +2,7 @@
 
 use rocking_common::findings::Seen;
 use rocking_common::table::PlainTable;
-use rocking_common::words::{percent, rounded_text};
+use rocking_common::words::{percent, rounded};
 use rocking_procedures::ModelError;
 use rocking_procedures::shaking::TestComparison;
 use rocking_statistics::Estimate;
@@ -22,6 +22,11 @@ pub(super) fn plain(estimate: &Estimate) -> String {
 /// A share with its interval.
 pub(super) fn share(estimate: &Estimate) -> String {
     EstimateText::of(estimate, ValueScale::Percent, None).whole()
+}
+
+/// A number with three digits.
+fn three(x: f64) -> String {
+    rounded(x, 3).to_string()
 }
 
 /// A number of each rock.
@@ -67,8 +72,8 @@ impl RockTests {
                      expected without a shift",
                     own.overturned_below,
                     own.below,
-                    rounded_text(own.onset_g),
-                    rounded_text(own.expected_below)
+                    three(own.onset_g),
+                    three(own.expected_below)
                 )
             }),
             seen: seen(self.each(|k| {
@@ -106,7 +111,7 @@ impl RockTests {
                     let name = TestMeasure::ALL[k].names()[0];
                     let value =
                         all[k].map_or(f64::NAN, |own| own.dispersion.value());
-                    format!("{name} {}", rounded_text(value))
+                    format!("{name} {}", three(value))
                 };
                 format!("dispersion: {}, {}, {}", of(0), of(1), of(2))
             }),
@@ -153,8 +158,8 @@ impl RockTests {
                      Housner's {}",
                     own.log_likelihood,
                     housner.log_likelihood,
-                    rounded_text(own.median.value()),
-                    rounded_text(housner.median.value())
+                    three(own.median.value()),
+                    three(housner.median.value())
                 )
             }),
             seen: seen(found.map(|[own, housner]| {
@@ -195,13 +200,13 @@ impl RockTests {
         let own = &self.fitted[0];
         format!(
             "Saifullah and Wittich [12] shook two free-standing granite \
-             rocks with {} motions, each at up to {} levels: {} tests, in \
-             which rock 1 overturned {} and rock 2 {} times. The motions of \
-             the table in {} of these tests are at hand. A block with p = {} \
-             rad/s, by the volume of the scanned rocks, and an assumed eta \
-             of {} rocks under each of them. One angle of each rock is fitted \
-             to the fates: alpha = {} rad. All intervals here are of 90 %, \
-             by draws of the motions with all their tests.",
+             rocks with {} motions at up to {} levels: {} tests, in which \
+             rock 1 overturned {} and rock 2 {} times. The motions of {} \
+             tests are at hand. Under each rocks a block with p = {} rad/s, by the \
+             volume of the scans, and an assumed eta of {}. One angle of each \
+             rock is fitted to the fates: alpha = {} rad. Intervals here \
+             (90 %) draw motions with all their tests; elsewhere on this page \
+             they are of the records alone.",
             self.motions,
             self.levels,
             first.tests,
@@ -236,12 +241,12 @@ impl RockTests {
             format!("{} of {}", own.different, own.pairs)
         });
         format!(
-            "The first overturning of the block tells {} of the fates. By the \
-             log score average SA (0.3 to 1.5 s) alone predicts them {}, PGV \
-             {}, PGA {}. Tests do not repeat themselves either: of pairs of \
-             one motion within 5 % in PGA, {pairs} have different fates. In \
-             {} tests the stated peak is a target that the measured one \
-             misses by more than 10 %; without them {without} are right.",
+            "The first overturning of the block gets {} of the fates right. \
+             By the log score average SA (0.3 to 1.5 s) alone predicts them \
+             {}, PGV {}, PGA {}. Tests scatter, too: of pairs of one motion \
+             within 5 % in PGA, {pairs} have different fates. In {} tests \
+             the stated peak is a target, more than 10 % off the measured \
+             one; without them {without} are right.",
             self.fitted_each(|own| share(&own.computed.right)),
             words(TestMeasure::AverageSa),
             words(TestMeasure::Pgv),
@@ -268,6 +273,7 @@ impl RockTests {
         };
         let usual = ModelError::default();
         let range = usual.dispersion();
+        let own = |of: &Estimate| of.text("", |x| x.to_string());
         let held = [TestMeasure::Pgv, TestMeasure::AverageSa]
             .into_iter()
             .flat_map(|m| self.missing(m));
@@ -277,36 +283,35 @@ impl RockTests {
             })
         };
         let held = match held.map(holds).all(|is| is) {
-            true => "This holds what is missing in PGV and in average SA",
-            false => {
-                "This does not hold all that is missing in PGV and in \
-                      average SA"
+            true => {
+                "The dispersion holds what is missing in PGV and average SA"
             }
+            false => "The dispersion does not hold all that is missing",
         };
         format!(
-            "Lognormals are fitted in the same way to the measured and to the \
-             computed fates. Where the measured one is wider, the model \
-             leaves out a dispersion, the root of the difference of both \
-             squares: {}, {}, {}. `assess`, `risk` and the exports therefore \
-             multiply each capacity by an error of dispersion {} and bias \
-             {}. {held}. Of a fitted object the bias is {}.",
+            "Lognormals are fitted in the same way to measured and computed \
+             fates. Where the measured one is wider, the model leaves out a \
+             dispersion, the root of the difference of the squares: {}, {}, \
+             {}. Decisions (assess, risk, export) therefore multiply each \
+             capacity by an error of dispersion {} and bias {}; of a fitted \
+             object the bias is {}. {held}.",
             text(TestMeasure::Pgv),
             text(TestMeasure::AverageSa),
             text(TestMeasure::Pga),
-            plain(range),
-            plain(usual.bias()),
-            plain(ModelError::fitted().bias()),
+            own(range),
+            own(usual.bias()),
+            own(ModelError::fitted().bias()),
         )
     }
 
     /// What is not known of these tests.
     pub fn unknown(&self) -> String {
         format!(
-            "Not known: the azimuth of the table to the rocks, the protocol, \
-             and the {} longest motions. The rocks have one shape and natural \
-             bases, which roll before they tip; a flat base was not tested. \
-             PGV is the authors'. The band of average SA was chosen after the \
-             tests. Another object needs tests of its own.",
+            "Not known: the azimuth of the table, the protocol, the {} \
+             longest motions. Both rocks have one shape and a natural base; a \
+             flat base was not tested. PGV is the authors'. The band of \
+             average SA was chosen after the tests. Another object needs tests \
+             of its own.",
             self.missing_motions
         )
     }
@@ -327,7 +332,7 @@ impl RockTests {
             let own = &self.measured[k];
             format!("{} of {}", own.overturned_below, own.below)
         });
-        format!("overturned at or below uplift in tests: {}", both(of))
+        format!("overturned below uplift in tests: {}", both(of))
     }
 
     /// How many fates are right, in a sentence.
@@ -335,11 +340,17 @@ impl RockTests {
         let of =
             self.each(|k| percent(self.fitted[k].computed.right.value(), 0));
         format!(
-            "with one fitted angle each, {} of {} fates of two rocks on a \
-             shaking table are right",
+            "with one fitted angle each, {} of {} fates of two rocks are \
+             right",
             both(of),
             self.compared()
         )
+    }
+
+    /// The share of right fates of each rock.
+    pub fn right_each(&self) -> String {
+        let of = self.fitted_each(|own| share(&own.computed.right));
+        format!("fates right: {of}")
     }
 
     /// What was compared, in a few words.

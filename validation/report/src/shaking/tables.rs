@@ -32,11 +32,9 @@ impl RockTests {
         PlainTable::new(
             "test-predictors",
             "Predictors of the fates",
-            "The block decides by its first overturning, a measure by a \
-             fitted probability above one half. Dispersion: of the fates \
-             about the predictor. Log score: mean of -ln of the probability \
-             of the fate, each of a fit without the motion of the test; \
-             small is good.",
+            "A measure is right where its fitted probability of the fate is \
+             above one half. Log score: mean of -ln of this probability, by a \
+             fit without the motion of the test; small is good.",
             &[
                 "predictor",
                 "fates right, rock 1",

@@ -49,13 +49,13 @@ fn the_usual_error_of_the_model_follows_from_the_tests() {
             assert!(unfitted.holds(moved) && !bias.holds(moved), "{moved}");
         }
     }
-    assert!(kept.left_out().contains("This holds what is missing"));
+    assert!(kept.left_out().contains("The dispersion holds what is missing"));
     let more = changed(|all| {
         for own in all["fitted"][1]["distributions"].as_array_mut().unwrap() {
             own["missing_dispersion"] = json!({"point": range.high() + 0.1});
         }
     });
-    assert!(more.unwrap().left_out().contains("This does not hold"));
+    assert!(more.unwrap().left_out().contains("does not hold all"));
 }
 
 /// Two rocks, 490 tests, one fitted angle: no more is claimed.
@@ -78,7 +78,7 @@ fn counts_are_those_of_the_tests() {
     }
     assert_eq!((kept.compared(), kept.measured[0].tests), (490, 582));
     let said = [kept.introduction(), kept.right(), kept.counted()].concat();
-    assert!(said.contains("490 of these tests") && said.contains("of 490"));
+    assert!(said.contains("motions of 490 tests") && said.contains("of 490"));
 }
 
 #[test]

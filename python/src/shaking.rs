@@ -108,12 +108,11 @@ pub fn compare_with_tests(
     threads: Option<usize>,
 ) -> PyResult<String> {
     let test = |(record, motion, fate, known): GivenTest<'_>| {
-        let columns = known.iter().map(|(name, cell)| (&**name, &**cell));
         Ok(ShakingTest {
             record: record_of(record)?,
             motion,
             fate: fate.parse().map_err(refuse)?,
-            columns: ShakingTest::columns(columns),
+            columns: ShakingTest::columns(&known),
         })
     };
     let tests = tests.into_iter().map(test);

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use rocking::accelerogram::{Accelerogram, AccelerogramError};
-use rocking_records::{Processing, ProcessingError, SuiteError, SuiteMember};
-use thiserror::Error;
+use rocking_records::{Processing, SuiteError, SuiteMember};
 
 use crate::shaking::{ShakingTest, TestFate};
 
@@ -23,95 +22,19 @@ const MOST_SHOWN: usize = 200;
 /// What a cell of fates holds.
 const FATES: &str = "overturned, stood or unknown, or 1, 0 or an empty cell";
 
-/// A fault of a table of tests.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum TestFault {
-    /// A file that was refused, or a row that does not describe it.
-    #[error(transparent)]
-    Suite(#[from] SuiteError),
-    /// A column that the table lacks.
-    #[error("{path}: found no column {column:?}: expected {expected}")]
-    Column {
-        /// The table.
-        path: String,
-        /// The column.
-        column: String,
-        /// What the column holds.
-        expected: String,
-    },
-    /// A cell that is none of its column.
-    #[error(
-        "{path}:{line}: column {column}: found {found:?}: expected {expected}"
-    )]
-    Cell {
-        /// The table.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// The column.
-        column: String,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: String,
-    },
-    /// Two tests of one name.
-    #[error(
-        "{path}:{line}: test {name:?} stands on line {before} too: expected \
-         a name of its own, in a column `name` if one file has several tests"
-    )]
-    Name {
-        /// The table.
-        path: String,
-        /// Line of the second test, counted from 1.
-        line: usize,
-        /// The name.
-        name: String,
-        /// Line of the first test.
-        before: usize,
-    },
-    /// A motion that cannot be processed.
-    #[error("{path}:{line}: {source}")]
-    Processing {
-        /// The table.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Why.
-        #[source]
-        source: ProcessingError,
-    },
-    /// A motion that is none at the scale of its test.
-    #[error("{path}:{line}: {source}")]
-    Scaled {
-        /// The table.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Why.
-        #[source]
-        source: AccelerogramError,
-    },
-    /// No test.
-    #[error("{0}: found no test: expected one row for each test")]
-    Empty(String),
-}
-
 /// All faults of a table of tests, in the order of its lines.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TestTableError {
-    /// The faults; at least one.
-    pub faults: Vec<TestFault>,
+    /// The faults, at least one: file, line, what was found and what was
+    /// expected.
+    pub faults: Vec<String>,
 }
 
 impl fmt::Display for TestTableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, fault) in self.faults.iter().take(MOST_SHOWN).enumerate() {
-            let gap = if k == 0 { "" } else { "\n" };
-            write!(f, "{gap}{fault}")?;
-        }
-        match self.faults.len().saturating_sub(MOST_SHOWN) {
+        let shown = &self.faults[..self.faults.len().min(MOST_SHOWN)];
+        f.write_str(&shown.join("\n"))?;
+        match self.faults.len() - shown.len() {
             0 => Ok(()),
             more => write!(f, "\nand {more} faults more"),
         }
@@ -143,13 +66,12 @@ impl TestFate {
 
 impl ShakingTest {
     /// The positive numbers among cells, by the names of their columns.
-    pub fn columns<'a>(
-        cells: impl Iterator<Item = (&'a str, &'a str)>,
-    ) -> BTreeMap<String, f64> {
-        let number = |(name, cell): (&str, &str)| {
-            Some((name.to_owned(), positive(cell)?))
+    #[must_use]
+    pub fn columns(cells: &BTreeMap<String, String>) -> BTreeMap<String, f64> {
+        let number = |(name, cell): (&String, &String)| {
+            Some((name.clone(), positive(cell)?))
         };
-        cells.filter_map(number).collect()
+        cells.iter().filter_map(number).collect()
     }
 }
 
@@ -176,33 +98,44 @@ impl TestTable<'_> {
         &self,
         members: Vec<Result<SuiteMember, SuiteError>>,
     ) -> Result<Vec<ShakingTest>, TestTableError> {
-        let (mut tests, mut faults) = (Vec::new(), Vec::new());
-        self.check_columns(&members, &mut faults);
+        let first = members.iter().flatten().next();
+        let mut faults = first.map_or(Vec::new(), |own| self.missing(own));
         let has_columns = faults.is_empty();
-        let mut names = BTreeMap::new();
+        let (mut tests, mut lines) = (Vec::new(), BTreeMap::new());
         for member in members {
             let member = match member {
                 Ok(member) => member,
                 Err(error) => {
-                    faults.push(error.into());
+                    faults.push(error.to_string());
                     continue;
                 }
             };
             let line = member.line.unwrap_or(0);
-            let name = member.accelerogram.name().to_owned();
-            if let Some(before) = names.insert(name.clone(), line) {
-                let path = self.path.to_owned();
-                faults.push(TestFault::Name { path, line, name, before });
+            let place = format!("{}:{line}", self.path);
+            let name = member.accelerogram.name();
+            if let Some(before) = lines.insert(name.to_owned(), line) {
+                faults.push(format!(
+                    "{place}: test {name:?} stands on line {before} too: \
+                     expected a name of its own, in a column `name` if one \
+                     file has several tests"
+                ));
             }
             if has_columns {
-                match self.test(&member, line) {
+                match self.test(&member) {
                     Ok(test) => tests.push(test),
-                    Err(all) => faults.extend(all),
+                    Err(own) => {
+                        let own = own.iter();
+                        faults
+                            .extend(own.map(|own| format!("{place}: {own}")));
+                    }
                 }
             }
         }
         if faults.is_empty() && tests.is_empty() {
-            faults.push(TestFault::Empty(self.path.to_owned()));
+            faults.push(format!(
+                "{}: found no test: expected one row for each test",
+                self.path
+            ));
         }
         if faults.is_empty() {
             Ok(tests)
@@ -211,89 +144,74 @@ impl TestTable<'_> {
         }
     }
 
-    /// The table has each column that is needed, or none of its rows does.
-    fn check_columns(
-        &self,
-        members: &[Result<SuiteMember, SuiteError>],
-        faults: &mut Vec<TestFault>,
-    ) {
-        let Some(member) = members.iter().flatten().next() else { return };
-        let has = |name: &str| cell(member, name).is_some();
-        let mut lacks = |column: &str, expected: &str| {
-            faults.push(TestFault::Column {
-                path: self.path.to_owned(),
-                column: column.to_owned(),
-                expected: expected.to_owned(),
-            });
+    /// The columns that the table lacks: each row has all columns.
+    fn missing(&self, member: &SuiteMember) -> Vec<String> {
+        let cells = member.attributes_by_name();
+        let has_motion =
+            member.event.is_some() || cells.contains_key(MOTION_COLUMN);
+        let fates = format!("the fate of each test, {FATES}");
+        let motions = "the motion that each test repeats, in a column \
+                       `event` or `motion`; a test of its own motion has its \
+                       own name there";
+        let columns = [
+            (cells.contains_key(self.fate), self.fate, fates.as_str()),
+            (has_motion, "event", motions),
+        ];
+        let lacking = columns.iter().filter(|(is_there, ..)| !is_there);
+        let fault = |(_, column, expected): &(bool, &str, &str)| {
+            format!(
+                "{}: found no column {column:?}: expected {expected}",
+                self.path
+            )
         };
-        if !has(self.fate) {
-            lacks(self.fate, &format!("the fate of each test, {FATES}"));
-        }
-        if member.event.is_none() && !has(MOTION_COLUMN) {
-            lacks(
-                "event",
-                "the motion that each test repeats, in a column `event` or \
-                 `motion`; a test of its own motion has its own name there",
-            );
-        }
+        lacking.map(fault).collect()
     }
 
-    fn test(
-        &self,
-        member: &SuiteMember,
-        line: usize,
-    ) -> Result<ShakingTest, Vec<TestFault>> {
-        let mut faults = Vec::new();
-        let path = || self.path.to_owned();
-        let mut refuse = |column: &str, found: &str, expected: &str| {
-            faults.push(TestFault::Cell {
-                path: path(),
-                line,
-                column: column.to_owned(),
-                found: found.to_owned(),
-                expected: expected.to_owned(),
-            });
-        };
-        let stated = cell(member, self.fate).unwrap_or_default();
-        let fate = TestFate::of_cell(stated);
-        if fate.is_none() {
-            refuse(self.fate, stated, FATES);
-        }
-        let motion = cell(member, MOTION_COLUMN).unwrap_or_default();
+    /// The test of a row, or the faults of the row.
+    fn test(&self, member: &SuiteMember) -> Result<ShakingTest, Vec<String>> {
+        let cells = member.attributes_by_name();
+        let cell = |name: &str| cells.get(name).map(String::as_str);
+        let fate_cell = cell(self.fate).unwrap_or_default();
+        let motion = cell(MOTION_COLUMN).unwrap_or_default();
         let motion = member.event.as_deref().unwrap_or(motion);
-        if motion.is_empty() {
-            refuse(MOTION_COLUMN, motion, "the motion that the test repeats");
-        }
-        let stated = cell(member, SCALE_COLUMN);
-        let scale = stated.map_or(Some(1.0), positive);
-        if scale.is_none() {
-            let found = stated.unwrap_or_default();
-            refuse(SCALE_COLUMN, found, "a positive factor on the motion");
-        }
+        let scale_cell = cell(SCALE_COLUMN).unwrap_or("1");
+        let (fate, scale) =
+            (TestFate::of_cell(fate_cell), positive(scale_cell));
+        let stated = [
+            (fate.is_some(), self.fate, fate_cell, FATES),
+            (
+                !motion.is_empty(),
+                MOTION_COLUMN,
+                motion,
+                "the motion that the test repeats",
+            ),
+            (
+                scale.is_some(),
+                SCALE_COLUMN,
+                scale_cell,
+                "a positive factor on the motion",
+            ),
+        ];
+        let wrong = stated.iter().filter(|(is_right, ..)| !is_right);
+        let faults: Vec<String> = wrong
+            .map(|(_, column, found, expected)| {
+                format!(
+                    "column {column}: found {found:?}: expected {expected}"
+                )
+            })
+            .collect();
         let (Some(fate), Some(scale), true) = (fate, scale, faults.is_empty())
         else {
             return Err(faults);
         };
         let processed = self.processing.apply(&member.accelerogram);
-        let processed = processed.map_err(|source| {
-            vec![TestFault::Processing { path: path(), line, source }]
-        })?;
-        let record = scaled(processed, scale).map_err(|source| {
-            vec![TestFault::Scaled { path: path(), line, source }]
-        })?;
-        let columns = member.attributes.iter();
-        let columns = columns.map(|(name, cell)| (&**name, &**cell));
-        let columns = ShakingTest::columns(columns);
-        let motion = motion.to_owned();
+        let processed = processed.map_err(|error| vec![error.to_string()])?;
+        let record = scaled(&processed, scale)
+            .map_err(|error| vec![error.to_string()])?;
+        let (motion, columns) =
+            (motion.to_owned(), ShakingTest::columns(&cells));
         Ok(ShakingTest { record, motion, fate, columns })
     }
-}
-
-/// A cell of a column that is no column of a suite.
-fn cell<'a>(member: &'a SuiteMember, column: &str) -> Option<&'a str> {
-    let mut cells = member.attributes.iter();
-    let found = cells.find(|(name, _)| **name == *column);
-    found.map(|(_, cell)| cell.as_str())
 }
 
 fn positive(cell: &str) -> Option<f64> {
@@ -302,12 +220,9 @@ fn positive(cell: &str) -> Option<f64> {
 }
 
 fn scaled(
-    record: Accelerogram,
+    record: &Accelerogram,
     scale: f64,
 ) -> Result<Accelerogram, AccelerogramError> {
-    if scale == 1.0 {
-        return Ok(record);
-    }
     let samples = record.samples_g().iter().map(|a| scale * a).collect();
     Accelerogram::try_new(record.name(), record.dt_s(), samples)
 }

@@ -84,13 +84,20 @@ for measure in rk.rank_ims(ida, suite).measures:
 #
 # OpenQuake reads fragilities in its format NRML. A fit is dimensionless; the
 # file has this block's own PGA in g. `format="pelicun"` writes a library of
-# pelicun in the same way.
+# pelicun in the same way. Files for a decision hold the error of the model,
+# too; here it is left out, so that the points are those of the fit.
 
 # %%
 one = rk.BlockFragility(
     block=block, fit=fit, im="pga", limit_states=["overturning"]
 )
-nrml = rk.export([one], "block.xml", format="nrml")
+nrml = rk.export(
+    [one],
+    "block.xml",
+    format="nrml",
+    model_dispersion=0.0,
+    model_bias=1.0,
+)
 print(nrml[:500], "...")
 
 # %% [markdown]

@@ -237,18 +237,32 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
         "risk": (
             rk.risk,
             {"hazard": HAZARD, "fragilities": {"a": VELOCITY}, **few},
-            {"years": 30.0, "gravity": 9.81, "n_resamples": 21, "rng": 1},
+            {
+                "years": 30.0,
+                "gravity": 9.81,
+                "n_resamples": 21,
+                "rng": 1,
+                "model_dispersion": 0.1,
+                "model_bias": "fitted",
+            },
         ),
         "export": (
             rk.export,
             {"blocks": [VELOCITY], "format": "csv"},
-            {"format": "nrml", "gravity": 9.81},
+            {
+                "format": "nrml",
+                "gravity": 9.81,
+                "model_dispersion": (0.1, 0.0, 0.2),
+                "model_bias": 1.1,
+            },
         ),
         "assess": (
             rk.assess,
             {"objects": OBJECT, "suite": FEW, **few},
             {
                 "suite": SUITE[4:8],
+                "model_dispersion": 0.1,
+                "model_bias": "fitted",
                 "hazard": rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n"),
                 "years": (
                     {"hazard": rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")},

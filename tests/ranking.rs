@@ -370,7 +370,8 @@ fn censored_values_enter_by_their_own_limits() {
     let out = json(&place, &format!("{own} --shift 1"));
     let fit = json(&place, "fragility fit --sample own.txt --shift 1");
     for (row, key) in [(0, "fitted"), (1, "unshifted")] {
-        let found = &out["fragilities"][row]["fitted"]["dispersion"];
+        let found =
+            &out["fragilities"][row]["fitted"]["records"]["dispersion"];
         close(found, fit[key]["dispersion"].as_f64().unwrap(), 1e-12);
     }
     let said = refused(&place, &format!("{own} --shift min"));

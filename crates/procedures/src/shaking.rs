@@ -24,7 +24,7 @@ use rocking_statistics::Estimate;
 use crate::Draws;
 use capacities::TestRecords;
 pub use error::ShakingError;
-pub use numbers::{ComputedTest, ComputedTests};
+pub use numbers::ComputedTests;
 
 rocking::named! {
     /// What became of a specimen in a test.
@@ -65,7 +65,7 @@ pub enum Slenderness {
 }
 
 /// How a block is compared with tests.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TestOptions {
     /// The block, or what is known of it.
     pub slenderness: Slenderness,
@@ -99,8 +99,7 @@ pub fn compare_with_tests(
     tests: &[ShakingTest],
     options: &TestOptions,
 ) -> Result<TestComparison, ShakingError> {
-    let records = TestRecords::new(tests, options);
-    records.computed()?.compare(options.draws)
+    TestRecords::new(tests, options)?.computed()?.compare()
 }
 
 /// Level of the intervals of a comparison with tests.
@@ -318,7 +317,6 @@ pub struct DistributionComparison {
 
 /// One test of a comparison.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TestResult {
     /// Name of the record.
@@ -329,8 +327,12 @@ pub struct TestResult {
     pub pga_g: f64,
     /// Intensities in the measures of the fragilities, in their order.
     pub intensities: Vec<f64>,
-    /// Factor on the motion at which the block first overturns.
+    /// Factor on the motion at which the block first overturns, or of the
+    /// last level that was run.
     pub capacity_factor: f64,
+    /// Whether the block overturns at any level that was run.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub overturns: bool,
     /// Whether the block overturns at the level of the test.
     pub overturns_at_level: bool,
     /// Predicted probability of overturning.

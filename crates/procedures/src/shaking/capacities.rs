@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::{
-    ComputedTest, ComputedTests, ShakingError, ShakingTest, Slenderness,
-    TestFate, TestOptions,
+    ComputedTests, ShakingError, ShakingTest, Slenderness, TestFate,
+    TestOptions, TestResult,
 };
 use libm::{exp, log};
 use rocking::block::Block;
@@ -20,59 +20,54 @@ const STEP_IM: f64 = 0.1;
 
 /// Slenderness from which a fit starts, and its ends, in rad.
 const START: f64 = 0.1;
-const LEAST: f64 = 1e-3;
-const MOST: f64 = 1.2;
+pub(super) const ENDS: [f64; 2] = [1e-3, 1.2];
 
 /// Ends of a fit, in logarithms of the median and of alpha. Capacities jump
 /// with alpha, and the median of 490 tests with them by as much.
 const NEAR: f64 = 1e-3;
 
-/// The tests of known fate, normalised.
+/// The tests of known fate, normalised, with the values of their measures.
 pub(super) struct TestRecords<'a> {
     tests: Vec<&'a ShakingTest>,
     unknown: usize,
     records: Vec<NormalisedRecord>,
+    intensities: Vec<Vec<f64>>,
     options: &'a TestOptions,
 }
 
 impl<'a> TestRecords<'a> {
-    pub fn new(tests: &'a [ShakingTest], options: &'a TestOptions) -> Self {
+    pub fn new(
+        tests: &'a [ShakingTest],
+        options: &'a TestOptions,
+    ) -> Result<Self, ShakingError> {
         let is_known = |test: &&ShakingTest| test.fate != TestFate::Unknown;
         let known: Vec<&ShakingTest> = tests.iter().filter(is_known).collect();
         let normalised = known.par_iter().panic_fuse();
         let records = normalised.map(|t| NormalisedRecord::new(&t.record));
-        Self {
+        Ok(Self {
             records: records.collect(),
+            intensities: intensities(&known, options)?,
             unknown: tests.len() - known.len(),
             tests: known,
             options,
-        }
+        })
     }
 
-    /// The numbers of the tests, with the measures and with the fates at
-    /// their levels.
-    pub fn computed(&self) -> Result<ComputedTests, ShakingError> {
-        let measured = self.measures()?;
-        // Before any analysis.
-        let options = self.options;
-        let mut found = match options.slenderness {
+    /// The numbers of the tests, with the fates at their levels.
+    pub fn computed(&self) -> Result<ComputedTests<'a>, ShakingError> {
+        let mut found = match self.options.slenderness {
             Slenderness::Given(block) => self.of_block(block)?,
             Slenderness::Fitted { p_rad_s } => self.fitted(p_rad_s)?,
         };
         let analysis = self.analysis(found.block);
-        let threshold = uplift_threshold(&found.block, options.model);
-        let fates = self.records.par_iter().panic_fuse().map(|record| {
+        let threshold = uplift_threshold(&found.block, self.options.model);
+        let tests = found.tests.par_iter_mut().zip(&self.records);
+        tests.panic_fuse().try_for_each(|(test, record)| {
             let im = record.pga_g() / threshold;
             let point = demand_at(record, &analysis, im)?;
-            Ok(point.outcome.is_overturned())
-        });
-        let fates = fates.collect::<Result<Vec<bool>, ShakingError>>()?;
-        let values = measured.into_iter().zip(fates);
-        for (test, (values, fate)) in found.tests.iter_mut().zip(values) {
-            test.measures = values;
-            test.overturns_at_level = fate;
-        }
-        found.measures.clone_from(&options.measures);
+            test.overturns_at_level = point.outcome.is_overturned();
+            Ok::<_, ShakingError>(())
+        })?;
         Ok(found)
     }
 
@@ -85,47 +80,52 @@ impl<'a> TestRecords<'a> {
         }
     }
 
-    /// The capacities of a block, without measures and fates at the level.
-    fn of_block(&self, block: Block) -> Result<ComputedTests, ShakingError> {
+    /// The capacities of a block, without the fates at the level.
+    fn of_block(
+        &self,
+        block: Block,
+    ) -> Result<ComputedTests<'a>, ShakingError> {
         let analysis = self.analysis(block);
         let made = curves(&self.records, &[analysis], &Batch::default())?;
         let threshold = uplift_threshold(&block, self.options.model);
-        let tests = self.tests.iter().zip(made.iter().flatten());
-        let numbers = |(test, curve): (&&ShakingTest, &IdaCurve)| {
+        let tests = self.tests.iter().zip(&self.intensities);
+        let tests = tests.zip(made.iter().flatten());
+        let result = |((test, intensities), curve): (_, &IdaCurve)| {
+            let (test, intensities): (&&ShakingTest, &Vec<f64>) =
+                (test, intensities);
             let last = curve.points.last().map_or(1.0, |point| point.im);
             let im = curve.overturning.map_or(last, |first| first.im());
-            ComputedTest {
+            TestResult {
                 test: test.record.name().to_owned(),
                 motion: test.motion.clone(),
                 pga_g: curve.record_pga_g,
+                intensities: intensities.clone(),
                 capacity_factor: im * threshold / curve.record_pga_g,
                 overturns: curve.overturning.is_some(),
                 overturns_at_level: false,
+                probability: f64::NAN,
                 overturned: test.fate == TestFate::Overturned,
-                measures: Vec::new(),
             }
         };
         Ok(ComputedTests {
-            tests: tests.map(numbers).collect(),
+            tests: tests.map(result).collect(),
             unknown: self.unknown,
-            measures: Vec::new(),
             block,
-            restitution: self.options.restitution,
-            model: self.options.model,
             fitted_slope: None,
+            options: self.options,
         })
     }
 
     /// The capacities of the block whose median of measured over computed
     /// capacity is 1.
-    fn fitted(&self, p_rad_s: f64) -> Result<ComputedTests, ShakingError> {
+    fn fitted(&self, p_rad_s: f64) -> Result<ComputedTests<'a>, ShakingError> {
         let at = |ln_alpha: f64| {
             let block = Block::try_new(exp(ln_alpha), p_rad_s)?;
             let found = self.of_block(block)?;
             let ln_bias = log(found.bias()?);
             Ok::<_, ShakingError>((ln_alpha, ln_bias, found))
         };
-        let ends = [LEAST, MOST].map(log);
+        let ends = ENDS.map(log);
         let mut one = at(log(START))?;
         // The median falls nearly as alpha rises; beyond 1 where it may be.
         let mut other = loop {
@@ -136,8 +136,7 @@ impl<'a> TestRecords<'a> {
                 break next;
             }
             if ends.contains(&next.0) {
-                let [low, high] = [LEAST, MOST];
-                return Err(ShakingError::Slenderness { low, high });
+                return Err(ShakingError::Slenderness);
             }
             one = next;
         };
@@ -166,35 +165,34 @@ impl<'a> TestRecords<'a> {
         let slope = (above.1 - below.1) / (above.0 - below.0);
         Ok(ComputedTests { fitted_slope: Some(slope), ..found })
     }
+}
 
-    /// The values of the measures of each test.
-    fn measures(&self) -> Result<Vec<Vec<f64>>, ShakingError> {
-        let measures = &self.options.measures;
-        let mut periods: Vec<f64> = Vec::new();
-        for period in measures.iter().flat_map(|im| im.periods_s()) {
-            if !periods.contains(period) {
-                periods.push(*period);
-            }
+/// The values of the measures of each test.
+fn intensities(
+    tests: &[&ShakingTest],
+    options: &TestOptions,
+) -> Result<Vec<Vec<f64>>, ShakingError> {
+    let mut periods: Vec<f64> = Vec::new();
+    for period in options.measures.iter().flat_map(|im| im.periods_s()) {
+        if !periods.contains(period) {
+            periods.push(*period);
         }
-        let damping = Settings::default().damping_ratio();
-        let gravity = self.options.gravity_m_s2;
-        let settings = Settings::try_new(gravity, damping, periods)
-            .map_err(ShakingError::Settings)?;
-        let of = |test: &&ShakingTest| {
-            let refused = |source| {
-                let test = test.record.name().to_owned();
-                ShakingError::Record { test, source }
-            };
-            let own =
-                Measures::of(&test.record, &settings).map_err(refused)?;
-            let value = |im: &IntensityMeasure| match im {
-                IntensityMeasure::Column(name) => {
-                    test.columns.get(name).copied().unwrap_or(f64::NAN)
-                }
-                im => im.value(&own, settings.periods_s()).unwrap_or(f64::NAN),
-            };
-            Ok(measures.iter().map(value).collect())
-        };
-        self.tests.par_iter().panic_fuse().map(of).collect()
     }
+    let damping = Settings::default().damping_ratio();
+    let settings = Settings::try_new(options.gravity_m_s2, damping, periods)
+        .map_err(ShakingError::Settings)?;
+    let of = |test: &&ShakingTest| {
+        let own = Measures::of(&test.record, &settings).map_err(|source| {
+            let test = test.record.name().to_owned();
+            ShakingError::Record { test, source }
+        })?;
+        let value = |im: &IntensityMeasure| match im {
+            IntensityMeasure::Column(name) => {
+                test.columns.get(name).copied().unwrap_or(f64::NAN)
+            }
+            im => im.value(&own, settings.periods_s()).unwrap_or(f64::NAN),
+        };
+        Ok(options.measures.iter().map(value).collect())
+    };
+    tests.par_iter().panic_fuse().map(of).collect()
 }

@@ -25,11 +25,9 @@ pub(super) fn distribution(
     computed: &Lognormal,
     drawn: &[Differences],
 ) -> DistributionComparison {
-    let points = differences(measured, computed);
-    let estimate = |k: usize, range: Range| {
-        let drawn: Vec<f64> = drawn.iter().map(|own| own[k]).collect();
-        fates.estimate(points[k], &drawn, range)
-    };
+    let ranges = [Range::NotNegative, Range::Real, Range::Real];
+    let [median_ratio, dispersion_difference, squares] =
+        fates.estimates(differences(measured, computed), drawn, ranges);
     DistributionComparison {
         im: im.to_string(),
         unit: im.unit().to_owned(),
@@ -37,9 +35,8 @@ pub(super) fn distribution(
         measured_dispersion: measured.dispersion(),
         computed_median: computed.median(),
         computed_dispersion: computed.dispersion(),
-        median_ratio: estimate(0, Range::NotNegative),
-        dispersion_difference: estimate(1, Range::Real),
-        missing_dispersion: estimate(2, Range::Real)
-            .map(|square| square.max(0.0).sqrt()),
+        median_ratio,
+        dispersion_difference,
+        missing_dispersion: squares.map(|square| square.max(0.0).sqrt()),
     }
 }

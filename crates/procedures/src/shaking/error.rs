@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::capacities::ENDS;
 use crate::ProcedureError;
 use rocking::block::BlockError;
 use rocking::ida::IdaError;
@@ -41,46 +42,23 @@ pub enum ShakingError {
         #[source]
         source: FitError,
     },
-    /// A test has no value of a measure.
-    #[error("test {test}: {measure} is {found}: expected a positive number")]
-    Measure {
-        /// The test.
-        test: String,
-        /// The measure.
-        measure: String,
-        /// Its value; NaN if there is none.
-        found: f64,
-    },
-    /// Another number of values than of measures.
-    #[error("test {test}: {found} values of {expected} measures")]
-    Values {
-        /// The test.
-        test: String,
-        /// Number of values.
-        found: usize,
-        /// Number of measures.
-        expected: usize,
-    },
-    /// A capacity is a positive factor on the motion.
+    /// PGA, capacity and measures are positive.
     #[error("test {test}: {what} is {found}: expected a positive number")]
     Number {
         /// The test.
         test: String,
         /// The quantity.
-        what: &'static str,
-        /// What was found.
+        what: String,
+        /// Its value; NaN if there is none.
         found: f64,
     },
     /// No slenderness makes measured capacities the computed ones.
     #[error(
-        "no slenderness between {low} and {high} rad makes the median of measured over computed capacity 1"
+        "no slenderness between {} and {} rad makes the median of measured over computed capacity 1",
+        ENDS[0],
+        ENDS[1]
     )]
-    Slenderness {
-        /// The smallest slenderness that was tried, in rad.
-        low: f64,
-        /// The largest, in rad.
-        high: f64,
-    },
+    Slenderness,
     /// The measures of a record.
     #[error("test {test}: {source}")]
     Record {

@@ -19,17 +19,21 @@ impl Fates {
         vec![1; self.overturned.len()]
     }
 
-    /// A number with its interval from its values in draws of motions.
-    pub fn estimate(
+    /// Numbers with their intervals from their values in draws of motions.
+    pub fn estimates<const N: usize>(
         &self,
-        point: f64,
-        drawn: &[f64],
-        range: Range,
-    ) -> Estimate {
+        points: [f64; N],
+        drawn: &[[f64; N]],
+        ranges: [Range; N],
+    ) -> [Estimate; N] {
         let how = Resampling::Bootstrap;
-        let found =
-            self.motions.estimate(point, drawn, how, range, TEST_LEVEL);
-        found.map_or(Estimate::exact(point), |found| found.estimate)
+        std::array::from_fn(|k| {
+            let (point, range) = (points[k], ranges[k]);
+            let own: Vec<f64> = drawn.iter().map(|all| all[k]).collect();
+            let found =
+                self.motions.estimate(point, &own, how, range, TEST_LEVEL);
+            found.map_or(Estimate::exact(point), |found| found.estimate)
+        })
     }
 }
 

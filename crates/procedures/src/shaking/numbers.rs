@@ -1,24 +1,22 @@
 //! The comparison of numbers: capacities and measures of tests, and fates.
 
-use super::distribution::{Differences, differences, distribution};
+use super::distribution::{differences, distribution};
 use super::fates::{Fates, probit};
 use super::onset::{onset, resurrected};
 use super::predictor::{PredictorNumbers, Scores};
 use super::repeats::repeatability;
 use super::{
-    ReliabilityClass, ShakingError, TEST_LEVEL, TestComparison, TestResult,
-    UnfittedMeasure,
+    ReliabilityClass, ShakingError, TEST_LEVEL, TestComparison, TestOptions,
+    TestResult, UnfittedMeasure,
 };
-use crate::Draws;
 use libm::{exp, log};
-use rocking::block::{Block, Restitution};
-use rocking::integrator::{Model, uplift_threshold};
-use rocking_records::intensity::IntensityMeasure;
+use rocking::block::Block;
+use rocking::integrator::uplift_threshold;
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::clusters::SamplingUnit;
 use rocking_statistics::lognormal::FitError;
 use rocking_statistics::resampling::multiplicities;
-use rocking_statistics::{Clusters, Estimate, Lognormal, Proportion, Range};
+use rocking_statistics::{Clusters, Estimate, Proportion, Range};
 
 /// Name of the block among the predictors.
 const BLOCK: &str = "block";
@@ -29,73 +27,36 @@ const CLASSES: usize = 10;
 /// Fewest motions of a comparison.
 const LEAST_MOTIONS: usize = 3;
 
-/// A test with a known fate, and what was computed of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ComputedTest {
-    /// Name of the test.
-    pub test: String,
-    /// Name of the motion.
-    pub motion: String,
-    /// PGA in g.
-    pub pga_g: f64,
-    /// Factor on the motion at which the block first overturns, or of the
-    /// last level that was run.
-    pub capacity_factor: f64,
-    /// Whether the block overturns at any level that was run.
-    pub overturns: bool,
-    /// Whether the block overturns at the level of the test.
-    pub overturns_at_level: bool,
-    /// Whether the specimen overturned.
-    pub overturned: bool,
-    /// Value of each measure.
-    pub measures: Vec<f64>,
-}
-
 /// Tests that a block was computed for: a comparison without its records.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ComputedTests {
-    /// The tests whose fate is known.
-    pub tests: Vec<ComputedTest>,
+pub struct ComputedTests<'a> {
+    /// The tests whose fate is known, with the values of all measures; their
+    /// probabilities are not read.
+    pub tests: Vec<TestResult>,
     /// Number of tests whose fate is unknown.
     pub unknown: usize,
-    /// The measures of the tests, in the order of their values.
-    pub measures: Vec<IntensityMeasure>,
     /// The block.
     pub block: Block,
-    /// Coefficient of restitution.
-    pub restitution: Restitution,
-    /// Equation of motion.
-    pub model: Model,
     /// Change of ln of the median of measured over computed capacity by that
     /// of ln alpha, if alpha was fitted to make the median 1.
     pub fitted_slope: Option<f64>,
+    /// How they were computed, and are compared.
+    pub options: &'a TestOptions,
 }
 
-/// What a draw makes of the block and of each measure.
-type Row = (Scores, Vec<(Scores, Differences)>);
-
-/// A measure as a predictor, and the fit to the computed fates.
-struct Rival<'a> {
-    im: &'a IntensityMeasure,
-    own: PredictorNumbers,
-    computed: Option<Lognormal>,
-}
-
-impl ComputedTests {
+impl ComputedTests<'_> {
     /// Compares the fates with what was computed.
     ///
     /// # Errors
     /// [`ShakingError`] as of
     /// [`compare_with_tests`](super::compare_with_tests), and for numbers
     /// that are not positive.
-    pub fn compare(
-        &self,
-        draws: Draws,
-    ) -> Result<TestComparison, ShakingError> {
+    pub fn compare(&self) -> Result<TestComparison, ShakingError> {
+        let draws = self.options.draws;
         draws.check()?;
         let fates = self.fates()?;
-        let computed = self.block(&fates)?;
-        let (rivals, unfitted) = self.rivals(&fates);
+        let once = fates.once();
+        let computed = self.as_predictor(&fates)?;
         let bootstrap = Bootstrap::of_clusters(
             "shaking",
             draws.seed,
@@ -104,80 +65,101 @@ impl ComputedTests {
         );
         let falls: Vec<bool> =
             self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
-        let rows: Vec<Row> = bootstrap.map(|places| {
-            let counts = multiplicities(places, falls.len());
-            let scores = |of: &PredictorNumbers| {
-                let fit = probit(&of.x, &fates.overturned, &counts, 0.0).ok();
-                (of.scores(fit.as_ref(), &fates, &counts), fit)
-            };
-            let rival = |rival: &Rival<'_>| {
-                let (scores, measured) = scores(&rival.own);
-                let both = rival.computed.and(measured).and_then(|measured| {
-                    let x = &rival.own.x;
-                    let computed = probit(x, &falls, &counts, 0.0).ok()?;
+        // What the draws make of a predictor, and of its fragility of the
+        // computed fates.
+        let drawn = |of: &PredictorNumbers, is_compared: bool| {
+            let rows = bootstrap.map(|places| {
+                let counts = multiplicities(places, falls.len());
+                let measured = probit(&of.x, &fates.overturned, &counts, 0.0);
+                let measured = measured.ok();
+                let scores = of.scores(measured.as_ref(), &fates, &counts);
+                let both = measured.filter(|_| is_compared);
+                let both = both.and_then(|measured| {
+                    let computed = probit(&of.x, &falls, &counts, 0.0).ok()?;
                     Some(differences(&measured, &computed))
                 });
                 (scores, both.unwrap_or([f64::NAN; 3]))
-            };
-            (scores(&computed).0, rivals.iter().map(rival).collect())
-        });
-        let own: Vec<Scores> = rows.iter().map(|row| row.0).collect();
+            });
+            rows.into_iter().unzip::<_, _, Vec<Scores>, Vec<_>>()
+        };
+        let (own, _) = drawn(&computed, false);
         let mut predictor = computed.predictor(&fates, &own);
         let alpha = self.block.slenderness_rad();
         let mut alpha_rad = Estimate::exact(alpha);
         if let Some(slope) = self.fitted_slope {
-            let of = |own: &Scores| alpha * exp(-log(own[1]) / slope);
-            let drawn: Vec<f64> = own.iter().map(of).collect();
-            alpha_rad = fates.estimate(alpha, &drawn, Range::NotNegative);
+            let of = |own: &Scores| [alpha * exp(-log(own[1]) / slope)];
+            let drawn: Vec<[f64; 1]> = own.iter().map(of).collect();
+            [alpha_rad] =
+                fates.estimates([alpha], &drawn, [Range::NotNegative]);
             let median = predictor.median.value();
             predictor.median = predictor.median.map(|m| m / median);
         }
-        let of_rival = |k: usize| {
-            let scores: Vec<Scores> =
-                rows.iter().map(|row| row.1[k].0).collect();
-            rivals[k].own.predictor(&fates, &scores)
-        };
-        let of_distribution = |k: usize| {
-            let Rival { im, own, computed } = &rivals[k];
-            let drawn: Vec<Differences> =
-                rows.iter().map(|row| row.1[k].1).collect();
-            let fit = (*computed)?;
-            Some(distribution(im, &fates, &own.fit, &fit, &drawn))
-        };
+        let (mut rivals, mut unfitted) = (Vec::new(), Vec::new());
+        let (mut distributions, mut compared) = (Vec::new(), Vec::new());
+        for (k, im) in self.options.measures.iter().enumerate() {
+            let mut refuse = |computed, source: FitError| {
+                let (im, reason) = (im.to_string(), source.to_string());
+                unfitted.push(UnfittedMeasure { im, computed, reason });
+            };
+            let x = self.tests.iter().map(|t| t.intensities[k]).collect();
+            let own = PredictorNumbers::new(im.to_string(), x, &fates, None);
+            let own = own.map_err(|(_, source)| refuse(false, source));
+            let Ok(own) = own else { continue };
+            let fit = probit(&own.x, &falls, &once, 0.0);
+            let fit = fit.map_err(|source| refuse(true, source)).ok();
+            let (scores, differences) = drawn(&own, fit.is_some());
+            rivals.push(own.predictor(&fates, &scores));
+            if let Some(fit) = fit {
+                compared.push(k);
+                distributions.push(distribution(
+                    im,
+                    &fates,
+                    &own.fit,
+                    &fit,
+                    &differences,
+                ));
+            }
+        }
         let probabilities = computed.probabilities(&fates);
+        let each = self.tests.iter().zip(&probabilities);
+        let each = each.map(|(test, &probability)| TestResult {
+            intensities: compared
+                .iter()
+                .map(|k| test.intensities[*k])
+                .collect(),
+            probability,
+            ..test.clone()
+        });
+        let threshold = uplift_threshold(&self.block, self.options.model);
         let pga: Vec<f64> = self.tests.iter().map(|t| t.pga_g).collect();
-        let threshold = uplift_threshold(&self.block, self.model);
         let remark = fates.motions.remark(draws.replicates);
+        let count = |is: fn(&&TestResult) -> bool| {
+            self.tests.iter().filter(is).count()
+        };
         Ok(TestComparison {
             tests: self.tests.len(),
             motions: fates.motions.count(),
-            overturned: fates.overturned.iter().filter(|f| **f).count(),
+            overturned: count(|test| test.overturned),
             unknown: self.unknown,
-            never_overturned: self
-                .tests
-                .iter()
-                .filter(|test| !test.overturns)
-                .count(),
+            never_overturned: count(|test| !test.overturns),
             alpha_rad,
             alpha_is_fitted: self.fitted_slope.is_some(),
             p_rad_s: self.block.frequency_rad_s(),
-            eta: self.restitution.velocity_ratio(),
-            model: self.model,
+            eta: self.options.restitution.velocity_ratio(),
+            model: self.options.model,
             level: TEST_LEVEL,
             replicates: draws.replicates,
             seed: draws.seed,
             remark: remark.map(|remark| remark.to_string()),
             computed: predictor,
-            rivals: (0..rivals.len()).map(of_rival).collect(),
+            rivals,
             unfitted,
             reliability: reliability(&probabilities, &fates),
             repeatability: repeatability(&pga, &fates),
             resurrected: resurrected(&self.tests, &computed.x, &fates),
-            onset: onset(&self.tests, &fates, threshold),
-            distributions: (0..rivals.len())
-                .filter_map(of_distribution)
-                .collect(),
-            each: self.each(&probabilities, &rivals),
+            onset: onset(&self.tests, threshold),
+            distributions,
+            each: each.collect(),
         })
     }
 
@@ -212,21 +194,37 @@ impl ComputedTests {
         }
         let overturned: Vec<bool> =
             self.tests.iter().map(|test| test.overturned).collect();
-        match overturned.iter().filter(|fate| **fate).count() {
-            0 => return Err(ShakingError::NoneOverturned(tests)),
-            all if all == tests => {
-                return Err(ShakingError::AllOverturned(tests));
-            }
-            _ => {}
+        if !overturned.contains(&true) {
+            return Err(ShakingError::NoneOverturned(tests));
         }
+        if !overturned.contains(&false) {
+            return Err(ShakingError::AllOverturned(tests));
+        }
+        let is_positive = |x: f64| x > 0.0 && x.is_finite();
         for test in &self.tests {
-            test.check(&self.measures)?;
+            let numbers = [
+                ("PGA in g".to_owned(), test.pga_g),
+                ("capacity over motion".to_owned(), test.capacity_factor),
+            ];
+            let measures = self.options.measures.iter().enumerate();
+            let values = measures.map(|(k, im)| {
+                let value = test.intensities.get(k).copied();
+                (im.to_string(), value.unwrap_or(f64::NAN))
+            });
+            let mut all = numbers.into_iter().chain(values);
+            if let Some((what, found)) = all.find(|one| !is_positive(one.1)) {
+                let test = test.test.clone();
+                return Err(ShakingError::Number { test, what, found });
+            }
         }
         Ok(Fates { overturned, motions })
     }
 
     /// The block as a predictor.
-    fn block(&self, fates: &Fates) -> Result<PredictorNumbers, ShakingError> {
+    fn as_predictor(
+        &self,
+        fates: &Fates,
+    ) -> Result<PredictorNumbers, ShakingError> {
         let (name, x) = (BLOCK.to_owned(), self.demands());
         let found = PredictorNumbers::new(name, x, fates, Some(1.0));
         found.map_err(|(motion, source)| ShakingError::Fit {
@@ -236,103 +234,6 @@ impl ComputedTests {
             }),
             source,
         })
-    }
-
-    /// The measures as predictors, and those that give no fit.
-    fn rivals(&self, fates: &Fates) -> (Vec<Rival<'_>>, Vec<UnfittedMeasure>) {
-        let (mut rivals, mut unfitted) = (Vec::new(), Vec::new());
-        let falls: Vec<bool> =
-            self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
-        let mut refuse =
-            |im: &IntensityMeasure, computed, source: FitError| {
-                let (im, reason) = (im.to_string(), source.to_string());
-                unfitted.push(UnfittedMeasure { im, computed, reason });
-            };
-        for (k, im) in self.measures.iter().enumerate() {
-            let x = self.tests.iter().map(|test| test.measures[k]).collect();
-            let name = im.to_string();
-            match PredictorNumbers::new(name, x, fates, None) {
-                Err((_, source)) => refuse(im, false, source),
-                Ok(own) => {
-                    let once = fates.once();
-                    let computed = probit(&own.x, &falls, &once, 0.0);
-                    let computed = computed
-                        .map_err(|source| refuse(im, true, source))
-                        .ok();
-                    rivals.push(Rival { im, own, computed });
-                }
-            }
-        }
-        (rivals, unfitted)
-    }
-
-    fn each(
-        &self,
-        probabilities: &[f64],
-        rivals: &[Rival<'_>],
-    ) -> Vec<TestResult> {
-        let shown = |im: &&IntensityMeasure| {
-            let fitted = |r: &Rival<'_>| r.im == *im && r.computed.is_some();
-            rivals.iter().any(fitted)
-        };
-        let tests = self.tests.iter().zip(probabilities);
-        let result = |(test, probability): (&ComputedTest, &f64)| TestResult {
-            test: test.test.clone(),
-            motion: test.motion.clone(),
-            pga_g: test.pga_g,
-            intensities: self
-                .measures
-                .iter()
-                .zip(&test.measures)
-                .filter(|(im, _)| shown(im))
-                .map(|(_, value)| *value)
-                .collect(),
-            capacity_factor: test.capacity_factor,
-            overturns_at_level: test.overturns_at_level,
-            probability: *probability,
-            overturned: test.overturned,
-        };
-        tests.map(result).collect()
-    }
-}
-
-impl ComputedTest {
-    fn check(
-        &self,
-        measures: &[IntensityMeasure],
-    ) -> Result<(), ShakingError> {
-        let is_positive = |x: f64| x > 0.0 && x.is_finite();
-        let test = || self.test.clone();
-        let numbers = [
-            ("PGA in g", self.pga_g),
-            ("capacity over motion", self.capacity_factor),
-        ];
-        for (what, found) in numbers {
-            if !is_positive(found) {
-                return Err(ShakingError::Number {
-                    test: test(),
-                    what,
-                    found,
-                });
-            }
-        }
-        let (found, expected) = (self.measures.len(), measures.len());
-        if found != expected {
-            return Err(ShakingError::Values {
-                test: test(),
-                found,
-                expected,
-            });
-        }
-        let mut values = self.measures.iter().zip(measures);
-        match values.find(|(value, _)| !is_positive(**value)) {
-            None => Ok(()),
-            Some((found, im)) => Err(ShakingError::Measure {
-                test: test(),
-                measure: im.to_string(),
-                found: *found,
-            }),
-        }
     }
 }
 

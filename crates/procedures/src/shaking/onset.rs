@@ -1,51 +1,46 @@
 //! What the fates say about the onset of rocking and about resurrections.
 
 use super::fates::{Fates, highest_log_likelihood, ln_probability, probit};
-use super::{ComputedTest, OnsetComparison, Resurrected};
+use super::{OnsetComparison, Resurrected, TestResult};
 use libm::exp;
 
 /// Likelihoods of the fates above the onset of rocking.
-pub(super) fn onset(
-    tests: &[ComputedTest],
-    fates: &Fates,
-    onset_g: f64,
-) -> OnsetComparison {
-    let all = tests.iter().zip(&fates.overturned);
+pub(super) fn onset(tests: &[TestResult], onset_g: f64) -> OnsetComparison {
     let (above, below): (Vec<_>, Vec<_>) =
-        all.partition(|(test, _)| test.pga_g > onset_g);
-    let overturned: Vec<bool> = above.iter().map(|one| *one.1).collect();
-    let likelihood = |x: &dyn Fn(&ComputedTest) -> f64, shift: f64| {
-        let x: Vec<f64> = above.iter().map(|(test, _)| x(test)).collect();
-        highest_log_likelihood(&x, &overturned, shift)
+        tests.iter().partition(|test| test.pga_g > onset_g);
+    let likelihood = |tests: &[&TestResult],
+                      shift: f64,
+                      x: fn(&TestResult, f64) -> f64| {
+        let x: Vec<f64> = tests.iter().map(|t| x(t, onset_g)).collect();
+        let fates: Vec<bool> = tests.iter().map(|t| t.overturned).collect();
+        highest_log_likelihood(&x, &fates, shift)
     };
-    let capacity = |test: &ComputedTest| test.pga_g * test.capacity_factor;
-    let pga: Vec<f64> = tests.iter().map(|test| test.pga_g).collect();
-    let overturned_below = below.iter().filter(|one| *one.1).count();
+    let overturned_below = below.iter().filter(|test| test.overturned).count();
+    let all: Vec<&TestResult> = tests.iter().collect();
     OnsetComparison {
         onset_g,
         tests: above.len(),
         overturned_below,
         below: below.len(),
-        whole: likelihood(&|test| test.capacity_factor.recip(), 0.0),
-        above: likelihood(
-            &|test| (test.pga_g - onset_g) / (capacity(test) - onset_g),
-            0.0,
-        ),
-        pga_unshifted: highest_log_likelihood(&pga, &fates.overturned, 0.0),
+        whole: likelihood(&above, 0.0, |t, _| t.capacity_factor.recip()),
+        above: likelihood(&above, 0.0, |t, onset_g| {
+            (t.pga_g - onset_g) / (t.pga_g * t.capacity_factor - onset_g)
+        }),
+        pga_unshifted: likelihood(&all, 0.0, |t, _| t.pga_g),
         // A test that stood at or below the onset adds ln 1.
         pga_shifted: (overturned_below == 0)
-            .then(|| likelihood(&|test| test.pga_g, onset_g))
+            .then(|| likelihood(&above, onset_g, |t, _| t.pga_g))
             .flatten(),
     }
 }
 
 /// Tests at levels at which the block stands above its first overturning.
 pub(super) fn resurrected(
-    tests: &[ComputedTest],
+    tests: &[TestResult],
     x: &[f64],
     fates: &Fates,
 ) -> Resurrected {
-    let is_own = |test: &ComputedTest| {
+    let is_own = |test: &TestResult| {
         test.capacity_factor < 1.0 && !test.overturns_at_level
     };
     let others: Vec<u32> =
@@ -57,11 +52,10 @@ pub(super) fn resurrected(
         let each = own.iter().map(|i| exp(ln_probability(&fit, x[*i], true)));
         each.fold(0.0, |sum, p| sum + p)
     };
-    let right = tests.iter().zip(&fates.overturned);
-    let right = right.filter(|(test, fate)| test.overturns_at_level == **fate);
+    let right = tests.iter().filter(|t| t.overturns_at_level == t.overturned);
     Resurrected {
         tests: own.len(),
-        overturned: own.iter().filter(|i| fates.overturned[**i]).count(),
+        overturned: own.iter().filter(|i| tests[**i].overturned).count(),
         expected: fit.map(expected),
         right_at_level: right.count() as f64 / tests.len() as f64,
     }

@@ -81,21 +81,14 @@ impl PredictorNumbers {
     /// number than one that did not; equal numbers count half.
     fn auc(&self, fates: &Fates, counts: &[u32]) -> f64 {
         let (mut pairs, mut stood, mut fell) = (0.0, 0.0, 0.0);
-        let (x, mut from) = (&self.x, 0);
-        while from < self.order.len() {
-            let value = x[self.order[from]];
-            let (mut stands, mut falls) = (0.0, 0.0);
-            while from < self.order.len() && x[self.order[from]] <= value {
-                let test = self.order[from];
-                let n = f64::from(counts[test]);
-                let own = if fates.overturned[test] {
-                    &mut falls
-                } else {
-                    &mut stands
-                };
-                *own += n;
-                from += 1;
-            }
+        // In ascending order: a number at or above the next one equals it.
+        for tied in self.order.chunk_by(|a, b| self.x[*a] >= self.x[*b]) {
+            let drawn = |fate: bool| {
+                let own =
+                    tied.iter().filter(|i| fates.overturned[**i] == fate);
+                own.fold(0.0, |sum, i| sum + f64::from(counts[*i]))
+            };
+            let (stands, falls) = (drawn(false), drawn(true));
             pairs += falls * f64::mul_add(0.5, stands, stood);
             stood += stands;
             fell += falls;
@@ -106,17 +99,17 @@ impl PredictorNumbers {
     /// The predictor with its intervals from its scores in the draws.
     pub fn predictor(&self, fates: &Fates, drawn: &[Scores]) -> Predictor {
         let points = self.scores(Some(&self.fit), fates, &fates.once());
-        let estimate = |k: usize, range: Range| {
-            let drawn: Vec<f64> = drawn.iter().map(|own| own[k]).collect();
-            fates.estimate(points[k], &drawn, range)
-        };
+        let (share, positive) = (Range::Share, Range::NotNegative);
+        let ranges = [share, positive, positive, share, positive];
+        let [right, median, dispersion, auc, log_score] =
+            fates.estimates(points, drawn, ranges);
         Predictor {
             predictor: self.name.clone(),
-            right: estimate(0, Range::Share),
-            median: estimate(1, Range::NotNegative),
-            dispersion: estimate(2, Range::NotNegative),
-            auc: estimate(3, Range::Share),
-            log_score: estimate(4, Range::NotNegative),
+            right,
+            median,
+            dispersion,
+            auc,
+            log_score,
             log_likelihood: log_likelihood(
                 &self.fit,
                 &self.x,

@@ -5,9 +5,13 @@ use anyhow::{Result, anyhow};
 use libm::{exp, log, tan};
 use rayon::prelude::*;
 use rocking::integrator::Model;
+use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking::{Block, Restitution};
 use rocking_procedures::Draws;
-use rocking_procedures::shaking::{ComputedTest, ComputedTests, Predictor};
+use rocking_procedures::shaking::{
+    ComputedTests, Predictor, Slenderness, TestComparison, TestOptions,
+    TestResult,
+};
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Estimate, Interval};
@@ -21,19 +25,23 @@ const VALUES: Csv = csv!("oracles/shaking.csv");
 /// Slenderness of the block in rad; the onset of rocking is its tangent in g.
 const ALPHA: f64 = 0.1;
 
-fn of_tests(
-    tests: Vec<ComputedTest>,
+fn compared(
+    tests: Vec<TestResult>,
     measures: Vec<IntensityMeasure>,
-) -> Result<ComputedTests> {
-    Ok(ComputedTests {
-        tests,
-        unknown: 0,
-        measures,
-        block: Block::try_new(ALPHA, 4.0)?,
+    draws: Draws,
+) -> Result<TestComparison> {
+    let block = Block::try_new(ALPHA, 4.0)?;
+    let options = TestOptions {
+        slenderness: Slenderness::Given(block),
         restitution: Restitution::constant(0.92)?,
         model: Model::Nonlinear,
-        fitted_slope: None,
-    })
+        gravity_m_s2: STANDARD_GRAVITY_M_S2,
+        measures,
+        draws,
+    };
+    let (unknown, fitted_slope, options) = (0, None, &options);
+    let all = ComputedTests { tests, unknown, block, fitted_slope, options };
+    Ok(all.compare()?)
 }
 
 /// The numbers of statsmodels and SciPy.
@@ -46,7 +54,7 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
             [3, 4, 5, 6, 7].map(|column| row.list(column, ' '));
         let (pga, factors, cav) = (pga?, factors?, cav?);
         let (at_level, fates) = (at_level?, fates?);
-        let test = |i: usize| ComputedTest {
+        let test = |i: usize| TestResult {
             test: i.to_string(),
             motion: if alone { i.to_string() } else { names[i].to_owned() },
             pga_g: pga[i],
@@ -54,12 +62,13 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
             overturns: true,
             overturns_at_level: at_level[i] > 0.5,
             overturned: fates[i] > 0.5,
-            measures: vec![pga[i], cav[i]],
+            intensities: vec![pga[i], cav[i]],
+            probability: f64::NAN,
         };
         let measures = vec!["pga".parse()?, "cav".parse()?];
         let tests = (0..names.len()).map(test).collect();
         let draws = Draws { replicates: 2, seed: 0 };
-        let found = of_tests(tests, measures)?.compare(draws)?;
+        let found = compared(tests, measures, draws)?;
         let predictors = std::iter::once(&found.computed).chain(&found.rivals);
         for own in predictors {
             let row = VALUES.row(&["predictor", set, &own.predictor])?;
@@ -183,7 +192,7 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
                 let test = tests.len().to_string();
                 let motion = motion.to_string();
                 let wrong = WrongModel::TestsAsUnit;
-                tests.push(ComputedTest {
+                tests.push(TestResult {
                     motion: context.or(wrong, test.clone(), motion),
                     test,
                     pga_g,
@@ -191,12 +200,13 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
                     overturns: true,
                     overturns_at_level: capacity_g <= pga_g,
                     overturned: measured_g <= pga_g,
-                    measures: vec![pga_g; measures.len()],
+                    intensities: vec![pga_g; measures.len()],
+                    probability: f64::NAN,
                 });
             }
         }
-        let all = of_tests(tests, measures.clone())?;
-        let found = all.compare(Draws { replicates, seed: index })?;
+        let draws = Draws { replicates, seed: index };
+        let found = compared(tests, measures.clone(), draws)?;
         let of = |name, estimate: Estimate, truth: f64| {
             let holds = |ends: Interval| ends.holds(truth);
             let held = estimate.interval().is_some_and(holds);

@@ -128,20 +128,31 @@ impl RockTests {
         TestedSentence {
             words: "Resurrections may be left out",
             rocks: self.each(|k| {
-                let own = &self.fitted[k];
+                let right = |own: &TestComparison| {
+                    format!(
+                        "{} by first overturning, {} at the level",
+                        percent(own.computed.right.value(), 1),
+                        percent(own.resurrected.right_at_level, 1)
+                    )
+                };
+                let (own, rounded) = (&self.fitted[k], &self.given[k]);
                 let again = &own.resurrected;
                 format!(
-                    "right: {} by first overturning, {} at the level; where \
-                     the block stands again {} of {} overturned",
-                    percent(own.computed.right.value(), 1),
-                    percent(again.right_at_level, 1),
+                    "right: {}; with alpha rounded {}; where the block \
+                     stands again {} of {} overturned",
+                    right(own),
+                    right(rounded),
                     again.overturned,
                     again.tests,
                 )
             }),
+            // Neither of the fitted block nor of the rounded one is the fate
+            // at the level right more often.
             seen: seen(self.each(|k| {
-                let own = &self.fitted[k];
-                own.computed.right.value() >= own.resurrected.right_at_level
+                [&self.fitted[k], &self.given[k]].iter().all(|own| {
+                    own.computed.right.value()
+                        >= own.resurrected.right_at_level
+                })
             })),
         }
     }

@@ -70,14 +70,18 @@ impl RockTests {
             ("the same, Housner's restitution", &self.housner),
         ];
         let varied = self.varied.iter().map(|v| row(&v.change, &v.rocks));
-        let one = ["alpha (rad)", "right", "bias", "dispersion", "ln L"];
-        let mut header = vec!["choice"];
-        header.extend(one);
-        header.extend(one);
+        let heads = ["alpha (rad)", "right", "bias", "dispersion", "ln L"];
+        let header: Vec<String> = ["choice".to_owned()]
+            .into_iter()
+            .chain((1..=2).flat_map(|rock| {
+                heads.map(|head| format!("rock {rock}: {head}"))
+            }))
+            .collect();
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
         PlainTable::new(
             "test-choices",
             "Other choices",
-            "Rock 1, then rock 2. Bias: median of measured over computed \
+            "Bias: median of measured over computed \
              capacity, 1 where alpha is fitted. Fitted anew in each row \
              unless alpha is rounded.",
             &header,

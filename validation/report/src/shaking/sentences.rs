@@ -285,7 +285,7 @@ impl RockTests {
         let usual = ModelError::default();
         let range = usual.dispersion();
         let own = |of: &Estimate| of.text("", |x| x.to_string());
-        let held = [TestMeasure::Pgv, TestMeasure::AverageSa]
+        let mut held = [TestMeasure::Pgv, TestMeasure::AverageSa]
             .into_iter()
             .flat_map(|m| self.missing(m));
         let holds = |own: Option<Estimate>| {
@@ -293,7 +293,7 @@ impl RockTests {
                 range.interval().is_some_and(|all| all.holds(own.value()))
             })
         };
-        let held = match held.map(holds).all(|is| is) {
+        let held = match held.all(holds) {
             true => {
                 "The dispersion holds what is missing in PGV and average SA"
             }

@@ -282,4 +282,29 @@ mod tests {
             }
         }
     }
+
+    /// Of one law whose bias alone is drawn, evenly from 0.8 to 1.25 in its
+    /// logarithm, the band lies between the laws of nearly these ends.
+    #[test]
+    fn a_band_lies_between_the_draws() {
+        let records = Lognormal::try_new(0.0, 0.0, 0.3).unwrap();
+        let none = Some(ModelError::parse_dispersion("0").unwrap());
+        let bias = Some(ModelError::parse_bias("1,0.8,1.25").unwrap());
+        let error = ModelError::none().or(bias, none);
+        let draws = crate::Draws { replicates: 4000, seed: 0 };
+        let clusters = rocking_statistics::Clusters::singletons(4000);
+        let sampled = BootstrapFits {
+            basis: crate::fit::IntervalBasis::new(draws, &clusters),
+            fitted: vec![Some(records.into()); 4000],
+        };
+        let total = error.total(records).unwrap();
+        let band = sampled.with(&error, "test").band(&total, &[0.1, 1.0]);
+        let ends = band.points[1].probability.ends();
+        // 95 % of ln(b) lie within 0.95 ln(1.25).
+        let end = 0.95 * 1.25f64.ln() / 0.3;
+        let expected = [-end, end].map(rocking_statistics::normal::cdf);
+        assert!((ends.0 - expected[0]).abs() < 0.01, "{ends:?} {expected:?}");
+        assert!((ends.1 - expected[1]).abs() < 0.01, "{ends:?} {expected:?}");
+        assert!(band.points[0].probability.ends().1 < 1e-6);
+    }
 }

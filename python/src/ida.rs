@@ -241,16 +241,7 @@ impl PyIdaTable {
         let block = Block::try_new(alpha_rad, setting.p_rad_s);
         let pga_g = uplift_threshold(&block.map_err(refuse)?, setting.model);
         let (p_rad_s, gravity_m_s2) = (setting.p_rad_s, setting.gravity_m_s2);
-        let mut periods_s: Vec<f64> = Vec::new();
-        for period in ims.iter().flat_map(IntensityMeasure::periods_s) {
-            if !periods_s.contains(period) {
-                periods_s.push(*period);
-            }
-        }
-        let damping = Settings::default().damping_ratio();
-        let settings =
-            Settings::try_new(gravity_m_s2, damping, periods_s.clone());
-        let settings = settings.map_err(refuse)?;
+        let settings = Settings::of(gravity_m_s2, ims).map_err(refuse)?;
         let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
         let records = suite_of(given)?;
         self.of_suite(records.iter())?;
@@ -265,6 +256,7 @@ impl PyIdaTable {
         };
         let members = work::on_all(py, measured)?.map_err(refuse)?;
         let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
+        let periods_s = settings.periods_s().to_vec();
         Ok(MeasuredSuite { uplift, periods_s, members })
     }
 }

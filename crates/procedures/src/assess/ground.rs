@@ -143,21 +143,13 @@ impl<'a> AssessmentSuite<'a> {
                 return Err(AssessError::Measure(found));
             }
         };
-        let mut periods: Vec<f64> = Vec::new();
         let usual = IntensityMeasure::usual();
-        for period in usual.iter().chain([&im]).flat_map(|m| m.periods_s()) {
-            if !periods.contains(period) {
-                periods.push(*period);
-            }
-        }
-        let measured = |source| AssessError::Record {
+        let settings =
+            Settings::of(options.gravity_m_s2, usual.iter().chain([&im]));
+        let settings = settings.map_err(|source| AssessError::Record {
             record: "settings".to_owned(),
             source,
-        };
-        let damping = Settings::default().damping_ratio();
-        let settings =
-            Settings::try_new(options.gravity_m_s2, damping, periods)
-                .map_err(measured)?;
+        })?;
         let measures = records.par_iter().panic_fuse().map(|record| {
             Measures::of(record, &settings).map_err(|source| {
                 AssessError::Record { record: record.name().into(), source }

@@ -172,14 +172,7 @@ fn intensities(
     tests: &[&ShakingTest],
     options: &TestOptions,
 ) -> Result<Vec<Vec<f64>>, ShakingError> {
-    let mut periods: Vec<f64> = Vec::new();
-    for period in options.measures.iter().flat_map(|im| im.periods_s()) {
-        if !periods.contains(period) {
-            periods.push(*period);
-        }
-    }
-    let damping = Settings::default().damping_ratio();
-    let settings = Settings::try_new(options.gravity_m_s2, damping, periods)
+    let settings = Settings::of(options.gravity_m_s2, &options.measures)
         .map_err(ShakingError::Settings)?;
     let of = |test: &&ShakingTest| {
         let own = Measures::of(&test.record, &settings).map_err(|source| {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use libm::{exp, log};
 
-use super::Measures;
+use super::{IntensityError, Measures, Settings};
 use rocking::names::{UnknownName, as_text, named};
 
 named! {
@@ -316,6 +316,26 @@ impl AtUplift {
             squared if squared.is_squared() => factor * factor * value(),
             _ => factor * value(),
         }
+    }
+}
+
+impl Settings {
+    /// What measures need: their periods, each once, with the usual damping.
+    ///
+    /// # Errors
+    /// As of [`Settings::try_new`].
+    pub fn of<'a>(
+        gravity_m_s2: f64,
+        measures: impl IntoIterator<Item = &'a IntensityMeasure>,
+    ) -> Result<Self, IntensityError> {
+        let mut periods_s: Vec<f64> = Vec::new();
+        for period in measures.into_iter().flat_map(|im| im.periods_s()) {
+            if !periods_s.contains(period) {
+                periods_s.push(*period);
+            }
+        }
+        let damping = Self::default().damping_ratio();
+        Self::try_new(gravity_m_s2, damping, periods_s)
     }
 }
 

@@ -113,14 +113,7 @@ impl GroundArgs {
         }
         let own = self.attributes.as_deref().map(read_attributes);
         let own = own.transpose()?.unwrap_or_default();
-        let mut periods: Vec<f64> = Vec::new();
-        for period in measures.iter().flat_map(IntensityMeasure::periods_s) {
-            if !periods.contains(period) {
-                periods.push(*period);
-            }
-        }
-        let damping = Settings::default().damping_ratio();
-        let settings = Settings::try_new(gravity, damping, periods)?;
+        let settings = Settings::of(gravity, measures)?;
         let names: Vec<&str> = table.records().collect();
         let measured = names.par_iter().map(|&name| {
             let member = members.get(name).ok_or_else(|| {

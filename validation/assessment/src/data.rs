@@ -28,19 +28,11 @@ struct Provenance<'a> {
     is: &'a str,
 }
 
-/// All numbers, as JSON.
+/// All numbers of a result with its provenance, as JSON.
 ///
 /// # Errors
 /// None in practice.
-pub fn json(found: &Assessment, about: &About) -> anyhow::Result<String> {
-    of(found, about)
-}
-
-/// A result with its provenance, as JSON.
-pub(crate) fn of<T: Serialize>(
-    found: &T,
-    about: &About,
-) -> anyhow::Result<String> {
+pub fn json<T: Serialize>(found: &T, about: &About) -> anyhow::Result<String> {
     let provenance = about.provenance.iter();
     let provenance =
         provenance.map(|(what, is)| Provenance { what, is }).collect();

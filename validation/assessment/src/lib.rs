@@ -98,41 +98,52 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
     };
     let ranked = found.objects.iter().map(|one| words::ranked(found, one));
     let ranked: Vec<Vec<String>> = ranked.collect();
-    html! {
+    let introduction = html! {
+        "Each object is taken for a rigid block that stands free. It begins \
+         to rock where the ground accelerates by g tan(alpha) or more, alpha \
+         being the angle whose tangent is width over height. It overturns \
+         where it rocks too far. " (about.ground)
+    };
+    let sections = html! {
+        section {
+            h2 { "Which object first" }
+            (charts::sketch(&found.objects))
+            (table("All objects", &words::heads(found), &ranked))
+            (sliding(found))
+        }
+        @if !found.together.is_empty() { (together(found)) }
+        @for (k, one) in found.objects.iter().enumerate() {
+            (object(found, one, k))
+        }
+        (limits(found))
+        (provenance(about, files))
+    };
+    document(&title, &words::first(found), &introduction, &sections)
+}
+
+/// A page: its title, its first sentence, what is said below it, and its
+/// sections.
+fn document(
+    title: &str,
+    first: &str,
+    introduction: &Markup,
+    sections: &Markup,
+) -> String {
+    let page = html! {
         (DOCTYPE)
         html lang="en" {
-            (head(&title))
+            (head(title))
             body {
                 header {
                     h1 { (title) }
-                    p { strong { (words::first(found)) } }
-                    p {
-                        "Each object is taken for a rigid block that stands \
-                         free. It begins to rock where the ground \
-                         accelerates by g tan(alpha) or more, alpha being \
-                         the angle whose tangent is width over height. It \
-                         overturns where it rocks too far. " (about.ground)
-                    }
+                    p { strong { (first) } }
+                    p { (introduction) }
                 }
-                main id="main" {
-                    section {
-                        h2 { "Which object first" }
-                        (charts::sketch(&found.objects))
-                        (table("All objects", &words::heads(found), &ranked))
-                        (sliding(found))
-                    }
-                    @if !found.together.is_empty() { (together(found)) }
-                    @for (k, one) in found.objects.iter().enumerate() {
-                        (object(found, one, k))
-                    }
-                    (limits(found))
-                    (provenance(about, files))
-                }
+                main id="main" { (sections) }
             }
         }
-    }
-    .into_string()
-        + "\n"
+    };
+    page.into_string() + "\n"
 }
 
 fn table(label: &str, heads: &[String], rows: &[Vec<String>]) -> Markup {

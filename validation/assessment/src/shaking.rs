@@ -5,16 +5,18 @@ mod words;
 
 use std::collections::BTreeMap;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use rocking::integrator::Model;
 use rocking_common::table::columns::COMPARED_TESTS;
 use rocking_common::table::{Table, number};
 use rocking_draw::figures::{Chart, Layout};
 use rocking_draw::grid::Grid;
-use rocking_draw::page::{head, inline};
+use rocking_draw::page::inline;
 use rocking_procedures::shaking::TestComparison;
 
-use crate::{About, PAGE, data, provenance, table};
+pub use words::text;
+
+use crate::{About, PAGE, data, document, provenance, table};
 
 /// The name of its JSON.
 const JSON: &str = "tests.json";
@@ -32,19 +34,13 @@ pub fn files(
     about: &About,
 ) -> anyhow::Result<BTreeMap<String, Vec<u8>>> {
     let named = [
-        (JSON, data::of(found, about)?),
+        (JSON, data::json(found, about)?),
         (CSV, csv(found)),
         (PAGE, page(found, about)),
     ];
     let bytes =
         |(name, text): (&str, String)| (name.to_owned(), text.into_bytes());
     Ok(named.into_iter().map(bytes).collect())
-}
-
-/// What the terminal shows.
-#[must_use]
-pub fn text(found: &TestComparison) -> String {
-    words::text(found)
 }
 
 /// Each test, as CSV.
@@ -69,33 +65,20 @@ fn csv(found: &TestComparison) -> String {
 pub fn page(found: &TestComparison, about: &About) -> String {
     let title =
         format!("A rigid block against {} shaking-table tests", found.tests);
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head(&title))
-            body {
-                header {
-                    h1 { (title) }
-                    p { strong { (words::first(found)) } }
-                    p {
-                        (words::counts(found)) " " (about.ground)
-                        " The block: " (words::block(found)) ". "
-                        (words::intervals(found))
-                    }
-                }
-                main id="main" {
-                    (fates(found))
-                    (fragility(found))
-                    (each(found))
-                    (repeats(found))
-                    (limits(found))
-                    (provenance(about, &[JSON, CSV]))
-                }
-            }
-        }
-    }
-    .into_string()
-        + "\n"
+    let introduction = html! {
+        (words::counts(found)) " " (about.ground)
+        " The block: " (words::block(found)) ". "
+        (words::intervals(found))
+    };
+    let sections = html! {
+        (fates(found))
+        (fragility(found))
+        (each(found))
+        (repeats(found))
+        (limits(found))
+        (provenance(about, &[JSON, CSV]))
+    };
+    document(&title, &words::first(found), &introduction, &sections)
 }
 
 /// A figure with its number and its words.
@@ -127,7 +110,7 @@ fn figure(chart: Chart, number: u8, words: &str) -> Markup {
 }
 
 fn fates(found: &TestComparison) -> Markup {
-    let rows = words::predictors(found);
+    let (heads, rows) = words::predictors(found);
     let words = format!(
         "The predicted probability of each test is of a fit that leaves its \
          motion out. Marks are tenths of the tests in ascending order of \
@@ -141,7 +124,7 @@ fn fates(found: &TestComparison) -> Markup {
             @if let Some(line) = words::rivals(found) { p { (line) } }
             (table(
                 "The block and intensity measures as predictors",
-                &words::predictor_heads(found),
+                &heads,
                 &rows
             ))
             p {
@@ -158,6 +141,8 @@ fn fates(found: &TestComparison) -> Markup {
 }
 
 fn fragility(found: &TestComparison) -> Markup {
+    let (heads, rows) = words::fragilities(found);
+    let (fits, likelihoods) = words::onsets(found);
     html! {
         section {
             h2 { "Fragility" }
@@ -168,8 +153,8 @@ fn fragility(found: &TestComparison) -> Markup {
             }
             (table(
                 "Measured and computed fragilities",
-                &words::fragility_heads(),
-                &words::fragilities(found)
+                &heads,
+                &rows
             ))
             @for line in words::unfitted(found) { p { (line) } }
             (figure(
@@ -184,8 +169,8 @@ fn fragility(found: &TestComparison) -> Markup {
             p { (words::below(found)) }
             (table(
                 "Log-likelihood by the part that scatters",
-                &["Fit".to_owned(), "Log-likelihood".to_owned()],
-                &words::onsets(found)
+                &fits,
+                &likelihoods
             ))
             p {
                 "The first two are of the " (found.onset.tests)

@@ -30,20 +30,6 @@ fn chart(heading: [&str; 3], panels: Vec<ChartPanel>) -> Chart {
     Chart { heading, panels, columns }
 }
 
-/// A lognormal as a curve from 0 on.
-fn curve(
-    label: &str,
-    look: Look,
-    (median, dispersion): (f64, f64),
-    last: f64,
-) -> Option<Series> {
-    let law = Lognormal::try_new(0.0, libm::log(median), dispersion).ok()?;
-    let step = last / f64::from(STEPS);
-    let x: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
-    let y = x.iter().map(|im| law.cdf(*im)).collect();
-    Some(Series::new(label, Mark::Own(look), x, y))
-}
-
 /// Measured and computed fragilities of the same tests, with the shares that
 /// overturned.
 pub(super) fn fragilities(found: &TestComparison) -> Chart {
@@ -73,41 +59,47 @@ fn fragility(
     let mut tests: Vec<&TestResult> = found.each.iter().collect();
     tests.sort_by(|a, b| im(a).total_cmp(&im(b)));
     let class = tests.len().div_ceil(CLASSES).max(1);
-    let classes: Vec<&[&TestResult]> = tests.chunks(class).collect();
-    let middle = |class: &&[&TestResult]| {
-        let logs = class.iter().map(|test| libm::log(im(test)));
-        libm::exp(logs.sum::<f64>() / class.len() as f64)
-    };
-    let x: Vec<f64> = classes.iter().map(middle).collect();
-    let shares = |is: fn(&TestResult) -> bool| {
-        let share = |class: &&[&TestResult]| {
-            let number = class.iter().filter(|test| is(test)).count();
-            number as f64 / class.len() as f64
+    let means = |of: &dyn Fn(&TestResult) -> f64| -> Vec<f64> {
+        let mean = |class: &[&TestResult]| {
+            class.iter().map(|test| of(test)).sum::<f64>() / class.len() as f64
         };
-        classes.iter().map(share).collect::<Vec<f64>>()
+        tests.chunks(class).map(mean).collect()
     };
+    let x = means(&|test| libm::log(im(test))).into_iter().map(libm::exp);
+    let x: Vec<f64> = x.collect();
     let last = 1.15 * x.last().copied().unwrap_or(1.0);
-    let solid = Pen::of_series(0);
-    let dashed = Pen::of_series(1).dash(Dash::Dashed);
-    let laws = [
-        (one.measured_median, one.measured_dispersion),
-        (one.computed_median, one.computed_dispersion),
-    ];
-    let looks = [
-        ("measured", solid, Marker::Dot, shares(|test| test.overturned)),
+    let step = last / f64::from(STEPS);
+    let places: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
+    type Overturns = fn(&TestResult) -> bool;
+    let kinds: [(_, _, _, _, _, Overturns); 2] = [
+        (
+            "measured",
+            Pen::of_series(0),
+            Marker::Dot,
+            one.measured_median,
+            one.measured_dispersion,
+            |test| test.overturned,
+        ),
         (
             "computed",
-            dashed,
+            Pen::of_series(1).dash(Dash::Dashed),
             Marker::OpenSquare,
-            shares(|test| test.capacity_factor <= 1.0),
+            one.computed_median,
+            one.computed_dispersion,
+            |test| test.capacity_factor <= 1.0,
         ),
     ];
     let mut series = Vec::new();
-    for ((label, pen, marker, y), law) in looks.into_iter().zip(laws) {
-        series.extend(curve(label, Look::line(pen), law, last));
-        let marks = Look::marks(marker, MARK_PX, pen.ink);
+    for (label, pen, marker, median, dispersion, overturns) in kinds {
+        let law = Lognormal::try_new(0.0, libm::log(median), dispersion);
+        series.extend(law.ok().map(|law| {
+            let y = places.iter().map(|im| law.cdf(*im)).collect();
+            Series::new(label, Mark::Own(Look::line(pen)), places.clone(), y)
+        }));
+        let shares = means(&|test| f64::from(u8::from(overturns(test))));
+        let marks = Mark::Own(Look::marks(marker, MARK_PX, pen.ink));
         let label = format!("{label}, share of a class");
-        series.push(Series::new(label, Mark::Own(marks), x.clone(), y));
+        series.push(Series::new(label, marks, x.clone(), shares));
     }
     let unit = &one.unit;
     let label = format!("{} ({unit})", markup::escape(&measure(&one.im)));
@@ -163,26 +155,23 @@ pub(super) fn levels(found: &TestComparison) -> Chart {
             pgv_m_s.unwrap_or(f64::NAN) / pga_m_s2
         }
     };
-    let of = |is: bool| {
-        let tests = found.each.iter().filter(|test| test.overturned == is);
+    let mut series = Vec::new();
+    for (fell, words, marker) in [
+        (false, "stood", Marker::OpenSquare),
+        (true, "overturned", Marker::Dot),
+    ] {
+        let tests = found.each.iter().filter(|t| t.overturned == fell);
         let at = |test: &TestResult| (x(test), 1.0 / test.capacity_factor);
-        tests.map(at).unzip::<f64, f64, Vec<f64>, Vec<f64>>()
-    };
-    let [(x0, y0), (x1, y1)] = [of(false), of(true)];
-    let stood = Look::marks(Marker::OpenSquare, MARK_PX, Ink::Series(0));
-    let fell = Look::marks(Marker::Dot, MARK_PX, Ink::Series(1));
-    let mut series = vec![
-        Series::of(stood, x0, y0).labelled("stood").keyed(["stood".into()]),
-        Series::of(fell, x1, y1)
-            .labelled("overturned")
-            .keyed(["overturned".into()]),
-    ];
-    let computed = ("computed", 1.0, Pen::new(Ink::Text, 1.2));
-    let dashed = Pen::new(Ink::Muted, 1.2).dash(Dash::Dashed);
-    let measured = ("measured", found.computed.median.value(), dashed);
-    let mut lines = vec![computed];
+        let (x, y) = tests.map(at).unzip();
+        let ink = Ink::Series(usize::from(fell));
+        let marks = Look::marks(marker, MARK_PX, ink);
+        let own = Series::of(marks, x, y).labelled(words);
+        series.push(own.keyed([words.to_owned()]));
+    }
+    let mut lines = vec![("computed", 1.0, Pen::new(Ink::Text, 1.2))];
     if !found.alpha_is_fitted {
-        lines.push(measured);
+        let dashed = Pen::new(Ink::Muted, 1.2).dash(Dash::Dashed);
+        lines.push(("measured", found.computed.median.value(), dashed));
     }
     // Words at the edge stand above earlier ones.
     lines.sort_by(|a, b| a.1.total_cmp(&b.1));

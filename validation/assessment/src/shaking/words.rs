@@ -1,12 +1,14 @@
 //! A comparison with shaking-table tests in words. Each sentence is chosen
 //! by a rule on the numbers, and speaks of these tests alone.
 
+use std::cmp::Ordering;
+
 use rocking_common::words::{columns, rounded};
 use rocking_procedures::shaking::{
     DistributionComparison, Predictor, TestComparison, UnfittedMeasure,
 };
 use rocking_records::intensity::IntensityMeasure;
-use rocking_statistics::{Estimate, Interval};
+use rocking_statistics::Estimate;
 
 use crate::words::{short, symbol, three_digits};
 
@@ -20,7 +22,7 @@ pub(super) fn measure(name: &str) -> String {
 }
 
 /// A share in percent, with its interval.
-pub(super) fn share(estimate: &Estimate) -> String {
+fn share(estimate: &Estimate) -> String {
     estimate.text(" %", |x| rounded(100.0 * x, 3).to_string())
 }
 
@@ -29,29 +31,15 @@ fn level(found: &TestComparison) -> String {
     format!("{} %", rounded(100.0 * found.level, 3))
 }
 
-/// Where an interval lies beside a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Beside {
-    /// All of it below.
-    Below,
-    /// It holds the number.
-    Holds,
-    /// All of it above.
-    Above,
-    /// There is no interval.
-    Unknown,
-}
-
-impl Beside {
-    /// The place of an interval beside `x`.
-    pub(super) fn of(estimate: &Estimate, x: f64) -> Self {
-        let place = |interval: Interval| match interval {
-            i if i.high() < x => Self::Below,
-            i if i.low() > x => Self::Above,
-            _ => Self::Holds,
-        };
-        estimate.interval().map_or(Self::Unknown, place)
-    }
+/// Where an interval lies beside a number: below it, about it or above it;
+/// none without an interval.
+fn beside(estimate: &Estimate, x: f64) -> Option<Ordering> {
+    let place = |(low, high): (f64, f64)| match () {
+        () if high < x => Ordering::Less,
+        () if low > x => Ordering::Greater,
+        () => Ordering::Equal,
+    };
+    estimate.interval().map(|interval| place(interval.ends()))
 }
 
 /// The block with its slenderness.
@@ -68,103 +56,104 @@ pub(super) fn block(found: &TestComparison) -> String {
 
 /// The bias of the capacities.
 fn bias(found: &TestComparison) -> String {
-    let ratio = &found.computed.median;
-    let shown = three_digits(ratio);
     if found.alpha_is_fitted {
         return "Its slenderness was fitted to the same fates, so that \
                 measured over computed capacity has a median of 1: these \
                 tests say nothing of a bias."
             .to_owned();
     }
-    let median =
-        format!("The median of measured over computed capacity is {shown}");
-    match Beside::of(ratio, 1.0) {
-        Beside::Holds => format!("{median}: no bias is seen."),
-        Beside::Above => format!(
-            "{median}: the block overturns at lower levels than the \
-             specimen, which is on the safe side."
-        ),
-        Beside::Below => format!(
-            "{median}: the block overturns at higher levels than the \
-             specimen, which is unsafe."
-        ),
-        Beside::Unknown => format!("{median}, without an interval."),
-    }
+    let ratio = &found.computed.median;
+    let verdict = match beside(ratio, 1.0) {
+        Some(Ordering::Equal) => ": no bias is seen.",
+        Some(Ordering::Greater) => {
+            ": the block overturns at lower levels than the specimen, which \
+             is on the safe side."
+        }
+        Some(Ordering::Less) => {
+            ": the block overturns at higher levels than the specimen, \
+             which is unsafe."
+        }
+        None => ", without an interval.",
+    };
+    let shown = three_digits(ratio);
+    format!(
+        "The median of measured over computed capacity is {shown}{verdict}"
+    )
 }
 
 /// Which dispersion the model leaves out of a fragility.
 pub(super) fn left_out(one: &DistributionComparison) -> String {
-    let im = measure(&one.im);
-    let (measured, computed) =
-        (short(one.measured_dispersion), short(one.computed_dispersion));
-    let found = format!(
-        "In {im} the measured fragility has a dispersion of {measured}, the \
-         computed one of {computed}"
-    );
     let missing = three_digits(&one.missing_dispersion);
-    match Beside::of(&one.dispersion_difference, 0.0) {
-        Beside::Above => format!(
-            "{found}: the model leaves out a dispersion of {missing}, which \
-             adds by squares."
-        ),
-        Beside::Below => {
-            format!("{found}: the computed one is the wider one.")
+    let missing = format!(
+        ": the model leaves out a dispersion of {missing}, which adds by \
+         squares."
+    );
+    let verdict = match beside(&one.dispersion_difference, 0.0) {
+        Some(Ordering::Greater) => &missing,
+        Some(Ordering::Less) => ": the computed one is the wider one.",
+        Some(Ordering::Equal) => {
+            ": the interval of their difference holds 0, so that these \
+             tests do not show that the model leaves out dispersion."
         }
-        Beside::Holds => format!(
-            "{found}: the interval of their difference holds 0, so that \
-             these tests do not show that the model leaves out dispersion."
-        ),
-        Beside::Unknown => format!("{found}; there is no interval."),
-    }
+        None => "; there is no interval.",
+    };
+    format!(
+        "In {} the measured fragility has a dispersion of {}, the computed \
+         one of {}{verdict}",
+        measure(&one.im),
+        short(one.measured_dispersion),
+        short(one.computed_dispersion)
+    )
 }
 
 /// In which measures the measured fragility is wider or narrower than the
-/// computed one.
-fn widths(found: &TestComparison) -> Option<String> {
-    let of = |place: Beside, words: &str| {
-        let is = |one: &&DistributionComparison| {
-            Beside::of(&one.dispersion_difference, 0.0) == place
-        };
-        let shown = |one: &DistributionComparison| {
-            format!(
-                "{} ({} against {})",
-                measure(&one.im),
-                short(one.measured_dispersion),
-                short(one.computed_dispersion)
-            )
-        };
-        let own = found.distributions.iter().filter(is).map(shown);
-        let own: Vec<String> = own.collect();
-        (!own.is_empty()).then(|| format!("{words} in {}", own.join(", ")))
-    };
-    let parts = [
-        of(Beside::Above, "larger"),
-        of(Beside::Holds, "no difference is shown"),
-        of(Beside::Below, "smaller"),
-        of(Beside::Unknown, "without an interval"),
-    ];
-    let parts: Vec<String> = parts.into_iter().flatten().collect();
-    (!parts.is_empty()).then(|| {
+/// computed one; nothing without measures.
+fn widths(found: &TestComparison) -> String {
+    let shown = |one: &DistributionComparison| {
         format!(
-            "Dispersion of the measured against the computed fragility: {}.",
-            parts.join("; ")
+            "{} ({} against {})",
+            measure(&one.im),
+            short(one.measured_dispersion),
+            short(one.computed_dispersion)
         )
-    })
+    };
+    let mut parts = Vec::new();
+    for (place, words) in [
+        (Some(Ordering::Greater), "larger"),
+        (Some(Ordering::Equal), "no difference is shown"),
+        (Some(Ordering::Less), "smaller"),
+        (None, "without an interval"),
+    ] {
+        let own = found.distributions.iter();
+        let own =
+            own.filter(|d| beside(&d.dispersion_difference, 0.0) == place);
+        let own: Vec<String> = own.map(shown).collect();
+        if !own.is_empty() {
+            parts.push(format!("{words} in {}", own.join(", ")));
+        }
+    }
+    if parts.is_empty() {
+        return String::new();
+    }
+    format!(
+        " Dispersion of the measured against the computed fragility: {}.",
+        parts.join("; ")
+    )
 }
 
 /// The sentences that come first: share of right fates, bias, dispersion,
 /// what the model leaves out.
 pub(super) fn first(found: &TestComparison) -> String {
-    let text = format!(
+    format!(
         "A rigid block gets {} of the fates of {} shaking-table tests right. \
          {} What the model leaves out scatters the capacity by a dispersion \
-         of {}.",
+         of {}.{}",
         share(&found.computed.right),
         found.tests,
         bias(found),
         three_digits(&found.computed.dispersion),
-    );
-    widths(found).map_or(text.clone(), |widths| format!("{text} {widths}"))
+        widths(found)
+    )
 }
 
 /// The intervals in a sentence.
@@ -187,24 +176,22 @@ pub(super) fn rivals(found: &TestComparison) -> Option<String> {
     let score = |one: &Predictor| one.log_score.value();
     let best =
         found.rivals.iter().min_by(|a, b| score(a).total_cmp(&score(b)))?;
-    let (own, other) = (score(&found.computed), score(best));
-    let verdict = if own < other {
-        "the block predicts these fates better than each intensity measure \
-         alone"
-            .to_owned()
-    } else {
-        format!(
-            "{} alone predicts these fates as well as the block or better",
-            measure(&best.predictor)
-        )
+    let im = measure(&best.predictor);
+    let verdict = match score(&found.computed) < score(best) {
+        true => {
+            "the block predicts these fates better than each intensity \
+                 measure alone"
+        }
+        false => &format!(
+            "{im} alone predicts these fates as well as the block or better"
+        ),
     };
     Some(format!(
-        "By the mean log score {verdict}: {} for the block, {} for {}, the \
+        "By the mean log score {verdict}: {} for the block, {} for {im}, the \
          best measure. Small is good; each probability is of a fit without \
          the motion of its test.",
         three_digits(&found.computed.log_score),
         three_digits(&best.log_score),
-        measure(&best.predictor),
     ))
 }
 
@@ -224,26 +211,25 @@ pub(super) fn unfitted(found: &TestComparison) -> Vec<String> {
 /// How well tests repeat themselves.
 pub(super) fn repeatability(found: &TestComparison) -> Vec<String> {
     let own = &found.repeatability;
+    let (pairs, different) = (own.pairs, own.different);
+    let (mixed, not_monotone) = (own.mixed_motions, own.not_monotone);
     let mut all = Vec::new();
-    if own.pairs > 0 {
+    if pairs > 0 {
         all.push(format!(
-            "{} of {} pairs of tests of one motion whose PGA differ by 5 % \
-             or less have different fates.",
-            own.different, own.pairs
+            "{different} of {pairs} pairs of tests of one motion whose PGA \
+             differ by 5 % or less have different fates."
         ));
     }
-    if own.mixed_motions > 0 {
+    if mixed > 0 {
         all.push(format!(
-            "{} of {} motions with both fates overturned the specimen at a \
-             lower PGA than one at which it stood.",
-            own.not_monotone, own.mixed_motions
+            "{not_monotone} of {mixed} motions with both fates overturned \
+             the specimen at a lower PGA than one at which it stood."
         ));
     }
-    if let Some(dispersion) = own.dispersion {
+    if let Some(dispersion) = own.dispersion.map(short) {
         all.push(format!(
-            "Within a motion the capacity has a dispersion of {}, which is \
-             biased low: each motion has a median of its own.",
-            short(dispersion)
+            "Within a motion the capacity has a dispersion of {dispersion}, \
+             which is biased low: each motion has a median of its own."
         ));
     }
     all
@@ -285,26 +271,27 @@ pub(super) fn below(found: &TestComparison) -> String {
     )
 }
 
-pub(super) fn predictor_heads(found: &TestComparison) -> Vec<String> {
-    let level = level(found);
-    [
-        "Predictor".to_owned(),
-        format!("Fates right ({level})"),
-        "Median: measured over computed capacity, or intensity".to_owned(),
-        "Dispersion".to_owned(),
-        "Area under the ROC curve".to_owned(),
-        "Mean log score".to_owned(),
-        "Log-likelihood".to_owned(),
-    ]
-    .into()
-}
+/// A table: its heads, and its rows cell by cell.
+pub(super) type TestsTable = (Vec<String>, Vec<Vec<String>>);
 
-/// The block and the measures, cell by cell.
-pub(super) fn predictors(found: &TestComparison) -> Vec<Vec<String>> {
-    let row = |(name, unit, one): (String, &str, &Predictor)| {
+/// The block and the measures.
+pub(super) fn predictors(found: &TestComparison) -> TestsTable {
+    let heads = [
+        "Predictor",
+        &format!("Fates right ({})", level(found)),
+        "Median: measured over computed capacity, or intensity",
+        "Dispersion",
+        "Area under the ROC curve",
+        "Mean log score",
+        "Log-likelihood",
+    ];
+    let row = |one: &Predictor| {
+        // The block is no measure.
+        let im = one.predictor.parse::<IntensityMeasure>();
+        let unit = im.as_ref().map_or("", IntensityMeasure::unit);
         let gap = if unit.is_empty() { "" } else { " " };
         vec![
-            name,
+            im.map_or_else(|_| BLOCK.to_owned(), |im| symbol(&im)),
             share(&one.right),
             one.median.text(&format!("{gap}{unit}"), short),
             three_digits(&one.dispersion),
@@ -313,17 +300,13 @@ pub(super) fn predictors(found: &TestComparison) -> Vec<Vec<String>> {
             rounded(one.log_likelihood, 4).to_string(),
         ]
     };
-    let own = (BLOCK.to_owned(), "", &found.computed);
-    let rivals = found.rivals.iter().map(|one| {
-        let im = one.predictor.parse::<IntensityMeasure>();
-        let unit = im.map_or("", |im| im.unit());
-        (measure(&one.predictor), unit, one)
-    });
-    std::iter::once(own).chain(rivals).map(row).collect()
+    let all = std::iter::once(&found.computed).chain(&found.rivals);
+    (heads.map(str::to_owned).into(), all.map(row).collect())
 }
 
-pub(super) fn fragility_heads() -> Vec<String> {
-    [
+/// The measured and computed fragilities.
+pub(super) fn fragilities(found: &TestComparison) -> TestsTable {
+    let heads = [
         "Intensity measure",
         "Measured median",
         "Computed median",
@@ -332,13 +315,7 @@ pub(super) fn fragility_heads() -> Vec<String> {
         "Computed dispersion",
         "Difference of the dispersions",
         "Dispersion left out by the model",
-    ]
-    .map(str::to_owned)
-    .into()
-}
-
-/// The fragilities, cell by cell.
-pub(super) fn fragilities(found: &TestComparison) -> Vec<Vec<String>> {
+    ];
     let row = |one: &DistributionComparison| {
         vec![
             measure(&one.im),
@@ -351,62 +328,67 @@ pub(super) fn fragilities(found: &TestComparison) -> Vec<Vec<String>> {
             three_digits(&one.missing_dispersion),
         ]
     };
-    found.distributions.iter().map(row).collect()
+    let rows = found.distributions.iter().map(row).collect();
+    (heads.map(str::to_owned).into(), rows)
 }
 
 /// Log-likelihoods of four fits, by what they say of the onset.
-pub(super) fn onsets(found: &TestComparison) -> Vec<Vec<String>> {
+pub(super) fn onsets(found: &TestComparison) -> TestsTable {
     let own = &found.onset;
-    let shown = |x: Option<f64>| match x {
-        Some(x) => rounded(x, 4).to_string(),
-        None => "no fit".to_owned(),
-    };
-    let row = |what: &str, x| vec![what.to_owned(), shown(x)];
-    vec![
-        row("scatter on the whole computed capacity", own.whole),
-        row("scatter on the part above the onset", own.above),
-        row("fragility in PGA from 0", own.pga_unshifted),
-        row("fragility in PGA from the onset", own.pga_shifted),
-    ]
+    let rows = [
+        ("scatter on the whole computed capacity", own.whole),
+        ("scatter on the part above the onset", own.above),
+        ("fragility in PGA from 0", own.pga_unshifted),
+        ("fragility in PGA from the onset", own.pga_shifted),
+    ];
+    let rows = rows.map(|(fit, x)| {
+        let shown =
+            x.map_or("no fit".to_owned(), |x| rounded(x, 4).to_string());
+        vec![fit.to_owned(), shown]
+    });
+    (["Fit", "Log-likelihood"].map(str::to_owned).into(), rows.into())
 }
 
 /// What the terminal shows.
-pub(super) fn text(found: &TestComparison) -> String {
-    let mut text = format!("{}\n\n", first(found));
-    text += &format!("Block: {}.\n", block(found));
-    text += &format!("{}\n\n", counts(found));
-    let heads = predictor_heads(found);
-    for (k, head) in heads.iter().enumerate() {
-        text += &format!("[{}] {head}\n", k + 1);
-    }
-    text += &format!("\n{}\n", columns(&predictors(found), |_| false));
-    let other = found.distributions.iter().map(left_out);
-    let last = [Some(below(found)), resurrected(found)];
-    let all = rivals(found).into_iter().chain(other);
-    let all = all.chain(unfitted(found)).chain(repeatability(found));
-    for line in all.chain(last.into_iter().flatten()) {
-        text += &format!("{line}\n");
-    }
-    text + &intervals(found) + "\n"
+#[must_use]
+pub fn text(found: &TestComparison) -> String {
+    let (heads, rows) = predictors(found);
+    let mut lines = vec![
+        first(found),
+        String::new(),
+        format!("Block: {}.", block(found)),
+        counts(found),
+        String::new(),
+    ];
+    let heads = heads.iter().zip(1..);
+    lines.extend(heads.map(|(head, k)| format!("[{k}] {head}")));
+    lines.push(format!("\n{}", columns(&rows, |_| false)));
+    lines.extend(rivals(found));
+    lines.extend(found.distributions.iter().map(left_out));
+    lines.extend(unfitted(found));
+    lines.extend(repeatability(found));
+    lines.push(below(found));
+    lines.extend(resurrected(found));
+    lines.push(intervals(found));
+    lines.join("\n") + "\n"
 }
 
-/// The tests in a sentence.
+/// The tests in sentences.
 pub(super) fn counts(found: &TestComparison) -> String {
+    let (unknown, never) = (found.unknown, found.never_overturned);
     let mut text = format!(
         "{} tests of {} motions; {} overturned the specimen.",
         found.tests, found.motions, found.overturned
     );
-    if found.unknown > 0 {
-        text += &format!(
-            " {} more have an unknown fate and are left out.",
-            found.unknown
-        );
+    if unknown > 0 {
+        text +=
+            &format!(" {unknown} more have an unknown fate and are left out.");
     }
-    if found.never_overturned > 0 {
+    if never > 0 {
         text += &format!(
-            " In {} of the tests the motion does not overturn the block at \
-             any level that was run; the last level counts as their capacity.",
-            found.never_overturned
+            " In {never} of the tests the motion does not overturn the block \
+             at any level that was run; the last level counts as their \
+             capacity."
         );
     }
     text

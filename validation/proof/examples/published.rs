@@ -12,7 +12,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use rocking::accelerogram::Accelerogram;
-use rocking_proof::published::{HEADER, PublishedLaw, PublishedResponses};
+use rocking_proof::published::{PublishedLaw, PublishedValue, statistics};
 use rocking_records::{ReadOptions, Suite};
 
 fn main() -> Result<()> {
@@ -24,12 +24,15 @@ fn main() -> Result<()> {
         [ordinary, pulse] => [read(ordinary)?, read(pulse)?],
         _ => bail!("expected ORDINARY and PULSE, or nothing"),
     };
-    println!("{HEADER}");
+    println!("suite,law,quantity,p_rad_s,motions,value");
     for (name, motions) in ["ordinary", "pulse"].into_iter().zip(suites) {
-        let responses = PublishedResponses::of(&motions)?;
         for law in PublishedLaw::ALL {
-            for value in responses.statistics(law, None)? {
-                println!("{name},{value}");
+            for value in statistics(law, &motions, None)? {
+                let PublishedValue { quantity, p_rad_s, motions, value } =
+                    value;
+                println!(
+                    "{name},{law},{quantity},{p_rad_s},{motions},{value:.4}"
+                );
             }
         }
     }

@@ -1,39 +1,29 @@
 //! Published laws of rocking, computed from motions. One function serves the
 //! embedded suites and, through `examples/published.rs`, recorded ones.
 
-use std::fmt;
-
-use anyhow::{Context as _, Result, bail};
+use anyhow::Result;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{self, Analysis, Batch, Grid};
+use rocking::ida::{self, Analysis, Batch, Grid, IdaCurve};
 use rocking::names::named;
-use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_records::intensity::{Measures, Settings};
 use rocking_statistics::{ExtendedSample, QuantileType};
 
 use crate::cases::WrongModel;
 
 named! {
-    /// A law that a source states, or that follows from its argument.
+    /// A law that a source states.
     pub enum PublishedLaw: "published law" {
         /// Similar blocks have the same top displacement.
         EqualDisplacement = "equal-displacement",
-        /// Of two similar blocks the larger is the more stable.
-        ScaleEffect = "scale-effect",
         /// Overturning has a lower limit in velocity.
         VelocityLimit = "velocity-limit",
-        /// Half of the motions overturn where Sa(2 pi/p) = g tan(alpha).
-        EnergyEstimate = "energy-estimate",
     }
 }
 
 /// A statistic over the motions of a suite; all ratios.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PublishedValue {
-    /// The law.
-    pub law: PublishedLaw,
     /// Name of the statistic.
     pub quantity: String,
     /// Frequency parameter in rad/s; of the smaller block, where two are
@@ -45,49 +35,10 @@ pub struct PublishedValue {
     pub value: f64,
 }
 
-impl fmt::Display for PublishedValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { law, quantity, p_rad_s, motions, value } = self;
-        let law = law.name();
-        write!(f, "{law},{quantity},{p_rad_s},{motions},{value:.4}")
+impl PublishedValue {
+    fn of(quantity: String, p_rad_s: f64, of: &[f64], value: f64) -> Self {
+        Self { quantity, p_rad_s, motions: of.len(), value }
     }
-}
-
-/// Statistics of the recorded suites, which are not in the project.
-const RECORDED: &str = rocking_fixtures::text("comparison/published.csv");
-
-/// Columns of `fixtures/comparison/published.csv`.
-pub const HEADER: &str = "suite,law,quantity,p_rad_s,motions,value";
-
-/// The kept statistics of a law under a recorded suite, `ordinary` or `pulse`.
-///
-/// # Errors
-/// If the table is not of the expected form: it is compiled in.
-pub fn recorded(
-    law: PublishedLaw,
-    suite: &str,
-) -> Result<Vec<PublishedValue>> {
-    let mut lines = RECORDED.lines();
-    if lines.next() != Some(HEADER) {
-        bail!("published.csv: expected the columns {HEADER}");
-    }
-    let mut kept = Vec::new();
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let [of, name, quantity, p, motions, value] = cells[..] else {
-            bail!("published.csv: expected six cells, found `{line}`");
-        };
-        if of == suite && name == law.name() {
-            kept.push(PublishedValue {
-                law,
-                quantity: quantity.into(),
-                p_rad_s: p.parse().context("p_rad_s")?,
-                motions: motions.parse().context("motions")?,
-                value: value.parse().context("value")?,
-            });
-        }
-    }
-    Ok(kept)
 }
 
 /// Sizes brought to overturning: each block is four times the next.
@@ -105,151 +56,97 @@ const ALPHA: f64 = 0.15;
 /// theta/alpha from which a block is close to overturning.
 const CLOSE: f64 = 0.3;
 
-/// How blocks answer the motions of a suite. Restitution is 0.92; alpha is
-/// 0.15 for displacements and 0.1 for overturning.
-#[derive(Clone, Debug)]
-pub struct PublishedResponses {
-    /// Peak theta/alpha by level, size and motion.
-    tilts: Vec<Vec<Vec<f64>>>,
-    /// PGA/(g tan alpha) at the first overturning, by size and motion.
-    overturning: Vec<Vec<f64>>,
-    /// Undamped and with 5 % of damping, by motion, all over PGA: spectral
-    /// acceleration at 2 pi/p by size, then PGV, in s.
-    over_pga: [Vec<Vec<f64>>; 2],
+/// The statistics of a law under motions, or what a wrong model makes of
+/// them. Restitution is 0.92; alpha is 0.15 for displacements and 0.1 for
+/// overturning.
+///
+/// # Errors
+/// For motions that cannot be analysed, or of which none counts.
+pub fn statistics(
+    law: PublishedLaw,
+    motions: &[Accelerogram],
+    wrong: Option<WrongModel>,
+) -> Result<Vec<PublishedValue>> {
+    let records: Vec<NormalisedRecord> =
+        motions.iter().map(NormalisedRecord::new).collect();
+    match law {
+        PublishedLaw::EqualDisplacement => displacements(&records, wrong),
+        PublishedLaw::VelocityLimit => {
+            let of = |own: &Accelerogram| own.pgv_g_s() / own.pga_g();
+            let pgv_over_pga_s: Vec<f64> = motions.iter().map(of).collect();
+            velocities(&records, &pgv_over_pga_s, wrong)
+        }
+    }
 }
 
-impl PublishedResponses {
-    /// Of the motions of a suite.
-    ///
-    /// # Errors
-    /// For motions that cannot be analysed.
-    pub fn of(motions: &[Accelerogram]) -> Result<Self> {
-        let records: Vec<NormalisedRecord> =
-            motions.iter().map(NormalisedRecord::new).collect();
-        let tilts = |im: f64, p: f64| {
+/// Ratios of the displacements of similar blocks.
+fn displacements(
+    records: &[NormalisedRecord],
+    wrong: Option<WrongModel>,
+) -> Result<Vec<PublishedValue>> {
+    let mut found = Vec::new();
+    for im in LEVELS {
+        let tilts = |p: f64| {
             let analysis = analysis(ALPHA, p)?;
             let one = |record| {
                 anyhow::Ok(ida::demand_at(record, &analysis, im)?.edp())
             };
             records.iter().map(one).collect::<Result<Vec<f64>>>()
         };
-        let level =
-            |im: f64| SIMILAR_RAD_S.iter().map(|p| tilts(im, *p)).collect();
-        let tilts: Result<Vec<_>> =
-            LEVELS.iter().map(|im| level(*im)).collect();
-        let grid = Grid::Im { step: 0.05 };
-        let of_size =
-            |p: &f64| anyhow::Ok(Analysis { grid, ..analysis(0.1, *p)? });
-        let analyses: Result<Vec<Analysis>> =
-            SIZES_RAD_S.iter().map(of_size).collect();
-        let analyses = analyses?;
-        let curves = ida::curves(&records, &analyses, &Batch::default())?;
-        let im = |curve: ida::IdaCurve| {
-            curve.overturning.map_or(f64::INFINITY, |first| first.im())
-        };
-        let row = |row: Vec<ida::IdaCurve>| row.into_iter().map(im).collect();
-        let overturning = curves.into_iter().map(row).collect();
-        let periods = SIZES_RAD_S.map(|p| 2.0 * std::f64::consts::PI / p);
-        let measured = |damping| {
-            let gravity = STANDARD_GRAVITY_M_S2;
-            let with = Settings::try_new(gravity, damping, periods.to_vec())?;
-            let one = |motion| {
-                let of = Measures::of(motion, &with)?;
-                let spectrum = of.spectral_acceleration_g.iter().copied();
-                let all = spectrum.chain([of.pgv_m_s / gravity]);
-                anyhow::Ok(all.map(|measure| measure / of.pga_g).collect())
+        let large = tilts(SIMILAR_RAD_S[0])?;
+        for p in SIMILAR_RAD_S.into_iter().skip(1) {
+            let count = |edp: &f64| *edp > 0.0 && *edp < CLOSE;
+            let pairs = tilts(p)?.into_iter().zip(&large);
+            let pairs = pairs.filter(|(a, b)| count(a) && count(b));
+            let ratio = |(a, b): (f64, &f64)| match wrong {
+                Some(WrongModel::TiltForDisplacement) => a / b,
+                _ => top(a) / top(*b) / (p * p),
             };
-            motions.iter().map(one).collect::<Result<Vec<_>>>()
-        };
-        let over_pga = [measured(0.0)?, measured(0.05)?];
-        Ok(Self { tilts: tilts?, overturning, over_pga })
+            let all: Vec<f64> = pairs.map(ratio).collect();
+            for (name, share) in
+                [("low", 0.16), ("median", 0.5), ("high", 0.84)]
+            {
+                let name = format!("{name}-at-im-{im}");
+                let value = quantile(&all, share)?;
+                found.push(PublishedValue::of(name, p, &all, value));
+            }
+        }
     }
+    Ok(found)
+}
 
-    /// The statistics of a law, or what a wrong model makes of them.
-    ///
-    /// # Errors
-    /// For a suite without motions that count.
-    pub fn statistics(
-        &self,
-        law: PublishedLaw,
-        wrong: Option<WrongModel>,
-    ) -> Result<Vec<PublishedValue>> {
-        let mut found = Vec::new();
-        let mut add = |quantity: String, p_rad_s, of: &[f64], value| {
-            let motions = of.len();
-            let one =
-                PublishedValue { law, quantity, p_rad_s, motions, value };
-            found.push(one);
+/// p PGV/(g tan alpha) at the first overturning, with the ratio of the
+/// largest to the smallest lower tail of the sizes so far.
+fn velocities(
+    records: &[NormalisedRecord],
+    pgv_over_pga_s: &[f64],
+    wrong: Option<WrongModel>,
+) -> Result<Vec<PublishedValue>> {
+    let mut found = Vec::new();
+    let mut tails = [f64::INFINITY, 0.0_f64];
+    let grid = Grid::Im { step: 0.05 };
+    for p in SIZES_RAD_S {
+        let analysis = Analysis { grid, ..analysis(0.1, p)? };
+        let curves = ida::curves(records, &[analysis], &Batch::default())?;
+        let im = |curve: &IdaCurve| match (wrong, curve.overturning) {
+            (Some(WrongModel::UpliftForOverturning), _) => 1.0,
+            (_, first) => first.map_or(f64::INFINITY, |first| first.im()),
         };
-        if law == PublishedLaw::EqualDisplacement {
-            for (im, tilts) in LEVELS.iter().zip(&self.tilts) {
-                let [large, smaller @ ..] = tilts.as_slice() else { continue };
-                for (p, small) in SIMILAR_RAD_S[1..].iter().zip(smaller) {
-                    let pairs = small.iter().zip(large);
-                    let count = |edp: &f64| *edp > 0.0 && *edp < CLOSE;
-                    let pairs = pairs.filter(|(a, b)| count(a) && count(b));
-                    let ratio = |(a, b): (&f64, &f64)| match wrong {
-                        Some(WrongModel::TiltForDisplacement) => a / b,
-                        _ => top(*a) / top(*b) / (p * p),
-                    };
-                    let all: Vec<f64> = pairs.map(ratio).collect();
-                    for (name, share) in
-                        [("low", 0.16), ("median", 0.5), ("high", 0.84)]
-                    {
-                        let value = quantile(&all, share)?;
-                        add(format!("{name}-at-im-{im}"), *p, &all, value);
-                    }
-                }
-            }
-            return Ok(found);
+        let ims = curves.iter().flatten().map(im);
+        let all = ims.zip(pgv_over_pga_s).map(|(im, pgv)| p * (im * pgv));
+        let all: Vec<f64> = all.collect();
+        let tail = quantile(&all, 0.05)?;
+        tails = [tails[0].min(tail), tails[1].max(tail)];
+        for (name, value) in [
+            (format!("least-at-p-{p}"), quantile(&all, 0.0)?),
+            (format!("tail-at-p-{p}"), tail),
+            (format!("median-at-p-{p}"), quantile(&all, 0.5)?),
+            ("tails".to_owned(), tails[1] / tails[0]),
+        ] {
+            found.push(PublishedValue::of(name, p, &all, value));
         }
-        let ims = |k: usize| match wrong {
-            Some(WrongModel::UpliftForOverturning) => {
-                vec![1.0; self.overturning[k].len()]
-            }
-            _ => self.overturning[k].clone(),
-        };
-        let mut tails = [f64::INFINITY, 0.0_f64];
-        for (k, p) in SIZES_RAD_S.into_iter().enumerate() {
-            let mut at = |name: &str, all: &[f64], value| {
-                add(format!("{name}-at-p-{p}"), p, all, value);
-            };
-            let scaled = |damped: usize, measure: usize| -> Vec<f64> {
-                let pairs = ims(k).into_iter().zip(&self.over_pga[damped]);
-                pairs.map(|(im, motion)| im * motion[measure]).collect()
-            };
-            match law {
-                PublishedLaw::EnergyEstimate => {
-                    for (damped, name) in
-                        ["undamped", "damped"].iter().enumerate()
-                    {
-                        let all = scaled(damped, k);
-                        at(name, &all, quantile(&all, 0.5)?);
-                    }
-                }
-                PublishedLaw::VelocityLimit => {
-                    let pgv = scaled(0, SIZES_RAD_S.len());
-                    let all: Vec<f64> = pgv.iter().map(|v| p * v).collect();
-                    let tail = quantile(&all, 0.05)?;
-                    tails = [tails[0].min(tail), tails[1].max(tail)];
-                    at("least", &all, quantile(&all, 0.0)?);
-                    at("tail", &all, tail);
-                    at("median", &all, quantile(&all, 0.5)?);
-                    add("tails".into(), p, &all, tails[1] / tails[0]);
-                }
-                _ if k == 0 => {}
-                _ => {
-                    let pairs = ims(k - 1).into_iter().zip(ims(k));
-                    let all: Vec<f64> = pairs.map(|(a, b)| a / b).collect();
-                    let more = all.iter().filter(|ratio| **ratio > 1.0);
-                    let share = more.count() as f64 / all.len() as f64;
-                    at("median", &all, quantile(&all, 0.5)?);
-                    at("share", &all, share);
-                }
-            }
-        }
-        Ok(found)
     }
+    Ok(found)
 }
 
 fn quantile(values: &[f64], share: f64) -> Result<f64> {

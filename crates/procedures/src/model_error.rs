@@ -42,9 +42,7 @@ pub struct ModelErrorFault {
 ///
 /// ```
 /// use rocking_procedures::ModelError;
-/// let usual = ModelError::default();
-/// assert_eq!(usual, ModelError::unfitted());
-/// assert!(usual.to_string().starts_with(
+/// assert!(ModelError::default().to_string().starts_with(
 ///     "model bias 1 (0.77 to 1.3), model dispersion 0.2 (0 to 0.25)"
 /// ));
 /// let own = ModelError::none()
@@ -63,8 +61,9 @@ pub struct ModelError {
 }
 
 impl Default for ModelError {
+    /// Of an object that was not tested.
     fn default() -> Self {
-        Self::unfitted()
+        Self::measured(0.77, 1.3)
     }
 }
 
@@ -82,12 +81,6 @@ impl ModelError {
         Self::measured(0.94, 1.06)
     }
 
-    /// Of an object that was not tested.
-    #[must_use]
-    pub fn unfitted() -> Self {
-        Self::measured(0.77, 1.3)
-    }
-
     /// The bias, with its range if it has one.
     pub fn bias(&self) -> &Estimate {
         &self.bias
@@ -100,11 +93,7 @@ impl ModelError {
 
     fn measured(low: f64, high: f64) -> Self {
         let of = |value, low, high| {
-            let interval = Interval::try_new(low, high).ok();
-            let found = interval.and_then(|interval| {
-                Estimate::try_new(value, interval, Range::NotNegative).ok()
-            });
-            found.unwrap_or(Estimate::exact(value))
+            ranged(value, low, high).unwrap_or(Estimate::exact(value))
         };
         Self { bias: of(1.0, low, high), dispersion: of(0.2, 0.0, 0.25) }
     }
@@ -166,6 +155,11 @@ impl ModelError {
     }
 }
 
+fn ranged(value: f64, low: f64, high: f64) -> Option<Estimate> {
+    let interval = Interval::try_new(low, high).ok()?;
+    Estimate::try_new(value, interval, Range::NotNegative).ok()
+}
+
 /// A value, alone or with its range.
 fn part(
     text: &str,
@@ -176,15 +170,11 @@ fn part(
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     let found = match numbers.as_deref() {
         Some([value]) => Some(Estimate::exact(*value)),
-        Some([value, low, high]) => {
-            Interval::try_new(*low, *high).ok().and_then(|interval| {
-                Estimate::try_new(*value, interval, Range::NotNegative).ok()
-            })
-        }
+        Some([value, low, high]) => ranged(*value, *low, *high),
         _ => None,
     };
-    let found_text = || text.to_owned();
-    found.ok_or_else(|| ModelErrorFault { found: found_text(), expected })
+    let refused = || ModelErrorFault { found: text.to_owned(), expected };
+    found.ok_or_else(refused)
 }
 
 impl fmt::Display for ModelError {
@@ -192,7 +182,7 @@ impl fmt::Display for ModelError {
         let text = |of: &Estimate| of.text("", |x| x.to_string());
         let (bias, dispersion) = (text(&self.bias), text(&self.dispersion));
         write!(f, "model bias {bias}, model dispersion {dispersion}")?;
-        let measured = [Self::fitted(), Self::unfitted()].contains(self);
+        let measured = [Self::fitted(), Self::default()].contains(self);
         if measured { write!(f, ", from {SOURCE}") } else { Ok(()) }
     }
 }
@@ -218,8 +208,8 @@ impl BootstrapFits {
         if error.is_none() {
             return self;
         }
-        let seed = self.basis.draws.seed;
-        let streams = Streams::new(&format!("model error/{name}"), seed);
+        let name = format!("model error/{name}");
+        let streams = Streams::new(&name, self.basis.draws.seed);
         for (fitted, index) in self.fitted.iter_mut().zip(0..) {
             let mut stream = streams.stream(index);
             let [u, v] = [stream.uniform(), stream.uniform()];
@@ -259,7 +249,7 @@ mod tests {
     #[test]
     fn draws_are_even_on_either_side_of_the_value() {
         let streams = Streams::new("test", 0);
-        let error = ModelError::unfitted();
+        let error = ModelError::default();
         let all = (0..4000).map(|k| streams.stream(k).uniform());
         let all: Vec<f64> = all.collect();
         for (of, range, ends) in [

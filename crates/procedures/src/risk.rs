@@ -60,13 +60,6 @@ pub struct FragilityInput {
 }
 
 impl FragilityInput {
-    /// A fragility that counts as known.
-    #[must_use]
-    pub fn known(name: &str, fitted: Lognormal) -> Self {
-        let fitted = fitted.into();
-        Self { fragility: name.to_owned(), fitted, sampled: None }
-    }
-
     /// A fragility of records, and what the draws of its sample make of it,
     /// with the error of the model; the name is that of the stream from which
     /// the draws get their errors.
@@ -169,12 +162,14 @@ pub enum RiskError {
 ///
 /// ```
 /// use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
-/// use rocking_procedures::{FragilityInput, risk};
+/// use rocking_procedures::{FragilityInput, ModelError, risk};
 /// use rocking_statistics::Lognormal;
 /// let text = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
 /// let hazard = Hazard::parse("h.csv", text, &HazardOptions::default())?;
 /// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
-/// let found = risk(&hazard, &[FragilityInput::known("block", fragility)], 50.0)?;
+/// let known = (fragility, None);
+/// let own = FragilityInput::with("block".into(), known, &ModelError::none())?;
+/// let found = risk(&hazard, &[own], 50.0)?;
 /// // Cornell's closed form for H = 1e-4 x^-2, median 1, dispersion 0.5.
 /// let cornell = 1e-4 * 0.5f64.exp();
 /// let row = &found.fragilities[0];
@@ -294,8 +289,9 @@ mod tests {
                     .collect(),
             };
             let one = FragilityInput {
+                fragility: "block".into(),
+                fitted: beyond.into(),
                 sampled: Some(sampled),
-                ..FragilityInput::known("block", beyond)
             };
             let found = risk(&hazard, &[one], 50.0).unwrap();
             let found = found.fragilities[0].sampling.clone()?;

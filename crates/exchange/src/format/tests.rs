@@ -367,7 +367,7 @@ fn a_description_does_not_grow_with_the_number_of_blocks() {
 #[test]
 fn the_error_of_the_model_is_in_every_format() {
     let with = |shift| BlockFragility {
-        model_error: ModelError::unfitted(),
+        model_error: ModelError::default(),
         ..one(Intensity::Pga, shift)
     };
     let text =

@@ -5,7 +5,6 @@
 //! draws: the unit of every interval is the motion.
 
 mod capacities;
-mod distribution;
 mod error;
 mod fates;
 mod numbers;

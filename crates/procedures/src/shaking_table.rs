@@ -2,10 +2,10 @@
 //! each test.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use rocking::accelerogram::{Accelerogram, AccelerogramError};
 use rocking_records::{Processing, SuiteError, SuiteMember};
+use thiserror::Error;
 
 use crate::shaking::{ShakingTest, TestFate};
 
@@ -23,25 +23,22 @@ const MOST_SHOWN: usize = 200;
 const FATES: &str = "overturned, stood or unknown, or 1, 0 or an empty cell";
 
 /// All faults of a table of tests, in the order of its lines.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}", shown(faults))]
 pub struct TestTableError {
     /// The faults, at least one: file, line, what was found and what was
     /// expected.
     pub faults: Vec<String>,
 }
 
-impl fmt::Display for TestTableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = &self.faults[..self.faults.len().min(MOST_SHOWN)];
-        f.write_str(&shown.join("\n"))?;
-        match self.faults.len() - shown.len() {
-            0 => Ok(()),
-            more => write!(f, "\nand {more} faults more"),
-        }
+fn shown(faults: &[String]) -> String {
+    let (first, more) = faults.split_at(faults.len().min(MOST_SHOWN));
+    let mut text = first.join("\n");
+    if !more.is_empty() {
+        text += &format!("\nand {} faults more", more.len());
     }
+    text
 }
-
-impl std::error::Error for TestTableError {}
 
 impl TestFate {
     /// The fate that a cell of a table states: a name, `1` or `0`, or
@@ -147,70 +144,61 @@ impl TestTable<'_> {
     /// The columns that the table lacks: each row has all columns.
     fn missing(&self, member: &SuiteMember) -> Vec<String> {
         let cells = member.attributes_by_name();
-        let has_motion =
-            member.event.is_some() || cells.contains_key(MOTION_COLUMN);
-        let fates = format!("the fate of each test, {FATES}");
-        let motions = "the motion that each test repeats, in a column \
-                       `event` or `motion`; a test of its own motion has its \
-                       own name there";
-        let columns = [
-            (cells.contains_key(self.fate), self.fate, fates.as_str()),
-            (has_motion, "event", motions),
-        ];
-        let lacking = columns.iter().filter(|(is_there, ..)| !is_there);
-        let fault = |(_, column, expected): &(bool, &str, &str)| {
-            format!(
-                "{}: found no column {column:?}: expected {expected}",
-                self.path
-            )
+        let has = |name: &str| cells.contains_key(name);
+        let mut faults = Vec::new();
+        let mut lacks = |column: &str, expected: &str| {
+            let path = self.path;
+            faults.push(format!(
+                "{path}: found no column {column:?}: expected {expected}"
+            ));
         };
-        lacking.map(fault).collect()
+        if !has(self.fate) {
+            lacks(self.fate, &format!("the fate of each test, {FATES}"));
+        }
+        if member.event.is_none() && !has(MOTION_COLUMN) {
+            lacks(
+                "event",
+                "the motion that each test repeats, in a column `event` or \
+                 `motion`; a test of its own motion has its own name there",
+            );
+        }
+        faults
     }
 
     /// The test of a row, or the faults of the row.
     fn test(&self, member: &SuiteMember) -> Result<ShakingTest, Vec<String>> {
         let cells = member.attributes_by_name();
         let cell = |name: &str| cells.get(name).map(String::as_str);
-        let fate_cell = cell(self.fate).unwrap_or_default();
+        let mut faults = Vec::new();
+        let mut refuse = |column: &str, found: &str, expected: &str| {
+            faults.push(format!(
+                "column {column}: found {found:?}: expected {expected}"
+            ));
+        };
+        let stated = cell(self.fate).unwrap_or_default();
+        let fate = TestFate::of_cell(stated);
+        if fate.is_none() {
+            refuse(self.fate, stated, FATES);
+        }
         let motion = cell(MOTION_COLUMN).unwrap_or_default();
         let motion = member.event.as_deref().unwrap_or(motion);
-        let scale_cell = cell(SCALE_COLUMN).unwrap_or("1");
-        let (fate, scale) =
-            (TestFate::of_cell(fate_cell), positive(scale_cell));
-        let stated = [
-            (fate.is_some(), self.fate, fate_cell, FATES),
-            (
-                !motion.is_empty(),
-                MOTION_COLUMN,
-                motion,
-                "the motion that the test repeats",
-            ),
-            (
-                scale.is_some(),
-                SCALE_COLUMN,
-                scale_cell,
-                "a positive factor on the motion",
-            ),
-        ];
-        let wrong = stated.iter().filter(|(is_right, ..)| !is_right);
-        let faults: Vec<String> = wrong
-            .map(|(_, column, found, expected)| {
-                format!(
-                    "column {column}: found {found:?}: expected {expected}"
-                )
-            })
-            .collect();
-        let (Some(fate), Some(scale), true) = (fate, scale, faults.is_empty())
-        else {
+        if motion.is_empty() {
+            refuse(MOTION_COLUMN, motion, "the motion that the test repeats");
+        }
+        let stated = cell(SCALE_COLUMN).unwrap_or("1");
+        let scale = positive(stated);
+        if scale.is_none() {
+            refuse(SCALE_COLUMN, stated, "a positive factor on the motion");
+        }
+        let (Some(fate), Some(scale), []) = (fate, scale, &faults[..]) else {
             return Err(faults);
         };
         let processed = self.processing.apply(&member.accelerogram);
         let processed = processed.map_err(|error| vec![error.to_string()])?;
         let record = scaled(&processed, scale)
             .map_err(|error| vec![error.to_string()])?;
-        let (motion, columns) =
-            (motion.to_owned(), ShakingTest::columns(&cells));
-        Ok(ShakingTest { record, motion, fate, columns })
+        let columns = ShakingTest::columns(&cells);
+        Ok(ShakingTest { record, motion: motion.to_owned(), fate, columns })
     }
 }
 

@@ -9,9 +9,7 @@ use super::{
 use libm::{exp, log};
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{
-    Analysis, Batch, Grid, IdaCurve, REFINEMENT, curves, demand_at,
-};
+use rocking::ida::{Analysis, Batch, Grid, REFINEMENT, curves, demand_at};
 use rocking::integrator::uplift_threshold;
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
 
@@ -90,9 +88,7 @@ impl<'a> TestRecords<'a> {
         let threshold = uplift_threshold(&block, self.options.model);
         let tests = self.tests.iter().zip(&self.intensities);
         let tests = tests.zip(made.iter().flatten());
-        let result = |((test, intensities), curve): (_, &IdaCurve)| {
-            let (test, intensities): (&&ShakingTest, &Vec<f64>) =
-                (test, intensities);
+        let tests = tests.map(|((test, intensities), curve)| {
             let last = curve.points.last().map_or(1.0, |point| point.im);
             let im = curve.overturning.map_or(last, |first| first.im());
             TestResult {
@@ -106,9 +102,9 @@ impl<'a> TestRecords<'a> {
                 probability: f64::NAN,
                 overturned: test.fate == TestFate::Overturned,
             }
-        };
+        });
         Ok(ComputedTests {
-            tests: tests.map(result).collect(),
+            tests: tests.collect(),
             unknown: self.unknown,
             block,
             fitted_slope: None,
@@ -172,8 +168,7 @@ fn intensities(
     tests: &[&ShakingTest],
     options: &TestOptions,
 ) -> Result<Vec<Vec<f64>>, ShakingError> {
-    let settings = Settings::of(options.gravity_m_s2, &options.measures)
-        .map_err(ShakingError::Settings)?;
+    let settings = Settings::of(options.gravity_m_s2, &options.measures)?;
     let of = |test: &&ShakingTest| {
         let own = Measures::of(&test.record, &settings).map_err(|source| {
             let test = test.record.name().to_owned();

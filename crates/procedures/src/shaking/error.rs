@@ -70,7 +70,7 @@ pub enum ShakingError {
     },
     /// Gravity or periods of measures.
     #[error(transparent)]
-    Settings(IntensityError),
+    Settings(#[from] IntensityError),
     /// The block.
     #[error(transparent)]
     Block(#[from] BlockError),

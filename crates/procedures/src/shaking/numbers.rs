@@ -1,9 +1,8 @@
 //! The comparison of numbers: capacities and measures of tests, and fates.
 
-use super::distribution::{differences, distribution};
 use super::fates::{Fates, probit};
 use super::onset::{onset, resurrected};
-use super::predictor::{PredictorNumbers, Scores};
+use super::predictor::{PredictorNumbers, Scores, differences, distribution};
 use super::repeats::repeatability;
 use super::{
     ReliabilityClass, ShakingError, TEST_LEVEL, TestComparison, TestOptions,

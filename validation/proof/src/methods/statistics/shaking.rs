@@ -1,7 +1,7 @@
 //! Shaking-table tests that are made up: numbers of another package, and
 //! intervals where the truth is known.
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, bail};
 use libm::{exp, log, tan};
 use rayon::prelude::*;
 use rocking::integrator::Model;
@@ -9,8 +9,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking::{Block, Restitution};
 use rocking_procedures::Draws;
 use rocking_procedures::shaking::{
-    ComputedTests, Predictor, Slenderness, TestComparison, TestOptions,
-    TestResult,
+    ComputedTests, Slenderness, TestComparison, TestOptions, TestResult,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::streams::{Streams, standard_normal};
@@ -72,7 +71,20 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
         let predictors = std::iter::once(&found.computed).chain(&found.rivals);
         for own in predictors {
             let row = VALUES.row(&["predictor", set, &own.predictor])?;
-            put_predictor(&row.list(3, ' ')?, own, answer)?;
+            let [right, median, dispersion, auc, score, likelihood] =
+                row.list(3, ' ')?[..]
+            else {
+                bail!("{}: expected six numbers", own.predictor);
+            };
+            let fit = [
+                own.median.value(),
+                own.dispersion.value(),
+                own.log_likelihood,
+            ];
+            answer.put("fit", fit, [median, dispersion, likelihood]);
+            answer.put("right", [own.right.value()], [right]);
+            answer.put("auc", [own.auc.value()], [auc]);
+            answer.put("log-score", [own.log_score.value()], [score]);
         }
         for own in &found.distributions {
             let row = VALUES.row(&["distribution", set, &own.im])?;
@@ -123,25 +135,6 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
         answer.put("onset", seen, row.list(2, ' ')?);
         row.put(answer, 3, &[("shifted", or_nan(own.pga_shifted))])?;
     }
-    Ok(())
-}
-
-fn put_predictor(
-    expected: &[f64],
-    own: &Predictor,
-    answer: &mut Reply,
-) -> Result<()> {
-    let [right, median, dispersion, auc, score, likelihood] = expected[..]
-    else {
-        return Err(anyhow!("{}: expected six numbers", own.predictor));
-    };
-    let fit = [median, dispersion, likelihood];
-    let seen =
-        [own.median.value(), own.dispersion.value(), own.log_likelihood];
-    answer.put("fit", seen, fit);
-    answer.put("right", [own.right.value()], [right]);
-    answer.put("auc", [own.auc.value()], [auc]);
-    answer.put("log-score", [own.log_score.value()], [score]);
     Ok(())
 }
 

@@ -110,7 +110,7 @@ pub const TEST_LEVEL: f64 = 0.9;
 /// first overturns.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TestComparison {
     /// Number of tests with a known fate.
     pub tests: usize,
@@ -147,6 +147,7 @@ pub struct TestComparison {
     pub rivals: Vec<Predictor>,
     /// Measures that are no predictor, or have no fragility of the computed
     /// fates.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub unfitted: Vec<UnfittedMeasure>,
     /// Predicted and observed shares of overturning, by tenths of the tests
     /// in ascending order of the predicted probability.
@@ -162,6 +163,10 @@ pub struct TestComparison {
     /// Measured and computed fragilities of the same tests.
     pub distributions: Vec<DistributionComparison>,
     /// The tests, in their order.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
     pub each: Vec<TestResult>,
 }
 
@@ -172,7 +177,7 @@ pub struct TestComparison {
 /// that leaves the motion of the test out.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Predictor {
     /// What predicts: the block, or an intensity measure.
     pub predictor: String,
@@ -196,7 +201,7 @@ pub struct Predictor {
 /// A measure that has no fit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnfittedMeasure {
     /// Intensity measure.
     pub im: String,
@@ -210,7 +215,7 @@ pub struct UnfittedMeasure {
 /// Predicted and observed overturning of some tests.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReliabilityClass {
     /// Number of tests.
     pub tests: usize,
@@ -223,7 +228,7 @@ pub struct ReliabilityClass {
 /// How well tests repeat themselves.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Repeatability {
     /// Pairs of tests of one motion whose PGA differ by 5 % or less.
     pub pairs: usize,
@@ -243,7 +248,7 @@ pub struct Repeatability {
 /// Tests at levels at which the block stands again.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Resurrected {
     /// Number of tests.
     pub tests: usize,
@@ -260,7 +265,7 @@ pub struct Resurrected {
 /// (g alpha for Eq. 2), by what the scatter of the model multiplies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OnsetComparison {
     /// Onset of rocking in g.
     pub onset_g: f64,
@@ -286,7 +291,7 @@ pub struct OnsetComparison {
 /// that were measured and to those that the block has.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistributionComparison {
     /// Intensity measure.
     pub im: String,
@@ -311,7 +316,7 @@ pub struct DistributionComparison {
 
 /// One test of a comparison.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TestResult {
     /// Name of the record.
     pub test: String,

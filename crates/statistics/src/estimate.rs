@@ -285,6 +285,32 @@ impl serde::Serialize for Estimate {
     }
 }
 
+/// Reads what the serializer writes; an open end stays open.
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Estimate {
+    fn deserialize<D: serde::Deserializer<'de>>(
+        from: D,
+    ) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        struct EstimateFields {
+            point: Option<f64>,
+            low: Option<f64>,
+            high: Option<f64>,
+        }
+        let EstimateFields { point, low, high } =
+            EstimateFields::deserialize(from)?;
+        let value = point.unwrap_or(f64::NAN);
+        if low.or(high).is_none() {
+            return Ok(Self::exact(value));
+        }
+        let low = low.unwrap_or(f64::NEG_INFINITY);
+        let interval = Interval::try_new(low, high.unwrap_or(f64::INFINITY));
+        let found = interval
+            .and_then(|interval| Self::try_new(value, interval, Range::Real));
+        found.map_err(serde::de::Error::custom)
+    }
+}
+
 /// Names of the fields of an estimate that a struct flattens:
 /// `#[serde(flatten, serialize_with = "estimate::keys::ratio")]`.
 #[cfg(feature = "serde")]

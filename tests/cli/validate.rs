@@ -183,6 +183,12 @@ fn every_fault_of_a_table_is_named_with_its_line() {
         "",
         &["faulty.csv:2: column motion: found \"\""],
     );
+    faults(
+        &place,
+        "file,motion,event,fate\na.at2,A,B,1\n",
+        "",
+        &["faulty.csv:2: column motion: found \"A\""],
+    );
     let one = "file,motion,fate\na.at2,A,1\n";
     fs::write(place.join("one.csv"), one).unwrap();
     for (flags, words) in [

@@ -180,10 +180,12 @@ impl TestTable<'_> {
         if fate.is_none() {
             refuse(self.fate, stated, FATES);
         }
-        let motion = cell(MOTION_COLUMN).unwrap_or_default();
-        let motion = member.event.as_deref().unwrap_or(motion);
-        if motion.is_empty() {
-            refuse(MOTION_COLUMN, motion, "the motion that the test repeats");
+        let stated = cell(MOTION_COLUMN);
+        let motion = member.event.as_deref().or(stated).unwrap_or_default();
+        if motion.is_empty() || stated.is_some_and(|own| own != motion) {
+            let expected = "the motion that the test repeats, as in a column \
+                            `event`";
+            refuse(MOTION_COLUMN, stated.unwrap_or_default(), expected);
         }
         let stated = cell(SCALE_COLUMN).unwrap_or("1");
         let scale = positive(stated);

@@ -14,8 +14,8 @@ named! {
         CodeVerification = "code-verification",
         /// The numerical error is what the method promises.
         SolutionVerification = "solution-verification",
-        /// The model against experiments.
-        ModelValidation = "model-validation",
+        /// The model beside findings that others published.
+        ModelComparison = "model-comparison",
         /// A statistical procedure keeps its stated error rates.
         StatisticalCalibration = "statistical-calibration",
         /// Our own number, pinned.

@@ -28,11 +28,15 @@ pub enum ShakingError {
         tests: usize,
     },
     /// Fates of one kind tell one side of the capacity alone.
-    #[error("all {0} tests overturned the specimen: expected both fates")]
-    AllOverturned(usize),
-    /// Fates of one kind tell one side of the capacity alone.
-    #[error("none of {0} tests overturned the specimen: expected both fates")]
-    NoneOverturned(usize),
+    #[error(
+        "{which} {tests} tests overturned the specimen: expected both fates"
+    )]
+    OneFate {
+        /// `all`, or `none of`.
+        which: &'static str,
+        /// Number of tests with a known fate.
+        tests: usize,
+    },
     /// The fates give no scatter of the capacity.
     #[error("demand over capacity of the tests{}: {source}", less(.without))]
     Fit {

@@ -1,7 +1,5 @@
 //! The fates of tests by motion, and fits of a number to them.
 
-use libm::exp;
-
 use super::TEST_LEVEL;
 use rocking_statistics::lognormal::{FitError, Stripe, fit_counts_alone};
 use rocking_statistics::resampling::Resampling;
@@ -70,17 +68,6 @@ pub(super) fn log_likelihood(
     tests.fold(0.0, |sum, (x, fate)| sum + ln_probability(of, *x, *fate))
 }
 
-/// The log-likelihood of the best fragility above `shift`; none without a
-/// fit.
-pub(super) fn highest_log_likelihood(
-    x: &[f64],
-    overturned: &[bool],
-    shift: f64,
-) -> Option<f64> {
-    let fit = probit(x, overturned, &vec![1; x.len()], shift).ok()?;
-    Some(log_likelihood(&fit, x, overturned))
-}
-
 /// Probability of overturning of each test by a fit that leaves its motion
 /// out, as ln of the probability of its own fate.
 ///
@@ -101,10 +88,4 @@ pub(super) fn left_out(
         }
     }
     Ok(found)
-}
-
-/// The probability of overturning of which ln of the probability of the fate
-/// is known.
-pub(super) fn of_overturning(ln_of_fate: f64, overturned: bool) -> f64 {
-    if overturned { exp(ln_of_fate) } else { -libm::expm1(ln_of_fate) }
 }

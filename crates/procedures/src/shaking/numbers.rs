@@ -193,11 +193,10 @@ impl ComputedTests<'_> {
         }
         let overturned: Vec<bool> =
             self.tests.iter().map(|test| test.overturned).collect();
-        if !overturned.contains(&true) {
-            return Err(ShakingError::NoneOverturned(tests));
-        }
-        if !overturned.contains(&false) {
-            return Err(ShakingError::AllOverturned(tests));
+        for (fate, which) in [(true, "none of"), (false, "all")] {
+            if !overturned.contains(&fate) {
+                return Err(ShakingError::OneFate { which, tests });
+            }
         }
         let is_positive = |x: f64| x > 0.0 && x.is_finite();
         for test in &self.tests {

@@ -1,6 +1,6 @@
 //! What the fates say about the onset of rocking and about resurrections.
 
-use super::fates::{Fates, highest_log_likelihood, ln_probability, probit};
+use super::fates::{Fates, ln_probability, log_likelihood, probit};
 use super::{OnsetComparison, Resurrected, TestResult};
 use libm::exp;
 
@@ -13,7 +13,8 @@ pub(super) fn onset(tests: &[TestResult], onset_g: f64) -> OnsetComparison {
                       x: fn(&TestResult, f64) -> f64| {
         let x: Vec<f64> = tests.iter().map(|t| x(t, onset_g)).collect();
         let fates: Vec<bool> = tests.iter().map(|t| t.overturned).collect();
-        highest_log_likelihood(&x, &fates, shift)
+        let fit = probit(&x, &fates, &vec![1; x.len()], shift).ok()?;
+        Some(log_likelihood(&fit, &x, &fates))
     };
     let overturned_below = below.iter().filter(|test| test.overturned).count();
     let all: Vec<&TestResult> = tests.iter().collect();

@@ -1,8 +1,9 @@
 //! A number of each test as a predictor of the fates, and its measured and
 //! computed fragilities.
 
-use super::fates::{Fates, left_out, log_likelihood, of_overturning, probit};
+use super::fates::{Fates, left_out, log_likelihood, probit};
 use super::{DistributionComparison, Predictor};
+use libm::{exp, expm1};
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::lognormal::FitError;
 use rocking_statistics::{Lognormal, Range};
@@ -52,7 +53,11 @@ impl PredictorNumbers {
     /// Predicted probability of overturning of each test.
     pub fn probabilities(&self, fates: &Fates) -> Vec<f64> {
         let tests = self.ln_of_fate.iter().zip(&fates.overturned);
-        tests.map(|(ln, fate)| of_overturning(*ln, *fate)).collect()
+        let of = |(ln, fate): (&f64, &bool)| match fate {
+            true => exp(*ln),
+            false => -expm1(*ln),
+        };
+        tests.map(of).collect()
     }
 
     /// The scores of a fit to the tests as often as they are drawn; the

@@ -190,10 +190,11 @@ fn what_cannot_be_compared_is_refused() {
     assert_eq!(refused(&[]), Err(ShakingError::NoTests { unknown: 0 }));
     let unknown = refused(&with(TestFate::Unknown));
     assert_eq!(unknown, Err(ShakingError::NoTests { unknown: 72 }));
+    let one_fate = |which| ShakingError::OneFate { which, tests: 72 };
     let fell = refused(&with(TestFate::Overturned));
-    assert_eq!(fell, Err(ShakingError::AllOverturned(72)));
+    assert_eq!(fell, Err(one_fate("all")));
     let stood = refused(&with(TestFate::Stood));
-    assert_eq!(stood, Err(ShakingError::NoneOverturned(72)));
+    assert_eq!(stood, Err(one_fate("none of")));
     let few = ShakingError::Motions { found: 2, tests: 12 };
     assert_eq!(refused(&all[..12]), Err(few));
     // The specimen is the block itself: one factor parts the fates.

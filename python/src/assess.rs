@@ -102,8 +102,7 @@ pub fn assess(
         false => format!("The motions are {} records.", records.len()),
     };
     let program = crate::SOFTWARE.to_owned();
-    let about =
-        About { ground, provenance: vec![("Program".to_owned(), program)] };
+    let about = About::of(ground, [("Program", Some(program))]);
     let found = work::run(py, threads, None, 0, |_| {
         procedure(&objects, &records, &clusters, &own)
     })?;

@@ -26,7 +26,7 @@ use rocking_synthesis::SuiteKind;
 pub use data::json;
 pub use words::text;
 
-use words::{answer_cells, measure, risk_heads, short};
+use words::{answer_cells, answer_heads, measure, short};
 
 /// The page; it is written last, so that all files are there where it is.
 pub const PAGE: &str = "index.html";
@@ -44,6 +44,19 @@ pub struct About {
     pub ground: String,
     /// What a reader needs to make the page again: names and values.
     pub provenance: Vec<(String, String)>,
+}
+
+impl About {
+    /// The names and values that are known.
+    #[must_use]
+    pub fn of<'a>(
+        ground: String,
+        known: impl IntoIterator<Item = (&'a str, Option<String>)>,
+    ) -> Self {
+        let known = known.into_iter();
+        let known = known.filter_map(|(what, is)| Some((what.into(), is?)));
+        Self { ground, provenance: known.collect() }
+    }
 }
 
 /// Sets the fitted surface of the embedded ordinary suite beside each object
@@ -85,8 +98,14 @@ pub fn files(
     let names: Vec<&str> = files.iter().map(|file| &*file.0).collect();
     let page = page(found, about, &names);
     files.push((PAGE.to_owned(), page));
-    let named = files.into_iter();
-    Ok(named.map(|(name, text)| (name, text.into_bytes())).collect())
+    Ok(bytes(files))
+}
+
+fn bytes(
+    files: impl IntoIterator<Item = (String, String)>,
+) -> BTreeMap<String, Vec<u8>> {
+    let files = files.into_iter();
+    files.map(|(name, text)| (name, text.into_bytes())).collect()
 }
 
 /// The page, beside which `files` lie.
@@ -197,11 +216,7 @@ fn sliding(found: &Assessment) -> Markup {
 }
 
 fn together(found: &Assessment) -> Markup {
-    let (im, unit) = (measure(found), found.unit);
-    let mut heads = vec!["Objects damaged by one earthquake".to_owned()];
-    heads.extend(risk_heads(found));
-    heads.push(format!("{im} of 5 %, {unit}"));
-    heads.push(format!("{im} of 50 %, {unit}"));
+    let heads = answer_heads(found, "Objects damaged by one earthquake", "");
     let row = |row: &rocking_procedures::assess::JointDamage| {
         let first = format!("{} or more", row.at_least);
         let mut cells = vec![first];
@@ -233,11 +248,7 @@ fn together(found: &Assessment) -> Markup {
 
 fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
     let chart = charts::curves(found, one, k).figure(String::new());
-    let (im, unit) = (measure(found), found.unit);
-    let mut heads = vec!["Assumption".to_owned()];
-    heads.extend(risk_heads(found));
-    heads.push(format!("{im} of 5 % damage, {unit}"));
-    heads.push(format!("{im} of 50 % damage, {unit}"));
+    let heads = answer_heads(found, "Assumption", " damage");
     let line = |words: String, answer: &_| {
         let mut cells = vec![words];
         cells.extend(answer_cells(answer));

@@ -14,9 +14,10 @@ use rocking_draw::grid::Grid;
 use rocking_draw::page::inline;
 use rocking_procedures::shaking::TestComparison;
 
+use words::TestsTable;
 pub use words::text;
 
-use crate::{About, PAGE, data, document, provenance, table};
+use crate::{About, PAGE, bytes, data, document, provenance};
 
 /// The name of its JSON.
 const JSON: &str = "tests.json";
@@ -38,9 +39,7 @@ pub fn files(
         (CSV, csv(found)),
         (PAGE, page(found, about)),
     ];
-    let bytes =
-        |(name, text): (&str, String)| (name.to_owned(), text.into_bytes());
-    Ok(named.into_iter().map(bytes).collect())
+    Ok(bytes(named.map(|(name, text)| (name.to_owned(), text))))
 }
 
 /// Each test, as CSV.
@@ -81,19 +80,18 @@ pub fn page(found: &TestComparison, about: &About) -> String {
     document(&title, &words::first(found), &introduction, &sections)
 }
 
+fn table(label: &str, (heads, rows): &TestsTable) -> Markup {
+    crate::table(label, heads, rows)
+}
+
 /// A figure with its number and its words.
 fn figure(chart: Chart, number: u8, words: &str) -> Markup {
-    let title = chart.heading.title.clone();
+    let title = &chart.heading.title;
     let wide = chart.panels.len() > 1;
-    let drawn = match wide {
-        true => chart.figure(""),
-        false => {
-            // Legible in the width of a phone.
-            let grid = Grid::new(1, 1).plot(400.0, 300.0);
-            let grid = Some(Grid { right: EDGE_PX, ..grid });
-            chart.laid_out(&Layout { grid, ..Layout::default() }, "")
-        }
-    };
+    // One panel is legible in the width of a phone.
+    let grid = Grid::new(1, 1).plot(400.0, 300.0);
+    let grid = (!wide).then_some(Grid { right: EDGE_PX, ..grid });
+    let drawn = chart.laid_out(&Layout { grid, ..Layout::default() }, "");
     html! {
         figure.figure {
             figcaption {
@@ -110,7 +108,6 @@ fn figure(chart: Chart, number: u8, words: &str) -> Markup {
 }
 
 fn fates(found: &TestComparison) -> Markup {
-    let (heads, rows) = words::predictors(found);
     let words = format!(
         "The predicted probability of each test is of a fit that leaves its \
          motion out. Marks are tenths of the tests in ascending order of \
@@ -124,8 +121,7 @@ fn fates(found: &TestComparison) -> Markup {
             @if let Some(line) = words::rivals(found) { p { (line) } }
             (table(
                 "The block and intensity measures as predictors",
-                &heads,
-                &rows
+                &words::predictors(found)
             ))
             p {
                 "The block decides by its first overturning: it overturns \
@@ -141,8 +137,6 @@ fn fates(found: &TestComparison) -> Markup {
 }
 
 fn fragility(found: &TestComparison) -> Markup {
-    let (heads, rows) = words::fragilities(found);
-    let (fits, likelihoods) = words::onsets(found);
     html! {
         section {
             h2 { "Fragility" }
@@ -153,8 +147,7 @@ fn fragility(found: &TestComparison) -> Markup {
             }
             (table(
                 "Measured and computed fragilities",
-                &heads,
-                &rows
+                &words::fragilities(found)
             ))
             @for line in words::unfitted(found) { p { (line) } }
             (figure(
@@ -169,8 +162,7 @@ fn fragility(found: &TestComparison) -> Markup {
             p { (words::below(found)) }
             (table(
                 "Log-likelihood by the part that scatters",
-                &fits,
-                &likelihoods
+                &words::onsets(found)
             ))
             p {
                 "The first two are of the " (found.onset.tests)
@@ -188,13 +180,10 @@ fn each(found: &TestComparison) -> Markup {
         "The unbroken line is the computed capacity, the broken one the \
          median of the measured capacity."
     };
-    let by = match charts::velocity(found) {
-        None => "",
-        Some(_) => {
-            " PGV/PGA grows with the period of the motion: a bias that \
-             changes from left to right is one of the frequency content."
-        }
-    };
+    let by = charts::velocity(found).map_or("", |_| {
+        " PGV/PGA grows with the period of the motion: a bias that changes \
+         from left to right is one of the frequency content."
+    });
     let words = format!(
         "{lines} The block overturns in the tests above the line at 1. A \
          filled mark below it and an open mark above it are wrong fates.{by}"

@@ -102,11 +102,8 @@ pub(crate) fn held(found: &Assessment) -> String {
 
 /// The heads of the table of all objects.
 pub(crate) fn heads(found: &Assessment) -> Vec<String> {
-    let (im, unit) = (measure(found), found.unit);
-    let mut heads = vec!["Object".to_owned(), "Damage".to_owned()];
-    heads.extend(risk_heads(found));
-    heads.push(format!("{im} of 5 % damage, {unit}"));
-    heads.push(format!("{im} of 50 % damage, {unit}"));
+    let mut heads = answer_heads(found, "Object", " damage");
+    heads.insert(1, "Damage".to_owned());
     if found.objects.len() > 1 {
         heads.push("Comes first in draws".to_owned());
     }
@@ -114,16 +111,22 @@ pub(crate) fn heads(found: &Assessment) -> Vec<String> {
     heads
 }
 
-/// The heads of what a hazard curve gives; none without one.
-pub(crate) fn risk_heads(found: &Assessment) -> Vec<String> {
-    let known = found.objects.iter().any(|one| one.answer.risk.is_some());
-    if !known {
-        return Vec::new();
+/// The head of a first column, and those of [`answer_cells`].
+pub(crate) fn answer_heads(
+    found: &Assessment,
+    first: &str,
+    damage: &str,
+) -> Vec<String> {
+    let (im, unit) = (measure(found), found.unit);
+    let mut heads = vec![first.to_owned()];
+    if found.objects.iter().any(|one| one.answer.risk.is_some()) {
+        heads.push("Mean return period of damage, years".to_owned());
+        let years = found.years;
+        heads.push(format!("Probability of damage in {years} years, %"));
     }
-    vec![
-        "Mean return period of damage, years".to_owned(),
-        format!("Probability of damage in {} years, %", found.years),
-    ]
+    let ims = ["5 %", "50 %"];
+    heads.extend(ims.map(|p| format!("{im} of {p}{damage}, {unit}")));
+    heads
 }
 
 /// What a fragility says, cell by cell.

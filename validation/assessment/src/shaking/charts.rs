@@ -70,27 +70,12 @@ fn fragility(
     let last = 1.15 * x.last().copied().unwrap_or(1.0);
     let step = last / f64::from(STEPS);
     let places: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
-    type Overturns = fn(&TestResult) -> bool;
-    let kinds: [(_, _, _, _, _, Overturns); 2] = [
-        (
-            "measured",
-            Pen::of_series(0),
-            Marker::Dot,
-            one.measured_median,
-            one.measured_dispersion,
-            |test| test.overturned,
-        ),
-        (
-            "computed",
-            Pen::of_series(1).dash(Dash::Dashed),
-            Marker::OpenSquare,
-            one.computed_median,
-            one.computed_dispersion,
-            |test| test.capacity_factor <= 1.0,
-        ),
-    ];
     let mut series = Vec::new();
-    for (label, pen, marker, median, dispersion, overturns) in kinds {
+    let mut draw = |label: &str,
+                    pen: Pen,
+                    marker: Marker,
+                    [median, dispersion]: [f64; 2],
+                    overturns: fn(&TestResult) -> bool| {
         let law = Lognormal::try_new(0.0, libm::log(median), dispersion);
         series.extend(law.ok().map(|law| {
             let y = places.iter().map(|im| law.cdf(*im)).collect();
@@ -100,7 +85,15 @@ fn fragility(
         let marks = Mark::Own(Look::marks(marker, MARK_PX, pen.ink));
         let label = format!("{label}, share of a class");
         series.push(Series::new(label, marks, x.clone(), shares));
-    }
+    };
+    let law = [one.measured_median, one.measured_dispersion];
+    let pen = Pen::of_series(0);
+    draw("measured", pen, Marker::Dot, law, |test| test.overturned);
+    let law = [one.computed_median, one.computed_dispersion];
+    let pen = Pen::of_series(1).dash(Dash::Dashed);
+    draw("computed", pen, Marker::OpenSquare, law, |test| {
+        test.capacity_factor <= 1.0
+    });
     let unit = &one.unit;
     let label = format!("{} ({unit})", markup::escape(&measure(&one.im)));
     ChartPanel::new(

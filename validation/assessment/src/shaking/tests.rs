@@ -1,121 +1,73 @@
-use rocking_procedures::shaking::TestComparison;
-use serde_json::{Value, json};
+use rocking::block::{Block, Restitution};
+use rocking::integrator::Model;
+use rocking_procedures::Draws;
+use rocking_procedures::shaking::{
+    ComputedTests, Predictor, Slenderness, TestComparison, TestOptions,
+    TestResult,
+};
+use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::{Estimate, Interval, Range};
+use serde_json::Value;
 
 use super::{files, page, text};
 use crate::About;
 
-fn estimate(point: f64, low: f64, high: f64) -> Value {
-    json!({ "point": point, "low": low, "high": high })
+fn estimate(point: f64, low: f64, high: f64) -> Estimate {
+    let interval = Interval::try_new(low, high).unwrap();
+    Estimate::try_new(point, interval, Range::Real).unwrap()
 }
 
-fn predictor(name: &str, score: f64, median: Value) -> Value {
-    json!({
-        "predictor": name,
-        "right": estimate(0.8, 0.7, 0.9),
-        "median": median,
-        "dispersion": estimate(0.31, 0.25, 0.4),
-        "auc": estimate(0.95, 0.9, 0.97),
-        "log_score": estimate(score, 0.9 * score, 1.1 * score),
-        "log_likelihood": -100.0 * score,
-    })
+fn set(of: &mut Predictor, score: f64, median: Estimate) {
+    of.right = estimate(0.8, 0.7, 0.9);
+    of.median = median;
+    of.log_score = estimate(score, 0.9 * score, 1.1 * score);
 }
 
 /// A comparison of 100 made-up tests: every second one overturned the
-/// specimen.
-fn made_up() -> Value {
-    let each = (0..100).map(|k| {
-        let capacity = 2.0 / (0.3 + 0.03 * f64::from(k));
-        json!({
-            "test": format!("t{k}"),
-            "motion": format!("m{}", k % 9),
-            "pga_g": 0.01 * f64::from(k + 1),
-            "intensities":
-                [0.01 * f64::from(k + 1), 0.004 * f64::from(k % 9 + 1)],
-            "capacity_factor": capacity,
-            "overturns_at_level": capacity <= 1.0,
-            "probability": 0.01 * f64::from(k),
-            "overturned": k % 2 == 1 || k > 60,
-        })
-    });
-    let reliability = (0..10).map(|k| {
-        let share = 0.05 + 0.1 * f64::from(k);
-        json!({
-            "tests": 10,
-            "predicted": share,
-            "observed": estimate(share, share - 0.05, share + 0.05),
-        })
-    });
-    let distribution = |im: &str, unit: &str, scale: f64| {
-        json!({
-            "im": im,
-            "unit": unit,
-            "measured_median": 0.4 * scale,
-            "measured_dispersion": 0.6,
-            "computed_median": 0.42 * scale,
-            "computed_dispersion": 0.52,
-            "median_ratio": estimate(0.952, 0.9, 1.02),
-            "dispersion_difference": estimate(0.08, 0.02, 0.13),
-            "missing_dispersion": estimate(0.299, 0.15, 0.38),
-        })
+/// specimen, and all from the 62nd on. The numbers that sentences are chosen
+/// by are set.
+fn made_up() -> TestComparison {
+    let test = |k: u32| {
+        let capacity_factor = 2.0 / (0.3 + 0.03 * f64::from(k));
+        TestResult {
+            test: format!("t{k}"),
+            motion: format!("m{}", k % 9),
+            pga_g: 0.01 * f64::from(k + 1),
+            // Out of order, so that the computed fates have a fragility.
+            intensities: [0.01, 0.004]
+                .map(|unit| unit * f64::from(k + k % 9 + 1))
+                .into(),
+            capacity_factor,
+            overturns: true,
+            overturns_at_level: capacity_factor <= 1.0,
+            probability: f64::NAN,
+            overturned: k % 2 == 1 || k > 60,
+        }
     };
-    json!({
-        "tests": 100,
-        "motions": 9,
-        "overturned": 70,
-        "unknown": 2,
-        "never_overturned": 1,
-        "alpha_rad": { "point": 0.085, "low": null, "high": null },
-        "alpha_is_fitted": false,
-        "p_rad_s": 4.55,
-        "eta": 0.92,
-        "model": "nonlinear",
-        "level": 0.9,
-        "replicates": 500,
-        "seed": 0,
-        "remark": "few motions",
-        "computed": predictor("block", 0.21, estimate(1.02, 0.97, 1.08)),
-        "rivals": [
-            predictor("pga", 0.4, estimate(0.4, 0.3, 0.5)),
-            predictor("pgv", 0.3, estimate(0.2, 0.15, 0.25)),
-        ],
-        "unfitted": [],
-        "reliability": reliability.collect::<Vec<_>>(),
-        "repeatability": {
-            "pairs": 12,
-            "different": 2,
-            "mixed_motions": 8,
-            "not_monotone": 3,
-            "dispersion": 0.12,
-        },
-        "resurrected": {
-            "tests": 5,
-            "overturned": 2,
-            "expected": 4.6,
-            "right_at_level": 0.79,
-        },
-        "onset": {
-            "onset_g": 0.0852,
-            "tests": 90,
-            "overturned_below": 0,
-            "below": 10,
-            "whole": -20.5,
-            "above": -22.5,
-            "pga_unshifted": -41.5,
-            "pga_shifted": null,
-        },
-        "distributions": [
-            distribution("pga", "g", 1.0),
-            distribution("pgv", "m/s", 0.2),
-        ],
-        "each": each.collect::<Vec<_>>(),
-    })
-}
-
-/// The comparison, a field of it by its place set to another value.
-fn comparison(place: &str, value: Value) -> TestComparison {
-    let mut made_up = made_up();
-    *made_up.pointer_mut(place).unwrap() = value;
-    serde_json::from_value(made_up).unwrap()
+    let block = Block::try_new(0.085, 4.55).unwrap();
+    let options = TestOptions {
+        slenderness: Slenderness::Given(block),
+        restitution: Restitution::constant(0.92).unwrap(),
+        model: Model::Nonlinear,
+        gravity_m_s2: 9.81,
+        measures: vec![IntensityMeasure::PGA, IntensityMeasure::PGV],
+        draws: Draws { replicates: 200, seed: 0 },
+    };
+    let tests = (0..100).map(test).collect();
+    let (unknown, fitted_slope, options) = (2, None, &options);
+    let tests = ComputedTests { tests, unknown, block, fitted_slope, options };
+    let mut found = tests.compare().unwrap();
+    set(&mut found.computed, 0.21, estimate(1.02, 0.97, 1.08));
+    set(&mut found.rivals[0], 0.4, estimate(0.4, 0.3, 0.5));
+    set(&mut found.rivals[1], 0.3, estimate(0.2, 0.15, 0.25));
+    for test in &mut found.each {
+        test.intensities[0] = test.pga_g;
+    }
+    assert_eq!(found.distributions.len(), 2);
+    for own in &mut found.distributions {
+        own.dispersion_difference = estimate(0.08, 0.02, 0.13);
+    }
+    found
 }
 
 fn page_of(found: &TestComparison) -> String {
@@ -124,50 +76,79 @@ fn page_of(found: &TestComparison) -> String {
 
 #[test]
 fn sentences_follow_the_intervals() {
-    let median = "/computed/median";
-    let difference = "/distributions/0/dispersion_difference";
-    let cases = [
-        (median, estimate(1.02, 0.97, 1.08), "no bias is seen"),
-        (median, estimate(1.2, 1.1, 1.3), "on the safe side"),
-        (median, estimate(0.8, 0.7, 0.9), "which is unsafe"),
-        (median, json!({ "point": 0.8 }), "without an interval"),
-        ("/alpha_is_fitted", json!(true), "say nothing of a bias"),
-        (difference, estimate(0.08, 0.02, 0.13), "leaves out a dispersion"),
-        (difference, estimate(0.08, -0.02, 0.13), "difference holds 0"),
-        (difference, estimate(-0.1, -0.2, -0.01), "is the wider one"),
-        ("/rivals/0/log_score", estimate(0.2, 0.1, 0.3), "PGA alone predicts"),
+    type Change = fn(&mut TestComparison);
+    let cases: [(Change, &str); 13] = [
+        (|_| (), "no bias is seen"),
         (
-            "/rivals/0/log_score",
-            estimate(0.4, 0.3, 0.5),
-            "than each intensity",
+            |found| found.computed.median = estimate(1.2, 1.1, 1.3),
+            "on the safe side",
         ),
-        ("/resurrected/tests", json!(5), "In 5 of the tests the block stands"),
-        ("/repeatability/pairs", json!(12), "2 of 12 pairs"),
-        ("/never_overturned", json!(1), "any level that was run"),
+        (
+            |found| found.computed.median = estimate(0.8, 0.7, 0.9),
+            "which is unsafe",
+        ),
+        (
+            |found| found.computed.median = Estimate::exact(0.8),
+            "without an interval",
+        ),
+        (|found| found.alpha_is_fitted = true, "say nothing of a bias"),
+        (|_| (), "leaves out a dispersion"),
+        (
+            |found| {
+                let own = &mut found.distributions[0];
+                own.dispersion_difference = estimate(0.08, -0.02, 0.13);
+            },
+            "difference holds 0",
+        ),
+        (
+            |found| {
+                let own = &mut found.distributions[0];
+                own.dispersion_difference = estimate(-0.1, -0.2, -0.01);
+            },
+            "is the wider one",
+        ),
+        (
+            |found| found.rivals[0].log_score = estimate(0.2, 0.1, 0.3),
+            "PGA alone predicts",
+        ),
+        (|_| (), "than each intensity"),
+        (
+            |found| found.resurrected.tests = 5,
+            "In 5 of the tests the block stands",
+        ),
+        (
+            |found| {
+                found.repeatability.pairs = 12;
+                found.repeatability.different = 2;
+            },
+            "2 of 12 pairs",
+        ),
+        (|found| found.never_overturned = 1, "any level that was run"),
     ];
-    let all: Vec<&str> = cases.iter().map(|(_, _, words)| *words).collect();
-    for (place, value, expected) in cases {
-        let found = comparison(place, value);
+    let all: Vec<&str> = cases.iter().map(|(_, words)| *words).collect();
+    for (change, expected) in cases {
+        let mut found = made_up();
+        change(&mut found);
         for shown in [text(&found), page_of(&found)] {
-            assert!(shown.contains(expected), "{place} {expected}: {shown}");
+            assert!(shown.contains(expected), "{expected}: {shown}");
             // Of the sentences that exclude each other one is there.
             for group in [&all[..5], &all[8..10]] {
                 let there = group.iter().filter(|w| shown.contains(**w));
                 let count = there.count();
-                assert_eq!(count, 1, "{place} {group:?}: {shown}");
+                assert_eq!(count, 1, "{expected} {group:?}: {shown}");
             }
         }
     }
-    for place in ["/resurrected/tests", "/repeatability/pairs"] {
-        let shown = page_of(&comparison(place, json!(0)));
-        assert!(!shown.contains("In 0 of the tests"), "{shown}");
-        assert!(!shown.contains(" of 0 pairs"), "{shown}");
-    }
+    let mut found = made_up();
+    (found.resurrected.tests, found.repeatability.pairs) = (0, 0);
+    let shown = page_of(&found);
+    assert!(!shown.contains("In 0 of the tests"), "{shown}");
+    assert!(!shown.contains(" of 0 pairs"), "{shown}");
 }
 
 #[test]
 fn a_page_has_three_drawings_and_the_numbers_of_its_files() {
-    let found = comparison("/tests", json!(100));
+    let found = made_up();
     let about = About {
         ground: "Made-up motions.".to_owned(),
         provenance: vec![("Table".to_owned(), "t.csv".to_owned())],
@@ -190,7 +171,7 @@ fn a_page_has_three_drawings_and_the_numbers_of_its_files() {
 /// 62nd on.
 #[test]
 fn shares_of_classes_are_counted() {
-    let found = comparison("/tests", json!(100));
+    let found = made_up();
     let csv = super::charts::fragilities(&found).figure("").csv();
     let shares = |name: &str| {
         let rows = csv.lines().filter(|line| {

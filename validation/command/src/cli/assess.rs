@@ -180,32 +180,29 @@ impl AssessCommand {
             }
             false => format!("The motions are those of {}.", suite.source),
         };
-        let mut provenance = vec![
-            ("Program", SOFTWARE.to_owned()),
-            ("Records", format!("{}, {}", suite.source, suite.clusters)),
-            ("SHA-256 of the records", suite.sha256()),
-        ];
-        let mut some = |what, is: Option<String>| {
-            provenance.extend(is.map(|is| (what, is)));
-        };
-        some("Processing", words(&self.processing.processing()?));
         let aside = &suite.set_aside;
-        some("Set aside", (!aside.is_empty()).then(|| aside.to_string()));
-        some("Remarks", suite.remarks.words());
+        let aside = (!aside.is_empty()).then(|| aside.to_string());
         let named = |path: &Option<PathBuf>| {
             path.as_deref().map(input::named).transpose()
         };
-        some("Objects", named(&self.objects)?);
-        some("Floors", named(&self.floors)?);
-        some("Hazard curve", named(&self.hazard)?);
+        let records = format!("{}, {}", suite.source, suite.clusters);
         let draws = self.bootstrap.draws();
-        some("Draws of the intervals", Some(draws.replicates.to_string()));
-        some("Repetition of the draws", Some(draws.seed.to_string()));
         let certified = if self.certify { "certified" } else { "double" };
-        some("Fates of the analyses", Some(certified.to_owned()));
-        let own = |(what, is): (&str, String)| (what.to_owned(), is);
-        let provenance = provenance.into_iter().map(own).collect();
-        Ok(About { ground, provenance })
+        let some = [
+            ("Program", Some(SOFTWARE.to_owned())),
+            ("Records", Some(records)),
+            ("SHA-256 of the records", Some(suite.sha256())),
+            ("Processing", words(&self.processing.processing()?)),
+            ("Set aside", aside),
+            ("Remarks", suite.remarks.words()),
+            ("Objects", named(&self.objects)?),
+            ("Floors", named(&self.floors)?),
+            ("Hazard curve", named(&self.hazard)?),
+            ("Draws of the intervals", Some(draws.replicates.to_string())),
+            ("Repetition of the draws", Some(draws.seed.to_string())),
+            ("Fates of the analyses", Some(certified.to_owned())),
+        ];
+        Ok(About::of(ground, some))
     }
 
     fn suite(&self) -> Result<StudySuite, Failure> {

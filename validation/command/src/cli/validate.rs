@@ -134,30 +134,22 @@ impl ValidateCommand {
             [] => M::usual_of_tests(),
             given => given.to_vec(),
         };
+        let restitution = match (self.eta, slenderness) {
+            (eta, Slenderness::Given(block)) => eta.restitution(&block)?,
+            (Eta::Constant(eta), _) => Restitution::constant(eta)?,
+            (Eta::Housner, _) => bail!(
+                "--eta housner: alpha is fitted: expected a number, or \
+                 --alpha"
+            ),
+        };
         Ok(TestOptions {
             slenderness,
-            restitution: self.restitution(slenderness)?,
+            restitution,
             model: self.model,
             gravity_m_s2: self.gravity,
             measures,
             draws: self.bootstrap.draws(),
         })
-    }
-
-    fn restitution(
-        &self,
-        slenderness: Slenderness,
-    ) -> Result<Restitution, Failure> {
-        match (self.eta, slenderness) {
-            (Eta::Constant(eta), _) => Ok(Restitution::constant(eta)?),
-            (Eta::Housner, Slenderness::Given(block)) => {
-                self.eta.restitution(&block)
-            }
-            (Eta::Housner, Slenderness::Fitted { .. }) => bail!(
-                "--eta housner: alpha is fitted: expected a number, or \
-                 --alpha"
-            ),
-        }
     }
 
     /// The tests, and the remarks on their motions.
@@ -191,12 +183,7 @@ impl ValidateCommand {
             ("Draws of the intervals", Some(draws.replicates.to_string())),
             ("Repetition of the draws", Some(draws.seed.to_string())),
         ];
-        let known = some
-            .into_iter()
-            .filter_map(|(what, is)| is.map(|is| (what.to_owned(), is)));
-        Ok(About {
-            ground: format!("The motions are those of {name}."),
-            provenance: known.collect(),
-        })
+        let ground = format!("The motions are those of {name}.");
+        Ok(About::of(ground, some))
     }
 }

@@ -59,13 +59,15 @@ impl<'a> TestRecords<'a> {
         };
         let analysis = self.analysis(found.block);
         let threshold = uplift_threshold(&found.block, self.options.model);
-        let tests = found.tests.par_iter_mut().zip(&self.records);
-        tests.panic_fuse().try_for_each(|(test, record)| {
+        let fates = self.records.par_iter().panic_fuse().map(|record| {
             let im = record.pga_g() / threshold;
             let point = demand_at(record, &analysis, im)?;
-            test.overturns_at_level = point.outcome.is_overturned();
-            Ok::<_, ShakingError>(())
-        })?;
+            Ok(point.outcome.is_overturned())
+        });
+        let fates = fates.collect::<Result<Vec<bool>, ShakingError>>()?;
+        for (test, fate) in found.tests.iter_mut().zip(fates) {
+            test.overturns_at_level = fate;
+        }
         Ok(found)
     }
 

@@ -182,8 +182,15 @@ impl fmt::Display for ModelError {
         let text = |of: &Estimate| of.text("", |x| x.to_string());
         let (bias, dispersion) = (text(&self.bias), text(&self.dispersion));
         write!(f, "model bias {bias}, model dispersion {dispersion}")?;
-        let measured = [Self::fitted(), Self::default()].contains(self);
-        if measured { write!(f, ", from {SOURCE}") } else { Ok(()) }
+        if *self == Self::default() {
+            let restitution = "a restitution from 0.85 to 0.97";
+            return write!(f, ", from {SOURCE} and {restitution}");
+        }
+        if *self == Self::fitted() {
+            write!(f, ", from {SOURCE}")
+        } else {
+            Ok(())
+        }
     }
 }
 

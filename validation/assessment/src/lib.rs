@@ -16,6 +16,7 @@ use rocking::integrator::{Model, uplift_threshold};
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::ExchangeFormat;
+use rocking_procedures::ModelError;
 use rocking_procedures::assess::{
     Alternative, Assessment, Damage, Object, ObjectAssessment,
 };
@@ -285,9 +286,9 @@ fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
                 }
                 figcaption {
                     "(a) Probability of damage: the records (points), and \
-                     their lognormal fit with the error of the model and \
-                     its 95 % band. (b) Rotation over \
-                     alpha of 16, 50 and 84 % of the records at rising \
+                     their lognormal fit with its 95 % band. An error of \
+                     the model also moves the onset of rocking. (b) \
+                     Rotation over alpha of 16, 50 and 84 % of the records at rising \
                      intensity. At 1 the object is at the angle from which \
                      it does not come back on flat, quiet ground."
                     @if !one.contributions.is_empty() {
@@ -387,7 +388,7 @@ fn limits(found: &Assessment) -> Markup {
                     }
                 }
                 li {
-                    "The uncertainty of the hazard curve. The intervals are "
+                    "The uncertainty of the hazard curve. The intervals come "
                     (words::held(found)) ". Drawn: "
                     (found.basis.drawn.to_string()) "."
                 }
@@ -400,9 +401,14 @@ fn limits(found: &Assessment) -> Markup {
                          with natural bases, in one laboratory; that of \
                          another object may differ. "
                     }
-                    "A coefficient of restitution that was measured on the \
-                     object would narrow the interval. The tables show what \
-                     0.85 and 0.97 make of the answer."
+                    @if found.model_error == ModelError::default() {
+                        "The range of the bias also holds a coefficient of \
+                         restitution from 0.85 to 0.97. "
+                    } @else {
+                        "The intervals take the coefficient of restitution \
+                         as known. "
+                    }
+                    "The tables show what 0.85 and 0.97 make of the answer."
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {

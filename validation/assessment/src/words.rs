@@ -91,13 +91,15 @@ pub(crate) fn first(found: &Assessment) -> String {
     )
 }
 
-/// What the intervals hold.
+/// Where the intervals come from.
 pub(crate) fn held(found: &Assessment) -> String {
     let error = found.model_error;
     if error.is_none() {
-        return "of the records alone, without an error of the model".into();
+        return "from the choice of the records alone".into();
     }
-    format!("of the choice of the records and of the model: {error}")
+    format!(
+        "from the choice of the records and the error of the model: {error}"
+    )
 }
 
 /// The heads of the table of all objects.

@@ -44,7 +44,7 @@ pub struct RockTests {
     without_targets: [TestComparison; 2],
     /// With a rounded slenderness, which is given.
     given: [TestComparison; 2],
-    /// With that slenderness and Housner's restitution.
+    /// With a fitted slenderness and Housner's restitution.
     housner: [TestComparison; 2],
     /// Changes of the fitted block.
     varied: Vec<ChangedRocks>,

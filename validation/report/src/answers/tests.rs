@@ -218,10 +218,12 @@ fn tests_of_two_rocks_stand_in_the_answers() {
     assert!(fragility.ends_with(&words), "{fragility}");
     assert_eq!(fragility.matches("rocks").count(), 1);
     assert!(!said("May I shift").contains("rocks"));
-    for start in ["How sure", "May I sign"] {
+    let angle = "one angle fitted to each of two rocks";
+    let asked = [("How sure", angle), ("May I sign", "one fitted angle each")];
+    for (start, angle) in asked {
         let own = said(start);
         assert!(own.contains("490") && own.contains("two rocks"), "{own}");
-        assert!(own.contains("one fitted angle each"), "{own}");
+        assert!(own.contains(angle), "{own}");
     }
     assert!(said("What was not checked").contains("other objects"));
 }

@@ -144,7 +144,8 @@ impl RockTests {
                  of each rock against PGV, and the computed one with the \
                  dispersion of the model.",
                 rocks.collect(),
-                "PGV is that which the authors state.",
+                "Lognormals fitted to the fates. PGV is as the authors state \
+                 it.",
             ),
             figure(
                 "shaking-table-error",
@@ -153,8 +154,8 @@ impl RockTests {
                  probability; dispersion that the model leaves out and ratio \
                  of medians, by intensity measure.",
                 vec![self.reliability(), dispersion, median],
-                "Marks of the first panel are tenths of the tests. Dashed: \
-                 the ranges that decisions take, of the bias those of a \
+                "(a) Each mark is a tenth of the tests. Bars: 90 % intervals. \
+                 Dashed in (b) and (c): ranges that decisions take for a \
                  fitted object.",
             ),
         ]

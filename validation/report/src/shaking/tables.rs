@@ -32,9 +32,10 @@ impl RockTests {
         PlainTable::new(
             "test-predictors",
             "Predictors of the fates",
-            "A measure is right where its fitted probability of the fate is \
-             above one half. Log score: mean of -ln of this probability, by a \
-             fit without the motion of the test; small is good.",
+            "The block overturns from its first overturning on, a measure \
+             where its fitted probability is above one half. Log score: mean \
+             of -ln of the probability of the fate, by a fit without the \
+             motion of the test; small is good.",
             &[
                 "predictor",
                 "fates right, rock 1",
@@ -67,7 +68,7 @@ impl RockTests {
             ("as above", &self.fitted),
             ("without tests of a missed target", &self.without_targets),
             ("alpha rounded, not fitted", &self.given),
-            ("the same, Housner's restitution", &self.housner),
+            ("Housner's restitution", &self.housner),
         ];
         let varied = self.varied.iter().map(|v| row(&v.change, &v.rocks));
         let heads = ["alpha (rad)", "right", "bias", "dispersion", "ln L"];
@@ -80,7 +81,7 @@ impl RockTests {
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         PlainTable::new(
             "test-choices",
-            "Other choices",
+            "Other choices of the block and the motions",
             "Bias: median of measured over computed \
              capacity, 1 where alpha is fitted. Fitted anew in each row \
              unless alpha is rounded.",

@@ -49,13 +49,13 @@ fn the_usual_error_of_the_model_follows_from_the_tests() {
             assert!(unfitted.holds(moved) && !bias.holds(moved), "{moved}");
         }
     }
-    assert!(kept.left_out().contains("The dispersion holds what is missing"));
+    assert!(kept.left_out().contains("holds these values in PGV"));
     let more = changed(|all| {
         for own in all["fitted"][1]["distributions"].as_array_mut().unwrap() {
             own["missing_dispersion"] = json!({"point": range.high() + 0.1});
         }
     });
-    assert!(more.unwrap().left_out().contains("does not hold all"));
+    assert!(more.unwrap().left_out().contains("does not hold all values"));
 }
 
 /// Two rocks, 490 tests, one fitted angle: no more is claimed.
@@ -73,12 +73,13 @@ fn counts_are_those_of_the_tests() {
     for own in &kept.without_targets {
         assert_eq!(own.tests + kept.targets, kept.compared());
     }
-    for own in kept.given.iter().chain(&kept.housner) {
-        assert!(!own.alpha_is_fitted);
+    assert!(kept.given.iter().all(|own| !own.alpha_is_fitted));
+    for own in &kept.housner {
+        assert!(own.alpha_is_fitted && own.eta > 0.98, "{}", own.eta);
     }
     assert_eq!((kept.compared(), kept.measured[0].tests), (490, 582));
     let said = [kept.introduction(), kept.right(), kept.counted()].concat();
-    assert!(said.contains("motions of 490 tests") && said.contains("of 490"));
+    assert!(said.contains("records of 490 tests") && said.contains("of 490"));
 }
 
 #[test]
@@ -108,14 +109,17 @@ fn words_on_sentences_follow_from_the_numbers() {
     });
     let other = other.unwrap();
     assert_eq!(seen(&other), [0; 5].map(|_| name(Seen::No)));
-    assert_eq!(other.on_fragility(), "Tests of two rocks disagree");
+    assert_eq!(other.on_fragility(), "Tests of two rocks disagree on uplift");
     // On one rock alone it is in part.
     let part = changed(|all| {
         all["measured"][0]["expected_below"] = json!(0.0);
     });
     let part = part.unwrap();
     assert_eq!(seen(&part)[0], name(Seen::InPart));
-    assert_eq!(part.on_fragility(), "Tests of two rocks agree in part");
+    assert_eq!(
+        part.on_fragility(),
+        "Tests of two rocks agree in part on uplift"
+    );
     assert_eq!(now.len(), 5);
     assert_eq!(now[0], name(Seen::Yes));
     assert_eq!(now[2], name(Seen::Yes));

@@ -112,7 +112,7 @@ impl TestTable<'_> {
             let name = member.accelerogram.name();
             if let Some(before) = lines.insert(name.to_owned(), line) {
                 faults.push(format!(
-                    "{place}: test {name:?} stands on line {before} too: \
+                    "{place}: test {name:?} is on line {before}, too: \
                      expected a name of its own, in a column `name` if one \
                      file has several tests"
                 ));

@@ -53,7 +53,7 @@ pub fn page_sections(
         ("scope", "Scope", columns(&page.words.scope)),
         ("findings", "Findings", findings::section(page)),
         ("method", "Method", method(page)),
-        ("shaking", "Against shaking-table tests", shaking(page)),
+        ("shaking", "Shaking-table tests", shaking(page)),
         ("evidence", "Proof of the integrator", evidence(page)),
         ("speed", "Speed against error", speed(page)),
         ("limits", "Limits and references", limits(page)),

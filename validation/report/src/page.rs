@@ -45,7 +45,7 @@ pub(crate) fn html(
                         }
                         @if page.lab {
                             li {
-                                a href=(LAB) { "Recompute in your browser" }
+                                a href=(LAB) { "Recompute" }
                             }
                         }
                     }

@@ -128,22 +128,18 @@ impl RockTests {
         TestedSentence {
             words: "Resurrections may be left out",
             rocks: self.each(|k| {
-                let right = |own: &TestComparison| {
-                    format!(
-                        "{} by first overturning, {} at the level",
-                        percent(own.computed.right.value(), 1),
-                        percent(own.resurrected.right_at_level, 1)
-                    )
+                let shares = |own: &TestComparison| {
+                    [
+                        own.computed.right.value(),
+                        own.resurrected.right_at_level,
+                    ]
+                    .map(|share| percent(share, 1))
                 };
-                let (own, rounded) = (&self.fitted[k], &self.given[k]);
-                let again = &own.resurrected;
+                let [first, level] = shares(&self.fitted[k]);
+                let rounded = shares(&self.given[k]).join(", ");
                 format!(
-                    "right: {}; with alpha rounded {}; where the block \
-                     stands again {} of {} overturned",
-                    right(own),
-                    right(rounded),
-                    again.overturned,
-                    again.tests,
+                    "right: {first} by first overturning, {level} at the \
+                     level; alpha rounded: {rounded}"
                 )
             }),
             // Neither of the fitted block nor of the rounded one is the fate
@@ -165,10 +161,7 @@ impl RockTests {
         TestedSentence {
             words: "A restitution below Housner's serves better",
             rocks: found.map(|[own, housner]| {
-                format!(
-                    "log-likelihood {own:.1}, with Housner's {housner:.1}, \
-                     alpha fitted to each"
-                )
+                format!("log-likelihood {own:.1}, with Housner's {housner:.1}")
             }),
             seen: seen(found.map(|[own, housner]| own - housner > GAIN)),
         }
@@ -193,8 +186,8 @@ impl RockTests {
         PlainTable::new(
             "tested-sentences",
             "Statements beside the measured fates",
-            "The first, second and fourth are the paper's. The first two rest \
-             on all tests, the others on those with a motion.",
+            "Statements 1, 2 and 4 are the paper's; 1 and 2 rest on all tests. \
+             Alpha is fitted to each restitution.",
             &["sentence", "seen in these tests", "rock 1", "rock 2"],
             self.tested().into_iter().map(row).collect(),
         )

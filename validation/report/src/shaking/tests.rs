@@ -56,6 +56,9 @@ fn the_usual_error_of_the_model_follows_from_the_tests() {
         }
     });
     assert!(more.unwrap().left_out().contains("does not hold all values"));
+    assert!(kept.left_out().contains("makes the fates more likely than"));
+    let above = changed(|all| all["fitted"][1]["onset"]["above"] = json!(0.0));
+    assert!(above.unwrap().left_out().contains("does not make all fates"));
 }
 
 /// Two rocks, 490 tests, one fitted angle: no more is claimed.

@@ -146,6 +146,21 @@ class AssessedObject(Answer):
 
 
 @dataclass(frozen=True)
+class RecordedMotions(Result):
+    """What recorded motions change in answers under embedded ones: the median
+    ratio, the least and the largest."""
+
+    blocks: int
+    """Blocks whose medians are compared."""
+    median_ratio: Bounds
+    """Median intensity of overturning under recorded motions over that under
+    embedded ones, of these blocks."""
+    return_period_ratio: Bounds | None
+    """Mean return period of overturning with these ratios as a bias of the
+    capacity over that without, of the objects on the ground."""
+
+
+@dataclass(frozen=True)
 class Assessment(Result):
     """Objects under a suite, the one that needs attention first before all."""
 
@@ -164,6 +179,7 @@ class Assessment(Result):
     correlation: Bounds | None
     objects: tuple[AssessedObject, ...]
     together: tuple[DamagedTogether, ...]
+    recorded_motions: RecordedMotions | None
     _files: dict[str, str] = field(default_factory=dict, repr=False)
 
     def to_dict(self) -> dict[str, Any]:

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
-use rocking_assessment::{About, files, set_surfaces};
+use rocking_assessment::{About, files, set_beside_embedded};
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::{
     AssessOptions, Draws, ModelError, Object, assess as procedure,
@@ -75,15 +75,16 @@ pub fn assess(
 ) -> PyResult<BTreeMap<String, String>> {
     let objects = objects.into_iter().map(GivenObject::object);
     let mut objects = objects.collect::<PyResult<Vec<Object>>>()?;
-    if embedded {
-        set_surfaces(&mut objects).map_err(refuse)?;
-    }
     let records: Vec<Accelerogram> = suite_of(records)?;
     let clusters = match events.as_slice() {
         [] => Clusters::singletons(records.len()),
         known => Clusters::from_labels(known),
     };
     let hazard = hazard.as_ref().map(read).transpose()?;
+    let ratios = match embedded {
+        true => set_beside_embedded(&mut objects, hazard.as_ref()),
+        false => Ok(Vec::new()),
+    };
     let Options { replicates, seed, .. } = options;
     let model_error =
         model_error(&options.model_error, ModelError::default())?;
@@ -94,6 +95,7 @@ pub fn assess(
         draws: Draws { replicates, seed },
         certify: options.certify,
         model_error,
+        recorded_ratios: &ratios.map_err(refuse)?,
     };
     let ground = match embedded {
         true => "No records are given: the motions are synthetic, made by \

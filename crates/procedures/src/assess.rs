@@ -80,6 +80,10 @@ pub struct AssessOptions<'a> {
     /// The error of the model, in every answer but that of the records
     /// alone.
     pub model_error: ModelError,
+    /// Median intensities of overturning under recorded motions over those
+    /// under the records here, of blocks for which both are known; empty
+    /// where none is.
+    pub recorded_ratios: &'a [f64],
 }
 
 /// What counts as damage.
@@ -139,6 +143,26 @@ pub struct Assessment {
     pub objects: Vec<ObjectAssessment>,
     /// At least one, two, .. objects damaged by the same earthquake.
     pub together: Vec<JointDamage>,
+    /// What recorded motions change, where ratios of them are known and an
+    /// object on the ground overturns.
+    pub recorded_motions: Option<RecordedMotions>,
+}
+
+/// What recorded motions change in answers under other motions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct RecordedMotions {
+    /// Number of blocks whose medians are compared.
+    pub blocks: usize,
+    /// Median intensity of overturning under recorded motions over that
+    /// under the records here: the least, the median and the largest of the
+    /// blocks.
+    pub median_ratio: Estimate,
+    /// Mean return period of overturning with these three ratios as a bias of
+    /// the capacity over that without: the least, the median and the largest
+    /// of the objects on the ground; none without a hazard curve.
+    pub return_period_ratio: Option<Estimate>,
 }
 
 /// One object.
@@ -455,6 +479,7 @@ pub enum AssessError {
 ///     draws: Draws { replicates: 100, seed: 0 },
 ///     certify: true,
 ///     model_error: ModelError::default(),
+///     recorded_ratios: &[],
 /// };
 /// let clusters = Clusters::singletons(3);
 /// let found = assess(&[cabinet], &records, &clusters, &options)?;
@@ -501,6 +526,7 @@ pub fn assess(
     let found = each.collect::<Result<Vec<_>, AssessError>>()?;
     let together = ground.together(&found)?;
     Ok(Assessment {
+        recorded_motions: ground.recorded(&found),
         unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
         units_per_im_unit: ground.unit,
         im: ground.im,

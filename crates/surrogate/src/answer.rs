@@ -100,7 +100,7 @@ impl Surrogate {
         let (alpha_rad, p_rad_s) =
             (block.slenderness_rad(), block.frequency_rad_s());
         let onset_g = uplift_threshold(block, integrator::Model::Nonlinear);
-        let recorded = Recorded::kept()?;
+        let recorded = Recorded::kept("pga")?;
         let mut suites = Vec::new();
         for (model, errors) in &self.models {
             let fitted = model.at(alpha_rad, p_rad_s)?;

@@ -64,8 +64,8 @@ impl Surrogate {
     }
 }
 
-/// A block's overturning intensities PGA/(g tan alpha) under recorded
-/// motions.
+/// A block's overturning intensities, such as PGA/(g tan alpha), under
+/// recorded motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recorded {
     /// The suite.
@@ -76,6 +76,8 @@ pub struct Recorded {
     pub p_rad_s: f64,
     /// The 16, 50 and 84 % quantiles of the sample.
     pub quantiles: [f64; 3],
+    /// The median under the embedded suite.
+    pub embedded: f64,
 }
 
 /// A row of the comparison of suites; other columns are not read.
@@ -87,6 +89,7 @@ struct Compared {
     p_rad_s: Option<f64>,
     alpha_rad: Option<f64>,
     edp: Option<f64>,
+    embedded: Option<f64>,
     recorded_low: Option<f64>,
     recorded: Option<f64>,
     recorded_high: Option<f64>,
@@ -94,33 +97,42 @@ struct Compared {
 
 impl Recorded {
     /// The study's blocks under 86 ordinary and 44 pulse-type recorded
-    /// motions: those of the committed comparison of suites.
+    /// motions: those of the committed comparison of suites, in the measure
+    /// of this name.
+    ///
+    /// ```
+    /// use rocking_surrogate::Recorded;
+    /// assert_eq!(Recorded::kept("pga")?.len(), 30);
+    /// assert!(Recorded::kept("sa:1")?.is_empty());
+    /// # Ok::<(), rocking_surrogate::SurrogateError>(())
+    /// ```
     ///
     /// # Errors
     /// [`SurrogateError::Table`] with the line for a table of another form.
-    pub fn kept() -> Result<Vec<Self>, SurrogateError> {
+    pub fn kept(im: &str) -> Result<Vec<Self>, SurrogateError> {
         let expected = "a table `suites.csv` of `rocking study`";
         let mut out = Vec::new();
         for (line, row) in rows::<Compared>("suites.csv", COMPARED, expected)?
         {
-            let overturns = row.edp == Some(1.0) && row.quantity == "pga";
+            let overturns = row.edp == Some(1.0) && row.quantity == im;
             if row.group != "capacity" || !overturns {
                 continue;
             }
-            let all = row.p_rad_s.zip(row.alpha_rad).zip(
-                row.recorded_low.zip(row.recorded).zip(row.recorded_high),
-            );
-            let Some(((p_rad_s, alpha_rad), ((low, middle), high))) = all
-            else {
-                return Err(SurrogateError::Table {
-                    place: format!("suites.csv:{line}"),
-                    found: "a block without its quantiles".into(),
-                    expected,
-                });
+            let known = || {
+                let (low, high) = (row.recorded_low?, row.recorded_high?);
+                Some(Self {
+                    suite: row.suite,
+                    alpha_rad: row.alpha_rad?,
+                    p_rad_s: row.p_rad_s?,
+                    quantiles: [low, row.recorded?, high],
+                    embedded: row.embedded?,
+                })
             };
-            let quantiles = [low, middle, high];
-            let suite = row.suite;
-            out.push(Self { suite, alpha_rad, p_rad_s, quantiles });
+            out.push(known().ok_or_else(|| SurrogateError::Table {
+                place: format!("suites.csv:{line}"),
+                found: "a block without its quantiles".into(),
+                expected,
+            })?);
         }
         Ok(out)
     }

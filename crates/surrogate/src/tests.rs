@@ -113,7 +113,7 @@ fn it_answers_in_its_range_alone() {
 fn coefficients_and_errors_are_those_of_another_program() {
     let expected = rocking_fixtures::text("oracles/surrogate.csv");
     let surrogate = Surrogate::embedded().unwrap();
-    let kept = Recorded::kept().unwrap();
+    let kept = Recorded::kept("pga").unwrap();
     let mut compared = 0;
     for line in expected.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();

@@ -20,8 +20,9 @@ use rocking_procedures::ModelError;
 use rocking_procedures::assess::{
     Alternative, Assessment, Damage, Object, ObjectAssessment,
 };
+use rocking_procedures::fragility::hazard::Hazard;
 use rocking_statistics::Interval;
-use rocking_surrogate::Surrogate;
+use rocking_surrogate::{Recorded, Surrogate};
 use rocking_synthesis::SuiteKind;
 
 pub use data::json;
@@ -37,6 +38,10 @@ const NAMED: usize = 5;
 
 /// Share of the records from which on an object slides first.
 const SLIDES: f64 = 0.05;
+
+/// How to get recorded motions, in a sentence.
+pub const RECORDED_MOTIONS: &str = "`python -m rocking.recorded motions` writes recorded motions (FEMA P-695) \
+     into a folder.";
 
 /// What an assessment was made of.
 #[derive(Clone, Debug, Default)]
@@ -61,11 +66,17 @@ impl About {
 }
 
 /// Sets the fitted surface of the embedded ordinary suite beside each object
-/// that it covers.
+/// that it covers, and gives the median intensities of overturning under
+/// recorded ordinary motions over those under the embedded ones, block by
+/// block: in the measure of the hazard curve or else in PGA, none in a measure
+/// that was not compared.
 ///
 /// # Errors
-/// Where the surface cannot be read.
-pub fn set_surfaces(objects: &mut [Object]) -> anyhow::Result<()> {
+/// Where the surface or the comparison cannot be read.
+pub fn set_beside_embedded(
+    objects: &mut [Object],
+    hazard: Option<&Hazard>,
+) -> anyhow::Result<Vec<f64>> {
     let surrogate = Surrogate::embedded()?;
     for object in objects {
         let Ok(found) = surrogate.fragility(&object.block) else { continue };
@@ -76,7 +87,10 @@ pub fn set_surfaces(objects: &mut [Object]) -> anyhow::Result<()> {
         let same = object.restitution.velocity_ratio() == found.eta;
         object.surface = own.transpose()?.filter(|_| same);
     }
-    Ok(())
+    let im = hazard.map_or(Some("pga".into()), |own| own.im.name());
+    let mut kept = Recorded::kept(&im.unwrap_or_default())?;
+    kept.retain(|own| own.suite == SuiteKind::Ordinary);
+    Ok(kept.iter().map(|own| own.quantiles[1] / own.embedded).collect())
 }
 
 /// The files of an assessment, by their names.
@@ -380,6 +394,9 @@ fn limits(found: &Assessment) -> Markup {
                 li {
                     "The other horizontal and the vertical component of \
                      each record."
+                }
+                @if let Some(words) = words::recorded(found) {
+                    li { (words) }
                 }
                 @if objects.iter().any(|one| one.floor.is_some()) {
                     li {

@@ -57,6 +57,11 @@ fn object(id: &str, width_m: f64) -> Object {
 fn assessed(friction: Option<f64>) -> Assessment {
     let hazard = "pgv_cm_s,annual_frequency\n5,0.1\n50,0.01\n100,1e-3\n\
                   300,1e-4\n1000,1e-6\n";
+    let cabinet = Object { friction, ..object("cabinet", 0.5) };
+    under(hazard, &[], [cabinet, object("shelf", 0.6)])
+}
+
+fn under(hazard: &str, ratios: &[f64], objects: [Object; 2]) -> Assessment {
     let hazard = Hazard::parse("h.csv", hazard, &HazardOptions::default());
     let options = AssessOptions {
         gravity_m_s2: GRAVITY_M_S2,
@@ -65,11 +70,10 @@ fn assessed(friction: Option<f64>) -> Assessment {
         draws: Draws { replicates: 100, seed: 0 },
         certify: false,
         model_error: ModelError::default(),
+        recorded_ratios: ratios,
     };
     let records = records();
     let clusters = Clusters::singletons(records.len());
-    let cabinet = Object { friction, ..object("cabinet", 0.5) };
-    let objects = [cabinet, object("shelf", 0.6)];
     assess(&objects, &records, &clusters, &options).unwrap()
 }
 
@@ -228,4 +232,26 @@ fn a_record_without_damage_slides_at_any_of_its_levels() {
     };
     assert_eq!(of("shelf"), None);
     assert_eq!(of("cabinet"), Some(1.0 / 7.0));
+}
+
+/// Where H = k0 x^-2, a bias b of the capacity makes return periods b^2 times
+/// as long: 0.8^2, 0.9^2 and 1.1^2. Nothing is said of an
+/// object whose damage is a rotation.
+#[test]
+fn recorded_motions_move_return_periods_by_the_power_of_the_hazard() {
+    let hazard = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
+    let tilted = Object { limit_ratio: Some(0.5), ..object("tilted", 0.5) };
+    let both = [tilted.clone(), object("shelf", 0.6)];
+    let found = under(hazard, &[0.9, 0.8, 1.1], both);
+    let own = found.recorded_motions.unwrap();
+    let (low, high) = own.return_period_ratio.unwrap().ends();
+    assert!((low / 0.64 - 1.0).abs() < 1e-9, "{low}");
+    assert!((high / 1.21 - 1.0).abs() < 1e-9, "{high}");
+    let words = "PGA of overturning is 0.9 (0.8 to 1.1) times as large (3 blocks, \
+                 ordinary suite); with this hazard curve, return periods are \
+                 0.81 (0.64 to 1.2) times as long.";
+    assert!(text(&found).contains(words), "{}", text(&found));
+    assert!(file(&found, "index.html").contains(words));
+    let none = under(hazard, &[0.9], [tilted.clone(), tilted]);
+    assert_eq!(none.recorded_motions, None);
 }

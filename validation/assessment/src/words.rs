@@ -1,5 +1,6 @@
 //! The numbers of an assessment in words.
 
+use crate::RECORDED_MOTIONS;
 use rocking_common::words::{columns, percent, rounded};
 use rocking_procedures::assess::{
     Answer, Assessment, Damage, ObjectAssessment,
@@ -102,6 +103,24 @@ pub(crate) fn held(found: &Assessment) -> String {
     )
 }
 
+/// What recorded motions change, in words.
+pub(crate) fn recorded(found: &Assessment) -> Option<String> {
+    let own = found.recorded_motions?;
+    let mut words = format!(
+        "Embedded motions: under recorded motions the median {} of \
+         overturning is {} times as large ({} blocks, ordinary suite)",
+        measure(found),
+        rounded_text(&own.median_ratio, 2),
+        own.blocks
+    );
+    if let Some(ratio) = &own.return_period_ratio {
+        words += "; with this hazard curve, return periods are ";
+        words += &rounded_text(ratio, 2);
+        words += " times as long";
+    }
+    Some(words + ". " + RECORDED_MOTIONS)
+}
+
 /// The heads of the table of all objects.
 pub(crate) fn heads(found: &Assessment) -> Vec<String> {
     let mut heads = answer_heads(found, "Object", " damage");
@@ -156,7 +175,8 @@ pub(crate) fn ranked(
     cells
 }
 
-/// What the terminal shows: the first sentence, and the table.
+/// What the terminal shows: the first sentence, the table, and what recorded
+/// motions change.
 #[must_use]
 pub fn text(found: &Assessment) -> String {
     let mut text = first(found) + "\n\n";
@@ -164,5 +184,7 @@ pub fn text(found: &Assessment) -> String {
         text += &format!("[{}] {head}\n", k + 1);
     }
     let rows = found.objects.iter().map(|one| ranked(found, one));
-    text + "\n" + &columns(&rows.collect::<Vec<_>>(), |_| false)
+    let table = columns(&rows.collect::<Vec<_>>(), |_| false);
+    let last = recorded(found).map(|own| format!("\n{own}\n"));
+    text + "\n" + &table + &last.unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! What intensities of damage say of an object: fits, intervals and risk.
 
-use super::Answer;
-use super::ground::{AssessmentSuite, LAST};
+use super::ground::{AssessmentSuite, LAST, ObjectResult, range};
+use super::{Answer, Damage, RecordedMotions};
 use crate::fit::Band;
 use crate::fragility::hazard::Hazard;
 use crate::fragility::total::TotalFragility;
@@ -121,5 +121,30 @@ impl AssessmentSuite<'_> {
             Some(h) => -h.curve.annual_frequency(*law).truncation_lower,
             None => law.quantile(SMALL),
         }
+    }
+
+    /// What recorded motions change for the objects on the ground.
+    pub(super) fn recorded(
+        &self,
+        found: &[ObjectResult],
+    ) -> Option<RecordedMotions> {
+        let median_ratio = range(self.options.recorded_ratios.to_vec())?;
+        let (low, high) = median_ratio.ends();
+        let mut ratios = Vec::new();
+        for one in found.iter().map(|one| &one.assessed) {
+            if one.damage == Damage::Overturning && one.floor.is_none() {
+                for bias in [low, median_ratio.value(), high] {
+                    let other = one.answer.fitted.scaled(bias).ok()?;
+                    let key = self.key(&one.answer.fitted);
+                    ratios.push(key / self.key(&other));
+                }
+            }
+        }
+        let periods = range(ratios)?;
+        Some(RecordedMotions {
+            blocks: self.options.recorded_ratios.len(),
+            median_ratio,
+            return_period_ratio: self.options.hazard.and(Some(periods)),
+        })
     }
 }

@@ -555,7 +555,11 @@ pub(super) fn correlation(found: &[ObjectResult]) -> Option<Estimate> {
     let pairs = found.iter().enumerate();
     let pairs =
         pairs.flat_map(|(k, a)| found[..k].iter().map(move |b| (a, b)));
-    let mut all: Vec<f64> = pairs.filter_map(|(a, b)| pair(a, b)).collect();
+    range(pairs.filter_map(|(a, b)| pair(a, b)).collect())
+}
+
+/// The least, the median and the largest of numbers.
+pub(super) fn range(mut all: Vec<f64>) -> Option<Estimate> {
     all.sort_by(f64::total_cmp);
     let interval = Interval::try_new(*all.first()?, *all.last()?).ok()?;
     // Rounding may carry a correlation beyond 1.

@@ -24,7 +24,7 @@ use super::shared::{BootstrapArgs, ModelErrorArgs, ThreadsArg};
 use crate::failure::{Failure, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
-use rocking_assessment::{About, PAGE};
+use rocking_assessment::{About, PAGE, set_beside_embedded};
 use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
@@ -106,14 +106,15 @@ pub fn run_assess(args: &AssessCommand) -> Result<(), Failure> {
 
 fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     let mut objects = args.objects()?;
-    if args.suite.is_none() {
-        rocking_assessment::set_surfaces(&mut objects)?;
-    }
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
+    let ratios = match args.suite {
+        Some(_) => Vec::new(),
+        None => set_beside_embedded(&mut objects, hazard.as_ref())?,
+    };
     let suite = args.suite()?;
     let folder = OutputFolder::open_new(&args.out)?;
-    let found = args.found(&objects, &suite, &hazard)?;
+    let found = args.found(&objects, &suite, (hazard.as_ref(), &ratios))?;
     let about = args.about(&suite)?;
     let mut files = rocking_assessment::files(&found, &about)?;
     files.insert(SUMS.into(), sums(&files));
@@ -222,18 +223,19 @@ impl AssessCommand {
         &self,
         objects: &[Object],
         suite: &StudySuite,
-        hazard: &Option<Hazard>,
+        (hazard, recorded_ratios): (Option<&Hazard>, &[f64]),
     ) -> Result<Assessment, Failure> {
         let motions = suite.motions.iter();
         let records: Vec<Accelerogram> =
             motions.map(|motion| motion.study.clone()).collect();
         let options = AssessOptions {
             gravity_m_s2: STANDARD_GRAVITY_M_S2,
-            hazard: hazard.as_ref(),
+            hazard,
             years: self.site.years(),
             draws: self.bootstrap.draws(),
             certify: self.certify,
             model_error: self.model_error.or(ModelError::default()),
+            recorded_ratios,
         };
         Ok(assess(objects, &records, &suite.clusters, &options)?)
     }

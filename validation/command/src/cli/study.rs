@@ -14,6 +14,7 @@ use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::terminal::{COMMIT, logged, note, print, say};
+use rocking_assessment::RECORDED_MOTIONS;
 use rocking_common::files::{FolderError, OutputFolder, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
@@ -179,6 +180,9 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
     if args.json {
         print(&study.findings.text())
     } else {
+        if suites[0].source.is_embedded() {
+            note(&format!("synthetic motions; {RECORDED_MOTIONS}"));
+        }
         for suite in &suites {
             let StudySuite { kind, remarks, set_aside, clusters, .. } = suite;
             note(&format!("{kind} suite: {clusters}"));

@@ -122,3 +122,22 @@ fn pages_show_the_committed_results() {
     let other = renewed(&other, &proof, "README.md", &readme).unwrap();
     assert_ne!(other, readme);
 }
+
+/// JOSS: these sections and at most 1750 words; where each reference is found.
+#[test]
+fn the_paper_has_what_its_journal_requires() {
+    let paper = read("paper.md");
+    let sections = "Summary, Statement of need, State of the field, \
+                    Software design, Research impact statement, AI usage \
+                    disclosure, Acknowledgements, References";
+    for section in sections.split(", ") {
+        assert!(paper.contains(&format!("\n# {section}\n")), "{section}");
+    }
+    assert!((750..=1750).contains(&paper.split_whitespace().count()));
+    for entry in read("paper.bib").split("\n@") {
+        assert!(
+            entry.contains("doi = {") || entry.contains("url = {"),
+            "{entry}"
+        );
+    }
+}

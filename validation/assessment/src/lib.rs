@@ -39,9 +39,9 @@ const NAMED: usize = 5;
 /// Share of the records from which on an object slides first.
 const SLIDES: f64 = 0.05;
 
-/// How to get recorded motions, in a sentence.
-pub const RECORDED_MOTIONS: &str = "`python -m rocking.recorded motions` writes recorded motions (FEMA P-695) \
-     into a folder.";
+/// How to get recorded motions.
+pub const RECORDED_MOTIONS: &str =
+    "Recorded motions (FEMA P-695): python -m rocking.recorded motions";
 
 /// What an assessment was made of.
 #[derive(Clone, Debug, Default)]

@@ -31,7 +31,7 @@ fn synthetic(recorded: Option<&Findings>) -> (String, &'static str) {
             suites.join(" and ")
         ),
         "The recorded motions are not part of this run and may not be passed \
-         on: only who has them can repeat their results.",
+         on. Anybody can run the study on those of FEMA P-695.",
     )
 }
 

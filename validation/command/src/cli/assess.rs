@@ -38,7 +38,8 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
 /// Each object is a rigid block that stands free and rocks on flat ground;
 /// it slides, jumps and twists not. Records are scaled until they overturn
 /// it. Without --suite the records are the 86 synthetic motions of ordinary
-/// earthquakes that the program makes itself. Without --hazard objects are
+/// earthquakes that the program makes itself; `python -m rocking.recorded
+/// motions` writes recorded ones (FEMA P-695). Without --hazard objects are
 /// ranked by the PGA that overturns them with a probability of 5 %, not by
 /// how often a year. DIR gets the page index.html, assess.json with every
 /// number of it, and CSV files of the curves.

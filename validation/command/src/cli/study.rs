@@ -33,7 +33,8 @@ pub const REPORT: &str = "rocking-report";
 /// Repeats the whole study and writes a report: 15 blocks, two suites,
 /// Figures 1 to 18 with their data, and what was found.
 ///
-/// Without suites of your own it runs on the embedded synthetic ones.
+/// Without suites of your own it runs on the embedded synthetic ones. `python
+/// -m rocking.recorded motions` writes recorded ones (FEMA P-695).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking study\n  \
@@ -181,7 +182,7 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         print(&study.findings.text())
     } else {
         if suites[0].source.is_embedded() {
-            note(&format!("synthetic motions; {RECORDED_MOTIONS}"));
+            note(RECORDED_MOTIONS);
         }
         for suite in &suites {
             let StudySuite { kind, remarks, set_aside, clusters, .. } = suite;

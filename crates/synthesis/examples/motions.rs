@@ -21,6 +21,10 @@ const PERIODS_S: [f64; 16] = [
     7.5, 10.0,
 ];
 
+/// Parameters p of blocks, in rad/s: their average spectral acceleration is the
+/// geometric mean at ten periods from 0.15 to 1.0 times 2 pi/p, at equal ratios.
+const P_RAD_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
+
 const GRAVITY_M_S2: f64 = 9.80665;
 
 /// What the table needs of one motion; accelerations, PGV and D5-75 as
@@ -68,7 +72,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
-    let settings = Settings::try_new(GRAVITY_M_S2, 0.05, PERIODS_S.to_vec())?;
+    let average = P_RAD_S.iter().flat_map(|p| {
+        (0..10).map(move |i| {
+            std::f64::consts::TAU / p * libm::pow(0.15, f64::from(i) / 9.0)
+        })
+    });
+    let periods_s = PERIODS_S.into_iter().chain(average).collect();
+    let settings = Settings::try_new(GRAVITY_M_S2, 0.05, periods_s)?;
     let m = Measures::of(motion, &settings)?;
     let (a, dt_s) = (motion.samples_g(), motion.dt_s());
     let mut velocity = vec![0.0; a.len()];
@@ -127,16 +137,17 @@ fn print<'a>(
         "measure",
         "mean",
         "sd ln",
-        "per PGV",
+        "med/PGA",
         "sd ln",
         "rho PGA",
         "rho PGV",
-        "skew/PGV"
+        "med/mean"
     );
     let row = |label: &str, of: &dyn Fn(&MotionMoments) -> f64| {
         let own = all(of);
-        let ratio = all(&|m| of(m) - m.pgv);
-        let ([mean, sd], [_, ratio_sd]) = (moments(&own), moments(&ratio));
+        let ratio = all(&|m| of(m) - m.pga);
+        let ([mean, sd], [middle, ratio_sd]) =
+            (moments(&own), moments(&ratio));
         println!(
             "{label:>10} {:9.4} {sd:7.3} {:9.4} {ratio_sd:7.3} {:8.3} \
              {:8.3} {:8.3}",
@@ -144,7 +155,7 @@ fn print<'a>(
             libm::exp(median(&ratio)),
             correlation(&own, &pga),
             correlation(&own, &pgv),
-            skewness(&ratio),
+            libm::exp(median(&ratio) - middle),
         );
     };
     row("PGA", &|m| m.pga);
@@ -154,6 +165,15 @@ fn print<'a>(
     row("D5-75", &|m| m.d5_75);
     for (k, period) in PERIODS_S.iter().enumerate() {
         row(&format!("SA {period} s"), &|m| m.spectrum[k]);
+    }
+    let average = |from: usize, n: usize| {
+        move |m: &MotionMoments| moments(&m.spectrum[from..from + n])[0]
+    };
+    for (j, p) in P_RAD_S.iter().enumerate() {
+        row(&format!("AvgSA p={p}"), &average(PERIODS_S.len() + 10 * j, 10));
+    }
+    for (k, six) in PERIODS_S.windows(6).enumerate().skip(2).take(6) {
+        row(&format!("{}..{} s", six[0], six[5]), &average(k, 6));
     }
     for (label, values) in [
         ("peak factor of velocity", all(&|m| m.peak_factor)),
@@ -174,12 +194,6 @@ fn moments(values: &[f64]) -> [f64; 2] {
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     [mean, (squares / (n - 1.0)).sqrt()]
-}
-
-fn skewness(values: &[f64]) -> f64 {
-    let [mean, sd] = moments(values);
-    let scores = values.iter().map(|x| (x - mean) / sd);
-    scores.map(|z| z * z * z).sum::<f64>() / values.len() as f64
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -1,10 +1,15 @@
-//! What a suite is conditioned on: four moments of each quantity.
+//! What a suite is conditioned on: four moments of each quantity, and medians
+//! of seven ratios to PGA.
 //!
 //! Geometric mean, in g, m/s or s, standard deviation of the natural logarithm,
 //! and its correlation with those of PGA and PGV, of PGA, of the spectral
 //! accelerations at the other periods, of PGV and of D5-75, over the study
 //! components of recorded pairs of PEER's database, without further
 //! processing. They are all that this program knows of those records.
+
+use std::ops::Range;
+
+use rocking_statistics::normal;
 
 use crate::attenuation::{PGV, QUANTITIES};
 use crate::draws::dot;
@@ -55,6 +60,48 @@ pub(super) const PULSE: Moments = [
     [0.6350, 0.488, 0.349, 1.000],
     [4.9180, 0.533, -0.172, -0.103],
 ];
+
+/// Quantities whose geometric mean over PGA has the recorded median: spectral
+/// accelerations at six neighbouring periods, from 0.2 to 1 s up to from 1 to
+/// 5 s, and PGV. The first and the last of the six are those of the average
+/// spectral acceleration of blocks with p of 6 to 1 rad/s.
+const RATIOS: [Range<usize>; 7] =
+    [3..9, 4..10, 5..11, 6..12, 7..13, 8..14, PGV..PGV + 1];
+
+/// Median of each of these ratios over its geometric mean, of the ordinary
+/// and of the pulse-type pairs. Above 1, a few small ratios are far from the
+/// others: an oscillator amplifies the ground's motion only so far.
+pub(super) const ORDINARY_MEDIANS: [f64; 7] =
+    [1.071, 1.095, 1.116, 1.142, 1.147, 1.106, 1.079];
+pub(super) const PULSE_MEDIANS: [f64; 7] =
+    [1.063, 1.054, 1.062, 1.154, 1.162, 1.129, 1.065];
+
+/// Gives the ratios to PGA of a sample of logarithms, the first component of
+/// each pair, these medians over their geometric means, which they keep: a
+/// ratio becomes the quantile of z + q (1 - z^2), scaled, at its rank, where z
+/// is standard normal. One ratio after the other, so that an earlier one is
+/// disturbed a little.
+pub(super) fn bend(pairs: &mut [[[f64; QUANTITIES]; 2]], medians: &[f64; 7]) {
+    for (range, median) in RATIOS.into_iter().zip(medians) {
+        let ratio = |v: &[f64; QUANTITIES]| {
+            let sum = v[range.clone()].iter().fold(0.0, |s, x| s + x);
+            sum / range.len() as f64 - v[0]
+        };
+        let first: Vec<f64> = pairs.iter().map(|p| ratio(&p[0])).collect();
+        let [mean, deviation] = moments(&first);
+        let q = libm::log(*median) / deviation;
+        for v in pairs.iter_mut().flatten() {
+            let own = ratio(v);
+            let below = first.iter().filter(|x| **x < own).count();
+            let rank = below.min(first.len() - 1) as f64 + 0.5;
+            let z = normal::quantile(rank / first.len() as f64);
+            let bent = (1.0 - 2.0 * q * q).sqrt() * z + q * (1.0 - z * z);
+            for x in &mut v[range.clone()] {
+                *x += mean + deviation * bent - own;
+            }
+        }
+    }
+}
 
 /// The affine transformation of logarithms that gives a sample the recorded
 /// moments: what PGA and PGV do not explain of a quantity keeps its

@@ -94,10 +94,10 @@ pub(crate) enum Role {
 }
 
 /// Name of the random streams of the ordinary suite.
-pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/3";
+pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/4";
 
 /// Name of the random streams of the pulse-type suite.
-pub const PULSE_SEED: &str = "rocking/synthesis/pulse/2";
+pub const PULSE_SEED: &str = "rocking/synthesis/pulse/3";
 
 /// Number of the stream of a pair, an attempt and a purpose.
 pub(crate) fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {

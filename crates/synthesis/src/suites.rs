@@ -34,6 +34,7 @@ pub(super) const ORDINARY: Design = Design {
     ],
     pulses: false,
     recorded: &moments::ORDINARY,
+    medians: &moments::ORDINARY_MEDIANS,
 };
 
 /// Pulse-type motions. Earthquakes follow the record list; distances are
@@ -51,6 +52,7 @@ pub(super) const PULSE: Design = Design {
     distances_km: &[[0.0, 1.0], [1.0, 15.0]],
     pulses: true,
     recorded: &moments::PULSE,
+    medians: &moments::PULSE_MEDIANS,
 };
 
 /// All pairs of a suite. Its targets are drawn together, because they are

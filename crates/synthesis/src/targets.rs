@@ -4,7 +4,7 @@ use crate::attenuation::{
     PGV, QUANTITIES, between_components, correlation, deviation, median,
 };
 use crate::draws::{Deviates, cholesky, correlate};
-use crate::moments::{Conditioning, Moments};
+use crate::moments::{Conditioning, Moments, bend};
 use crate::pair::{
     LEAST_PGA_G, MOST_DRAWS, Role, Scenario, SynthesisError, stream_index,
 };
@@ -15,6 +15,10 @@ use crate::pulse::PulseModel;
 /// the ends at which it is cut. The list has no sites: these are chosen, for
 /// the firm soils and soft rocks that stations stand on.
 const VS30_M_S: [f64; 4] = [380.0, 0.43, 180.0, 1000.0];
+
+/// How often ratios to PGA are bent, and moments then restored: the one
+/// disturbs the other less each time.
+const BENDS: usize = 5;
 
 /// What a suite is drawn from.
 pub(super) struct Design {
@@ -32,6 +36,8 @@ pub(super) struct Design {
     pub(super) pulses: bool,
     /// Moments that the first components have.
     pub(super) recorded: &'static Moments,
+    /// Medians of their ratios to PGA, over geometric means.
+    pub(super) medians: &'static [f64; 7],
 }
 
 /// Earthquake, site, and logarithms of the quantities of both components.
@@ -43,8 +49,9 @@ pub(super) struct Target {
 }
 
 /// The targets of the whole suite: drawn pair by pair, then transformed so
-/// that the first components have the recorded moments. A pair whose PGA is
-/// not above 0.14 g then is drawn again, until all are.
+/// that the first components have the recorded moments, and nearly the recorded
+/// medians of ratios to PGA. A pair whose PGA is not above 0.14 g then is drawn
+/// again, until all are.
 pub(super) fn conditioned(
     suite: &Design,
 ) -> Result<Vec<Target>, SynthesisError> {
@@ -58,20 +65,24 @@ pub(super) fn conditioned(
     let mut attempt = 0;
     loop {
         attempt += 1;
-        let first: Vec<_> = drawn.iter().map(|t| t.components[0]).collect();
-        let conditioning = Conditioning::of(&first, suite.recorded);
-        let out: Vec<Target> = drawn
-            .iter()
-            .map(|t| Target {
-                components: t.components.map(|c| conditioning.apply(&c)),
-                ..*t
-            })
-            .collect();
+        let mut out: Vec<_> = drawn.iter().map(|t| t.components).collect();
+        for _ in 0..BENDS {
+            bend(&mut out, suite.medians);
+            let first: Vec<_> = out.iter().map(|c| c[0]).collect();
+            let conditioning = Conditioning::of(&first, suite.recorded);
+            for c in out.iter_mut().flatten() {
+                *c = conditioning.apply(c);
+            }
+        }
         let least = libm::log(LEAST_PGA_G);
-        let weak = |t: &Target| !t.components.iter().all(|c| c[0] > least);
-        let weak: Vec<usize> =
-            (0..out.len()).filter(|i| weak(&out[*i])).collect();
-        let Some(pair) = weak.first() else { return Ok(out) };
+        let weak = |i: &usize| !out[*i].iter().all(|c| c[0] > least);
+        let weak: Vec<usize> = (0..out.len()).filter(weak).collect();
+        let Some(pair) = weak.first() else {
+            for (t, components) in drawn.iter_mut().zip(out) {
+                t.components = components;
+            }
+            return Ok(drawn);
+        };
         if attempt == MOST_DRAWS {
             return Err(SynthesisError::Weak {
                 suite: suite.seed,

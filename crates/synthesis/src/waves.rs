@@ -68,9 +68,10 @@ const CORRECTION_WIDTH: f64 = 0.5;
 const CORRECTION_APART: f64 = 0.7;
 
 /// Standard deviation with which a logarithm is met, over that of a correction:
-/// of accelerations, of PGV, and of accelerations from 3 s on. A low
-/// acceleration at long periods and a high PGV may exclude each other.
-const SOFTNESS: [f64; 3] = [0.12, 0.05, 0.4];
+/// of spectral accelerations, of PGA and PGV, and of spectral accelerations
+/// from 3 s on. A low acceleration at long periods and a high PGV may exclude
+/// each other.
+const SOFTNESS: [f64; 3] = [0.12, 0.05, 0.2];
 
 /// Longest motion, in s.
 const LONGEST_S: f64 = 90.0;
@@ -410,8 +411,8 @@ fn matched(
         .iter()
         .map(|packet| {
             let x = -libm::log(packet.hz);
-            // Above 12 Hz spectra of acceleration fall.
-            let above = -libm::log(12.0) - x;
+            // Above 10 Hz spectra of acceleration fall.
+            let above = 3.0 * (-libm::log(10.0) - x);
             read_off(&left, x) - if above > 0.0 { above } else { 0.0 }
         })
         .collect();
@@ -480,10 +481,10 @@ fn matched(
 
 /// Standard deviation with which quantity `k` is met.
 fn softness(k: usize) -> f64 {
-    match PERIODS_S.get(k) {
-        None => SOFTNESS[1],
-        Some(period) if *period < 3.0 => SOFTNESS[0],
-        Some(_) => SOFTNESS[2],
+    match k {
+        0 | PGV => SOFTNESS[1],
+        _ if PERIODS_S[k] < 3.0 => SOFTNESS[0],
+        _ => SOFTNESS[2],
     }
 }
 

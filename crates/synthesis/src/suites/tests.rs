@@ -69,16 +69,68 @@ fn motions_have_the_recorded_moments() {
             let [mean, deviation, a, v] = four(sample, k);
             let [mean_wanted, wanted, with_pga, with_pgv] = suite.recorded[k];
             let ratio = mean / mean_wanted;
-            assert!((0.93..=1.1).contains(&ratio), "{name}: mean {ratio}");
+            assert!((0.95..=1.1).contains(&ratio), "{name}: mean {ratio}");
             let ratio = deviation / wanted;
             assert!((0.9..=1.1).contains(&ratio), "{name}: deviation {ratio}");
-            assert!((a - with_pga).abs() < 0.14, "{name} with PGA: {a}");
-            assert!((v - with_pgv).abs() < 0.11, "{name} with PGV: {v}");
+            assert!((a - with_pga).abs() < 0.1, "{name} with PGA: {a}");
+            assert!((v - with_pgv).abs() < 0.1, "{name} with PGV: {v}");
         }
         let [mean, deviation, ..] = four(sample, DURATION);
         let [wanted, spread, ..] = suite.recorded[DURATION];
         assert!((0.8..=1.2).contains(&(mean / wanted)), "{mean}");
-        assert!((0.8..=1.5).contains(&(deviation / spread)), "{deviation}");
+        assert!((0.8..=1.3).contains(&(deviation / spread)), "{deviation}");
+    }
+}
+
+#[test]
+fn average_accelerations_over_pga_are_the_recorded_ones() {
+    // p in rad/s; of the recorded average spectral acceleration over PGA the
+    // geometric mean, the median and the deviation of the logarithm, as the
+    // example prints them. Lognormal targets, the motions before these, have
+    // means of 0.93 to 0.97 and medians of 0.79 to 0.96 of the recorded ones.
+    #[rustfmt::skip]
+    let recorded = [
+        [
+            (1.0, 0.2404, 0.2750, 0.725),
+            (2.0, 0.6557, 0.7304, 0.596),
+            (3.0, 1.0392, 1.1764, 0.493),
+            (4.0, 1.3456, 1.5044, 0.403),
+            (6.0, 1.6987, 1.8159, 0.284),
+        ],
+        [
+            (1.0, 0.4400, 0.4932, 0.728),
+            (2.0, 0.9746, 1.1071, 0.507),
+            (3.0, 1.3019, 1.4152, 0.402),
+            (4.0, 1.5175, 1.6040, 0.333),
+            (6.0, 1.7312, 1.7883, 0.242),
+        ],
+    ];
+    for ((pairs, _), rows) in MADE.iter().zip(recorded) {
+        for (p, mean_wanted, median_wanted, wanted) in rows {
+            let periods = (0..10).map(|i| {
+                std::f64::consts::TAU / p * libm::pow(0.15, f64::from(i) / 9.0)
+            });
+            let settings = Settings::try_new(9.80665, 0.05, periods.collect());
+            let settings = settings.expect("settings");
+            let ratio = |pair: &Pair| {
+                let m = Measures::of(&pair.components[0], &settings);
+                let m = m.expect("a motion");
+                let ln =
+                    m.spectral_acceleration_g.iter().map(|x| libm::log(*x));
+                ln.sum::<f64>() / 10.0 - libm::log(m.pga_g)
+            };
+            let mut ratios: Vec<f64> = pairs.iter().map(ratio).collect();
+            let [mean, deviation] = moments(&ratios);
+            ratios.sort_by(f64::total_cmp);
+            let n = ratios.len();
+            let median = 0.5 * (ratios[n / 2 - 1] + ratios[n / 2]);
+            let mean = libm::exp(mean) / mean_wanted;
+            assert!((0.975..=1.025).contains(&mean), "{p}: mean {mean}");
+            let median = libm::exp(median) / median_wanted;
+            assert!((0.93..=1.06).contains(&median), "{p}: median {median}");
+            let ratio = deviation / wanted;
+            assert!((0.9..=1.1).contains(&ratio), "{p}: deviation {ratio}");
+        }
     }
 }
 
@@ -247,12 +299,13 @@ fn the_envelope_has_its_duration_and_unit_energy() {
 #[test]
 fn the_fast_peaks_agree_with_the_core_from_below() {
     // The fast ones look at samples only: at most 1 - cos(pi/10), 5 %, low
-    // at 0.1 s. An oscillator without damping would be high.
+    // at 0.1 s; and begin at rest one sample earlier. An oscillator without
+    // damping would be high.
     let (pairs, measured) = &MADE[0];
     let samples = pairs[0].components[0].samples_g();
     for (k, ln) in measured[0].iter().enumerate().take(PGV + 1) {
         let ratio = Peak::of(k).found(samples).size / libm::exp(*ln);
-        assert!((0.95..=1.001).contains(&ratio), "{k}: {ratio}");
+        assert!((0.95..=1.003).contains(&ratio), "{k}: {ratio}");
     }
 }
 

@@ -13,7 +13,7 @@ you have                  call
 a size                    `Block.from_dimensions`
 an array or a trace       `Record`, `Record.of`
 a file, a folder          `read_record`, `read_suite`
-none of these             `embedded_suite`
+none of these             `embedded_suite`, `recorded_suite`
 a block and a motion      `respond`: what the block does
 many of both              `peak`, `spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
@@ -65,6 +65,7 @@ from ._inputs import (
     embedded_suite,
     read_record,
     read_suite,
+    recorded_suite,
 )
 from ._measures import intensity_measures, rotd50, velocity_pulse
 from ._results import (
@@ -162,6 +163,7 @@ __all__ = [
     "read_record",
     "read_suite",
     "read_tests",
+    "recorded_suite",
     "respond",
     "risk",
     "rotd50",

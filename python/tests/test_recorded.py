@@ -88,6 +88,8 @@ def test_a_suite_has_the_samples_of_the_package(component: Any) -> None:
         for record, (_, motion) in zip(suite, data.iterrows()):
             assert record.acc_g.tolist() == motion.RecordedAcceleration.tolist()
             assert record.dt == motion.DT
+            rounded = "RSN292_" in record.name
+            assert rounded == bool(record.remarks), record.remarks
             last = record.dt * (motion.NumPoints - 1)
             assert motion.Time[-1] == pytest.approx(last, rel=1e-9)
 

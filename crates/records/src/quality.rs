@@ -153,8 +153,9 @@ coded! {
             "the last line has no line end: its number is taken as written; was the file cut?"
         )]
         LastLine = "last-line",
-        /// The two components of a pair differ in length or interval.
-        #[error("{0} differs in length or interval: components not aligned?")]
+        /// The two components of a pair differ in interval. Another length
+        /// is no fault: measures of a pair put zeros behind the shorter one.
+        #[error("{0} has another sampling interval: no measure of the pair")]
         UnequalComponents(String) = "unequal-components",
         /// Other records with the same motion.
         #[error(
@@ -358,7 +359,6 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
         .iter()
         .map(|one| [one.read, &one.profile.remarks].concat())
         .collect();
-    let shape = |r: &Profile| (r.samples, r.dt_s);
     let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (i, RemarkInput { pair, .. }) in records.iter().enumerate() {
         if let Some(pair) = pair {
@@ -369,7 +369,7 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
         let others = pair.map_or(&[][..], |pair| &pairs[pair]);
         let Some(&other) = others.iter().find(|j| **j != i) else { continue };
         let other = &records[other].profile;
-        if shape(profile) != shape(other) {
+        if profile.dt_s != other.dt_s {
             found[i].push(Remark::UnequalComponents(other.name.clone()));
         }
     }

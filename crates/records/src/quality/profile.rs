@@ -12,7 +12,6 @@ use rocking::accelerogram::Accelerogram;
 pub struct Profile {
     pub(super) name: String,
     pub(super) dt_s: f64,
-    pub(super) samples: usize,
     pub(super) remarks: Vec<Remark>,
     /// Samples about the peak, over the peak.
     pub(super) about_peak: Vec<f32>,
@@ -48,7 +47,6 @@ impl Profile {
         Self {
             name: record.name().to_owned(),
             dt_s: record.dt_s(),
-            samples: samples.len(),
             remarks: remarks(record),
             about_peak: about.collect(),
             before: peak - from,

@@ -40,21 +40,24 @@ fn each_blemish_has_its_code() {
 
 #[test]
 fn components_of_a_pair_are_compared() {
-    let record = |name: &str, n: usize| {
+    let record = |name: &str, dt_s: f64, n: usize| {
         let mut samples = clean();
         samples.truncate(n);
-        Accelerogram::try_new(name, 0.01, samples).unwrap()
+        Accelerogram::try_new(name, dt_s, samples).unwrap()
     };
-    let (a, b) = (record("a", 401), record("b", 381));
-    let codes = |pair| {
+    let a = record("a", 0.01, 401);
+    let remarked = |b: &Accelerogram, pair| {
         let one = |record, pair| RemarkInput::of(record, pair, &[]);
         let found =
-            remarks_together(&[one(&a, Some("p")), one(&b, Some(pair))]);
-        let unequal = Remark::UnequalComponents("b".to_owned());
-        (found[0].contains(&unequal), found[1].len())
+            remarks_together(&[one(&a, Some("p")), one(b, Some(pair))]);
+        let unequal = |name: &str| Remark::UnequalComponents(name.to_owned());
+        [found[0].contains(&unequal("b")), found[1].contains(&unequal("a"))]
     };
-    assert_eq!(codes("p"), (true, 2));
-    assert_eq!(codes("q"), (false, 1));
+    let other = record("b", 0.02, 401);
+    assert_eq!(remarked(&other, "p"), [true; 2]);
+    assert_eq!(remarked(&other, "q"), [false; 2]);
+    // Measures of a pair put zeros behind the shorter component.
+    assert_eq!(remarked(&record("b", 0.01, 381), "p"), [false; 2]);
 }
 
 #[test]

@@ -296,13 +296,22 @@ pub(super) fn rows(
         ),
         row(
             "May I sign?",
-            signed(proof, basis.recorded().is_some(), &tests),
-            format!("{}; {} are compared", backed(proof), tests.counted()),
+            signed(proof, basis.has_recorded(), &tests),
+            format!(
+                "{}; {} are compared{}",
+                backed(proof),
+                tests.counted(),
+                if basis.has_recorded() { REPEATED } else { "" }
+            ),
             &[("provenance", "sign-off")],
         ),
     ];
     Ok(claimed.chain(others).collect())
 }
+
+/// What of the kept results is open to everyone.
+const REPEATED: &str =
+    "; anyone can repeat the results on FEMA P-695's motions";
 
 /// Anchor and name of the chapter on shaking-table tests.
 const SHAKING: (&str, &str) = ("shaking", "tests");
@@ -317,9 +326,12 @@ pub(super) const LEFT_OUT: &str =
 
 /// What else was not run.
 pub(super) fn not_run(basis: &FindingSets<'_>) -> String {
-    let records = match (basis.embedded, basis.recorded()) {
-        (true, Some(_)) => "recorded motions anew (their results are kept), ",
-        (true, None) => "recorded motions, ",
+    let records = match (basis.embedded, basis.has_recorded()) {
+        (true, true) => {
+            "recorded motions anew (their results are kept; `python -m \
+             rocking.recorded` gets the repeatable ones), "
+        }
+        (true, false) => "recorded motions, ",
         (false, _) => "",
     };
     format!("Not run: {records}other machines than x86-64 Linux")
@@ -377,9 +389,9 @@ pub(super) fn suites_of(findings: &Findings) -> Vec<String> {
 /// What was done, in a few sentences.
 pub(super) fn done(basis: &FindingSets<'_>) -> String {
     let lead = basis.lead();
-    let source = match (basis.embedded, basis.recorded()) {
-        (true, Some(_)) => "recorded ",
-        (true, None) => "synthetic ",
+    let source = match (basis.embedded, basis.has_recorded()) {
+        (true, true) => "recorded ",
+        (true, false) => "synthetic ",
         (false, _) => "",
     };
     format!(
@@ -391,33 +403,47 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
     )
 }
 
-/// How the answers of the embedded motions differ from those of the recorded
-/// ones, or that recorded results were left out; to be less certain is not to
-/// answer otherwise.
+/// How the answers of the embedded motions differ from those of each kind of
+/// recorded ones, and on which claims, or that recorded results were left out;
+/// to be less certain is not to answer otherwise.
 ///
 /// # Errors
 /// As [`answers`].
 pub(super) fn otherwise(
     basis: &FindingSets<'_>,
 ) -> anyhow::Result<Option<String>> {
-    let Some(recorded) = basis.recorded() else { return basis.left_out() };
-    let counted = |claim: &Claim| claim.theme != Theme::Beyond;
-    let (turned, all) = turned(basis.here, recorded, counted);
-    let mut other = String::new();
-    for (own, kept) in answers(basis.here)?.iter().zip(answers(recorded)?) {
-        if own.lead != kept.lead {
-            other += &format!(" {} {}.", own.question, own.first);
-        }
+    if !basis.has_recorded() {
+        return basis.left_out();
     }
-    let same = "Embedded synthetic motions give the same answers.";
-    let answer = match other.as_str() {
-        "" => same.to_owned(),
-        _ => format!("Embedded synthetic motions answer otherwise:{other}"),
-    };
-    Ok(Some(format!(
-        "{answer} Claim by claim and suite by suite, {turned} of {all} are \
-         seen otherwise."
-    )))
+    let own = answers(basis.here)?;
+    let mut words = Vec::new();
+    for (name, recorded) in basis.recorded() {
+        let counted = |claim: &Claim| claim.theme != Theme::Beyond;
+        let (mut turned, all) = turned(basis.here, recorded, counted);
+        let count = turned.len();
+        turned.dedup();
+        let mut other = String::new();
+        for (own, kept) in own.iter().zip(answers(recorded)?) {
+            if own.lead != kept.lead {
+                let QuestionAnswer { question, first, .. } = own;
+                other += &format!(" {question} {first} ({}).", kept.first);
+            }
+        }
+        words.push(match other.as_str() {
+            "" => format!("Embedded synthetic motions answer as {name} ones."),
+            _ => format!(
+                "Embedded synthetic motions answer otherwise than {name} \
+                 ones (in brackets):{other}"
+            ),
+        });
+        words.push(match turned.join(", ").as_str() {
+            "" => format!("None of {all} results is otherwise."),
+            names => {
+                format!("Of {all} results {count} are otherwise: {names}.")
+            }
+        });
+    }
+    Ok(Some(words.join(" ")))
 }
 
 #[cfg(test)]

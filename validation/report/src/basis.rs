@@ -18,7 +18,10 @@ const HISTORIES: [u32; 2] = [2, 3];
 /// The last of the paper's figures.
 const LAST: u32 = 18;
 
-/// Findings under the name of their suites, such as "recorded suites".
+/// Name of the recorded suites whose findings anyone can find again.
+pub(crate) const REPEATABLE: &str = "recorded, repeatable";
+
+/// Findings under the name of their suites, such as "recorded, kept".
 pub(crate) type FindingColumn<'a> = (&'static str, &'a Findings);
 
 /// The findings of a run and, if it has their settings, the kept ones.
@@ -27,7 +30,7 @@ pub(crate) struct FindingSets<'a> {
     pub here: &'a Findings,
     /// Whether its suites are the embedded ones.
     pub embedded: bool,
-    kept: Option<Findings>,
+    kept: Vec<(&'static str, Findings)>,
 }
 
 impl<'a> FindingSets<'a> {
@@ -36,31 +39,33 @@ impl<'a> FindingSets<'a> {
     /// # Errors
     /// For kept results that cannot be read.
     pub fn of(embedded: bool, here: &'a Findings) -> anyhow::Result<Self> {
-        let kept = match embedded {
-            true => kept::findings_of(&here.settings)?,
-            false => None,
-        };
+        let mut kept = vec![
+            ("recorded, kept", kept::findings()?),
+            (REPEATABLE, kept::repeatable()?),
+        ];
+        kept.retain(|(_, own)| embedded && own.settings == here.settings);
         Ok(Self { here, embedded, kept })
     }
 
-    /// The kept findings of the recorded suites.
-    pub fn recorded(&self) -> Option<&Findings> {
-        self.kept.as_ref()
+    /// The kept findings of recorded suites, those that answer first.
+    pub fn recorded(&self) -> impl Iterator<Item = FindingColumn<'_>> {
+        self.kept.iter().map(|(name, found)| (*name, found))
+    }
+
+    /// Whether findings of recorded suites are kept.
+    pub fn has_recorded(&self) -> bool {
+        !self.kept.is_empty()
     }
 
     /// The findings that answer.
     pub fn lead(&self) -> &Findings {
-        self.recorded().unwrap_or(self.here)
+        self.columns()[0].1
     }
 
     /// All findings, those that answer first.
     pub fn columns(&self) -> Vec<FindingColumn<'_>> {
-        let here = match self.embedded {
-            true => "embedded suites",
-            false => "your suites",
-        };
-        let recorded = self.recorded().map(|found| ("recorded suites", found));
-        recorded.into_iter().chain([(here, self.here)]).collect()
+        let here = if self.embedded { "embedded" } else { "your suites" };
+        self.recorded().chain([(here, self.here)]).collect()
     }
 
     /// That recorded results of other settings were left out, where they
@@ -69,7 +74,7 @@ impl<'a> FindingSets<'a> {
     /// # Errors
     /// For kept results that cannot be read.
     pub fn left_out(&self) -> anyhow::Result<Option<String>> {
-        if !self.embedded || self.kept.is_some() {
+        if !self.embedded || self.has_recorded() {
             return Ok(None);
         }
         let kept = kept::findings()?.settings.named();
@@ -95,7 +100,7 @@ impl<'a> FindingSets<'a> {
         };
         let sides: Vec<String> =
             self.columns().into_iter().map(side).collect();
-        sides.join(" and ")
+        sides.join(", ")
     }
 
     /// The share of analyses that rounding may have changed, for each side.
@@ -144,10 +149,10 @@ impl<'a> FindingSets<'a> {
         if !self.embedded {
             return Ok(drawn.to_vec());
         }
-        let kept: Vec<Figure> = match &self.kept {
-            Some(_) => serde_json::from_str(kept::FIGURES)
+        let kept: Vec<Figure> = match self.has_recorded() {
+            true => serde_json::from_str(kept::FIGURES)
                 .context("fixtures/recorded/figures.json")?,
-            None => Vec::new(),
+            false => Vec::new(),
         };
         let mut all = Vec::new();
         for own in drawn {

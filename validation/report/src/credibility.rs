@@ -1,40 +1,62 @@
 //! How far to trust the study: a credibility assessment with its gaps.
 
+use crate::basis::FindingSets;
 use crate::evidence::{NOT_RUN, Proof};
 use crate::words::{Factor, Words};
-use rocking_common::findings::Findings;
+use rocking_common::findings::{Findings, RecordName, SuiteSummary};
 use rocking_common::table::PlainTable;
+use rocking_study::kept::REPEAT;
 use rocking_study::results::StudyResults;
+use std::collections::BTreeSet;
 
 /// Evidence and gap of the input of a run on embedded suites, beside which
 /// results of recorded ones may be kept.
-fn synthetic(recorded: Option<&Findings>) -> (String, &'static str) {
+fn synthetic(basis: &FindingSets<'_>) -> (String, String) {
     let own = "Synthetic suites from published relations, adjusted to \
                moments of PEER's motions, with seeds and hashes under \
                provenance";
-    let Some(recorded) = recorded else {
+    let mut recorded = basis.recorded();
+    let (Some((_, owned)), Some((_, free))) =
+        (recorded.next(), recorded.next())
+    else {
         return (
             format!("{own}."),
             "No recorded motion: these suites say how the procedure works, \
-             not what earthquakes do.",
+             not what earthquakes do."
+                .into(),
         );
     };
-    let suites: Vec<String> = recorded
-        .suites
-        .iter()
-        .map(|s| format!("{} {}", s.records, s.kind))
-        .collect();
+    let suites = |found: &Findings| {
+        let words = |s: &SuiteSummary| format!("{} {}", s.records, s.kind);
+        found.suites.iter().map(words).collect::<Vec<_>>().join(" and ")
+    };
+    // PEER's number of a recording begins the names of its files.
+    let number = |own: &RecordName| {
+        own.name.split('_').next().unwrap_or_default().to_owned()
+    };
+    let both = |a: &[SuiteSummary], b: &[SuiteSummary]| {
+        let known: BTreeSet<String> =
+            a.iter().flat_map(|suite| &suite.list).map(number).collect();
+        let other = b.iter().flat_map(|suite| &suite.list).map(number);
+        other.filter(|own| known.contains(own)).count()
+    };
     (
         format!(
-            "{own}; beside them results of {} recorded motions, whose names \
-             and hashes are kept.",
-            suites.join(" and ")
+            "{own}; beside them results of {} and of {} recorded motions, \
+             whose names and hashes are kept.",
+            suites(owned),
+            suites(free)
         ),
-        "The recorded motions are not part of this run and may not be passed \
-         on. Anybody can run the study on those of FEMA P-695.",
+        format!(
+            "The recorded motions are not part of this run. Results on the \
+             latter, those of FEMA P-695, can be repeated ({REPEAT}); {} of \
+             their pairs are among the former, which may not be passed on, \
+             and {} of their ordinary pairs are pulse-type there.",
+            both(&owned.suites, &free.suites),
+            both(&owned.suites[1..], &free.suites[..1])
+        ),
     )
 }
-
 /// After NASA-STD-7009B, by our own judgement.
 pub struct Credibility(Vec<Factor>);
 
@@ -42,7 +64,7 @@ pub struct Credibility(Vec<Factor>);
 pub fn assessment(
     results: &StudyResults,
     proof: Option<&Proof>,
-    recorded: Option<&Findings>,
+    basis: &FindingSets<'_>,
     words: &Words,
 ) -> Credibility {
     let factor = |name: &str, level: &str, evidence: String, gaps: &str| {
@@ -68,8 +90,8 @@ pub fn assessment(
         },
     );
     let input = if results.embedded() {
-        let (evidence, gaps) = synthetic(recorded);
-        factor("Input pedigree", "1", evidence, gaps)
+        let (evidence, gaps) = synthetic(basis);
+        factor("Input pedigree", "1", evidence, &gaps)
     } else {
         words.given.clone()
     };
@@ -101,11 +123,16 @@ mod tests {
     use super::*;
     #[test]
     fn recorded_results_beside_a_synthetic_run_are_shown() {
-        let recorded = crate::basis::recorded();
-        let (evidence, gap) = synthetic(Some(&recorded));
-        assert!(evidence.contains("86 ordinary and 44 pulse-type recorded"));
-        assert!(!gap.contains("No recorded motion"), "{gap}");
-        let (evidence, gap) = synthetic(None);
+        let mut here = crate::basis::recorded();
+        let (evidence, gap) =
+            synthetic(&FindingSets::of(true, &here).expect("kept"));
+        let words = "86 ordinary and 44 pulse-type and of 36 ordinary and 14 \
+                     pulse-type recorded";
+        assert!(evidence.contains(words), "{evidence}");
+        assert!(gap.contains("49 of their pairs"), "{gap}");
+        here.settings.eta = 0.9;
+        let (evidence, gap) =
+            synthetic(&FindingSets::of(true, &here).expect("kept"));
         assert!(!evidence.contains("recorded"), "{evidence}");
         assert!(gap.starts_with("No recorded motion"), "{gap}");
     }

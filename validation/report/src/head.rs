@@ -1,9 +1,12 @@
 //! Where the page comes from: which program ran on what, and who signs for
 //! it.
 
+use crate::basis::{FindingColumn, FindingSets, REPEATABLE};
 use rocking::integrator::Overturning;
-use rocking_common::findings::{Findings, SuiteSummary};
+use rocking_common::findings::SuiteSummary;
 use rocking_common::suites::inputs::sha256_hex;
+use rocking_common::words::capital;
+use rocking_study::kept::REPEAT;
 use rocking_study::results::StudyResults;
 
 /// The versions of everything that the program is built from.
@@ -49,10 +52,10 @@ pub(crate) fn inputs(
     results: &StudyResults,
     proved: bool,
     signatures: &Signatures,
-    recorded: Option<&Findings>,
+    basis: &FindingSets<'_>,
 ) -> Vec<(String, String)> {
     let mut rows = program(results, proved, signatures);
-    rows.extend(recorded.into_iter().flat_map(kept));
+    rows.extend(basis.recorded().flat_map(kept));
     rows.extend(provenance(results));
     rows
 }
@@ -92,16 +95,20 @@ fn program(
     ]
 }
 
-/// Where the numbers of the recorded suites come from.
-fn kept(recorded: &Findings) -> impl Iterator<Item = (String, String)> {
-    let row = |suite: &SuiteSummary| {
-        let words = format!(
-            "{} records, sha256 {}; kept results, not run here",
-            suite.records, suite.sha256
-        );
-        (format!("Recorded, {}", suite.kind), words)
+/// Where the numbers of recorded suites come from.
+fn kept(
+    (name, found): FindingColumn<'_>,
+) -> impl Iterator<Item = (String, String)> {
+    let how = match name {
+        REPEATABLE => format!("kept results, repeated by `{REPEAT}`"),
+        _ => "kept results, not run here".to_owned(),
     };
-    recorded.suites.iter().map(row)
+    let row = move |suite: &SuiteSummary| {
+        let SuiteSummary { records, sha256, kind, .. } = suite;
+        let words = format!("{records} records, sha256 {sha256}; {how}");
+        (format!("{}, {kind}", capital(name)), words)
+    };
+    found.suites.iter().map(row)
 }
 
 /// The settings, and what is to be known of the suites.

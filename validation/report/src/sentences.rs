@@ -1,8 +1,6 @@
 //! What the results add up to: claim by claim over suites and grids, theme by
 //! theme, and over all sentences of the paper.
 
-use std::collections::BTreeMap;
-
 use crate::basis::FindingSets;
 use rocking_common::findings::{
     Claim, ClaimResult, Exists, Findings, Seen, StatedEffect, SuiteSet, Theme,
@@ -148,35 +146,35 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let own = |claim: &Claim| claim.theme == theme;
     let all = sentences(lead, own);
     let yes = all.iter().filter(|own| own.seen == Seen::Yes).count();
-    let mut words = format!("{yes} of {} sentences are seen.", all.len());
-    if basis.recorded().is_some() {
-        let (turned, all) = turned(basis.here, lead, own);
-        let other =
-            format!(" Embedded suites: {turned} of {all} results otherwise.");
-        words += &other;
+    let words = format!("{yes} of {} sentences are seen.", all.len());
+    let others = basis.columns().into_iter().skip(1).map(|(name, found)| {
+        let (turned, all) = turned(found, lead, own);
+        format!("{} of {all} ({name})", turned.len())
+    });
+    match others.collect::<Vec<_>>().join(", ").as_str() {
+        "" => words,
+        others => format!("{words} Results otherwise: {others}."),
     }
-    words
 }
 
-/// How many of these claims are seen otherwise in other findings, suite by
-/// suite, of how many that both have.
-pub(super) fn turned(
-    a: &Findings,
+/// The claims that are seen otherwise in other findings, once for each suite,
+/// and how many results both have.
+pub(super) fn turned<'a>(
+    a: &'a Findings,
     b: &Findings,
     of: impl Fn(&Claim) -> bool,
-) -> (usize, usize) {
-    let own = |findings: &Findings| -> BTreeMap<(String, &str), Seen> {
-        let claims = findings.claims.iter().filter(|claim| of(claim));
-        let words = |claim: &Claim| {
-            let all = by_suite(claim).into_iter();
-            let id = claim.id.clone();
-            all.map(|one| ((id.clone(), one.suite.name()), one.sample.seen))
-                .collect::<Vec<_>>()
-        };
-        claims.flat_map(words).collect()
-    };
-    let (a, b) = (own(a), own(b));
-    let both = a.iter().filter_map(|(id, v)| Some((v, b.get(id)?)));
-    let (same, other): (Vec<_>, Vec<_>) = both.partition(|(v, w)| v == w);
-    (other.len(), same.len() + other.len())
+) -> (Vec<&'a str>, usize) {
+    let (mut turned, mut all) = (Vec::new(), 0);
+    for own in a.claims.iter().filter(|claim| of(claim)) {
+        let other = b.claims.iter().filter(|claim| claim.id == own.id);
+        for y in other.flat_map(by_suite) {
+            let x = by_suite(own).into_iter().find(|x| x.suite == y.suite);
+            let Some(x) = x else { continue };
+            all += 1;
+            if x.sample.seen != y.sample.seen {
+                turned.push(own.id.as_str());
+            }
+        }
+    }
+    (turned, all)
 }

@@ -91,7 +91,9 @@ fn empty(source: &SuiteSource) -> StudyResults {
 
 /// Where the page of a study comes from.
 fn inputs(results: &StudyResults, proved: bool) -> Vec<(String, String)> {
-    head::inputs(results, proved, &Signatures::default(), None)
+    let found = basis::recorded();
+    let basis = FindingSets::of(results.embedded(), &found).expect("basis");
+    head::inputs(results, proved, &Signatures::default(), &basis)
 }
 
 /// The command that makes its page again.
@@ -194,11 +196,11 @@ fn said_of(source: &SuiteSource) -> String {
     let results = empty(source);
     let limits = limits_of(&results).concat();
     let words = words().expect("words");
-    let table = assessment(&results, None, None, &words).table();
-    let cells: String = table.rows.into_iter().flatten().collect();
     let mut found = basis::recorded();
     found.settings = results.plan.settings();
     let basis = FindingSets::of(results.embedded(), &found).expect("basis");
+    let table = assessment(&results, None, &basis, &words).table();
+    let cells: String = table.rows.into_iter().flatten().collect();
     limits + &answers::not_run(&basis) + &cells
 }
 
@@ -226,8 +228,10 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 fn verification_is_claimed_only_if_every_case_passes() {
     let results = on_embedded_suites();
     let words = words().expect("words");
+    let found = basis::recorded();
+    let basis = FindingSets::of(true, &found).expect("basis");
     let row = |proof: Option<&Proof>| {
-        let rows = assessment(&results, proof, None, &words).table().rows;
+        let rows = assessment(&results, proof, &basis, &words).table().rows;
         rows.into_iter().find(|row| row[0] == "Verification").expect("a row")
     };
     assert_eq!(row(None)[1], "0");
@@ -451,7 +455,7 @@ fn a_run_of_other_settings_shows_no_kept_number_and_leads_with_its_own() {
     assert_eq!(shown.matches(left_out).count(), 1, "said once");
     assert!(said.contains(left_out), "{said}");
     for words in
-        ["ecorded suites,", "Recorded suites:", "recorded motions, 86"]
+        ["ecorded, kept", "ecorded, repeatable", "recorded motions, 86"]
     {
         assert!(!shown.contains(words), "{words}");
     }

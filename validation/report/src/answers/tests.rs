@@ -232,19 +232,47 @@ fn tests_of_two_rocks_stand_in_the_answers() {
 fn results_of_other_settings_are_left_out_and_named() {
     let mut here = recorded();
     let basis = FindingSets::of(true, &here).unwrap();
-    assert!(basis.recorded().is_some() && basis.left_out().unwrap().is_none());
+    assert_eq!(basis.recorded().count(), 2);
+    assert!(basis.left_out().unwrap().is_none());
     assert!(done(&basis).contains("under recorded motions, 86 "));
     // Suites of files have no kept results beside them.
     let own = FindingSets::of(false, &here).unwrap();
-    assert!(own.recorded().is_none() && otherwise(&own).unwrap().is_none());
+    assert!(!own.has_recorded() && otherwise(&own).unwrap().is_none());
     here.settings.eta = 0.90;
     here.settings.arms = vec![Arm::A];
     let basis = FindingSets::of(true, &here).unwrap();
-    assert!(basis.recorded().is_none());
+    assert!(!basis.has_recorded());
     let words = otherwise(&basis).unwrap().unwrap();
     assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
     assert!(done(&basis).contains("under synthetic motions, 86 "));
     assert!(!done(&basis).contains("recorded"));
+}
+
+/// Each kind of recorded motions has its sentence, with the claims that are
+/// seen otherwise.
+#[test]
+fn claims_that_embedded_motions_turn_are_named() {
+    let mut here = recorded();
+    let said = |here: &Findings| {
+        let basis = FindingSets::of(true, here).unwrap();
+        otherwise(&basis).unwrap().unwrap()
+    };
+    let same = "Embedded synthetic motions answer as recorded, kept ones. None of 82 \
+                results is otherwise.";
+    let found = said(&here);
+    assert!(found.starts_with(same), "{found}");
+    assert!(found.contains("recorded, repeatable ones"), "{found}");
+    for id in ["criterion", "quantiles-coincide"] {
+        let own = here.claims.iter_mut().find(|own| own.id == id).unwrap();
+        own.results.iter_mut().for_each(|result| result.seen = Seen::No);
+    }
+    let found = said(&here);
+    let turned = "Of 82 results 3 are otherwise: criterion, \
+                  quantiles-coincide.";
+    assert!(found.contains(turned), "{found}");
+    let other = "answer otherwise than recorded, kept ones (in brackets): Does \
+                 shape matter once size is known? Yes (Hardly, if every";
+    assert!(found.contains(other), "{found}");
 }
 
 #[test]
@@ -265,18 +293,18 @@ fn what_rounding_changed_is_said_of_both_suites() {
         (wrong + end.wrong_in_double, all + end.all)
     });
     assert!(wrong > 0, "the kept results have some");
-    let recorded = format!("{wrong} of {all} (recorded suites)");
+    let recorded = format!("{wrong} of {all} (recorded, kept)");
     assert!(said.contains(&recorded), "{said}");
-    assert!(said.contains("7 of 98 (embedded suites)"), "{said}");
+    assert!(said.contains("7 of 98 (embedded)"), "{said}");
     let annex = basis.work();
     let of = |start: &str| {
         let own = annex.iter().find(|words| words.starts_with(start));
         own.expect(start).clone()
     };
-    let said = of("Embedded suites: 86 ordinary");
+    let said = of("Embedded: 86 ordinary");
     assert!(said.contains("Wrong in double precision: 4;"), "{said}");
     assert!(said.contains("move by 0.0421 at most"), "{said}");
     let shift = format!("{:.4}", kept.suites[0].largest_shift_if_flipped);
-    let said = of("Recorded suites: 86 ordinary");
+    let said = of("Recorded, kept: 86 ordinary");
     assert!(said.contains(&format!("move by {shift} at most")), "{said}");
 }

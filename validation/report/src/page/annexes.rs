@@ -5,12 +5,13 @@ use rocking::block::{BlockError, Restitution};
 
 use super::chapter::{drawings, tables};
 use super::content::Page;
+use crate::basis::FindingSets;
 use crate::evidence::{self, Proof};
 use crate::ledger;
 use crate::scored;
-use rocking_common::findings::Findings;
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
+use rocking_common::words::capital;
 use rocking_draw::figures::{Figure, Place};
 use rocking_study::questions::StudyAnswer;
 
@@ -71,9 +72,8 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
         study.answers.iter().partition(|q| q.id == "suites");
     let on_grid = page.figures.iter();
     let on_grid = on_grid.filter(|f| page.is_on_the_papers_grid(f));
-    let others = others
-        .into_iter()
-        .flat_map(|question| answered(question, basis.recorded()));
+    let others =
+        others.into_iter().flat_map(|question| answered(question, basis));
     let compared = compared.into_iter().flat_map(|q| q.tables.clone());
     let requirements =
         ledger::table(proof.map(Proof::results), claims, page.figures)?;
@@ -123,18 +123,20 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
 /// The tables of a question, with what the recorded suites answer.
 fn answered(
     question: &StudyAnswer,
-    recorded: Option<&Findings>,
+    basis: &FindingSets<'_>,
 ) -> Vec<PlainTable> {
     let mut tables = question.tables.clone();
-    let kept = recorded.iter().flat_map(|found| &found.questions);
-    let kept = kept.into_iter().find(|q| q.id == question.id);
-    if let (Some(kept), Some(table)) = (kept, tables.first_mut())
-        && kept.answer != question.answer
+    let other = basis.recorded().filter_map(|(name, found)| {
+        let mut all = found.questions.iter();
+        let kept = all.find(|kept| kept.id == question.id)?;
+        let words = format!("\n{}: {}", capital(name), kept.answer);
+        (kept.answer != question.answer).then_some(words)
+    });
+    let other: String = other.collect();
+    if let Some(table) = tables.first_mut()
+        && !other.is_empty()
     {
-        table.reading = format!(
-            "Embedded suites: {}\nRecorded suites: {}",
-            table.reading, kept.answer
-        );
+        table.reading = format!("Embedded: {}{other}", table.reading);
     }
     tables
 }

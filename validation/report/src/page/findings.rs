@@ -63,6 +63,11 @@ fn legend() -> Markup {
 
 /// A word on a claim behind a sign that stands without colour.
 fn mark(word: &str) -> Markup {
+    marked(word, html! { " " (word) })
+}
+
+/// The sign of a word before other words.
+fn marked(word: &str, words: Markup) -> Markup {
     let (class, sign) = match word {
         "yes" => ("verdict yes", "✓"),
         "no" | "the opposite" => ("verdict no", "✗"),
@@ -72,7 +77,7 @@ fn mark(word: &str) -> Markup {
         _ => ("verdict open", "?"),
     };
     html! {
-        span class=(class) { span aria-hidden="true" { (sign) " " } (word) }
+        span class=(class) { span aria-hidden="true" { (sign) } (words) }
     }
 }
 
@@ -141,15 +146,17 @@ fn findings(page: &Page<'_>, theme: Theme) -> Markup {
                     }
                     th scope="col" rowspan="2" { "Suite" }
                     @for (k, (name, _)) in columns.iter().enumerate() {
-                        @let span = if k == 0 { 3 } else { 2 };
+                        @let span = if k == 0 { 3 } else { 1 };
                         th scope="colgroup" colspan=(span) { (name) }
                     }
                 }
                 tr {
                     @for k in 0..columns.len() {
                         th scope="col" { "Seen here?" }
-                        th scope="col" { "Exists?" }
-                        @if k == 0 { th scope="col" { "How large" } }
+                        @if k == 0 {
+                            th scope="col" { "Exists?" }
+                            th scope="col" { "How large" }
+                        }
                     }
                 }
             }
@@ -196,18 +203,22 @@ fn cells(
 ) -> Markup {
     let Some((own, one)) = on(claim, column, suite) else {
         return html! {
-            @for _ in 0..(if leads { 3 } else { 2 }) { td { (NOTHING) } }
+            @for _ in 0..(if leads { 3 } else { 1 }) { td { (NOTHING) } }
         };
     };
     html! {
         td data-label={ "Seen here, " (column.0) } {
-            (mark(one.sample.seen.name()))
-            @if leads { " " (unbroken(&counted(own, one.sample))) }
-        }
-        td data-label={ "Exists, " (column.0) } {
-            (existing(own, one.effect))
+            @let word = one.sample.seen.name();
+            @if leads {
+                (mark(word)) " " (unbroken(&counted(own, one.sample)))
+            } @else {
+                (marked(word, html! { span.unseen { (word) } }))
+            }
         }
         @if leads {
+            td data-label={ "Exists, " (column.0) } {
+                (existing(own, one.effect))
+            }
             td data-label="How large" {
                 (unbroken(&effect_text(own, one.effect).whole()))
             }

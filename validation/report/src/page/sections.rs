@@ -145,8 +145,7 @@ fn speed(page: &Page<'_>) -> Markup {
 fn limits(page: &Page<'_>) -> Markup {
     let Page { study, basis, proof, words, .. } = page;
     let results = &study.results;
-    let credibility =
-        credibility::assessment(results, *proof, basis.recorded(), words);
+    let credibility = credibility::assessment(results, *proof, basis, words);
     html! {
         @for words in limits_of(results) { p { (words) } }
         @if study.answers.iter().any(|q| q.id == "suites") {
@@ -191,7 +190,7 @@ fn provenance(page: &Page<'_>) -> Markup {
         &page.study.results,
         page.proof.is_some(),
         page.signatures,
-        page.basis.recorded(),
+        page.basis,
     );
     inputs.extend(page.tests.origin());
     html! {

@@ -102,7 +102,7 @@ print(f"{shaken.outcome}, {len(shaken.impacts)} impacts")
 size = np.linspace(1.0, 6.0, 200)
 figure, axes = plt.subplots(figsize=(7, 3.5))
 for pga_g in (0.3, 0.45, 0.6):
-    peaks = rk.spectrum(
+    peaks = rk.rocking_spectrum(
         record,
         alpha=block.alpha,
         p=2.0 * np.pi / size,

@@ -15,12 +15,13 @@ an array or a trace       `Record`, `Record.of`
 a file, a folder          `read_record`, `read_suite`
 none of these             `embedded_suite`, `recorded_suite`
 a block and a motion      `respond`: what the block does
-many of both              `peak`, `spectrum`
+many of both              `peak`, `rocking_spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
 capacities                `fit_fragility`, `test_normality`, `summarise`,
                           `compare`, `contrast`
 counts of stripes         `fit_stripes`
-a record                  `intensity_measures`, `rotd50`, `velocity_pulse`
+a record                  `response_spectrum`, `intensity_measures`,
+                          `rotd50`, `velocity_pulse`
 an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
                           `pivot_forces`; `rank_ims`
 a table of `rocking ida`  `read_ida`
@@ -43,7 +44,7 @@ command line `rocking`, for any number of threads. What is suspicious about a
 record is in its `remarks`, and a `UserWarning`.
 """
 
-from ._analyses import Response, peak, respond, spectrum
+from ._analyses import Response, peak, respond, rocking_spectrum
 from ._assess import AssessedObject, Assessment, Floor, Object, assess
 from ._fragility import (
     BlockFragility,
@@ -67,7 +68,12 @@ from ._inputs import (
     read_suite,
     recorded_suite,
 )
-from ._measures import intensity_measures, rotd50, velocity_pulse
+from ._measures import (
+    intensity_measures,
+    response_spectrum,
+    rotd50,
+    velocity_pulse,
+)
 from ._results import (
     Boxplot,
     Comparison,
@@ -165,10 +171,11 @@ __all__ = [
     "read_tests",
     "recorded_suite",
     "respond",
+    "response_spectrum",
     "risk",
     "rotd50",
+    "rocking_spectrum",
     "score",
-    "spectrum",
     "summarise",
     "surface_fragility",
     "test_normality",

@@ -238,7 +238,7 @@ def peak(
     return found.reshape(shape)
 
 
-def spectrum(
+def rocking_spectrum(
     record: Record | Pulse,
     *,
     alpha: float,
@@ -248,13 +248,24 @@ def spectrum(
     model: Model = "nonlinear",
     threads: int | None = None,
 ) -> Floats:
-    """Rocking spectrum: peak |theta|/alpha of blocks of one slenderness and
-    frequency parameters `p` (rad/s) under `level` times the record.
+    """Peak |theta|/alpha of blocks of one slenderness and many sizes.
 
     Makris and Konstantinidis (2003) draw it against 2 pi/p.
 
+    Parameters
+    ----------
+    record : Record or Pulse
+    alpha : float
+        Slenderness angle of all blocks in rad.
+    p : array_like
+        Frequency parameters in rad/s.
+    level : float
+        Factor on the record.
+    eta, model, threads
+        As in `peak`.
+
     >>> sine = Pulse("one-sine", amplitude_g=1.5 / 9.81, omega=12.0)
-    >>> spectrum(sine, alpha=0.1, p=[3.0]).round(6)
+    >>> rocking_spectrum(sine, alpha=0.1, p=[3.0]).round(6)
     array([0.493882])
     """
     values = floats(p, "frequency parameters").tolist()

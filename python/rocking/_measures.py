@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._inputs import STANDARD_GRAVITY, Record, floats, given
+from ._inputs import STANDARD_GRAVITY, Floats, Record, floats, given, numbers
 from ._results import Measures, VelocityPulse
 
 PERIODS = (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0)
@@ -30,6 +31,35 @@ def intensity_measures(
     return Measures._of(
         _rocking.intensity_measures(one, None, times, damping, gravity)
     )
+
+
+def response_spectrum(
+    record: Record, periods: ArrayLike, damping: float = 0.05
+) -> Floats:
+    """Pseudo-spectral acceleration in g.
+
+    It is (2 pi/T)^2 times the peak displacement of a linear oscillator.
+
+    Parameters
+    ----------
+    record : Record
+    periods : float or array_like
+        Periods T of the oscillator in s.
+    damping : float
+        Damping ratio of the oscillator.
+
+    Returns
+    -------
+    ndarray of the shape of `periods`
+
+    >>> step = Record([0.1] * 9, 0.5, units="g")
+    >>> response_spectrum(step, [0.5, 1.0], damping=0.0).round(12)
+    array([0.2, 0.2])
+    """
+    times = numbers(periods, "periods")
+    flat = np.ravel(times).tolist()
+    found = intensity_measures(record, periods=flat, damping=damping)
+    return np.reshape(found.spectral_acceleration_g, times.shape)
 
 
 def rotd50(

@@ -144,8 +144,8 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 ),
             },
         ),
-        "spectrum": (
-            rk.spectrum,
+        "rocking_spectrum": (
+            rk.rocking_spectrum,
             {"record": MOTION, "alpha": 0.2, "p": [3.0], "level": LEVEL},
             {"level": 0.99 * LEVEL, "eta": 0.8, "model": "linearized", "alpha": 0.19, "p": [2.9]},
         ),
@@ -284,6 +284,11 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
             rk.intensity_measures,
             {"record": MOTION},
             {"periods": [0.3], "damping": 0.02, "gravity": 9.81},
+        ),
+        "response_spectrum": (
+            rk.response_spectrum,
+            {"record": MOTION, "periods": [0.3]},
+            {"periods": [0.2], "damping": 0.02},
         ),
         "rotd50": (
             rk.rotd50,

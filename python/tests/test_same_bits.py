@@ -82,8 +82,10 @@ def test_peaks_in_lanes_are_those_of_single_responses(
     assert stands.sum() > 10
 
 
-def test_a_spectrum_is_a_row_of_single_responses(packet: rk.Record) -> None:
-    found = rk.spectrum(packet, alpha=0.15, p=[1.0, 3.0], level=1.1)
+def test_a_rocking_spectrum_is_a_row_of_single_responses(
+    packet: rk.Record,
+) -> None:
+    found = rk.rocking_spectrum(packet, alpha=0.15, p=[1.0, 3.0], level=1.1)
     alone = [
         rk.respond(rk.Block(alpha=0.15, p=p), packet, scale=1.1).peak_ratio
         for p in (1.0, 3.0)
@@ -104,3 +106,13 @@ def test_a_stripe_has_the_peaks_of_its_level(
     # Half a step above a standing level, before overturning, it is unknown.
     with pytest.raises(ValueError, match="says nothing at intensity"):
         ida.demands(np.arange(1.125, 6.0, 0.25))
+
+
+def test_a_response_spectrum_has_the_shape_of_its_periods() -> None:
+    step = rk.Record([0.1] * 81, 0.1, units="g")
+    # The peak of a damped oscillator under a step lies half a period after it.
+    for damping in (0.0, 0.05, 0.2):
+        over = np.exp(-np.pi * damping / np.sqrt(1.0 - damping**2))
+        found = rk.response_spectrum(step, [[0.5, 1.0], [2.0, 4.0]], damping)
+        assert found == pytest.approx(np.full((2, 2), 0.1 * (1.0 + over)))
+    assert rk.response_spectrum(step, 1.0).shape == ()

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _rocking
+from ._results import axes
 from ._rocking import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
@@ -386,6 +387,13 @@ class Record(Frozen):
         """Times of the samples in s."""
         return np.arange(len(self.acc_g), dtype=np.float64) * self.dt
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the acceleration; gives the matplotlib axes."""
+        ax = axes(ax)
+        ax.plot(self.t, self.acc_g, linewidth=0.7)
+        ax.set(xlabel="t, s", ylabel="acceleration, g", title=self.name)
+        return ax
+
 
 def _unpickled(
     name: str,
@@ -444,6 +452,42 @@ class Suite(Sequence[Record]):
 
     def __iter__(self) -> Iterator[Record]:
         return iter(self.records)
+
+    def __add__(self, other: object) -> Suite:
+        """The records of both; a name in both is refused."""
+        if not isinstance(other, Suite):
+            return NotImplemented
+        names = {record.name for record in self} - {""}
+        shared = [record.name for record in other if record.name in names]
+        if shared:
+            raise ValueError(
+                f"{len(shared)} records of suite {self.name} and suite "
+                f"{other.name} have the same name, such as {shared[0]}: "
+                "expected distinct names"
+            )
+        name = f"{self.name} + {other.name}"
+        return Suite(name, self.records + other.records)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the response spectrum of each record with the median and the
+        16 and 84 % quantiles; gives the matplotlib axes."""
+        from ._measures import response_spectrum
+
+        if not self.records:
+            raise ValueError("no record: expected at least one")
+        ax = axes(ax)
+        periods = np.geomspace(0.05, 5.0, 80)
+        spectra = [response_spectrum(record, periods) for record in self]
+        ax.loglog(periods, np.transpose(spectra), color="0.8", linewidth=0.7)
+        low, median, high = np.quantile(
+            spectra, [0.16, 0.5, 0.84], axis=0, method="hazen"
+        )
+        ax.loglog(periods, median, "k", label="median")
+        ax.loglog(periods, low, "k--", label="16 and 84 %")
+        ax.loglog(periods, high, "k--")
+        ax.set(xlabel="period, s", ylabel="SA(5 %), g", title=self.name)
+        ax.legend()
+        return ax
 
     def to_pandas(self) -> Any:
         """One row a record, with its attributes, as a `pandas.DataFrame`."""

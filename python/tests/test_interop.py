@@ -10,6 +10,7 @@ import rocking as rk
 
 ACC = np.array([0.0, 9.80665, -4.903325, 0.0])
 SAME = rk.Record([0.0, 1.0, -0.5, 0.0], 0.01, units="g", name="one")
+NAMELESS = rk.Record(SAME.acc_g, 0.01, units="g")
 
 
 def test_an_obspy_trace_is_a_record() -> None:
@@ -135,12 +136,46 @@ def test_results_are_drawn_on_axes_of_matplotlib(
     box = rk.summarise(ida.sample(0.5)).boxplot
     assert isinstance(box, rk.Boxplot)
     response = rk.respond(rk.Block(alpha=0.2, p=3.0), packet, history_dt=0.1)
-    for one in (fit, fit.fitted, ida, ranking, box, response):
+    drawn = (fit, fit.fitted, ida, ranking, box, response, packet, suite[:4])
+    for one in drawn:
         figure, given = pyplot.subplots()
         assert one.plot(given) is given and given.has_data()
         pyplot.close(figure)
     assert fit.fitted.plot().has_data()
     pyplot.close("all")
+
+
+def test_a_plot_of_a_suite_has_the_median_of_its_spectra() -> None:
+    pyplot: Any = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("agg")
+    # One record times 1, 2 and 4: the spectra have these ratios too.
+    suite = rk.Suite(
+        "three",
+        tuple(rk.Record(k * ACC, 0.01, units="m/s2") for k in (1, 4, 2)),
+    )
+    ax = suite.plot()
+    once, _, twice, median, low, high = (
+        np.asarray(line.get_ydata()) for line in ax.get_lines()
+    )
+    assert median == pytest.approx(twice) and len(median) == 80
+    # Hazen: 16 % of 3 values is at place 0.98, 84 % at place 3.02.
+    assert low == pytest.approx(once) and high == pytest.approx(4.0 * once)
+    pyplot.close("all")
+    with pytest.raises(ValueError, match="no record"):
+        suite[:0].plot()
+
+
+def test_the_sum_of_suites_has_the_records_of_both() -> None:
+    near, far = rk.Suite("near", (SAME,)), rk.Suite("far", (NAMELESS,) * 2)
+    both = near + far
+    assert both.name == "near + far"
+    assert both.records == (SAME, NAMELESS, NAMELESS)
+    assert (far + far).records == far.records * 2
+    with pytest.raises(ValueError, match="near and suite near .* one: expec"):
+        near + near
+    unknown: Any = [SAME]
+    with pytest.raises(TypeError):
+        near + unknown
 
 
 def test_curves_are_an_xarray_dataset_by_record_and_level(

@@ -48,7 +48,7 @@ const WORK: [Work; 16] = [
     }),
     ("RotD50", |_| {
         let record = record();
-        text(PairMeasures::of(&record, &record, &Settings::default()))
+        text(PairMeasures::of(&record, &record, &Settings::default(), &[50.0]))
     }),
     ("a record's file", |_| {
         let text_of = |k: i32| format!("{} 0.1\n", 0.01 * f64::from(k));

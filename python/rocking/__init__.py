@@ -21,7 +21,7 @@ capacities                `fit_fragility`, `test_normality`, `summarise`,
                           `compare`, `contrast`
 counts of stripes         `fit_stripes`
 a record                  `response_spectrum`, `intensity_measures`,
-                          `rotd50`, `velocity_pulse`
+                          `rotd`, `velocity_pulse`
 an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
                           `pivot_forces`; `rank_ims`
 a table of `rocking ida`  `read_ida`
@@ -71,7 +71,7 @@ from ._inputs import (
 from ._measures import (
     intensity_measures,
     response_spectrum,
-    rotd50,
+    rotd,
     velocity_pulse,
 )
 from ._results import (
@@ -173,7 +173,7 @@ __all__ = [
     "respond",
     "response_spectrum",
     "risk",
-    "rotd50",
+    "rotd",
     "rocking_spectrum",
     "score",
     "summarise",

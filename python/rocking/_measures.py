@@ -6,7 +6,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._inputs import STANDARD_GRAVITY, Floats, Record, floats, given, numbers
+from ._inputs import (
+    STANDARD_GRAVITY,
+    Floats,
+    Record,
+    floats,
+    given,
+    number,
+    numbers,
+)
 from ._results import Measures, VelocityPulse
 
 PERIODS = (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0)
@@ -62,24 +70,36 @@ def response_spectrum(
     return np.reshape(found.spectral_acceleration_g, times.shape)
 
 
-def rotd50(
+def rotd(
     first: Record,
     second: Record,
+    percentile: float = 50.0,
     *,
     periods: ArrayLike = PERIODS,
     damping: float = 0.05,
     gravity: float = STANDARD_GRAVITY,
 ) -> Measures:
-    """The same measures of a pair: the median over all directions.
+    """The same measures of a pair: a percentile over all directions.
+
+    Parameters
+    ----------
+    first, second : Record
+        Horizontal components at right angles, of one sampling interval.
+    percentile : float
+        0 to 100: 50 is RotD50, the median; 100 is RotD100, the largest.
+    periods, damping, gravity
+        As in `intensity_measures`.
 
     >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g")
-    >>> round(rotd50(lobe, lobe, periods=[1.0]).pga_g, 3)
-    0.2
+    >>> round(rotd(lobe, lobe).pga_g, 3), round(rotd(lobe, lobe, 100).pga_g, 3)
+    (0.2, 0.283)
     """
     times = floats(periods, "periods").tolist()
-    pair = given(first), given(second)
+    other = given(second), number(percentile, "percentile")
     return Measures._of(
-        _rocking.intensity_measures(*pair, times, damping, gravity)
+        _rocking.intensity_measures(
+            given(first), other, times, damping, gravity
+        )
     )
 
 

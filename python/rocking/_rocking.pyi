@@ -194,7 +194,7 @@ def read_ida(path: str | os.PathLike[str]) -> IdaTable: ...
 def ida_of_csv(text: str, run: WholeRun | None) -> IdaTable: ...
 def intensity_measures(
     record: Given,
-    second: Given | None,
+    second: tuple[Given, float] | None,
     periods: Sequence[float],
     damping: float,
     gravity: float,

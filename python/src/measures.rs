@@ -10,24 +10,28 @@ use crate::given::{ExcitationInput, record_of};
 use crate::procedures::answer;
 use crate::work::refuse;
 
-/// The measures of one component, or RotD50 of those of two.
+/// The measures of one component, or a percentile of those of two over all
+/// directions.
 #[pyfunction]
 pub fn intensity_measures(
     py: Python<'_>,
     record: ExcitationInput<'_>,
-    second: Option<ExcitationInput<'_>>,
+    second: Option<(ExcitationInput<'_>, f64)>,
     periods: Vec<f64>,
     damping: f64,
     gravity: f64,
 ) -> PyResult<String> {
     let first = record_of(record)?;
-    let second = second.map(record_of).transpose()?;
     let settings =
         Settings::try_new(gravity, damping, periods).map_err(refuse)?;
-    answer(py, || match &second {
-        None => Measures::of(&first, &settings),
-        Some(second) => PairMeasures::of(&first, second, &settings)
-            .map(|measures| measures.rotd50),
+    let Some((second, percentile)) = second else {
+        return answer(py, || Measures::of(&first, &settings));
+    };
+    let second = record_of(second)?;
+    answer(py, || {
+        let pair =
+            PairMeasures::of(&first, &second, &settings, &[percentile])?;
+        Ok::<_, IntensityError>(pair.rotd.into_iter().next())
     })
 }
 

@@ -290,10 +290,15 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
             {"record": MOTION, "periods": [0.3]},
             {"periods": [0.2], "damping": 0.02},
         ),
-        "rotd50": (
-            rk.rotd50,
+        "rotd": (
+            rk.rotd,
             {"first": PAIR[0], "second": PAIR[1]},
-            {"periods": [0.3], "damping": 0.02, "gravity": 9.81},
+            {
+                "percentile": 100.0,
+                "periods": [0.3],
+                "damping": 0.02,
+                "gravity": 9.81,
+            },
         ),
         "velocity_pulse": (
             rk.velocity_pulse,

@@ -98,9 +98,9 @@ def intensity_measures(given: Given) -> Call:
 
 
 @long
-def rotd50(given: Given) -> Call:
+def rotd(given: Given) -> Call:
     record, periods = noise(20_000), np.linspace(0.05, 10.0, 500)
-    return lambda: rk.rotd50(record, record, periods=periods)
+    return lambda: rk.rotd(record, record, periods=periods)
 
 
 @long

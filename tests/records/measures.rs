@@ -86,7 +86,8 @@ fn pair(name: &str) -> crate::support::Place {
 #[test]
 fn measures_and_pulses_of_a_pair_are_listed() {
     let folder = pair("measures");
-    let listed = "records suite.csv --intensity --periods 0.5,1 --pulses";
+    let listed = "records suite.csv --intensity --rotd 50,100 --periods 0.5,1 \
+                  --pulses";
     let json = json(&folder, listed);
     let first = &json["intensity"][0];
     assert!((first["pga_g"].as_f64().unwrap() - 0.2).abs() < 1e-6);
@@ -99,6 +100,10 @@ fn measures_and_pulses_of_a_pair_are_listed() {
     // The second is half the first: RotD50 is sqrt(1.25) |cos| of it.
     let median = rotated["pga_g"].as_f64().unwrap();
     assert!((median / 0.2 - f64::sqrt(1.25 / 2.0)).abs() < 0.01, "{median}");
+    let largest = &json["intensity"][4];
+    assert_eq!(largest["component"], "RotD100");
+    let largest = largest["pga_g"].as_f64().unwrap();
+    assert!((largest / 0.2 - f64::sqrt(1.25)).abs() < 1e-4, "{largest}");
     let pulses = json["velocity_pulses"].as_array().unwrap();
     let pulse = pulses.iter().find(|row| row["pulse"] == true).unwrap();
     let period = pulse["period_s"].as_f64().unwrap();

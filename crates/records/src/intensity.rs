@@ -7,7 +7,7 @@
 //! baseline drifts, PGV and PGD drift with it.
 //!
 //! For two components there are three ways to one number: either component,
-//! the geometric mean of both, and RotD50, the median over all directions.
+//! the geometric mean of both, and RotDnn, a percentile over all directions.
 
 mod energy;
 mod fourier;
@@ -46,6 +46,9 @@ pub enum IntensityError {
     /// The damping ratio must be at least 0 and below 1.
     #[error("damping ratio {0}: expected a number from 0 to below 1")]
     Damping(f64),
+    /// A percentile lies from 0 to 100.
+    #[error("percentile {0}: expected a number from 0 to 100")]
+    Percentile(f64),
     /// Samples too far apart for the shortest pulse.
     #[error("sampling interval {0} s: expected at most 0.17 s")]
     Coarse(f64),
@@ -212,32 +215,35 @@ pub struct PairMeasures {
     pub components: [Measures; 2],
     /// The geometric mean of both.
     pub geometric_mean: Measures,
-    /// The median over directions 0, 1, ... 179 degrees of the measure of
-    /// the rotated motion (RotD50, Boore 2010); the mean of the 90th and the
-    /// 91st in order.
-    pub rotd50: Measures,
+    /// The percentiles asked for, over directions 0, 1, ... 179 degrees, of
+    /// the measure of the rotated motion (RotDnn, Boore 2010), linear between
+    /// the measures in order: RotD50 is the mean of the 90th and the 91st,
+    /// RotD100 the largest.
+    pub rotd: Vec<Measures>,
 }
 
 impl PairMeasures {
-    /// The measures of a pair; the shorter component is followed by zeros.
+    /// The measures of a pair, with these percentiles over its directions; the
+    /// shorter component is followed by zeros.
     ///
     /// # Errors
-    /// [`IntensityError`] for sampling intervals that differ, or a silent
-    /// component.
+    /// [`IntensityError`] for sampling intervals that differ, a percentile
+    /// outside 0 to 100, or a silent component.
     ///
     /// ```
     /// use rocking_records::intensity::{PairMeasures, Settings};
     /// use rocking::accelerogram::Accelerogram;
     /// let a = Accelerogram::try_new("a", 0.5, vec![0.0, 0.2, 0.0])?;
-    /// let pair = PairMeasures::of(&a, &a, &Settings::default())?;
+    /// let pair = PairMeasures::of(&a, &a, &Settings::default(), &[50.0])?;
     /// // Both the same: 0.2 sqrt(2) |cos| about 45 degrees, median 0.2.
-    /// assert!((pair.rotd50.pga_g - 0.2).abs() < 1e-15);
+    /// assert!((pair.rotd[0].pga_g - 0.2).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(
         first: &Accelerogram,
         second: &Accelerogram,
         settings: &Settings,
+        percentiles: &[f64],
     ) -> Result<Self, IntensityError> {
         let (first_s, second_s) = (first.dt_s(), second.dt_s());
         if first_s != second_s {
@@ -246,8 +252,8 @@ impl PairMeasures {
         let components =
             [Measures::of(first, settings)?, Measures::of(second, settings)?];
         let geometric_mean = components[0].geometric_mean(&components[1]);
-        let rotd50 = rotation::rotd50(first, second, settings)?;
-        Ok(Self { components, geometric_mean, rotd50 })
+        let rotd = rotation::rotd(first, second, settings, percentiles)?;
+        Ok(Self { components, geometric_mean, rotd })
     }
 }
 

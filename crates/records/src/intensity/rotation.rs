@@ -1,4 +1,4 @@
-//! RotD50: the median over directions.
+//! RotDnn: percentiles over directions.
 
 use super::oscillator::OscillatorState;
 use super::{Direct, IntensityError, Measures, Settings, Spectrum};
@@ -7,12 +7,17 @@ use rocking::accelerogram::Accelerogram;
 /// Directions from 0 degrees by 1 degree: the other half turn repeats them.
 const DIRECTIONS: u32 = 180;
 
-/// Median over directions of the measures of the rotated motion.
-pub(super) fn rotd50(
+/// Percentiles over directions of the measures of the rotated motion.
+pub(super) fn rotd(
     first: &Accelerogram,
     second: &Accelerogram,
     settings: &Settings,
-) -> Result<Measures, IntensityError> {
+    percentiles: &[f64],
+) -> Result<Vec<Measures>, IntensityError> {
+    let within = |p: &&f64| (0.0..=100.0).contains(*p);
+    if let Some(wrong) = percentiles.iter().find(|p| !within(p)) {
+        return Err(IntensityError::Percentile(*wrong));
+    }
     let dt_s = first.dt_s();
     let n = first.samples_g().len().max(second.samples_g().len());
     let padded = |record: &Accelerogram| {
@@ -34,15 +39,12 @@ pub(super) fn rotd50(
         .iter()
         .map(|turn| Direct::of(&mix(&a, &b, *turn), dt_s))
         .collect();
-    // A direction in which nothing moves has no durations.
-    let number = |scalar: fn(&Direct) -> Option<f64>| {
-        median(direct.iter().filter_map(scalar).collect())
-    };
     let spectra = (Spectrum::of(&a, dt_s), Spectrum::of(&b, dt_s));
-    let periods = turned.iter().filter_map(|(cos, sin)| {
+    let mean_periods = turned.iter().filter_map(|(cos, sin)| {
         spectra.0.mean_period_s(Some((&spectra.1, *cos, *sin)))
     });
-    let mut spectrum = Vec::new();
+    let mean_periods: Vec<f64> = mean_periods.collect();
+    let mut spectrum: Vec<Vec<f64>> = Vec::new();
     for oscillator in settings.oscillators(dt_s) {
         let rest = [0.0; 2];
         let (x, y) =
@@ -55,16 +57,31 @@ pub(super) fn rotd50(
                 .collect();
             oscillator.peak_of(&states, &mix(&a, &b, (*cos, *sin)))
         });
-        spectrum.push(median(peaks.collect()).ok_or(IntensityError::Silent)?);
+        spectrum.push(peaks.collect());
     }
-    let period = median(periods.collect());
-    let gravity_m_s2 = settings.gravity_m_s2();
-    Measures::of_direct(gravity_m_s2, number, period, spectrum)
+    let at = |p: &f64| {
+        // A direction in which nothing moves has no durations.
+        let number = |scalar: fn(&Direct) -> Option<f64>| {
+            percentile(direct.iter().filter_map(scalar).collect(), *p)
+        };
+        let peaks = spectrum.iter().map(|all| percentile(all.clone(), *p));
+        let peaks: Option<Vec<f64>> = peaks.collect();
+        Measures::of_direct(
+            settings.gravity_m_s2(),
+            number,
+            percentile(mean_periods.clone(), *p),
+            peaks.ok_or(IntensityError::Silent)?,
+        )
+    };
+    percentiles.iter().map(at).collect()
 }
 
-/// Median, of an even count the mean of the middle two; none of nothing.
-fn median(mut values: Vec<f64>) -> Option<f64> {
+/// A percentile, linear between the values in order; none of nothing.
+fn percentile(mut values: Vec<f64>, percentile: f64) -> Option<f64> {
     values.sort_by(f64::total_cmp);
-    let (low, high) = ((values.len().max(1) - 1) / 2, values.len() / 2);
-    Some(0.5 * (values.get(low)? + values.get(high)?))
+    let last = values.len().checked_sub(1)?;
+    let place = percentile / 100.0 * last as f64;
+    let (low, share) = (place as usize, place.fract());
+    let next = values[last.min(low + 1)];
+    Some((1.0 - share) * values[low] + share * next)
 }

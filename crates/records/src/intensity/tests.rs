@@ -49,7 +49,7 @@ fn what_cannot_be_measured_is_refused() {
     let settings = Settings::default();
     let silence = Err(IntensityError::Silent);
     assert_eq!(Measures::of(&silent, &settings), silence);
-    let pair = |a, b| PairMeasures::of(a, b, &settings);
+    let pair = |a, b| PairMeasures::of(a, b, &settings, &[50.0]);
     assert_eq!(pair(&moving, &silent), Err(IntensityError::Silent));
     let intervals =
         IntensityError::Intervals { first_s: 0.01, second_s: 0.02 };
@@ -61,6 +61,10 @@ fn what_cannot_be_measured_is_refused() {
         assert!(Settings::try_new(9.81, damping, vec![1.0]).is_err());
     }
     assert!(Settings::try_new(f64::NAN, 0.05, vec![1.0]).is_err());
+    for wrong in [-1e-9, 100.1, f64::NAN] {
+        let refused = PairMeasures::of(&moving, &moving, &settings, &[wrong]);
+        assert!(matches!(refused, Err(IntensityError::Percentile(_))));
+    }
 }
 
 #[test]

@@ -78,7 +78,8 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the motion in the file of expected values.
         motion: String,
-        /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
+        /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`,
+        /// `rotd100`.
         of: Vec<String>,
         first: ComponentInput, second: Option<ComponentInput>,
     }
@@ -108,8 +109,11 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut found: Vec<(&str, Measures)> = Vec::new();
     match &second {
         Some(second) => {
-            let pair = PairMeasures::of(&first, second, &settings)?;
-            let (mut mean, mut rotd50) = (pair.geometric_mean, pair.rotd50);
+            let pair =
+                PairMeasures::of(&first, second, &settings, &[50.0, 100.0])?;
+            let mut mean = pair.geometric_mean;
+            let [mut rotd50, rotd100] = <[_; 2]>::try_from(pair.rotd)
+                .map_err(|_| EXPECTED.lacks("two percentiles".to_owned()))?;
             match context.wrong {
                 Some(WrongModel::GeometricMeanForRotd50) => {
                     rotd50.clone_from(&mean);
@@ -122,6 +126,7 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
             let [one, two] = pair.components;
             found.extend([("first", one), ("second", two)]);
             found.extend([("geometric_mean", mean), ("rotd50", rotd50)]);
+            found.push(("rotd100", rotd100));
         }
         None => {
             let one = Measures::of(&first, &settings)?;

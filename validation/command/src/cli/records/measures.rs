@@ -19,7 +19,7 @@ use rocking_draw::figures::of_result::record_svg;
 pub(super) struct MeasureArgs {
     /// Intensity measures: PGD, Arias intensity, cumulative absolute
     /// velocity, durations, mean period, response spectrum at 5 % damping;
-    /// of pairs also the geometric mean and RotD50.
+    /// of pairs also the geometric mean and RotD.
     #[arg(long)]
     intensity: bool,
     /// Periods of the response spectrum in s.
@@ -30,6 +30,16 @@ pub(super) struct MeasureArgs {
         requires = "intensity"
     )]
     periods: Option<Vec<f64>>,
+    /// Percentiles of pairs over all directions: 50 is RotD50, 100 the
+    /// largest.
+    #[arg(
+        long,
+        value_name = "P,..",
+        value_delimiter = ',',
+        default_value = "50",
+        requires = "intensity"
+    )]
+    rotd: Vec<f64>,
     /// Strong velocity pulses in pairs, by Shahi and Baker (2014). Pairs are
     /// those of a suite, or two files alone.
     #[arg(long)]
@@ -53,7 +63,7 @@ pub(super) struct RecordMeasures {
 struct MeasuresOf {
     /// File, or name of the pair.
     of: String,
-    component: &'static str,
+    component: String,
     #[serde(flatten)]
     measures: Measures,
 }
@@ -95,6 +105,10 @@ impl MeasureArgs {
         let damping_ratio = usual.damping_ratio();
         let settings =
             Settings::try_new(gravity_m_s2, damping_ratio, periods.to_vec())?;
+        ensure!(
+            self.rotd.iter().all(|p| (0.0..=100.0).contains(p)),
+            "--rotd: expected numbers from 0 to 100"
+        );
         if !(self.intensity || self.pulses) {
             return Ok(None);
         }
@@ -120,13 +134,15 @@ impl MeasureArgs {
                 found.add(&listed.file, OWN, single);
             }
             let both = |(_, [a, b]): &NamedPair<'_>| {
-                PairMeasures::of(a, b, &settings)
+                PairMeasures::of(a, b, &settings, &self.rotd)
             };
             let measures: Vec<_> = pairs.par_iter().map(both).collect();
             for ((name, _), both) in pairs.iter().zip(measures) {
                 let Some(both) = found.take(name, both) else { continue };
                 found.add(name, "geometric mean", Some(both.geometric_mean));
-                found.add(name, "RotD50", Some(both.rotd50));
+                for (p, measures) in self.rotd.iter().zip(both.rotd) {
+                    found.add(name, &format!("RotD{p}"), Some(measures));
+                }
             }
         }
         if self.pulses {
@@ -160,13 +176,8 @@ impl RecordMeasures {
         found.map_err(refuse).ok()
     }
 
-    fn add(
-        &mut self,
-        of: &str,
-        component: &'static str,
-        measures: Option<Measures>,
-    ) {
-        let of = of.to_owned();
+    fn add(&mut self, of: &str, component: &str, measures: Option<Measures>) {
+        let (of, component) = (of.to_owned(), component.to_owned());
         let row =
             measures.map(|measures| MeasuresOf { of, component, measures });
         self.intensity.extend(row);

@@ -42,6 +42,7 @@ from ._results import (
 )
 from ._statistics import (
     CountsFragility,
+    Dispersion,
     LevelFit,
     Method,
     Sample,
@@ -178,6 +179,7 @@ class Curves:
         rule: Rule = "median",
         shift: Shift = 0.0,
         method: Method = "mle",
+        dispersion: Dispersion = "own",
         quantile_type: int = 5,
         c: float = 1.0,
         n_resamples: int = 0,
@@ -185,16 +187,37 @@ class Curves:
         band: ArrayLike = (),
     ) -> tuple[LevelFit, ...]:
         """Fits a fragility to the capacities at each EDP level, a record that
-        does not reach it by the intensity up to which it was run; parameters
-        are as in `fit_fragility`."""
+        does not reach it by the intensity up to which it was run.
+
+        Parameters
+        ----------
+        edp : array_like
+            Peak |theta|/alpha; infinite for overturning.
+        rule
+            As in `capacities`.
+        dispersion : "own" or "common"
+            "common" fits one dispersion to all levels, by maximum likelihood,
+            so that their curves do not cross; `dispersion_loss` of each fit
+            says what it costs.
+        shift, method, quantile_type, c, n_resamples, rng, band
+            As in `fit_fragility`.
+        """
         asked = options(
-            shift, method, quantile_type, c, n_resamples, rng, band
+            shift, method, quantile_type, c, n_resamples, rng, band, dispersion
         )
         levels = floats(edp, "EDP levels").tolist()
         found = LevelFit._all(self._native.fit(levels, rule, asked))
+        samples = [
+            given_sample(self.sample(level, rule=rule)) for level in levels
+        ]
+        if dispersion == "common":
+            return tuple(
+                fit._remember(samples, place, asked)
+                for place, fit in enumerate(found)
+            )
         return tuple(
-            fit._remember(given_sample(self.sample(level, rule=rule)), asked)
-            for level, fit in zip(levels, found)
+            fit._remember([sample], 0, asked)
+            for sample, fit in zip(samples, found)
         )
 
     def fit_stripes(

@@ -41,13 +41,14 @@ WholeRun = tuple[_Block, Physics, Scan, str]
 class Fit(TypedDict):
     shift: str
     method: str
+    dispersion: str
     quantile_type: int
     c: float
     n_resamples: int
     seed: int
     band: Sequence[float]
 
-Behind = tuple[Sample, Fit] | None
+Behind = tuple[Sequence[Sample], int, Fit] | None
 
 class Wanted(TypedDict):
     block: _Block

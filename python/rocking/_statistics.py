@@ -28,6 +28,7 @@ from ._results import (
 
 Shift = float | Literal["min", "free"]
 Method = Literal["mle", "moment", "quantile", "trimmed", "censored"]
+Dispersion = Literal["own", "common"]
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -261,12 +262,15 @@ class FragilityFit(_Fit):
 
     @property
     def _behind(self) -> _rocking.Behind:
-        """The sample, and how it was fitted."""
+        """The samples that were fitted together, the place of this one's, and
+        how they were fitted."""
         found: _rocking.Behind = self.__dict__.get("_asked")
         return found
 
-    def _remember(self: F, sample: _rocking.Sample, fit: _rocking.Fit) -> F:
-        self.__dict__["_asked"] = sample, fit
+    def _remember(
+        self: F, samples: Sequence[_rocking.Sample], place: int, fit: _rocking.Fit
+    ) -> F:
+        self.__dict__["_asked"] = samples, place, fit
         return self
 
 
@@ -275,6 +279,9 @@ class LevelFit(FragilityFit):
     """The fit of the capacities at one EDP level; None is overturning."""
 
     edp: float | None
+    dispersion_loss: float | None
+    """How far the log-likelihood lies below that of the level's own
+    dispersion; None of an own dispersion."""
 
 
 @dataclass(frozen=True)
@@ -306,11 +313,13 @@ def options(
     n_resamples: int,
     rng: int,
     band: ArrayLike,
+    dispersion: Dispersion = "own",
 ) -> _rocking.Fit:
     """The options of a fit, as the native half takes them."""
     return {
         "shift": shift_text(shift),
         "method": method,
+        "dispersion": dispersion,
         "quantile_type": quantile_type,
         "c": c,
         "n_resamples": n_resamples,
@@ -362,7 +371,8 @@ def fit_fragility(
     """
     asked = options(shift, method, quantile_type, c, n_resamples, rng, band)
     given = given_sample(sample)
-    return FragilityFit._of(_rocking.fit(given, asked))._remember(given, asked)
+    found = FragilityFit._of(_rocking.fit(given, asked))
+    return found._remember([given], 0, asked)
 
 
 def fit_stripes(

@@ -10,8 +10,8 @@ use rocking_procedures::fragility::hazard::{
 };
 use rocking_procedures::model_error::ModelErrorFault;
 use rocking_procedures::{
-    BootstrapFits, Draws, FitOptions, FragilityInput as ProcedureInput,
-    ModelError, Shift, risk as procedure,
+    BootstrapFits, DispersionRule, Draws, FitOptions,
+    FragilityInput as ProcedureInput, ModelError, Shift, risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
@@ -173,8 +173,9 @@ pub enum RiskInput {
     Block(FragilityInput),
 }
 
-/// The sample behind a fragility, and how it was fitted.
-type RiskSample<'py> = Option<(SampleInput<'py>, Fit)>;
+/// The samples that were fitted together, the place of a fragility's own, and
+/// how they were fitted.
+type RiskSample<'py> = Option<(Vec<SampleInput<'py>>, usize, Fit)>;
 
 /// What the draws of a sample make of its fragility; none above a shift that
 /// is not known.
@@ -183,16 +184,19 @@ fn sampled(
     behind: RiskSample<'_>,
     draws: Option<Draws>,
 ) -> PyResult<Option<BootstrapFits>> {
-    let Some((sample, fit)) = behind else { return Ok(None) };
+    let Some((samples, place, fit)) = behind else { return Ok(None) };
+    let rule: DispersionRule = fit.dispersion.parse().map_err(refuse)?;
     let options = fit.options()?;
     if !matches!(options.shift, Shift::Given(_)) {
         return Ok(None);
     }
-    let clusters = clusters_of(&sample);
-    let sample = sample_of(&sample)?;
+    let clusters = samples.first().and_then(clusters_of);
+    let samples = samples.iter().map(sample_of);
+    let samples = samples.collect::<PyResult<Vec<_>>>()?;
     let band = Vec::new();
-    let options = FitOptions { clusters, draws, band, ..options };
-    let found = work::on_all(py, || options.sampled(&sample))?;
+    let family = rule.family(&samples);
+    let options = FitOptions { clusters, draws, band, family, ..options };
+    let found = work::on_all(py, || options.sampled(&samples[place]))?;
     found.map_err(refuse)
 }
 

@@ -539,10 +539,11 @@ impl IdaCurves {
         options: Fit,
     ) -> PyResult<String> {
         let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let dispersion = options.dispersion.parse().map_err(refuse)?;
         let (curves, options) = (self.linear()?, options.options()?);
         let clusters = Some(self.0.clusters.clone());
         let options = FitOptions { clusters, ..options };
-        answer(py, || fit_levels(&curves, &levels, rule, &options))
+        answer(py, || fit_levels(&curves, &levels, rule, dispersion, &options))
     }
 
     /// A fit of which records exceed a level at given intensities.

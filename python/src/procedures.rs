@@ -53,6 +53,7 @@ pub fn clusters_of((_, _, events, _): &SampleInput<'_>) -> Option<Clusters> {
 pub struct Fit {
     shift: String,
     method: String,
+    pub dispersion: String,
     quantile_type: u8,
     c: f64,
     n_resamples: usize,
@@ -68,6 +69,7 @@ impl Fit {
         Ok(FitOptions {
             method: choose("method", &self.method, &methods)?,
             shift: self.shift.parse().map_err(refuse)?,
+            family: Vec::new(),
             quantile_type: t,
             c: self.c,
             draws: (replicates > 0).then_some(Draws { replicates, seed }),

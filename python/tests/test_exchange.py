@@ -3,6 +3,7 @@ own readers find in them."""
 
 import re
 import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, get_args
 
@@ -18,7 +19,7 @@ BLOCK = rk.Block(alpha=0.2, p=3.0)
 
 
 def nrml(
-    fit: rk.FragilityFit,
+    fit: rk.FragilityFit | Sequence[rk.FragilityFit],
     path: Path | None = None,
     gravity: float = 9.80665,
     format: Any = "nrml",
@@ -57,6 +58,70 @@ def test_a_text_has_the_bytes_of_the_command_line(
     assert table.encode() == said["pelicun"] == own.read_bytes()
     expected = (tmp_path / "pelicun.json").read_bytes()
     assert own.with_suffix(".json").read_bytes() == expected
+
+
+def test_limit_states_of_one_dispersion_do_not_cross(
+    suite: rk.Suite, command: Command, tmp_path: Path
+) -> None:
+    optimize: Any = pytest.importorskip("scipy.optimize")
+    stats: Any = pytest.importorskip("scipy.stats")
+    block, levels = rk.Block(alpha=0.35, p=5.0), [0.3, 0.6, np.inf]
+    ida = rk.ida(block, suite)
+    own = ida.fit(levels, shift=1.0)
+    common = ida.fit(
+        levels, shift=1.0, dispersion="common", n_resamples=30, rng=1
+    )
+    with pytest.raises(ValueError, match="do not cross"):
+        nrml(own, block=block)
+    ida.to_csv(tmp_path / "ida.csv")
+    words = ["--ida", tmp_path / "ida.csv", "--at", "0.3,0.6,inf"]
+    words += ["--shift", 1, "--dispersion", "common", "--format", "nrml"]
+    words += ["--alpha", 0.35, "--p", 5, "--out", tmp_path / "own.xml"]
+    command("fragility", "export", *words)
+    points = [re.findall(r"<poes[^>]*>([^<]+)<", text) for text in (
+        nrml(common, block=block), (tmp_path / "own.xml").read_text()
+    )]
+    assert points[0] == points[1] and len(points[0]) == 3
+
+    samples = [ida.sample(level) for level in levels]
+
+    def loss(x: Any) -> float:
+        total = 0.0
+        for sample, mu in zip(samples, x):
+            law = stats.lognorm(np.exp(x[3]), loc=1.0, scale=np.exp(mu))
+            known = np.isfinite(sample.values)
+            total += law.logpdf(sample.values[known]).sum()
+            total += law.logsf(sample.limits[~known]).sum()
+        return -total
+
+    found = optimize.minimize(loss, [0.0, 0.2, 0.5, -0.5], method="BFGS")
+    for fit, mu in zip(common, found.x):
+        assert fit.fitted.log_mean == pytest.approx(mu, abs=1e-4)
+        assert fit.fitted.dispersion == pytest.approx(np.exp(found.x[3]), 1e-4)
+    likelihoods = [fit.log_likelihood or np.nan for fit in (*own, *common)]
+    assert sum(likelihoods[3:]) == pytest.approx(-found.fun, abs=1e-6)
+    losses = [fit.dispersion_loss or np.nan for fit in common]
+    apart = np.subtract(likelihoods[:3], likelihoods[3:])
+    assert losses == pytest.approx(apart, abs=1e-9) and min(losses) >= 0.0
+    assert own[0].dispersion_loss is None
+
+    # A draw is of all states: each has the interval of the others, and alone
+    # that which it has among them.
+    ends = [fit.bootstrap.dispersion for fit in common if fit.bootstrap]
+    assert len(ends) == 3 and ends[0] == ends[1] == ends[2]
+    hazard = rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.1\n2,1e-4\n")
+    all_ = rk.BlockFragility(block=block, fit=common, im="pga")
+    last = rk.BlockFragility(block=block, fit=common[2], im="pga")
+    alone: Any = {"n_resamples": 20, "model_dispersion": 0, "model_bias": 1}
+    rows = [
+        rk.risk(hazard, {"a": one}, **alone).fragilities[-1].sampling
+        for one in (all_, last)
+    ]
+    assert rows[0] == rows[1] and rows[0] is not None
+    for wrong in ({"method": "moment"}, {"shift": "min"}):
+        asked: Any = {"dispersion": "common", **wrong}
+        with pytest.raises(ValueError, match="dispersion common with"):
+            ida.fit(levels, **asked)
 
 
 def test_names_and_origin_are_those_given() -> None:

@@ -398,7 +398,11 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
         "Ida.capacities": (IDA.capacities, {"edp": 0.5}, {"rule": "last"}),
         "Ida.levels": (IDA.levels, {"edp": [0.5]}, {"rule": "last"}),
         "Ida.stripes": (IDA.stripes, {"ims": [1.5]}, {"edp": 0.5}),
-        "Ida.fit": (IDA.fit, {"edp": [0.5]}, {**fit, "rule": "last"}),
+        "Ida.fit": (
+            IDA.fit,
+            {"edp": [0.5, 0.3]},
+            {**fit, "rule": "last", "dispersion": "common"},
+        ),
         "Ida.fit_stripes": (
             IDA.fit_stripes,
             {"ims": [1.5, 2.0, 3.0], "edp": 0.5, **few},

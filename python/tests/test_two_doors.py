@@ -130,6 +130,17 @@ def fit_at_levels(house: House) -> Pair:
     return Pair(found, words, ("levels",))
 
 
+@pair("fit_levels")
+def fit_of_one_dispersion(house: House) -> Pair:
+    words = ["fragility", "fit", "--ida", house.table, "--at", "0.3,0.6,inf"]
+    words += ["--shift", 1, "--dispersion", "common", "--bootstrap", 20]
+    found = house.ida.fit(
+        [0.3, 0.6, np.inf], shift=1.0, dispersion="common", n_resamples=20
+    )
+    assert len({fit.fitted.dispersion for fit in found}) == 1
+    return Pair(found, words, ("levels",))
+
+
 @pair("fit_stripes")
 def fit_of_counts(house: House) -> Pair:
     counts = [(1.0, 1, 10), (2.0, 4, 10), (4.0, 9, 10)]

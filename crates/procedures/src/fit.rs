@@ -1,6 +1,7 @@
 //! Fragilities fitted to samples of capacities.
 
 mod intervals;
+mod levels;
 mod precision;
 mod remark;
 
@@ -10,14 +11,15 @@ use std::str::FromStr;
 use thiserror::Error;
 
 pub use intervals::{Band, BandPoint, FitIntervals, IntervalBasis};
+pub use levels::{DispersionRule, LevelFit, fit_levels};
 pub use precision::SampleSize;
 pub use remark::FitRemark;
 
 use self::intervals::Replicate;
-use crate::capacities;
+use self::levels::{law, resampled};
 use crate::fragility::total::TotalFragility;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
-use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking::capacity::CapacityError;
 use rocking::stop;
 use rocking_statistics::lilliefors::LillieforsError;
 use rocking_statistics::lognormal::{
@@ -111,6 +113,9 @@ pub struct FitOptions {
     pub method: FitMethod,
     /// The shift IM_R.
     pub shift: Shift,
+    /// Samples of the same records with one dispersion, the fitted one among
+    /// them; none for a dispersion of its own.
+    pub family: Vec<CensoredSample>,
     /// Type of the sample's quantiles.
     pub quantile_type: QuantileType,
     /// Constant c of Eq. 7.
@@ -132,6 +137,7 @@ impl Default for FitOptions {
         Self {
             method: FitMethod::MaximumLikelihood,
             shift: Shift::Given(0.0),
+            family: Vec::new(),
             quantile_type: QuantileType::default(),
             c: 1.0,
             draws: None,
@@ -193,6 +199,15 @@ pub enum ProcedureError {
     /// A free shift maximises a likelihood.
     #[error("shift free with method {0}: expected the method mle")]
     FreeShift(FitMethod),
+    /// One dispersion for several samples.
+    #[error(
+        "dispersion common with method {0} and shift {1}: expected the method \
+         mle and a number"
+    )]
+    Common(FitMethod, Shift),
+    /// A family lacks the fitted sample.
+    #[error("dispersion common: expected the samples of one IDA")]
+    OtherFamily,
     /// The smallest value has no bootstrap.
     #[error(
         "a bootstrap with shift min: a bootstrap of the smallest value gives \
@@ -406,6 +421,17 @@ struct SampleFit {
 impl FitOptions {
     fn check(&self, sample: &CensoredSample) -> Result<(), ProcedureError> {
         let mle = FitMethod::MaximumLikelihood;
+        let is_given = matches!(self.shift, Shift::Given(_));
+        if !self.family.is_empty() {
+            if self.method != mle || !is_given {
+                return Err(ProcedureError::Common(self.method, self.shift));
+            }
+            let same = |own: &CensoredSample| own.len() == sample.len();
+            if !(self.family.contains(sample) && self.family.iter().all(same))
+            {
+                return Err(ProcedureError::OtherFamily);
+            }
+        }
         if self.shift == Shift::Free && self.method != mle {
             return Err(ProcedureError::FreeShift(self.method));
         }
@@ -448,7 +474,9 @@ impl FitOptions {
         let fitted = intervals::drawn(draws, &clusters, |places| {
             let (shift, above) =
                 self.shift.split(&sample.resample(places)).ok()?;
-            Some(above.fit(shift, self.method).ok()?.distribution.into())
+            let family = resampled(&self.family, places);
+            let fit = law(&above, &family, shift, self.method).ok()?;
+            Some(fit.distribution.into())
         });
         let basis = IntervalBasis::new(draws, &clusters);
         Ok(Some(BootstrapFits { basis, fitted }))
@@ -460,10 +488,14 @@ impl FitOptions {
         self.clusters.clone().unwrap_or_else(records)
     }
 
-    fn once(&self, sample: &CensoredSample) -> Result<SampleFit, FitError> {
+    fn once(
+        &self,
+        sample: &CensoredSample,
+        family: &[CensoredSample],
+    ) -> Result<SampleFit, FitError> {
         let (shift, above) = self.shift.split(sample)?;
-        let fit = above.fit(shift, self.method)?;
-        let unshifted = sample.fit(0.0, self.method).ok();
+        let fit = law(&above, family, shift, self.method)?;
+        let unshifted = law(sample, family, 0.0, self.method).ok();
         let unshifted = unshifted.map(|fit| fit.distribution);
         let own =
             (unshifted.map(|u| u.median()), unshifted.map(|u| u.dispersion()));
@@ -514,7 +546,7 @@ pub fn fit_sample(
     options: &FitOptions,
 ) -> Result<FragilityFit, ProcedureError> {
     options.check(sample)?;
-    let found = options.once(sample)?;
+    let found = options.once(sample, &options.family)?;
     let fitted = found.fit.distribution;
     let whole = sample.extended();
     let shift_interval = match options.shift {
@@ -564,37 +596,4 @@ pub fn fit_sample(
         bootstrap,
         band,
     })
-}
-
-/// The fit of the capacities at one level.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct LevelFit {
-    /// The EDP level (peak |theta|/alpha, infinite for overturning).
-    pub edp: f64,
-    /// The fit.
-    #[cfg_attr(feature = "serde", serde(flatten))]
-    pub fit: FragilityFit,
-}
-
-/// Fits a fragility at each EDP level of an IDA.
-///
-/// A record that does not reach a level is censored at the intensity up to
-/// which it was run.
-///
-/// # Errors
-/// [`ProcedureError`] as of [`fit_sample`], or for a level that is no
-/// positive number.
-pub fn fit_levels(
-    curves: &[ResponseCurve],
-    levels: &[f64],
-    rule: InversionRule,
-    options: &FitOptions,
-) -> Result<Vec<LevelFit>, ProcedureError> {
-    let at = |&edp: &f64| {
-        let sample = capacities::sample(curves, edp, rule)?;
-        Ok(LevelFit { edp, fit: fit_sample(&sample, options)? })
-    };
-    levels.iter().map(at).collect()
 }

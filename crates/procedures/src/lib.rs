@@ -42,8 +42,8 @@ pub use counts::{
     CountsFragility, fit_outcomes, fit_stripes, sample_outcomes,
 };
 pub use fit::{
-    BootstrapFits, Draws, FitOptions, FitRemark, FragilityFit, LevelFit,
-    ProcedureError, Shift, fit_levels, fit_sample,
+    BootstrapFits, DispersionRule, Draws, FitOptions, FitRemark, FragilityFit,
+    LevelFit, ProcedureError, Shift, fit_levels, fit_sample,
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use inversion::inversion_discrepancy;

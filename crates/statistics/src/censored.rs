@@ -2,6 +2,7 @@
 
 use super::lognormal::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals,
+    fit_intervals_together,
 };
 use super::sample::SampleError;
 use super::{ExtendedSample, QuantileType};
@@ -172,6 +173,31 @@ impl CensoredSample {
             }
             _ => return fit(&sample, shift, method),
         };
+        fit_intervals(&self.intervals(cut, common)?, shift)
+    }
+
+    /// The lognormal fits of one dispersion above one shift, by maximum
+    /// likelihood: [`fit_intervals_together`].
+    ///
+    /// # Errors
+    /// [`FitError`] where the values of a sample make no fit.
+    pub fn fit_together(
+        all: &[Self],
+        shift: f64,
+    ) -> Result<Vec<LognormalFit>, FitError> {
+        let known = all.iter().map(|own| own.intervals(f64::INFINITY, None));
+        let known = known.collect::<Result<Vec<_>, _>>()?;
+        let known: Vec<_> = known.iter().map(Vec::as_slice).collect();
+        fit_intervals_together(&known, shift)
+    }
+
+    /// The values as intervals; those above `cut` are censored at `common`,
+    /// as are those whose limit is unknown.
+    fn intervals(
+        &self,
+        cut: f64,
+        common: Option<f64>,
+    ) -> Result<Vec<(f64, f64)>, FitError> {
         let interval = |(&value, limit): (&f64, &Option<f64>)| {
             let limit = limit.filter(|limit| *limit <= cut);
             match (limit, common) {
@@ -181,12 +207,11 @@ impl CensoredSample {
                 }
                 (None, Some(common)) => Ok((common, f64::INFINITY)),
                 (None, None) => Err(FitError::Infinite {
-                    censored: sample.censored() - self.limited(),
-                    n: sample.len(),
+                    censored: self.censored() - self.limited(),
+                    n: self.len(),
                 }),
             }
         };
-        let all = self.values.iter().zip(&self.limits).map(interval);
-        fit_intervals(&all.collect::<Result<Vec<_>, _>>()?, shift)
+        self.values.iter().zip(&self.limits).map(interval).collect()
     }
 }

@@ -12,7 +12,8 @@ use thiserror::Error;
 
 pub use counts::{CountsFit, Stripe, fit_counts, fit_counts_alone};
 pub use fit::{
-    FitError, FitMethod, LognormalFit, fit, fit_intervals, shifted_finite,
+    FitError, FitMethod, LognormalFit, fit, fit_intervals,
+    fit_intervals_together, shifted_finite,
 };
 pub use profile::{ShiftProfile, profile_shift};
 pub use within::dispersion_within;

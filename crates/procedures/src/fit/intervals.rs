@@ -5,6 +5,7 @@ use std::fmt;
 
 use libm::exp;
 
+use super::levels::resampled;
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::LEVEL;
 use crate::fragility::FragilityError;
@@ -123,7 +124,8 @@ fn refitted(
     options: &FitOptions,
     places: &[usize],
 ) -> Replicate {
-    let found = options.once(&sample.resample(places));
+    let family = resampled(&options.family, places);
+    let found = options.once(&sample.resample(places), &family);
     found.map_or(([f64::NAN; 5], None), |found| {
         (numbers(&found), Some(found.fit.distribution))
     })
@@ -225,7 +227,7 @@ impl Band {
         let known = matches!(
             options.method,
             FitMethod::MaximumLikelihood | FitMethod::Moment
-        );
+        ) && options.family.is_empty();
         let mut band = sampled.band(&(*fitted).into(), &options.band);
         if complete && known && sampled.basis.drawn.is_singletons() {
             for point in &mut band.points {

@@ -84,49 +84,76 @@ impl Point {
 
 /// Mean and standard deviation that maximise the likelihood, and its
 /// logarithm; from a rough centre and spread.
-///
-/// In (1/sigma, mu/sigma) the log-likelihood is concave, exact values or
-/// intervals, so that Newton's method with a halved step finds its one
-/// maximum.
 pub(super) fn maximise(
     observations: &[Observation],
     centre: f64,
     spread: f64,
 ) -> Result<(f64, f64, f64), FitError> {
-    let standard = |y: f64| (y - centre) / spread;
-    let standardised: Vec<Observation> = observations
-        .iter()
-        .map(|observation| match *observation {
+    let (all, deviation) =
+        maximise_together(&[(observations, centre)], spread)?;
+    let (mean, value) = all[0];
+    Ok((mean, deviation, value))
+}
+
+/// The mean and the logarithm of the likelihood of each group, and the one
+/// standard deviation of all, that maximise the likelihood of all; from
+/// rough centres and a spread.
+///
+/// In (1/sigma, mu_1/sigma, mu_2/sigma, ..) the log-likelihood is concave,
+/// exact values or intervals, so that Newton's method with a halved step finds
+/// its one maximum.
+pub(super) fn maximise_together(
+    groups: &[(&[Observation], f64)],
+    spread: f64,
+) -> Result<(Vec<(f64, f64)>, f64), FitError> {
+    let standardised = |(observations, centre): &(&[Observation], f64)| {
+        let standard = |y: f64| (y - centre) / spread;
+        let all = observations.iter().map(|observation| match *observation {
             Exact(y) => Exact(standard(y)),
             Interval(low, high, count) => {
                 Interval(standard(low), standard(high), count)
             }
-        })
-        .collect();
-    let exact = observations.iter().filter(|o| matches!(o, Exact(_))).count();
-    let (mut a, mut b) = (1.0, 0.0);
-    let mut here = Point::new(&standardised, a, b);
+        });
+        all.collect::<Vec<_>>()
+    };
+    let standard: Vec<_> = groups.iter().map(standardised).collect();
+    let points = |a: f64, b: &[f64]| {
+        let pairs = standard.iter().zip(b);
+        pairs.map(|(own, b)| Point::new(own, a, *b)).collect::<Vec<_>>()
+    };
+    let value = |all: &[Point]| all.iter().fold(0.0, |sum, p| sum + p.value);
+    let (mut a, mut b) = (1.0, vec![0.0; groups.len()]);
+    let mut here = points(a, &b);
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        let [aa, ab, bb] = here.curvature;
-        let [da, db] = here.gradient;
-        let determinant = aa * bb - ab * ab;
-        let step_a = (bb * da - ab * db) / determinant;
-        let step_b = (aa * db - ab * da) / determinant;
-        let size = step_a.abs().max(step_b.abs()) / (a + b.abs());
+        let steps: Vec<_> = (0..b.len()).map(|j| step(&here, j)).collect();
+        let step_a = steps.first().map_or(f64::NAN, |step| step.0);
+        let size = steps.iter().zip(&b).fold(0.0, |size: f64, (step, b)| {
+            size.max(step_a.abs().max(step.1.abs()) / (a + b.abs()))
+        });
         // Newton's steps shrink until the rounding of narrow intervals.
         if size < 1e-13 || (size < 1e-7 && size >= last) {
-            let value = here.value - exact as f64 * log(spread);
-            return Ok((centre + spread * b / a, spread / a, value));
+            let found =
+                |(j, (own, centre)): (usize, &(&[Observation], f64))| {
+                    let exact = own.iter().filter(|o| matches!(o, Exact(_)));
+                    let scale = exact.count() as f64 * log(spread);
+                    (centre + spread * b[j] / a, here[j].value - scale)
+                };
+            let all = groups.iter().enumerate().map(found).collect();
+            return Ok((all, spread / a));
         }
         last = size;
         let mut share = 1.0;
         loop {
-            let (next_a, next_b) = (a - share * step_a, b - share * step_b);
+            let next_a = a - share * step_a;
+            let moved = b.iter().zip(&steps);
+            let next_b: Vec<f64> =
+                moved.map(|(b, step)| b - share * step.1).collect();
             if next_a > 0.0 {
-                let next = Point::new(&standardised, next_a, next_b);
+                let next = points(next_a, &next_b);
+                let (old, new) = (value(&here), value(&next));
                 // At the maximum the value no longer tells steps apart.
-                if next.value >= here.value - 1e-13 * here.value.abs() {
+                if new >= old - 1e-13 * old.abs() {
                     (a, b, here) = (next_a, next_b, next);
                     break;
                 }
@@ -138,6 +165,20 @@ pub(super) fn maximise(
         }
     }
     Err(FitError::NotConverged(STEPS))
+}
+
+/// Newton's step of 1/sigma, and of mu/sigma of a group, the other groups'
+/// eliminated.
+fn step(all: &[Point], group: usize) -> (f64, f64) {
+    let ([mut aa, ab, bb], [mut da, db]) =
+        (all[group].curvature, all[group].gradient);
+    for (_, other) in all.iter().enumerate().filter(|(j, _)| *j != group) {
+        let ratio = other.curvature[1] / other.curvature[2];
+        aa += other.curvature[0] - ratio * other.curvature[1];
+        da += other.gradient[0] - ratio * other.gradient[1];
+    }
+    let determinant = aa * bb - ab * ab;
+    ((bb * da - ab * db) / determinant, (aa * db - ab * da) / determinant)
 }
 
 /// Half of the 95 % quantile of chi-squared with one degree of freedom.

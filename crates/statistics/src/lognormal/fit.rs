@@ -6,8 +6,8 @@ use std::str::FromStr;
 use libm::log;
 use thiserror::Error;
 
-use super::censored::Observation::{Exact, Interval};
-use super::censored::maximise;
+use super::censored::Observation::{self, Exact, Interval};
+use super::censored::{maximise, maximise_together};
 use super::{Lognormal, LognormalError};
 use crate::sample::{mean, sum_of_squares};
 use crate::{ExtendedSample, QuantileType};
@@ -352,6 +352,58 @@ pub fn fit_intervals(
     intervals: &[(f64, f64)],
     shift: f64,
 ) -> Result<LognormalFit, FitError> {
+    Ok(fit_intervals_together(&[intervals], shift)?[0])
+}
+
+/// Fits lognormal distributions of one dispersion above one shift to samples
+/// by maximum likelihood, each sample with a median of its own; its
+/// log-likelihood is that of its own intervals, as in [`fit_intervals`].
+///
+/// ```
+/// use rocking_statistics::lognormal::fit_intervals_together;
+/// // Twice the values of the first: ln 2 between the means.
+/// let [first, other] = [[1.0, 2.0, 4.0], [2.0, 4.0, 8.0]]
+///     .map(|all| all.map(|x| (x, x)));
+/// let fits = fit_intervals_together(&[&first, &other], 0.0)?;
+/// let ratio = fits[1].distribution.median() / fits[0].distribution.median();
+/// assert!((ratio - 2.0).abs() < 1e-12);
+/// # Ok::<(), rocking_statistics::lognormal::FitError>(())
+/// ```
+///
+/// # Errors
+/// [`FitError`] as of [`fit_intervals`], for any of the samples.
+pub fn fit_intervals_together(
+    samples: &[&[(f64, f64)]],
+    shift: f64,
+) -> Result<Vec<LognormalFit>, FitError> {
+    let known = samples.iter().map(|own| known_logarithms(own, shift));
+    let known = known.collect::<Result<Vec<_>, _>>()?;
+    let count: usize = known.iter().map(|own| own.1.len()).sum();
+    let squares: f64 = known.iter().map(|own| sum_of_squares(&own.1)).sum();
+    let spread = (squares / count as f64).sqrt().max(1e-3);
+    let groups = known.iter().map(|(all, y, _)| (all.as_slice(), mean(y)));
+    let groups: Vec<_> = groups.collect();
+    let (found, dispersion) = maximise_together(&groups, spread)?;
+    let fit = |(k, (log_mean, value)): (usize, (f64, f64))| {
+        let (all, _, jacobian) = &known[k];
+        Ok(LognormalFit {
+            distribution: Lognormal::try_new(shift, log_mean, dispersion)?,
+            n: samples[k].len(),
+            n_kept: all.len(),
+            log_likelihood: Some(value - jacobian),
+        })
+    };
+    found.into_iter().enumerate().map(fit).collect()
+}
+
+/// Observations of the logarithms above the shift; their middles, or one end
+/// of those open to a side; and the sum of those known exactly.
+type KnownLogarithms = (Vec<Observation>, Vec<f64>, f64);
+
+fn known_logarithms(
+    intervals: &[(f64, f64)],
+    shift: f64,
+) -> Result<KnownLogarithms, FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }
@@ -397,13 +449,7 @@ pub fn fit_intervals(
         let value = lowest_high;
         return Err(FitError::OneValue { value, n: n_kept });
     }
-    let spread = (sum_of_squares(&middles) / n_kept as f64).sqrt();
-    let (log_mean, dispersion, value) =
-        maximise(&known, mean(&middles), spread.max(1e-3))?;
-    let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
-    let log_likelihood = Some(value - jacobian);
-    let n = intervals.len();
-    Ok(LognormalFit { distribution, n, n_kept, log_likelihood })
+    Ok((known, middles, jacobian))
 }
 
 /// ln(x - shift) of the finite values, ascending.

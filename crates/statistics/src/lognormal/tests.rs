@@ -102,6 +102,43 @@ fn values_censored_at_limits_of_their_own_agree_with_scipy_and_mpmath() {
     }
 }
 
+/// The levels of `fixtures/oracles/censored.py`: exact values, limits.
+const LEVELS: [(&[f64], &[f64]); 3] = [
+    (&[1.04, 1.1, 1.15, 1.22, 1.3, 1.31, 1.4, 1.47, 1.6, 1.66, 1.9, 2.3], &[]),
+    (&[1.1, 1.21, 1.25, 1.5, 1.45, 1.8, 1.77, 2.1, 2.6, 3.2], &[2.5, 4.0]),
+    (&[1.3, 1.52, 1.9, 2.4, 3.1], &[1.5, 2.0, 2.0, 2.2, 2.5, 3.0, 4.0]),
+];
+
+#[test]
+fn samples_of_one_dispersion_agree_with_scipy_and_mpmath() {
+    let sample = |(exact, limits): &(&[f64], &[f64])| {
+        let censored =
+            limits.iter().map(|limit| (f64::INFINITY, Some(*limit)));
+        let all = exact.iter().map(|x| (*x, None)).chain(censored);
+        let (values, limits): (Vec<_>, Vec<_>) = all.unzip();
+        CensoredSample::try_new(&values, &limits).unwrap()
+    };
+    let samples = LEVELS.each_ref().map(sample);
+    for shift in [0.0, 1.0] {
+        let fits = CensoredSample::fit_together(&samples, shift).unwrap();
+        for (k, fit) in fits.iter().enumerate() {
+            let expected = censored(&format!("common-{shift}-{}", k + 1));
+            let law = fit.distribution;
+            let own = fit.log_likelihood.unwrap();
+            let found = [law.log_mean(), law.dispersion(), own];
+            for (ours, theirs) in found.iter().zip(&expected[1..]) {
+                assert!((ours - theirs).abs() < 1e-12 * theirs.abs().max(1.0));
+            }
+            assert_eq!(fit.n_kept as f64, expected[0]);
+        }
+        // A sample alone has the bits of its own fit.
+        let alone = CensoredSample::fit_together(&samples[1..2], shift);
+        let method = FitMethod::MaximumLikelihood;
+        assert_eq!(alone.unwrap(), [samples[1].fit(shift, method).unwrap()]);
+    }
+    assert_eq!(CensoredSample::fit_together(&[], 0.0), Ok(Vec::new()));
+}
+
 #[test]
 fn counts_that_tell_no_dispersion_are_refused() {
     let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };

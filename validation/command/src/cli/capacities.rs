@@ -105,7 +105,7 @@ impl FromStr for Vertices {
     }
 }
 
-/// EDP levels.
+/// EDP levels; `inf` is overturning.
 #[derive(Clone, Debug)]
 pub(super) struct EdpLevels(pub(super) Vec<f64>);
 
@@ -114,6 +114,9 @@ impl FromStr for EdpLevels {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let number = |field: &str| {
+            if field.trim() == "inf" {
+                return Ok(f64::INFINITY);
+            }
             let place = |expected| format!("found `{field}`: {expected}");
             positive(field).map_err(place)
         };

@@ -9,7 +9,7 @@ use rocking_statistics::QuantileType;
 use serde::Serialize;
 
 use super::fit::FitArgs;
-use super::source::SourceArgs;
+use super::source::{DispersionArg, SourceArgs};
 use crate::cli::names::named;
 use crate::cli::shared::{JsonArg, ModelErrorArgs};
 use crate::failure::{Failure, bail};
@@ -23,6 +23,8 @@ pub(super) struct FragilityExportCommand {
     source: SourceArgs,
     #[command(flatten)]
     fit: FitArgs,
+    #[command(flatten)]
+    dispersion: DispersionArg,
     #[command(flatten)]
     model_error: ModelErrorArgs,
     /// Format of the file.
@@ -74,7 +76,8 @@ pub(super) fn run_fragility_export(
     let mut outputs = Outputs::of(inputs);
     let file = outputs.open(&args.out)?;
     let second = outputs.open_some(args.beside()?.as_ref())?;
-    let options = args.fit.options(QuantileType::default());
+    let mut options = args.fit.options(QuantileType::default());
+    options.family = source.family(args.dispersion.dispersion);
     let model_error = args.model_error.or(ModelError::default());
     let fragilities = source.fragilities(&options, model_error)?;
     let texts = args.format.texts(&fragilities)?;

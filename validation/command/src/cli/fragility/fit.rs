@@ -13,11 +13,11 @@ use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
-use super::source::{self, IdaArgs};
+use super::source::{self, DispersionArg, IdaArgs};
 use crate::cli::capacities::EdpLevels;
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
-use crate::failure::{AtPlace as _, Failure, bail};
+use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
@@ -50,6 +50,8 @@ pub(super) struct FragilityFitCommand {
     im: Option<IntensityMeasure>,
     #[command(flatten)]
     fit: FitArgs,
+    #[command(flatten)]
+    dispersion: DispersionArg,
     /// Type of the quantiles, 1 to 9.
     #[arg(long, value_name = "TYPE", default_value_t = 5)]
     quantile_type: u8,
@@ -151,6 +153,10 @@ pub(super) fn run_fragility_fit(
     options.draws =
         args.bootstrap.map(|replicates| Draws { replicates, seed });
     options.band = args.band.as_ref().map_or(Vec::new(), |b| b.0.clone());
+    ensure!(
+        options.band.iter().all(|im| im.is_finite()),
+        "--band inf: expected a finite intensity"
+    );
     match (&args.sample, &args.ida.ida) {
         (Some(path), _) => of_sample(args, path, &options),
         (None, Some(path)) => of_levels(args, path, &options),
@@ -194,11 +200,12 @@ fn of_levels(
     let measure = source::in_table(args.im.as_ref())?;
     let curves = input::ida(path, measure)?.1;
     let clusters = Some(curves.clusters.clone());
-    let options = FitOptions { clusters, ..options.clone() };
+    let mut options = FitOptions { clusters, ..options.clone() };
     let curves = curves.into_curves();
     let (at, rule) = args.ida.levels();
-    let found =
-        args.threads.run(|| fit_levels(&curves, at, rule, &options))?;
+    let dispersion = args.dispersion.dispersion;
+    let fit = || fit_levels(&curves, at, rule, dispersion, &options);
+    let found = args.threads.run(fit)?;
     let levels = found.at(path.display())?;
     let unit = measure.row().words.to_owned();
     let level = |level: &LevelFit| {
@@ -212,6 +219,8 @@ fn of_levels(
     if let Some(out) = plot {
         let drawn = levels.iter().map(level);
         let drawn = drawn.collect::<Result<Vec<_>, Failure>>()?;
+        let samples: Vec<_> = drawn.iter().map(|one| one.1.clone()).collect();
+        options.family = dispersion.family(&samples);
         out.write(args.threads.run(|| svg(drawn, &options, &unit))??)?;
     }
     let point = rule.to_string();

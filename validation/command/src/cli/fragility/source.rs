@@ -13,7 +13,8 @@ use rocking_exchange::{
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
 use rocking_procedures::{
-    BootstrapFits, FitOptions, ModelError, Shift, capacities, fit_sample,
+    BootstrapFits, DispersionRule, FitOptions, ModelError, Shift, capacities,
+    fit_sample,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
@@ -95,7 +96,8 @@ pub struct IdaArgs {
         conflicts_with = "sample"
     )]
     pub ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas; `inf` is
+    /// overturning.
     #[arg(
         long,
         value_name = "LEVELS",
@@ -114,6 +116,24 @@ impl IdaArgs {
         let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
         (at, self.point.unwrap_or(InversionRule::Median))
     }
+}
+
+/// Whether the levels of an IDA have one dispersion.
+#[derive(clap::Args)]
+pub(super) struct DispersionArg {
+    /// Dispersion of the fragilities of --ida; a common one is fitted by
+    /// maximum likelihood, and their curves do not cross.
+    #[arg(
+        long,
+        value_parser = names::named(
+            DispersionRule::ALL,
+            DispersionRule::name,
+            ["Each its own", "One for all"],
+        ),
+        default_value = DispersionRule::Own.name(),
+        requires = "ida"
+    )]
+    pub(super) dispersion: DispersionRule,
 }
 
 /// What is fitted, or the surface that was.
@@ -385,6 +405,15 @@ impl FragilitySource {
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.samples.keys().cloned().collect()
+    }
+
+    /// The samples of the flags that have one dispersion by the rule.
+    pub(super) fn family(&self, rule: DispersionRule) -> Vec<CensoredSample> {
+        let samples = self.levels.iter().filter_map(|one| match &one.values {
+            LevelValues::Sample(sample, _) => Some(sample.clone()),
+            _ => None,
+        });
+        rule.family(&samples.collect::<Vec<_>>())
     }
 
     /// The fragilities in the unit of a hazard curve's measure; where that is

@@ -1,0 +1,101 @@
+//! Fits at the levels of an IDA, which may have one dispersion.
+
+use rocking::capacity::{InversionRule, ResponseCurve};
+use rocking::names::named;
+use rocking_statistics::CensoredSample;
+use rocking_statistics::lognormal::{FitError, FitMethod, LognormalFit};
+
+use super::{FitOptions, FragilityFit, ProcedureError, fit_sample};
+use crate::capacities;
+
+named! {
+    /// Which dispersion the fragilities of one block have.
+    pub enum DispersionRule: "dispersion" {
+        /// Each its own.
+        Own = "own",
+        /// One for all, by maximum likelihood: above one shift their curves
+        /// do not cross.
+        Common = "common",
+    }
+}
+
+impl DispersionRule {
+    /// The [`FitOptions::family`] of each of these samples.
+    #[must_use]
+    pub fn family(self, samples: &[CensoredSample]) -> Vec<CensoredSample> {
+        match self {
+            Self::Own => Vec::new(),
+            Self::Common => samples.to_vec(),
+        }
+    }
+}
+
+/// The fit of a sample above a shift, by itself or with its family.
+pub(super) fn law(
+    sample: &CensoredSample,
+    family: &[CensoredSample],
+    shift: f64,
+    method: FitMethod,
+) -> Result<LognormalFit, FitError> {
+    match family.iter().position(|own| own == sample) {
+        None => sample.fit(shift, method),
+        Some(k) => Ok(CensoredSample::fit_together(family, shift)?[k]),
+    }
+}
+
+/// The values of samples at these places.
+pub(super) fn resampled(
+    family: &[CensoredSample],
+    places: &[usize],
+) -> Vec<CensoredSample> {
+    family.iter().map(|sample| sample.resample(places)).collect()
+}
+
+/// The fit of the capacities at one level.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LevelFit {
+    /// The EDP level (peak |theta|/alpha, infinite for overturning).
+    pub edp: f64,
+    /// How far the log-likelihood lies below that of the level's own
+    /// dispersion; none of an own dispersion.
+    pub dispersion_loss: Option<f64>,
+    /// The fit.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub fit: FragilityFit,
+}
+
+/// Fits a fragility at each EDP level of an IDA, each with a dispersion of its
+/// own or all with one.
+///
+/// A record that does not reach a level is censored at the intensity up to
+/// which it was run. A bootstrap draws a record in all levels at once.
+///
+/// # Errors
+/// [`ProcedureError`] as of [`fit_sample`], for a level that is no positive
+/// number, or one dispersion by another method than maximum likelihood above a
+/// known shift.
+pub fn fit_levels(
+    curves: &[ResponseCurve],
+    levels: &[f64],
+    rule: InversionRule,
+    dispersion: DispersionRule,
+    options: &FitOptions,
+) -> Result<Vec<LevelFit>, ProcedureError> {
+    let sample = |&edp: &f64| capacities::sample(curves, edp, rule);
+    let samples = levels.iter().map(sample).collect::<Result<Vec<_>, _>>()?;
+    let family = dispersion.family(&samples);
+    let is_own = family.is_empty();
+    let options = FitOptions { family, ..options.clone() };
+    let fit = |(&edp, sample): (&f64, &CensoredSample)| {
+        let fit = fit_sample(sample, &options)?;
+        let own = || sample.fit(fit.fitted.shift(), fit.method);
+        let own = (!is_own).then(own).transpose()?;
+        let own = own.and_then(|own| own.log_likelihood);
+        let both = own.zip(fit.log_likelihood);
+        let dispersion_loss = both.map(|(own, here)| (own - here).max(0.0));
+        Ok(LevelFit { edp, dispersion_loss, fit })
+    };
+    levels.iter().zip(&samples).map(fit).collect()
+}

@@ -11,6 +11,7 @@ pub mod double;
 mod fused;
 pub mod lanes;
 pub mod octuple;
+mod series;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -38,14 +39,22 @@ pub trait Number:
     /// The number that `x` is, exactly.
     fn from_f64(x: f64) -> Self;
 
-    /// The quotient `i / j`, rounded in this type's precision.
-    fn ratio(i: i32, j: i32) -> Self;
+    /// The quotient `i / j`, rounded in this type's precision; as given here,
+    /// in double precision.
+    #[inline(always)]
+    fn ratio(i: i32, j: i32) -> Self {
+        Self::from_f64(f64::from(i) / f64::from(j))
+    }
 
     /// `self * b + c` with one rounding where the type has one.
     fn mul_add(self, b: Self, c: Self) -> Self;
 
-    /// Sine and cosine of an angle in [0, pi/4] or a little beyond.
-    fn sin_cos_small(self) -> (Self, Self);
+    /// Sine and cosine of an angle in [0, pi/4] or a little beyond; as given
+    /// here, in double precision.
+    #[inline(always)]
+    fn sin_cos_small(self) -> (Self, Self) {
+        sin_cos_polynomials(self)
+    }
 
     /// Zero.
     #[inline(always)]
@@ -127,22 +136,12 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn ratio(i: i32, j: i32) -> Self {
-        f64::from(i) / f64::from(j)
-    }
-
-    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         if cfg!(target_family = "wasm") {
             fused::mul_add(self, b, c)
         } else {
             f64::mul_add(self, b, c)
         }
-    }
-
-    #[inline(always)]
-    fn sin_cos_small(self) -> (Self, Self) {
-        sin_cos_polynomials(self)
     }
 }
 

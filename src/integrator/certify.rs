@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::integrator::precise::respond_until_sure;
+use crate::integrator::precise::respond_precisely;
 use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
     SceneError, Solver, WorkLimit,
@@ -188,14 +188,15 @@ pub fn certify(
     let double = quick.outcome;
     let by = Arithmetic::DoubleDouble;
     let report = |time_s| progress(by, time_s);
-    let wide = respond_until_sure::<DoubleDouble>(scene, &observe, &report)?;
+    let wide =
+        respond_precisely::<DoubleDouble>(scene, &observe, true, &report)?;
     let wide = CertifiedFate::of(&wide, by);
     if wide.resolved {
         return Ok(CertifiedFate { double, ..wide });
     }
     let by = Arithmetic::Octuple;
     let report = |time_s| progress(by, time_s);
-    let widest = respond_until_sure::<Octuple>(scene, &observe, &report)?;
+    let widest = respond_precisely::<Octuple>(scene, &observe, true, &report)?;
     let widest = CertifiedFate::of(&widest, by);
     Ok(CertifiedFate { double, ..widest })
 }

@@ -141,10 +141,10 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
 
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
-        let mut groups = std::array::from_fn(|_| LaneGroup::idle());
+        let mut groups = Groups::default();
         let mut waiting = Waiting { queues: [LaneQueue::EMPTY; 3] };
-        let mut batch = LaneBatch::empty();
-        let mut solved = BatchSolution::nothing();
+        let mut batch = LaneBatch::default();
+        let mut solved = BatchSolution::default();
         // A response may give the source something to do.
         let mut fresh = true;
         loop {
@@ -337,7 +337,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                     settled |= self.proceed(id, groups);
                     continue;
                 }
-                group.side[lane] = group.side[lane].flipped();
+                group.turned ^= 1 << lane;
             } else {
                 group.next[lane] += 1;
             }

@@ -61,23 +61,16 @@ pub fn respond_precise<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
 ) -> Result<Response<N>, SceneError> {
-    respond_as_asked(scene, observe, false, &|_| {})
+    respond_precisely(scene, observe, false, &|_| {})
 }
 
-/// [`respond_precise`] that ends as soon as outcome and peak are surely known;
-/// `progress` is called with the time (s) in the scene.
+/// [`respond_precise`] that ends, where `peak_only` is set, as soon as outcome
+/// and peak are surely known; `progress` is called with the time (s) in the
+/// scene.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
-pub(crate) fn respond_until_sure<N: Real>(
-    scene: &Scene<'_>,
-    observe: &Observe,
-    progress: &dyn Fn(f64),
-) -> Result<Response<N>, SceneError> {
-    respond_as_asked(scene, observe, true, progress)
-}
-
-fn respond_as_asked<N: Real>(
+pub(crate) fn respond_precisely<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
     peak_only: bool,

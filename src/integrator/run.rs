@@ -63,16 +63,24 @@ impl Kernel for RunKernel<'_> {
         match (self.scene.excitation, self.index) {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
-                let step = forcing.step();
-                match Class::of(model, step, self.solver.order) {
-                    Class::Eight => self.at::<9>(dynamics, forcing),
-                    Class::Nine => self.at::<10>(dynamics, forcing),
-                    Class::Ten => self.at::<11>(dynamics, forcing),
-                    Class::Longest | Class::Linearized => {
-                        self.at::<LONGEST>(dynamics, forcing)
+                let class =
+                    Class::of(model, forcing.step(), self.solver.order);
+                match class {
+                    Class::Eight | Class::Fixed(Order::Eight) => {
+                        self.at::<9>(class, dynamics, forcing)
                     }
-                    Class::Fixed(order) => {
-                        self.at_order(order, dynamics, forcing)
+                    Class::Nine => self.at::<10>(class, dynamics, forcing),
+                    Class::Ten | Class::Fixed(Order::Ten) => {
+                        self.at::<11>(class, dynamics, forcing)
+                    }
+                    Class::Longest | Class::Linearized => {
+                        self.at::<LONGEST>(class, dynamics, forcing)
+                    }
+                    Class::Fixed(Order::Four) => {
+                        self.at::<5>(class, dynamics, forcing)
+                    }
+                    Class::Fixed(Order::Six) => {
+                        self.at::<7>(class, dynamics, forcing)
                     }
                 }
             }
@@ -92,51 +100,19 @@ impl Kernel for RunKernel<'_> {
 }
 
 impl RunKernel<'_> {
-    /// By series of `LEN` coefficients, longer where they leave too much.
+    /// By series of `LEN` coefficients, longer where they leave more than the
+    /// class allows.
     #[inline(always)]
     fn at<const LEN: usize>(
         &self,
+        class: Class,
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Result<Response, SceneError> {
-        self.driver(dynamics, forcing).run::<LEN>(self.scene, self.observe)
-    }
-
-    #[inline(always)]
-    fn at_order(
-        &self,
-        order: Order,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
-    ) -> Result<Response, SceneError> {
-        match order {
-            Order::Four => self.fixed::<5>(dynamics, forcing),
-            Order::Six => self.fixed::<7>(dynamics, forcing),
-            Order::Eight => self.fixed::<9>(dynamics, forcing),
-            Order::Ten => self.fixed::<11>(dynamics, forcing),
-        }
-    }
-
-    /// By series of `LEN` coefficients, whatever they leave.
-    #[inline(always)]
-    fn fixed<const LEN: usize>(
-        &self,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
-    ) -> Result<Response, SceneError> {
-        self.driver(dynamics, forcing)
-            .within(f64::INFINITY)
-            .run::<LEN>(self.scene, self.observe)
-    }
-
-    #[inline(always)]
-    fn driver<'r>(
-        &self,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'r, f64>,
-    ) -> Driver<f64, RecordForcing<'r, f64>, 2, LONGEST> {
-        Driver::new(dynamics, forcing, self.solver.isa)
+        Driver::<_, _, 2, LONGEST>::new(dynamics, forcing, self.solver.isa)
             .for_peak_if(self.solver.peak_only)
             .again(self.again)
+            .within(class.tolerance())
+            .run::<LEN>(self.scene, self.observe)
     }
 }

@@ -15,6 +15,15 @@
     reason = "functions and instructions of a level are unsafe to call; detection makes it sound"
 )]
 
+/// Instructions of a level.
+#[cfg(target_arch = "x86_64")]
+macro_rules! level {
+    ($call:expr) => {
+        // SAFETY: the registers of a level exist only where it was found.
+        unsafe { $call }
+    };
+}
+
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]

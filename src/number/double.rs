@@ -11,7 +11,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Number, Real};
+use super::{Number, Real, series};
 
 /// A number hi + lo with |lo| at most half a unit in the last place of hi.
 ///
@@ -112,22 +112,6 @@ impl DoubleDouble {
     fn less(self, count: f64, parts: [f64; 3]) -> Self {
         parts.iter().fold(self, |rest, x| rest - two_product(count, *x))
     }
-
-    /// Sum of x^k / ((first + 1) ... (first + k)) over k, by nested products.
-    fn series(x: Self, first: i32, step: i32) -> Self {
-        let mut sum = Self::one();
-        for k in (1..=TERMS / step).rev() {
-            let last = first + step * k;
-            let factor = if step == 2 { (last - 1) * last } else { last };
-            sum = Self::one() + x * sum * Self::ratio(1, factor);
-        }
-        sum
-    }
-
-    /// exp(x) - 1 for |x| below about a half, by its series.
-    fn exp_m1_small(self) -> Self {
-        self * Self::series(self, 1, 1)
-    }
 }
 
 impl Neg for DoubleDouble {
@@ -214,8 +198,7 @@ impl Number for DoubleDouble {
 
     /// sin x = x (1 - x^2/(2 3) (1 - x^2/(4 5) (...))), and the cosine alike.
     fn sin_cos_small(self) -> (Self, Self) {
-        let z = -(self * self);
-        (self * Self::series(z, 1, 2), Self::series(z, 0, 2))
+        series::sin_cos(self, TERMS)
     }
 }
 
@@ -268,7 +251,7 @@ impl Real for DoubleDouble {
         }
         let count = (self.hi / LN_2[0]).round();
         let rest = self.less(count, LN_2);
-        (Self::one() + rest.exp_m1_small()).scaled(count as i32)
+        (Self::one() + series::exp_m1(rest, TERMS)).scaled(count as i32)
     }
 
     /// Newton's iteration on exp(y) - 1 = x from a double, to second order.
@@ -279,7 +262,7 @@ impl Real for DoubleDouble {
         }
         let start = Self::from_f64(y);
         let value = if y.abs() < 0.35 {
-            start.exp_m1_small()
+            series::exp_m1(start, TERMS)
         } else {
             start.exp() - Self::one()
         };

@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
-use crate::number::{Number, sin_cos_polynomials};
+use crate::number::Number;
 
 /// Numbers in as many lanes.
 pub const WIDTH: usize = 8;
@@ -95,7 +95,7 @@ pub trait Mask<N>: Copy {
 }
 
 /// Numbers in lanes where no instruction set is known to have them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes(pub [f64; WIDTH]);
 
@@ -355,22 +355,12 @@ impl Number for Lanes {
     }
 
     #[inline(always)]
-    fn ratio(i: i32, j: i32) -> Self {
-        Self::splat(f64::ratio(i, j))
-    }
-
-    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         let mut out = self.0;
         for ((x, y), z) in out.iter_mut().zip(b.0).zip(c.0) {
             *x = Number::mul_add(*x, y, z);
         }
         Self(out)
-    }
-
-    #[inline(always)]
-    fn sin_cos_small(self) -> (Self, Self) {
-        sin_cos_polynomials(self)
     }
 }
 

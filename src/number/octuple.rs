@@ -13,7 +13,7 @@ mod functions;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Number;
+use super::{Number, series};
 
 /// Limbs of a significand, the least first.
 const LIMBS: usize = 4;
@@ -339,7 +339,7 @@ impl Number for Octuple {
     }
 
     fn sin_cos_small(self) -> (Self, Self) {
-        functions::sin_cos_small(self)
+        series::sin_cos(self, functions::TERMS)
     }
 }
 

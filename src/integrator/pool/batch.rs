@@ -21,6 +21,7 @@ use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 type Bits = u8;
 
 /// Lanes gathered from the groups.
+#[derive(Default)]
 pub(super) struct LaneBatch {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
@@ -49,6 +50,7 @@ pub(super) struct LaneBatch {
 }
 
 /// What became of the lanes of a batch.
+#[derive(Default)]
 pub(super) struct BatchSolution {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
@@ -84,37 +86,6 @@ pub(super) struct BatchSolution {
     pub doubt: Lanes,
 }
 
-impl BatchSolution {
-    pub fn nothing() -> Self {
-        let (zero, none) = (Lanes::splat(0.0), 0);
-        Self {
-            lanes: [Lane::of(0); WIDTH],
-            count: 0,
-            left: none,
-            hard: none,
-            impact: none,
-            rested: none,
-            rest: zero,
-            settled: none,
-            again: none,
-            turned: none,
-            turn: zero,
-            top: zero,
-            u: zero,
-            w: zero,
-            here: zero,
-            offset: zero,
-            amplitude: zero,
-            speed: zero,
-            f: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
-            doubt: zero,
-        }
-    }
-}
-
 /// A turning point of a step, after the part `x`.
 struct TurningLanes<V: Simd> {
     /// There surely is a highest rotation, or a lowest.
@@ -137,34 +108,6 @@ struct FirstImpact<V: Simd> {
 }
 
 impl LaneBatch {
-    pub fn empty() -> Self {
-        let zero = Lanes::splat(0.0);
-        Self {
-            lanes: [Lane::of(0); WIDTH],
-            count: 0,
-            u: zero,
-            w: zero,
-            here: zero,
-            ahead: zero,
-            offset: zero,
-            amplitude: zero,
-            whole: zero,
-            inverse: zero,
-            threshold: zero,
-            sine: zero,
-            cosine: zero,
-            peak: zero,
-            limit: zero,
-            eta: zero,
-            alpha: zero,
-            fastest: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
-            doubt: zero,
-        }
-    }
-
     /// Takes up to eight lanes out of a queue; those beyond have no meaning.
     pub fn gather<'a, T>(
         &mut self,

@@ -5,7 +5,6 @@
 //! `free_of_events` rests on bounds of u'' and u''' under Eqs. 1 and 2 and a
 //! forcing that is linear in time.
 
-use crate::integrator::Side;
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model, curvature};
@@ -21,6 +20,7 @@ use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 const STAYS: f64 = 1e-9;
 
 /// Motion and constants of the runs in the lanes of a group.
+#[derive(Default)]
 pub(super) struct LaneGroup<'a> {
     pub u: Lanes,
     pub w: Lanes,
@@ -56,7 +56,6 @@ pub(super) struct LaneGroup<'a> {
     pub doubt: Lanes,
     /// Rotation above which a lowest rotation decides nothing.
     low: Lanes,
-    pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
     pub next: [u64; WIDTH],
@@ -70,6 +69,8 @@ pub(super) struct LaneGroup<'a> {
     pub most: [u64; WIDTH],
     /// First sample from which the early-exit test is worth asking.
     pub exit_from: [u64; WIDTH],
+    /// Lanes on the other side than at their first step here, a bit each.
+    pub turned: u8,
     /// Lanes that fly; the others are empty or wait.
     active: u8,
 }
@@ -82,44 +83,6 @@ pub(super) struct WaitingLanes {
 }
 
 impl<'a> LaneGroup<'a> {
-    pub fn idle() -> Self {
-        let zero = Lanes::splat(0.0);
-        Self {
-            u: zero,
-            w: zero,
-            here: zero,
-            offset: zero,
-            amplitude: zero,
-            whole: zero,
-            inverse: zero,
-            threshold: zero,
-            sine: zero,
-            cosine: zero,
-            last: zero,
-            least: zero,
-            ceiling: zero,
-            tilt: zero,
-            peak: zero,
-            limit: zero,
-            eta: zero,
-            alpha: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
-            doubt: zero,
-            low: zero,
-            side: [Side::Positive; WIDTH],
-            samples: [&[]; WIDTH],
-            next: [0; WIDTH],
-            first: [0; WIDTH],
-            extra: [0; WIDTH],
-            impacts: [0; WIDTH],
-            most: [0; WIDTH],
-            exit_from: [0; WIDTH],
-            active: 0,
-        }
-    }
-
     /// True when no lane flies.
     #[inline(always)]
     pub fn is_idle(&self) -> bool {
@@ -186,7 +149,9 @@ impl<'a> LaneGroup<'a> {
         step.place.offset = self.offset[lane];
         step.motion.u = self.u[lane];
         step.motion.w = self.w[lane];
-        step.motion.side = self.side[lane];
+        if self.turned >> lane & 1 == 1 {
+            step.motion.side = step.motion.side.flipped();
+        }
     }
 
     /// Takes a run in flight into a lane.
@@ -203,7 +168,7 @@ impl<'a> LaneGroup<'a> {
         let samples = forcing.samples();
         let piece = step.place.piece;
         (self.u[lane], self.w[lane]) = (step.motion.u, step.motion.w);
-        self.side[lane] = step.motion.side;
+        self.turned &= !(1 << lane);
         self.here[lane] = samples[piece] * amplitude;
         self.amplitude[lane] = amplitude;
         self.offset[lane] = step.place.offset;

@@ -85,7 +85,7 @@ impl LaneQueue {
 }
 
 /// A lane of a group.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Lane(u8);
 
 impl Lane {

@@ -6,25 +6,17 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
-use crate::number::{Number, sin_cos_polynomials};
 
 /// Made only in work that runs at the level [`avx2`](super::avx2_wide):
 /// nothing outside `super` can name it. The lower four lanes come first.
 #[derive(Clone, Copy)]
-pub(super) struct RegisterPair(__m256d, __m256d);
+pub(super) struct RegisterPair(pub __m256d, pub __m256d);
 
 /// All bits of a lane are set where it is true, none where it is false.
 #[derive(Clone, Copy)]
 pub(super) struct PairMask(__m256d, __m256d);
-
-/// Instructions of the level.
-macro_rules! level {
-    ($call:expr) => {
-        // SAFETY: `RegisterPair` exists only where the level was found.
-        unsafe { $call }
-    };
-}
 
 /// The same on both halves.
 macro_rules! both {
@@ -62,6 +54,21 @@ operators! {
     Div div _mm256_div_pd;
 }
 
+impl RegisterPair {
+    /// The pairs of even places, and those of odd ones.
+    #[inline(always)]
+    pub fn even_and_odd(from: [&[f64; 2]; WIDTH]) -> [Self; 2] {
+        let [a, b, c, d, e, f, g, h] = from.map(|pair| pair.as_ptr());
+        level!({
+            let two = |low, high| {
+                let low = _mm256_castpd128_pd256(_mm_loadu_pd(low));
+                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(high))
+            };
+            [Self(two(a, c), two(e, g)), Self(two(b, d), two(f, h))]
+        })
+    }
+}
+
 impl Neg for RegisterPair {
     type Output = Self;
 
@@ -83,21 +90,11 @@ impl Number for RegisterPair {
     }
 
     #[inline(always)]
-    fn ratio(i: i32, j: i32) -> Self {
-        Self::from_f64(f64::ratio(i, j))
-    }
-
-    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         level!(Self(
             _mm256_fmadd_pd(self.0, b.0, c.0),
             _mm256_fmadd_pd(self.1, b.1, c.1),
         ))
-    }
-
-    #[inline(always)]
-    fn sin_cos_small(self) -> (Self, Self) {
-        sin_cos_polynomials(self)
     }
 }
 
@@ -125,14 +122,7 @@ impl Simd for RegisterPair {
 
     #[inline(always)]
     fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
-        let [a, b, c, d, e, f, g, h] = from.map(|pair| pair.as_ptr());
-        let (even, odd) = level!({
-            let two = |low, high| {
-                let low = _mm256_castpd128_pd256(_mm_loadu_pd(low));
-                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(high))
-            };
-            (Self(two(a, c), two(e, g)), Self(two(b, d), two(f, h)))
-        });
+        let [even, odd] = Self::even_and_odd(from);
         let first = both!(Self, |x, y| _mm256_unpacklo_pd(x, y), even, odd);
         (first, both!(Self, |x, y| _mm256_unpackhi_pd(x, y), even, odd))
     }

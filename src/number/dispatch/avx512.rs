@@ -6,8 +6,9 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::number::Number;
+use crate::number::dispatch::avx2::RegisterPair;
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
-use crate::number::{Number, sin_cos_polynomials};
 
 /// Made only in work that runs at the level [`avx512`](super::avx512):
 /// nothing outside `super` can name it.
@@ -18,12 +19,13 @@ pub(super) struct Eight(__m512d);
 #[derive(Clone, Copy)]
 pub(super) struct EightMask(__mmask8);
 
-/// An instruction of the level.
-macro_rules! level {
-    ($call:expr) => {
-        // SAFETY: `Eight` exists only where the level was found.
-        unsafe { $call }
-    };
+impl Eight {
+    /// Both halves in one register.
+    #[inline(always)]
+    fn of(RegisterPair(low, high): RegisterPair) -> Self {
+        let low = level!(_mm512_castpd256_pd512(low));
+        Self(level!(_mm512_insertf64x4::<1>(low, high)))
+    }
 }
 
 macro_rules! operators {
@@ -66,18 +68,8 @@ impl Number for Eight {
     }
 
     #[inline(always)]
-    fn ratio(i: i32, j: i32) -> Self {
-        Self::from_f64(f64::ratio(i, j))
-    }
-
-    #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         Self(level!(_mm512_fmadd_pd(self.0, b.0, c.0)))
-    }
-
-    #[inline(always)]
-    fn sin_cos_small(self) -> (Self, Self) {
-        sin_cos_polynomials(self)
     }
 }
 
@@ -91,35 +83,18 @@ impl Simd for Eight {
 
     #[inline(always)]
     fn gather(from: [&f64; WIDTH]) -> Self {
-        let [a, b, c, d, e, f, g, h] = from;
         // Fewer steps than what compilers make of single numbers.
-        level!({
-            let pair = |low, high| _mm_loadh_pd(_mm_load_sd(low), high);
-            let four = |a, b, c, d| {
-                let low = _mm256_castpd128_pd256(pair(a, b));
-                _mm256_insertf128_pd::<1>(low, pair(c, d))
-            };
-            let low = _mm512_castpd256_pd512(four(a, b, c, d));
-            Self(_mm512_insertf64x4::<1>(low, four(e, f, g, h)))
-        })
+        Self::of(RegisterPair::gather(from))
     }
 
     #[inline(always)]
     fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
-        let [a, b, c, d, e, f, g, h] = from.map(|pair| pair.as_ptr());
-        level!({
-            let two = |low, high| {
-                let low = _mm256_castpd128_pd256(_mm_loadu_pd(low));
-                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(high))
-            };
-            let four = |a, b, c, d| {
-                let low = _mm512_castpd256_pd512(two(a, b));
-                _mm512_insertf64x4::<1>(low, two(c, d))
-            };
-            let (even, odd) = (four(a, c, e, g), four(b, d, f, h));
-            let first = Self(_mm512_unpacklo_pd(even, odd));
-            (first, Self(_mm512_unpackhi_pd(even, odd)))
-        })
+        let [even, odd] = RegisterPair::even_and_odd(from);
+        let (even, odd) = (Self::of(even), Self::of(odd));
+        level!((
+            Self(_mm512_unpacklo_pd(even.0, odd.0)),
+            Self(_mm512_unpackhi_pd(even.0, odd.0)),
+        ))
     }
 
     #[inline(always)]

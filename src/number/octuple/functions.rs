@@ -2,7 +2,7 @@
 //! the value in double precision.
 
 use super::{LIMBS, Octuple, SPECIAL};
-use crate::number::{Number, Real, SeriesWork};
+use crate::number::{Number, Real, SeriesWork, series};
 
 /// pi/2 in two parts, the first with 192 bits, so that its product with a
 /// whole number of one limb is exact.
@@ -35,7 +35,7 @@ const LN_2: [Octuple; 2] = [
 
 /// Terms of the series on [-pi/4, pi/4] and [-ln 2/2, ln 2/2]: the next is
 /// below 2^-264 of the sum.
-const TERMS: i32 = 56;
+pub(super) const TERMS: i32 = 56;
 
 /// Exponent below which a function is its argument: the next term is smaller
 /// by that argument at least.
@@ -52,28 +52,6 @@ const fn part(exponent: i32, limbs: [u64; LIMBS]) -> Octuple {
 fn less(x: Octuple, count: f64, parts: [Octuple; 2]) -> Octuple {
     let count = Octuple::from_f64(count);
     parts.iter().fold(x, |rest, part| rest - count * *part)
-}
-
-/// Sum of x^k / ((first + 1) ... (first + k)) over k, by nested products.
-fn series(x: Octuple, first: i32, step: i32) -> Octuple {
-    let mut sum = Octuple::one();
-    for k in (1..=TERMS / step).rev() {
-        let last = first + step * k;
-        let factor = if step == 2 { (last - 1) * last } else { last };
-        sum = Octuple::one() + x * sum * Octuple::ratio(1, factor);
-    }
-    sum
-}
-
-/// sin x = x (1 - x^2/(2 3) (1 - x^2/(4 5) (...))), and the cosine alike.
-pub(super) fn sin_cos_small(x: Octuple) -> (Octuple, Octuple) {
-    let z = -(x * x);
-    (x * series(z, 1, 2), series(z, 0, 2))
-}
-
-/// exp(x) - 1 for |x| below about a half, by its series.
-fn exp_m1_small(x: Octuple) -> Octuple {
-    x * series(x, 1, 1)
 }
 
 impl Octuple {
@@ -139,13 +117,8 @@ impl Real for Octuple {
             return (Self::NAN, Self::NAN);
         }
         let turns = (x / std::f64::consts::FRAC_PI_2).round();
-        let (s, c) = sin_cos_small(less(self, turns, RIGHT_ANGLE));
-        match turns.rem_euclid(4.0) {
-            1.0 => (c, -s),
-            2.0 => (-s, -c),
-            3.0 => (-c, s),
-            _ => (s, c),
-        }
+        let rest = less(self, turns, RIGHT_ANGLE);
+        series::turned(rest.sin_cos_small(), turns)
     }
 
     fn exp(self) -> Self {
@@ -158,7 +131,7 @@ impl Real for Octuple {
         }
         let count = (x / std::f64::consts::LN_2).round();
         let rest = less(self, count, LN_2);
-        (Self::one() + exp_m1_small(rest)).scaled(count as i32)
+        (Self::one() + series::exp_m1(rest, TERMS)).scaled(count as i32)
     }
 
     /// Newton's iteration on exp(y) = 1 + x from a double, to second order.
@@ -182,7 +155,7 @@ impl Real for Octuple {
         // 53 bits, three times as many, and all.
         for _ in 0..2 {
             let step = if near {
-                let value = exp_m1_small(y);
+                let value = series::exp_m1(y, TERMS);
                 (self - value) / (Self::one() + value)
             } else {
                 let value = y.exp();

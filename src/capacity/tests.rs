@@ -20,24 +20,6 @@ fn e2() -> ResponseCurve {
     )
 }
 
-fn e3() -> ResponseCurve {
-    let vertices =
-        [(1.0, 0.0), (1.2, 0.4), (1.4, 0.8), (1.6, 0.5), (1.8, 0.3)];
-    curve(&vertices, Some(2.0))
-}
-
-fn e4() -> ResponseCurve {
-    let vertices = [
-        (1.0, 0.0),
-        (1.2, 0.1),
-        (1.4, 0.3),
-        (1.6, 0.1),
-        (1.8, 0.2),
-        (2.0, 0.6),
-    ];
-    curve(&vertices, Some(2.2))
-}
-
 fn e7() -> ResponseCurve {
     curve(&[(1.0, 0.0), (1.2, 0.4), (1.4, 0.2), (1.6, 0.1)], None)
 }
@@ -63,34 +45,6 @@ fn a_record_that_never_reaches_the_level_is_censored() {
         panic!("{monotone:?}");
     };
     assert!(close(above, 1.45));
-}
-
-#[test]
-fn capacity_at_one_is_the_first_overturning_level() {
-    for (curve, overturning) in [(e2(), 1.7), (e3(), 2.0), (e4(), 2.2)] {
-        let capacity = curve.capacity(1.0, InversionRule::Median);
-        assert_eq!(capacity, Ok(Capacity::Reached(overturning)));
-    }
-    let bare = curve(&[(1.0, 0.0)], Some(1.199_833));
-    for level in [1e-6, 0.5, 1.0] {
-        let capacity = bare.capacity(level, InversionRule::Median);
-        assert_eq!(capacity, Ok(Capacity::Reached(1.199_833)));
-    }
-}
-
-#[test]
-fn the_monotone_companion_never_falls_and_the_median_does() {
-    let curve = e2();
-    let levels: Vec<f64> = (1..=100).map(|k| f64::from(k) / 100.0).collect();
-    let falls = |rule| {
-        let ims: Vec<f64> = levels
-            .iter()
-            .map(|&e| curve.capacity(e, rule).unwrap().im())
-            .collect();
-        ims.windows(2).any(|pair| pair[1] < pair[0] - 1e-14)
-    };
-    assert!(!falls(InversionRule::Monotone));
-    assert!(falls(InversionRule::Median));
 }
 
 #[test]

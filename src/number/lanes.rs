@@ -1,9 +1,6 @@
 //! Simd numbers at once, operation by operation as one.
-#![expect(
-    clippy::needless_range_loop,
-    reason = "comparisons by index become one instruction, by iterator not"
-)]
 
+use std::array::from_fn;
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::number::Number;
@@ -132,11 +129,7 @@ impl Simd for Lanes {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        let mut out = self.0;
-        for x in &mut out {
-            *x = x.abs();
-        }
-        Self(out)
+        Self(self.0.map(f64::abs))
     }
 
     #[inline(always)]
@@ -151,49 +144,31 @@ impl Simd for Lanes {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        let mut out = self.0;
-        for x in &mut out {
-            *x = x.sqrt();
-        }
-        Self(out)
+        Self(self.0.map(f64::sqrt))
     }
 
     #[inline(always)]
     fn lt(self, other: Self) -> LaneMask {
-        let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            out[lane] = ones(self.0[lane] < other.0[lane]);
-        }
-        LaneMask(out)
+        LaneMask(from_fn(|k| ones(self.0[k] < other.0[k])))
     }
 
     #[inline(always)]
     fn unlike(self, other: Self, third: Self) -> LaneMask {
-        let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            let pair = self.0[lane].to_bits() ^ other.0[lane].to_bits();
-            let signs = pair | third.0[lane].to_bits();
-            out[lane] = ones((signs as i64) < 0);
-        }
-        LaneMask(out)
+        LaneMask(from_fn(|k| {
+            let pair = self.0[k].to_bits() ^ other.0[k].to_bits();
+            let signs = pair | third.0[k].to_bits();
+            ones((signs as i64) < 0)
+        }))
     }
 
     #[inline(always)]
     fn le(self, other: Self) -> LaneMask {
-        let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            out[lane] = ones(self.0[lane] <= other.0[lane]);
-        }
-        LaneMask(out)
+        LaneMask(from_fn(|k| ones(self.0[k] <= other.0[k])))
     }
 
     #[inline(always)]
     fn eq(self, other: Self) -> LaneMask {
-        let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            out[lane] = ones(self.0[lane] == other.0[lane]);
-        }
-        LaneMask(out)
+        LaneMask(from_fn(|k| ones(self.0[k] == other.0[k])))
     }
 }
 
@@ -210,77 +185,47 @@ pub struct LaneMask([u64; WIDTH]);
 impl Mask<Lanes> for LaneMask {
     #[inline(always)]
     fn of(bits: u8) -> Self {
-        let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            out[lane] = ones(bits & 1 << lane != 0);
-        }
-        Self(out)
+        Self(from_fn(|lane| ones(bits & 1 << lane != 0)))
     }
 
     #[inline(always)]
     fn bits(self) -> u8 {
-        let mut bits = 0;
-        for lane in 0..WIDTH {
-            bits |= self.0[lane] & 1 << lane;
-        }
-        bits as u8
+        let bit = |(lane, x): (usize, &u64)| x & 1 << lane;
+        let bits = self.0.iter().enumerate().map(bit);
+        bits.fold(0, |all, bit| all | bit) as u8
     }
 
     #[inline(always)]
     fn any(self) -> bool {
-        let mut any = 0;
-        for x in self.0 {
-            any |= x;
-        }
-        any != 0
+        self.0.iter().fold(0, |any, x| any | x) != 0
     }
 
     #[inline(always)]
     fn not(self) -> Self {
-        let mut out = self.0;
-        for x in &mut out {
-            *x = !*x;
-        }
-        Self(out)
+        Self(self.0.map(|x| !x))
     }
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        let mut out = self.0;
-        for (x, y) in out.iter_mut().zip(other.0) {
-            *x &= y;
-        }
-        Self(out)
+        Self(from_fn(|k| self.0[k] & other.0[k]))
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        let mut out = self.0;
-        for (x, y) in out.iter_mut().zip(other.0) {
-            *x |= y;
-        }
-        Self(out)
+        Self(from_fn(|k| self.0[k] | other.0[k]))
     }
 
     #[inline(always)]
     fn but_not(self, other: Self) -> Self {
-        let mut out = self.0;
-        for (x, y) in out.iter_mut().zip(other.0) {
-            *x &= !y;
-        }
-        Self(out)
+        Self(from_fn(|k| self.0[k] & !other.0[k]))
     }
 
     #[inline(always)]
     fn select(self, yes: Lanes, no: Lanes) -> Lanes {
-        let mut out = no.0;
-        for lane in 0..WIDTH {
-            let mask = self.0[lane];
-            let bits = (yes.0[lane].to_bits() & mask)
-                | (no.0[lane].to_bits() & !mask);
-            out[lane] = f64::from_bits(bits);
-        }
-        Lanes(out)
+        Lanes(from_fn(|k| {
+            let [yes, no] = [yes, no].map(|lanes| lanes.0[k].to_bits());
+            f64::from_bits((yes & self.0[k]) | (no & !self.0[k]))
+        }))
     }
 
     #[inline(always)]
@@ -314,21 +259,17 @@ macro_rules! lane_by_lane {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                let mut out = self.0;
-                for (x, y) in out.iter_mut().zip(other.0) {
-                    *x $symbol y;
-                }
-                Self(out)
+                Self(from_fn(|k| self.0[k] $symbol other.0[k]))
             }
         }
     )*};
 }
 
 lane_by_lane! {
-    Add add +=;
-    Sub sub -=;
-    Mul mul *=;
-    Div div /=;
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
 }
 
 impl Neg for Lanes {
@@ -336,11 +277,7 @@ impl Neg for Lanes {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        let mut out = self.0;
-        for x in &mut out {
-            *x = -*x;
-        }
-        Self(out)
+        Self(self.0.map(|x| -x))
     }
 }
 
@@ -356,11 +293,7 @@ impl Number for Lanes {
 
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
-        let mut out = self.0;
-        for ((x, y), z) in out.iter_mut().zip(b.0).zip(c.0) {
-            *x = Number::mul_add(*x, y, z);
-        }
-        Self(out)
+        Self(from_fn(|k| Number::mul_add(self.0[k], b.0[k], c.0[k])))
     }
 }
 

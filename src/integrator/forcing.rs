@@ -381,11 +381,11 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             let place = Moment { piece, offset };
             let series: [N; F] = self.series(place);
             let above = series[0].abs() > threshold;
-            // At the very first instant, or after a jump, the block lifts
-            // at once; inside a smooth stretch rounding cannot jump.
+            // At the very first instant the block lifts at once; after it
+            // every pulse is continuous, and rounding cannot jump.
             if above {
                 let positive = series[0] > N::zero();
-                let crossing = offset > N::zero() || self.continues(piece);
+                let crossing = offset > N::zero() || piece > 0;
                 let found = Exceedance { place, positive, crossing };
                 let beyond = self.beyond::<F>(place, threshold);
                 gap = if beyond < gap { beyond } else { gap };
@@ -496,11 +496,5 @@ impl<N: Real> PulseForcing<N> {
             }
         }
         gap
-    }
-
-    /// True where the piece goes on from the one before without a jump:
-    /// every pulse is continuous after its first instant.
-    fn continues(&self, piece: usize) -> bool {
-        piece > 0
     }
 }

@@ -1,10 +1,10 @@
 //! The pulses: a row and two arms for each, which have all that is known of
 //! it, and the parameters that they take.
 //!
-//! No pulse here has a jump between stretches (`PulseForcing::continues`), and
-//! its pieces have equal length (`Driver::time`). A further [`Shape`] needs
-//! `at`, a bound (`bound`, proof P8), and its `shape_series` and `count` in
-//! `integrator::forcing`.
+//! No pulse here has a jump between stretches (`PulseForcing::exceedance`),
+//! and its pieces have equal length (`Driver::time`). A further [`Shape`]
+//! needs `at`, a bound (`bound`, proof P8), and its `shape_series` and `count`
+//! in `integrator::forcing`.
 
 use thiserror::Error;
 

@@ -33,12 +33,6 @@ pub fn extended(x: f64) -> Value {
     }
 }
 
-/// A list of numbers as data files hold it.
-#[must_use]
-pub fn all_extended(values: &[f64]) -> Value {
-    Value::Array(values.iter().copied().map(extended).collect())
-}
-
 /// A number rounded to nine significant digits: what a bound supports, and
 /// no more than a reader compares.
 #[must_use]

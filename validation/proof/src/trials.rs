@@ -26,6 +26,7 @@ use rocking_statistics::streams::Streams;
 use crate::scene::EngineError;
 pub(crate) use draw::Draw;
 use rocking::names::named;
+pub(crate) use search::moved;
 
 named! {
     /// A population of scenes.

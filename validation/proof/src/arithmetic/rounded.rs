@@ -1,7 +1,7 @@
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::wide::{Wide, forward};
+use super::wide::{Wide, forward, functions};
 
 /// Double-double whose coefficients and pi/2 were rounded to one double: the
 /// mistake that caps such an engine at 1e-17 without a word.
@@ -23,10 +23,6 @@ impl Number for RoundedConstants {
         Self(DoubleDouble::from_f64(x))
     }
 
-    fn ratio(i: i32, j: i32) -> Self {
-        Self::from_f64(f64::from(i) / f64::from(j))
-    }
-
     fn mul_add(self, b: Self, c: Self) -> Self {
         Self(self.0.mul_add(b.0, c.0))
     }
@@ -44,29 +40,14 @@ impl Real for RoundedConstants {
         self.0.to_f64()
     }
 
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
+    functions!(
+        sqrt Real::sqrt, abs Real::abs, exp Real::exp, ln_1p Real::ln_1p,
+        asin Real::asin
+    );
 
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.0.sin_cos();
         (Self(s), Self(c))
-    }
-
-    fn exp(self) -> Self {
-        Self(self.0.exp())
-    }
-
-    fn ln_1p(self) -> Self {
-        Self(self.0.ln_1p())
-    }
-
-    fn asin(self) -> Self {
-        Self(self.0.asin())
     }
 
     fn right_angle() -> Self {

@@ -1,7 +1,7 @@
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::wide::{Wide, forward};
+use super::wide::{Wide, forward, functions};
 
 /// Single precision: every input and every operation rounded to 24 bits.
 ///
@@ -50,28 +50,13 @@ impl Real for Single {
         f64::from(self.0)
     }
 
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
+    functions!(
+        sqrt f32::sqrt, abs f32::abs, exp libm::expf, ln_1p libm::log1pf,
+        asin libm::asinf
+    );
 
     fn sin_cos(self) -> (Self, Self) {
         (Self(libm::sinf(self.0)), Self(libm::cosf(self.0)))
-    }
-
-    fn exp(self) -> Self {
-        Self(libm::expf(self.0))
-    }
-
-    fn ln_1p(self) -> Self {
-        Self(libm::log1pf(self.0))
-    }
-
-    fn asin(self) -> Self {
-        Self(libm::asinf(self.0))
     }
 
     fn right_angle() -> Self {

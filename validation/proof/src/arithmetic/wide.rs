@@ -49,3 +49,13 @@ macro_rules! forward {
     };
 }
 pub(super) use forward;
+
+/// Functions of the number inside.
+macro_rules! functions {
+    ($($name:ident $function:path),+) => {
+        $(fn $name(self) -> Self {
+            Self($function(self.0))
+        })+
+    };
+}
+pub(super) use functions;

@@ -185,7 +185,7 @@ pub fn durations(context: &Context, answer: &mut Reply) -> Result<()> {
     for ((alpha, p), intensity) in pairs(&blocks, &intensity) {
         let pull = intensity * libm::tan(alpha);
         let form = Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };
-        let critical = form.critical_duration_s();
+        let critical = form.duration_to_energy_s(0.0);
         let found = flip(critical, |duration_s| {
             let name = PulseName::Rectangle;
             let pulse = Forcing::pulse(name, pull * 9.81, duration_s);

@@ -12,7 +12,7 @@ use super::cells::{Csv, CsvRow, csv};
 use super::method::{Context, Reply};
 use crate::engine::{certify, respond};
 use crate::scene::{CaseScene, Forcing, Overturning};
-use crate::trials::{CertificateReading, DoubleRun};
+use crate::trials::{CertificateReading, DoubleRun, moved};
 
 const ENDS: Csv = csv!("oracles/ends.csv");
 
@@ -136,11 +136,6 @@ impl Counts {
             answer.see(name, [value]);
         }
     }
-}
-
-/// A number moved by units in the last place.
-fn moved(x: f64, ulps: i64) -> f64 {
-    f64::from_bits(x.to_bits().wrapping_add_signed(ulps))
 }
 
 /// Overturned before the end or not, lifted before it or not, and how far.

@@ -108,11 +108,10 @@ pub fn momentum(context: &Context, answer: &mut Reply) -> Result<()> {
         let dt_s = dt_p / p;
         let sample = |k: usize| peak * libm::sin(phase * k as f64);
         scene.until_s = Some(1.3 * dt_s * samples as f64);
-        let samples: Vec<f64> = (0..samples).map(sample).collect();
-        scene.forcing = Forcing::samples(dt_s, samples.clone());
+        let samples = (0..samples).map(sample).collect();
+        scene.forcing = Forcing::samples(dt_s, samples);
         let found = forces(context, &scene)?;
-        let (friction, normal) =
-            differences(context, &scene, &samples, interval_p / p)?;
+        let (friction, normal) = differences(context, &scene, interval_p / p)?;
         answer.put("friction", [found.friction], [friction]);
         answer.put("least-normal", [found.least_normal_over_weight], [normal]);
     }
@@ -123,12 +122,12 @@ pub fn momentum(context: &Context, answer: &mut Reply) -> Result<()> {
 fn differences(
     context: &Context,
     scene: &CaseScene,
-    samples: &[f64],
     h: f64,
 ) -> Result<(f64, f64)> {
-    let Forcing::Samples { dt_s, .. } = scene.forcing else {
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = &scene.forcing else {
         bail!("no samples");
     };
+    let last = acceleration_m_s2.len() - 1;
     let (alpha, g) = (scene.slenderness_rad, scene.gravity_m_s2);
     let p = scene.frequency_rad_s;
     let observe = Observe {
@@ -148,13 +147,7 @@ fn differences(
     };
     let ground = |t: f64| {
         let k = (t / dt_s) as usize;
-        let at = |k: usize| samples.get(k).copied().unwrap_or(0.0);
-        let part = t / dt_s - k as f64;
-        if k + 1 >= samples.len() {
-            0.0
-        } else {
-            at(k) + part * (at(k + 1) - at(k))
-        }
+        if k < last { scene.forcing.at(k, t) } else { 0.0 }
     };
     let mut breaks: Vec<f64> = run.impacts.iter().map(|i| i.time_s).collect();
     breaks.extend(run.uplift_time_s);
@@ -163,8 +156,7 @@ fn differences(
         let middle = three[1].time_s;
         let broken = breaks.iter().any(|t| (t - middle).abs() <= 1.001 * h);
         // The end of the record is a step of the ground.
-        let last = dt_s * (samples.len() - 1) as f64;
-        let ends = (last - middle).abs() <= 1.001 * h;
+        let ends = (dt_s * last as f64 - middle).abs() <= 1.001 * h;
         if broken || ends || three.iter().any(|q| q.rotation_rad == 0.0) {
             continue;
         }

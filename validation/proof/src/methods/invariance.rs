@@ -203,14 +203,7 @@ pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
             let scene = CaseScene::new(
                 [alpha, p, 9.81],
                 0.92,
-                Forcing::Samples {
-                    dt_s: record.dt_s(),
-                    acceleration_m_s2: record
-                        .samples_g()
-                        .iter()
-                        .map(|a| a * factor)
-                        .collect(),
-                },
+                Forcing::record(record, factor),
             );
             anyhow::Ok(context.engine.respond(&scene)?.peak_ratio)
         };

@@ -39,15 +39,9 @@ impl Rectangular {
         s.sqrt() / rate * rf(q2 * (1.0 - s1), q2 * (1.0 - q2), s1 * (1.0 - q2))
     }
 
-    /// Shortest pulse that overturns, s: the one that lifts the block to
-    /// alpha - asin[sin alpha - (1 - cos alpha) g/a].
-    #[must_use]
-    pub fn critical_duration_s(&self) -> f64 {
-        self.duration_to_energy_s(0.0)
-    }
-
     /// Pulse after which the energy is that of the saddle plus `above` (in
-    /// the units of 1 - cos alpha), s.
+    /// the units of 1 - cos alpha), s; for 0 the shortest that overturns, which
+    /// lifts the block to alpha - asin[sin alpha - (1 - cos alpha) g/a].
     #[must_use]
     pub fn duration_to_energy_s(&self, above: f64) -> f64 {
         let half = libm::sin(0.5 * self.alpha_rad);

@@ -142,6 +142,6 @@ pub(super) fn near(
 }
 
 /// A positive number moved by units in the last place.
-pub(super) fn moved(x: f64, ulps: i64) -> f64 {
+pub(crate) fn moved(x: f64, ulps: i64) -> f64 {
     f64::from_bits(x.to_bits().wrapping_add_signed(ulps))
 }

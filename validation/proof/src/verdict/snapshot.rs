@@ -116,7 +116,9 @@ fn quantity(check: &Check) -> QuantityResult {
             Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
                 json::extended(*x)
             }
-            Bound::Interval(low, high) => json::all_extended(&[*low, *high]),
+            Bound::Interval(low, high) => {
+                json!([low, high].map(|x| Extended(*x)))
+            }
             Bound::Coverage(trials) => json!(trials),
             Bound::Waived(_) => Value::Null,
             Bound::Exact => json!(0),

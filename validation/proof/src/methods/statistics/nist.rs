@@ -12,11 +12,7 @@ const UNIVARIATE: Csv = csv!("nist/univariate.csv");
 pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; set: String);
     let row = &UNIVARIATE.rows(&set)?[0];
-    let values = row.text(4).split(' ').map(str::parse);
-    let values: Vec<f64> =
-        values.collect::<Result<_, _>>().map_err(|error| {
-            UNIVARIATE.lacks(format!("values of `{set}`: {error}"))
-        })?;
+    let values = row.list(4, ' ')?;
     let sample = Sample::try_new(&values)?;
     let n = values.len() as f64;
     let squares = match context.wrong {

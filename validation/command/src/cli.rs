@@ -186,7 +186,6 @@ fn command() -> Command {
 }
 
 /// Parses the arguments, runs the command and gives the exit status.
-#[must_use]
 pub fn run() -> ExitCode {
     let matches = grouped(on_a_screen(command())).get_matches();
     let chosen = matches.subcommand().and_then(|(name, matches)| {

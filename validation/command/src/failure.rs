@@ -12,13 +12,11 @@ pub struct Failure {
 
 impl Failure {
     /// Bad usage or bad input: exit status 2.
-    #[must_use]
     pub fn input(message: impl std::fmt::Display) -> Self {
         Self { message: message.to_string(), status: 2 }
     }
 
     /// A gate that failed: exit status 1.
-    #[must_use]
     pub fn gate(message: impl std::fmt::Display) -> Self {
         Self { message: message.to_string(), status: 1 }
     }

@@ -75,7 +75,6 @@ pub fn note(text: &str) {
 }
 
 /// A progress bar of `length` steps, shown on a terminal only.
-#[must_use]
 pub fn progress(length: u64) -> indicatif::ProgressBar {
     if io::stderr().is_terminal() {
         indicatif::ProgressBar::new(length)

@@ -96,7 +96,6 @@ impl Destination {
 
 impl Outputs {
     /// Outputs of a command that reads the files `inputs`.
-    #[must_use]
     pub fn of(inputs: Vec<PathBuf>) -> Self {
         Self { inputs, taken: Vec::new() }
     }
@@ -124,7 +123,6 @@ impl Outputs {
 
     /// Whether one of them goes to standard output, where then nothing else
     /// is printed.
-    #[must_use]
     pub fn take_standard_output(&self) -> bool {
         self.taken.contains(&Destination::Standard)
     }

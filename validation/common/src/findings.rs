@@ -73,7 +73,6 @@ pub struct StudySettings {
 
 impl StudySettings {
     /// Names and values.
-    #[must_use]
     pub fn named(&self) -> [(&'static str, String); 5] {
         let arms: Vec<&str> = self.arms.iter().map(|a| a.name()).collect();
         [
@@ -191,7 +190,6 @@ pub enum Topic {
 impl Topic {
     /// The smallest effect of interest of a quantity of such a table: 5 % of
     /// a response ratio, else that of its unit.
-    #[must_use]
     pub fn smallest_effect(self, unit: Unit) -> Option<Effect> {
         match (self, unit) {
             (Self::SlendernessAdjustment | Self::SingleRecords, Unit::One) => {
@@ -202,7 +200,6 @@ impl Topic {
     }
 
     /// The topic in words.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::AcceptedShares => "lognormality along the demand",
@@ -314,7 +311,6 @@ pub struct RowPlace {
 
 impl RowPlace {
     /// The place of a block.
-    #[must_use]
     pub fn of(block: &Block) -> Self {
         Self {
             p_rad_s: Some(block.frequency_rad_s()),
@@ -359,7 +355,6 @@ pub struct Question {
 
 impl Findings {
     /// The file's text: one value a line, a line break at the end.
-    #[must_use]
     pub fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -373,7 +368,6 @@ impl Findings {
     /// let other = br#"{"version": "1", "suites": [], "claims": []}"#;
     /// assert!(!Findings::is_any(other));
     /// ```
-    #[must_use]
     pub fn is_any(text: &[u8]) -> bool {
         #[derive(Deserialize)]
         #[expect(dead_code, reason = "the reader asks for them")]
@@ -417,7 +411,6 @@ impl Findings {
     }
 
     /// The table of a topic, if there is one.
-    #[must_use]
     pub fn table(&self, topic: Topic) -> Option<&FindingsTable> {
         self.tables.iter().find(|table| table.topic == topic)
     }

@@ -24,7 +24,6 @@ impl<'de> Deserialize<'de> for Extended {
 
 /// A number as data files hold it: `"inf"` or `"-inf"` for infinities,
 /// `null` for NaN.
-#[must_use]
 pub fn extended(x: f64) -> Value {
     match Value::from(x) {
         Value::Null if x == f64::INFINITY => Value::from("inf"),
@@ -35,7 +34,6 @@ pub fn extended(x: f64) -> Value {
 
 /// A number rounded to nine significant digits: what a bound supports, and
 /// no more than a reader compares.
-#[must_use]
 pub fn rounded(x: f64) -> Value {
     extended(words::rounded(x, 9))
 }

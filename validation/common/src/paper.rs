@@ -58,14 +58,12 @@ const fn block(frequency: usize, slenderness: usize) -> Block {
 }
 
 /// Position of a block among the 15.
-#[must_use]
 pub fn position(frequency: usize, slenderness: usize) -> usize {
     frequency * SLENDERNESSES_RAD.len() + slenderness
 }
 
 /// Small-rotation limit by Eq. 1 of a ratio to the reference
 /// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
-#[must_use]
 pub fn closed_form(alpha_rad: f64) -> f64 {
     let of = |alpha: f64| sin(alpha) / alpha;
     of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
@@ -73,13 +71,11 @@ pub fn closed_form(alpha_rad: f64) -> f64 {
 
 /// Demand levels of the tests: 0.005, 0.010, ... 1.000, each the double
 /// nearest to its decimal.
-#[must_use]
 pub fn demands() -> Vec<f64> {
     (1..=200).map(|k| f64::from(5 * k) / 1000.0).collect()
 }
 
 /// Position of a demand in [`demands`], for multiples of 0.005.
-#[must_use]
 pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
 }
@@ -99,7 +95,6 @@ named! {
 
 impl Arm {
     /// The letter and its meaning.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::A => "A: steps of 0.01 g",
@@ -138,13 +133,11 @@ pub enum Exhibit {
 
 impl PaperSection {
     /// Section `number`, shown there.
-    #[must_use]
     pub const fn new(number: u8, shown: Exhibit) -> Self {
         Self { number, shown }
     }
 
     /// Numbers of the figures that show it.
-    #[must_use]
     pub fn figures(&self) -> Vec<u8> {
         match self.shown {
             Exhibit::Text | Exhibit::Table(_) => Vec::new(),

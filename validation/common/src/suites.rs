@@ -38,7 +38,6 @@ pub enum SuiteSource {
 
 impl SuiteSource {
     /// Whether the suite is an embedded one.
-    #[must_use]
     pub fn is_embedded(&self) -> bool {
         matches!(self, Self::Embedded { .. })
     }
@@ -165,7 +164,6 @@ impl StudySuite {
     }
 
     /// The study components: names, and SHA-256 over interval and samples.
-    #[must_use]
     pub fn list(&self) -> Vec<RecordName> {
         let one = |motion: &StudyMotion| RecordName {
             name: motion.study.name().to_owned(),
@@ -176,7 +174,6 @@ impl StudySuite {
 
     /// SHA-256 over names, sampling intervals and samples of the study
     /// components, so that results can be distinguished by their input.
-    #[must_use]
     pub fn sha256(&self) -> String {
         let mut sum = Sha256::new();
         for StudyMotion { study, .. } in &self.motions {
@@ -189,7 +186,6 @@ impl StudySuite {
 }
 
 /// Records by earthquake; each record by itself where the index names none.
-#[must_use]
 pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
     let events = members.iter().map(|member| member.event.as_deref());
     let events: Option<Vec<&str>> = events.collect();
@@ -198,7 +194,6 @@ pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
 }
 
 /// Number of earthquakes, where they are known.
-#[must_use]
 pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
     (clusters.unit() == SamplingUnit::Earthquake).then_some(clusters.count())
 }

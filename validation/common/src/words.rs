@@ -9,7 +9,6 @@ use std::borrow::Cow;
 /// use rocking_common::words::printable;
 /// assert_eq!(printable("a\n\u{1b}[31m"), "a\n\\u001b[31m");
 /// ```
-#[must_use]
 pub fn printable(text: &str) -> Cow<'_, str> {
     let acts = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
     if !text.contains(acts) {
@@ -23,13 +22,11 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// A number for people: four decimals, "none" where there is none.
-#[must_use]
 pub fn rounded_text(x: f64) -> String {
     if x.is_nan() { "none".into() } else { format!("{x:.4}") }
 }
 
 /// The letter of a panel: a, b, c and so on.
-#[must_use]
 pub fn letter(panel: usize) -> String {
     let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i));
     match letter {
@@ -39,13 +36,11 @@ pub fn letter(panel: usize) -> String {
 }
 
 /// A number rounded to `digits` significant digits.
-#[must_use]
 pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
 }
 
 /// A share in percent; a dash where there are no data.
-#[must_use]
 pub fn percent(share: f64, decimals: usize) -> String {
     if share.is_nan() {
         "–".into()
@@ -55,7 +50,6 @@ pub fn percent(share: f64, decimals: usize) -> String {
 }
 
 /// The least and the largest of the finite numbers.
-#[must_use]
 pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.filter(|x| x.is_finite()).fold(
         (f64::INFINITY, f64::NEG_INFINITY),
@@ -66,7 +60,6 @@ pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// A word with a capital first letter.
-#[must_use]
 pub fn capital(word: &str) -> String {
     let mut letters = word.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
@@ -82,7 +75,6 @@ pub fn capital(word: &str) -> String {
 /// let rows = rows.map(Vec::from);
 /// assert_eq!(columns(&rows, |k| k == 1), "pga   0.5\nsa:1   12\n");
 /// ```
-#[must_use]
 pub fn columns(
     rows: &[Vec<String>],
     is_right: impl Fn(usize) -> bool,

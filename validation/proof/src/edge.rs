@@ -21,7 +21,6 @@ pub fn edge<E>(
 }
 
 /// The range of all within this share of a number.
-#[must_use]
 pub fn around(near: f64, reach: f64) -> [f64; 2] {
     [near * (1.0 - reach), near * (1.0 + reach)]
 }

@@ -10,7 +10,6 @@ pub mod square;
 
 /// Root of `f` between `low` and `high`, where it has opposite signs; not a
 /// number where it has not.
-#[must_use]
 pub fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rising = f(high) > 0.0;
     if (f(low) > 0.0) == rising {

@@ -13,7 +13,6 @@ fn ricker_beta() -> f64 {
 
 /// A pulse on a block with p = 1 rad/s, as it acts on one with this p; its
 /// acceleration is multiplied by `unit`.
-#[must_use]
 pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
     for (parameter, value) in pulse.parameters_mut() {
         match parameter {

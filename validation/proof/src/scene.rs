@@ -112,7 +112,6 @@ pub trait Engine: Sync {
 impl CaseScene {
     /// A block (alpha in rad, p in rad/s, g in m/s2) of a restitution in
     /// Eq. 1, until it rests or reaches alpha.
-    #[must_use]
     pub fn new(
         [slenderness_rad, frequency_rad_s, gravity_m_s2]: [f64; 3],
         restitution: f64,
@@ -132,7 +131,6 @@ impl CaseScene {
 
     /// The block (alpha in rad, p in rad/s) of a restitution at rest, under
     /// 9.81 m/s2.
-    #[must_use]
     pub fn at_rest([alpha, p]: [f64; 2], restitution: f64) -> Self {
         Self::new([alpha, p, 9.81], restitution, Forcing::NONE)
     }
@@ -185,7 +183,6 @@ impl CaseScene {
     }
 
     /// Uplift threshold in m/s2: g tan(alpha) in Eq. 1, g alpha in Eq. 2.
-    #[must_use]
     pub fn threshold_m_s2(&self) -> f64 {
         let group = match self.model {
             Model::Nonlinear => libm::tan(self.slenderness_rad),
@@ -195,7 +192,6 @@ impl CaseScene {
     }
 
     /// Rotation that ends the run, rad.
-    #[must_use]
     pub fn limit_rad(&self) -> f64 {
         match self.overturning {
             Overturning::Alpha => self.slenderness_rad,
@@ -205,7 +201,6 @@ impl CaseScene {
 }
 
 /// The other equation of motion.
-#[must_use]
 pub fn other(model: Model) -> Model {
     match model {
         Model::Nonlinear => Model::Linearized,
@@ -218,13 +213,11 @@ impl Forcing {
     pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
 
     /// Samples in m/s2 at an interval (s).
-    #[must_use]
     pub fn samples(dt_s: f64, acceleration_m_s2: Vec<f64>) -> Self {
         Self::Samples { dt_s, acceleration_m_s2 }
     }
 
     /// A record times a factor (m/s2).
-    #[must_use]
     pub fn record(record: &Accelerogram, factor: f64) -> Self {
         let samples = record.samples_g().iter().map(|a| a * factor);
         Self::samples(record.dt_s(), samples.collect())
@@ -233,7 +226,6 @@ impl Forcing {
     /// The pulse of this name with an amplitude (m/s2 or m/s) and a duration
     /// or period (s), or a frequency (rad/s or Hz); of 4 cycles, gamma 1.5
     /// and phase 0.25 where it has such.
-    #[must_use]
     pub fn pulse(name: PulseName, amplitude: f64, scale: f64) -> Self {
         let Ok(kind) = name.kind(|parameter| {
             Ok::<_, Infallible>(match parameter {
@@ -281,7 +273,6 @@ impl Forcing {
     }
 
     /// End of the ground motion, s.
-    #[must_use]
     pub fn end_s(&self) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
@@ -294,7 +285,6 @@ impl Forcing {
 
     /// Instants between which the acceleration is smooth and, as far as
     /// closed forms say, monotone; from 0 to the end.
-    #[must_use]
     pub fn pieces_s(&self) -> Vec<f64> {
         let end = self.end_s();
         let mut at = vec![0.0];
@@ -314,7 +304,6 @@ impl Forcing {
 
     /// Acceleration in m/s2 at `t_s` inside the piece that starts at
     /// `pieces_s()[piece]`.
-    #[must_use]
     pub fn at(&self, piece: usize, t_s: f64) -> f64 {
         match self {
             Self::Free { .. } => 0.0,

@@ -28,7 +28,6 @@ named! {
 
 impl CaseVerdict {
     /// Whether the gate stays green.
-    #[must_use]
     pub fn is_accepted(self) -> bool {
         matches!(self, Self::Pass | Self::KnownFailure)
     }
@@ -54,7 +53,6 @@ pub struct Check {
 
 impl Check {
     /// Whether the bound holds; not a number fails.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.margin <= 1.0
     }
@@ -92,7 +90,6 @@ pub struct CaseOutcome {
 
 impl CaseOutcome {
     /// Largest margin over the quantities; none where all are exact.
-    #[must_use]
     pub fn worst_margin(&self) -> f64 {
         self.checks.iter().fold(0.0, |worst, c| largest(worst, c.margin))
     }
@@ -100,7 +97,6 @@ impl CaseOutcome {
     /// Bounds that are far from what is reached or nearly broken. Bounds at
     /// the floor and those taken from another code's errors cannot be
     /// tightened; printed digits use up their bound.
-    #[must_use]
     pub fn bounds_to_look_at(&self) -> Vec<&Check> {
         let printed = self.basis == ToleranceBasis::ReferenceRounding;
         let given = self.basis == ToleranceBasis::AttainableFloat64;
@@ -231,7 +227,6 @@ fn measure(
 }
 
 /// Runs a case and its wrong models, and gives the verdict.
-#[must_use]
 pub fn run_case(case: &Case) -> CaseOutcome {
     let mut outcome = CaseOutcome {
         id: case.id.clone(),
@@ -292,7 +287,6 @@ fn fill(outcome: &mut CaseOutcome, case: &Case) -> Result<()> {
 }
 
 /// Runs cases side by side; outcomes in the order of the cases.
-#[must_use]
 pub fn run_all(cases: &[Case]) -> Vec<CaseOutcome> {
     use rayon::prelude::*;
     cases.par_iter().map(run_case).collect()

@@ -56,7 +56,6 @@ pub struct BlockRow {
 
 impl BlockRow {
     /// A block that no table holds.
-    #[must_use]
     pub fn of(id: Id, block: Block) -> Self {
         let place = id.to_string();
         let samples = Vec::new();

@@ -304,7 +304,6 @@ impl GroundMotion {
     }
 
     /// What moves the ground.
-    #[must_use]
     pub fn excitation(&self) -> Excitation<'_> {
         match &self.motion {
             MotionSource::Factor(record, factor) => {
@@ -321,7 +320,6 @@ impl GroundMotion {
 
 impl ExcitationArgs {
     /// The files that are read.
-    #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.record.iter().cloned().collect()
     }
@@ -335,7 +333,6 @@ impl ExcitationArgs {
     }
 
     /// What moves the ground, in a word.
-    #[must_use]
     pub fn name(&self) -> String {
         let file = self.record.as_deref().and_then(|path| path.file_stem());
         match (file, self.pulse) {

@@ -19,7 +19,6 @@ pub struct LimitArgs {
 
 impl LimitArgs {
     /// The limit, where it is not given that of the command.
-    #[must_use]
     pub fn limit(&self, own: WorkLimit) -> WorkLimit {
         WorkLimit {
             impacts: self.most_impacts.unwrap_or(own.impacts),
@@ -40,13 +39,11 @@ fn with_flag(failure: Failure, error: &SceneError) -> Failure {
 }
 
 /// Why a scene was refused, and how to raise a limit.
-#[must_use]
 pub fn refused(error: SceneError) -> Failure {
     with_flag(error.into(), &error)
 }
 
 /// Why a curve was refused, and how to raise a limit.
-#[must_use]
 pub fn curve_refused(error: IdaError) -> Failure {
     match error {
         IdaError::Work { source, .. } => with_flag(error.into(), &source),

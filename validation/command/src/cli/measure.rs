@@ -56,13 +56,11 @@ struct MeasuredRecord {
 
 impl GroundArgs {
     /// Whether a suite is given.
-    #[must_use]
     pub fn is_given(&self) -> bool {
         self.suite.is_some()
     }
 
     /// The files to be read.
-    #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.suite.iter().chain(&self.attributes).cloned().collect()
     }
@@ -153,7 +151,6 @@ fn uplift(table: &IdaTable) -> Result<f64, Failure> {
 
 impl SuiteMeasures {
     /// What was set aside of the suite.
-    #[must_use]
     pub fn into_set_aside(self) -> SetAside {
         self.set_aside
     }

@@ -26,13 +26,11 @@ impl ProcessingArgs {
     }
 
     /// Whether slow drifts are filtered out.
-    #[must_use]
     pub fn passes_high(self) -> bool {
         self.high_pass.is_some()
     }
 
     /// The first flag given, to be refused where no record is read.
-    #[must_use]
     pub fn given(self) -> Option<&'static str> {
         if self.demean {
             Some("--demean")
@@ -43,7 +41,6 @@ impl ProcessingArgs {
 }
 
 /// The words for results: `null` in JSON where nothing was done.
-#[must_use]
 pub fn words(processing: &Processing) -> Option<String> {
     (!processing.is_none()).then(|| processing.to_string())
 }

@@ -34,7 +34,6 @@ fn unit(text: &str) -> Result<AccelerationUnit, String> {
 
 impl ReadArgs {
     /// How records are read under gravity `gravity_m_s2`.
-    #[must_use]
     pub fn options(self, gravity_m_s2: f64) -> ReadOptions {
         let (dt_s, unit, recursive) = (self.dt, self.units, self.recursive);
         ReadOptions { dt_s, unit, gravity_m_s2, recursive }
@@ -53,7 +52,6 @@ impl ReadArgs {
     }
 
     /// The first flag given, to be refused where no record is read.
-    #[must_use]
     pub fn given(self) -> Option<&'static str> {
         if self.dt.is_some() {
             Some("--dt")

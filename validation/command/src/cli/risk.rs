@@ -94,7 +94,6 @@ const YEARS: f64 = 50.0;
 
 impl SiteArgs {
     /// Years of the probabilities that are printed.
-    #[must_use]
     pub fn years(&self) -> f64 {
         self.years.unwrap_or(YEARS)
     }

@@ -38,7 +38,6 @@ pub struct BlockArgs {
 
 impl BlockArgs {
     /// The first flag given, to be refused where no block is needed.
-    #[must_use]
     pub fn given(&self) -> Option<&'static str> {
         let flags = [
             ("--alpha", self.alpha),

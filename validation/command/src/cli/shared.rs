@@ -106,7 +106,6 @@ pub struct BootstrapArgs {
 
 impl BootstrapArgs {
     /// The draws.
-    #[must_use]
     pub fn draws(self) -> Draws {
         Draws { replicates: self.bootstrap, seed: self.seed }
     }
@@ -133,7 +132,6 @@ pub struct ModelErrorArgs {
 
 impl ModelErrorArgs {
     /// The error, `usual` where no flag is given.
-    #[must_use]
     pub fn or(self, usual: ModelError) -> ModelError {
         usual.or(self.model_bias, self.model_dispersion)
     }

@@ -20,7 +20,6 @@ named! {
 
 impl Content {
     /// What a sweep keeps.
-    #[must_use]
     pub fn kept(plan: &SweepPlan) -> Vec<Self> {
         let mut out = vec![Self::Fragilities, Self::Capacities];
         if plan.rows {
@@ -30,7 +29,6 @@ impl Content {
     }
 
     /// Names of the columns.
-    #[must_use]
     pub fn columns(self, plan: &SweepPlan) -> Vec<String> {
         let layout = match self {
             Self::Fragilities => &SWEEP_FRAGILITIES,

@@ -71,7 +71,6 @@ pub struct SweepBlock {
 
 impl SweepBlock {
     /// The parameters as the tables have them.
-    #[must_use]
     pub fn cells(&self) -> [String; 3] {
         [self.alpha_rad, self.p_rad_s, self.eta].map(|x| x.to_string())
     }
@@ -208,7 +207,6 @@ impl SweepPlan {
     }
 
     /// The records by earthquake, where the suite says it.
-    #[must_use]
     pub fn clusters(&self) -> Clusters {
         match self.events.as_slice() {
             [] => Clusters::singletons(self.records.len()),
@@ -222,13 +220,11 @@ impl SweepPlan {
     }
 
     /// Number of tiles.
-    #[must_use]
     pub fn tiles(&self) -> usize {
         self.blocks.len().div_ceil(self.tile_blocks)
     }
 
     /// The blocks of a tile.
-    #[must_use]
     pub fn blocks_of(&self, tile: usize) -> &[SweepBlock] {
         let mut tiles = self.blocks.chunks(self.tile_blocks);
         tiles.nth(tile).unwrap_or_default()
@@ -251,7 +247,6 @@ impl SweepPlan {
 
 impl SweepFolder {
     /// The files of the folder: plan, suite, and tiles.
-    #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         let own = ["plan.json".to_owned(), format!("{SUITE}.csv")];
         let own = own.map(|name| self.folder.join(name));
@@ -316,7 +311,6 @@ impl SweepFolder {
     }
 
     /// Where a tile lies.
-    #[must_use]
     pub fn tile_path(&self, content: super::Content, tile: usize) -> PathBuf {
         let name = format!("{}-{tile:05}.csv", content.name());
         self.folder.join("tiles").join(name)

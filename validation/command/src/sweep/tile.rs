@@ -74,7 +74,6 @@ pub(super) fn read(
 }
 
 /// The tiles of task `task` of `of` that are not done.
-#[must_use]
 pub fn left(planned: &SweepFolder, (task, of): (usize, usize)) -> Vec<usize> {
     let kept = Content::kept(&planned.plan);
     let is_done =

@@ -317,7 +317,6 @@ fn busy(part: &Path) -> io::Error {
 
 /// Whether a run ended, or is at work, while it put files into place in
 /// `folder`, so that they are not of one run.
-#[must_use]
 pub fn is_interrupted(folder: &Path) -> bool {
     moving(folder).next().is_some()
 }

@@ -16,7 +16,6 @@ use super::unfinished::moving;
 pub const SUMS: &str = "SHA256SUMS";
 
 /// The manifest of these files, by their paths below the folder.
-#[must_use]
 pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
     let mut text = String::new();
     for (name, content) in files {

@@ -80,7 +80,6 @@ pub enum Theme {
 
 impl Theme {
     /// The question that the theme answers.
-    #[must_use]
     pub fn question(self) -> &'static str {
         match self {
             Self::Choices => {
@@ -172,7 +171,6 @@ impl Region {
     /// assert!(!Region::Above(0.5).holds(0.5));
     /// assert!(!Region::Above(0.5).holds(f64::NAN));
     /// ```
-    #[must_use]
     pub fn holds(self, value: f64) -> bool {
         match self {
             Self::Within(a, b) => a <= value && value <= b,
@@ -223,7 +221,6 @@ impl Seen {
     /// assert_eq!(seen(1, 43), Seen::No);
     /// assert_eq!(seen(0, 0), Seen::NotTestable);
     /// ```
-    #[must_use]
     pub fn of(yardsticks: &[Yardstick], counts: &[SampleCount]) -> Self {
         if yardsticks.len() != counts.len()
             || counts.iter().any(|count| count.value.is_nan())
@@ -278,7 +275,6 @@ impl Exists {
     /// // The statement says that there is no difference: there is one.
     /// assert_eq!(of(StatedEffect::Nothing), Exists::Yes);
     /// ```
-    #[must_use]
     pub fn of(no_effect: &NoEffect, effect: &Estimate) -> Self {
         let NoEffect { value, says } = *no_effect;
         let (low, high) = effect.ends();
@@ -328,13 +324,11 @@ pub struct SampleCount {
 
 impl SampleCount {
     /// k of n things; not a number where there are none.
-    #[must_use]
     pub fn of(k: usize, n: usize) -> Self {
         Self { value: k as f64 / n as f64, of: Some(n) }
     }
 
     /// The number of the things for which something is true.
-    #[must_use]
     pub fn among<T>(
         all: impl IntoIterator<Item = T>,
         is: impl Fn(T) -> bool,
@@ -348,7 +342,6 @@ impl SampleCount {
     }
 
     /// A number that is no share of things.
-    #[must_use]
     pub fn number(value: f64) -> Self {
         Self { value, of: None }
     }
@@ -382,7 +375,6 @@ pub struct ClaimResult {
 
 impl ClaimResult {
     /// Suite and arm in words: `ordinary, arm C`.
-    #[must_use]
     pub fn place(&self) -> String {
         let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()

@@ -16,7 +16,6 @@ impl Effect {
     /// The effect of a unit: 10 % of an intensity or a dispersion, 10 points
     /// of a share, 0.05 of a probability or of a distance; none of a count,
     /// by which nobody decides.
-    #[must_use]
     pub fn of(unit: Unit) -> Option<Self> {
         match unit {
             Unit::One => Some(Self::Relative(0.1)),

@@ -26,7 +26,6 @@ pub struct ExportRow<'a> {
 }
 
 /// The members of a suite, and what was done to them, in words.
-#[must_use]
 pub fn members<'a>(
     suite: &'a Suite,
     done: Option<&str>,
@@ -41,7 +40,6 @@ pub fn members<'a>(
 }
 
 /// A member of a suite, whose motion this is.
-#[must_use]
 pub fn member_of<'a, M>(
     motion: &'a Accelerogram,
     member: &'a SuiteMember<M>,
@@ -58,7 +56,6 @@ pub fn member_of<'a, M>(
 }
 
 /// The components of embedded pairs, with earthquake and site.
-#[must_use]
 pub fn pairs(pairs: &[Pair]) -> Vec<ExportRow<'_>> {
     let mut rows = Vec::with_capacity(2 * pairs.len());
     for Pair { components, scenario, .. } in pairs {
@@ -120,7 +117,6 @@ pub struct Packing<'a> {
 
 impl<'a> Packing<'a> {
     /// A suite `name` whose index has these columns beside its own.
-    #[must_use]
     pub fn new(name: &'a str, extra: impl Iterator<Item = &'a str>) -> Self {
         let extra: BTreeSet<&str> = extra.collect();
         let header: Vec<&str> =
@@ -166,7 +162,6 @@ impl<'a> Packing<'a> {
     }
 
     /// The index: its path and its text.
-    #[must_use]
     pub fn finish(self) -> (PathBuf, String) {
         let path = PathBuf::from(format!("{}.csv", self.name));
         (path, self.index.finish())
@@ -174,7 +169,6 @@ impl<'a> Packing<'a> {
 }
 
 /// Whether a record's name is one that a file can have.
-#[must_use]
 pub fn is_file_name(name: &str) -> bool {
     let fits = |c: char| !c.is_control() && !"/\\".contains(c);
     !name.is_empty() && name.chars().all(fits)

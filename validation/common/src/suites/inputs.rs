@@ -98,7 +98,6 @@ pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
 }
 
 /// The files that the suite read from `path` is made of.
-#[must_use]
 pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     let base = match path.is_dir() {
         true => path,
@@ -285,7 +284,6 @@ fn contents(names: Vec<String>) -> (String, Vec<String>) {
 }
 
 /// Whether the file at `path` begins as a zip does.
-#[must_use]
 pub fn is_zip(path: &Path) -> bool {
     let mut start = [0; 4];
     File::open(path)

@@ -43,7 +43,6 @@ pub struct Remarks {
 
 impl Remarks {
     /// Remarks on records.
-    #[must_use]
     pub fn of(records: &[RemarkInput<'_>]) -> Self {
         let mut remarks = remarks_together(records);
         for of_one in &mut remarks {
@@ -68,14 +67,12 @@ impl Remarks {
     }
 
     /// Remarks on all records of a suite.
-    #[must_use]
     pub fn on<M: MemberMotion>(suite: &Suite<M>) -> Self {
         let all = suite.members().iter().map(RemarkInput::from);
         Self::of(&all.collect::<Vec<_>>())
     }
 
     /// Codes of the remarks on the record `name`, separated by blanks.
-    #[must_use]
     pub fn codes(&self, name: &str) -> String {
         let place = self.places.get(name);
         let codes = place.map_or(&[][..], |place| &self.found[*place].1);
@@ -84,7 +81,6 @@ impl Remarks {
 
     /// For how many of the records the caller's interval and unit were
     /// taken, where the files of others state theirs.
-    #[must_use]
     pub fn given(&self) -> Vec<String> {
         let (dt, unit) = self.given;
         let all = [("--dt", dt, "interval"), ("--units", unit, "unit")];
@@ -119,7 +115,6 @@ impl Remarks {
 
     /// The count of records with remarks, the count of each code, and the
     /// gravest remark; `None` without any.
-    #[must_use]
     pub fn words(&self) -> Option<String> {
         let all = self.by_code();
         let (code, _, record, remark) = all.first()?;

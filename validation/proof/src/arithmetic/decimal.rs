@@ -11,7 +11,6 @@ use rocking::number::double::DoubleDouble;
 /// assert_eq!((tenth.hi(), tenth.lo()), (0.1, -5.551115123125783e-18));
 /// assert!(decimal("-1.5e3x").is_none());
 /// ```
-#[must_use]
 pub fn decimal(text: &str) -> Option<DoubleDouble> {
     let word = text.split_whitespace().next()?;
     let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));

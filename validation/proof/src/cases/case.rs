@@ -113,7 +113,6 @@ pub enum Values {
 
 impl Values {
     /// The numbers as a list.
-    #[must_use]
     pub fn to_vec(&self) -> Vec<f64> {
         match self {
             Self::One(x) => vec![*x],
@@ -145,7 +144,6 @@ pub enum Bound {
 
 impl Bound {
     /// The name as it stands in case files.
-    #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Exact => "exact",

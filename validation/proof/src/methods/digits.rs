@@ -181,7 +181,6 @@ pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
     end_double_double,impacts_single,impacts_double,impacts_double_double\n";
 
 /// The table as CSV.
-#[must_use]
 pub fn digits_csv(rows: &[DigitsRow]) -> String {
     let line = |row: &DigitsRow| {
         let truth =

@@ -28,7 +28,6 @@ impl WrongModel {
     }
 
     /// Whether it runs on the naive integrator.
-    #[must_use]
     pub fn is_naive(self) -> bool {
         self.rules().is_some()
     }
@@ -66,7 +65,6 @@ impl WrongModel {
     }
 
     /// The engine that makes the mistake, where the method itself does not.
-    #[must_use]
     pub fn engine<'a>(self, right: &'a dyn Engine) -> Box<dyn Engine + 'a> {
         match self.rules() {
             Some(rules) => Box::new(Naive(rules)),

@@ -10,7 +10,6 @@
 /// // Carlson 1995, R_F(2, 3, 4).
 /// assert!((rf(2.0, 3.0, 4.0) - 0.584_082_841_677_15).abs() < 1e-13);
 /// ```
-#[must_use]
 pub fn rf(x: f64, y: f64, z: f64) -> f64 {
     let (mut x, mut y, mut z) = (x, y, z);
     // Each round divides the spread by four: sixty are more than enough.

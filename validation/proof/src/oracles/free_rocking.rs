@@ -24,7 +24,6 @@ const TAIL: f64 = 1e-6;
 /// a quarter period sqrt(D/2) R_F(q^2 c^2, q^2 (1 - q^2), s^2 (1 - q^2)),
 /// s, c = sin, cos(alpha/2), q^2 = s^2 - D/2; an impact multiplies D by
 /// eta^2.
-#[must_use]
 pub fn nonlinear(
     alpha_rad: f64,
     eta: f64,
@@ -54,7 +53,6 @@ pub fn nonlinear(
 
 /// Eq. 2: a quarter period is atanh(v), v = speed/(p alpha), and the peak
 /// v^2/(1 + sqrt(1 - v^2)).
-#[must_use]
 pub fn linearized(
     alpha_rad: f64,
     eta: f64,
@@ -90,7 +88,6 @@ pub fn linearized(
 /// 2 atanh(v/(alpha + s a/g)). The last hops sum to
 /// 2 v [1/(c + s a) + eta/(c - s a)]/(1 - eta^2), c + s a the downward
 /// acceleration on the side entered with speed v.
-#[must_use]
 pub fn chatter(
     is_nonlinear: bool,
     alpha_rad: f64,

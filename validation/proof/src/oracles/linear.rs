@@ -78,7 +78,6 @@ fn in_flight(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
 }
 
 /// Response from rest, with at most `impacts` impacts.
-#[must_use]
 pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> LinearResponse {
     let mut response = LinearResponse::default();
     let kinks = kinks(pulse);

@@ -13,21 +13,18 @@ use super::bisect;
 /// // tau = ln[A/(A - 1)].
 /// assert!(((a / (a - 1.0)).ln() - 0.7).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn rectangle(tau: f64) -> f64 {
     -1.0 / libm::expm1(-tau)
 }
 
 /// Isosceles triangle of base tau:
 /// (tau/2)/(-ln[1 - (1 - exp(-tau/2))^2]).
-#[must_use]
 pub fn triangle(tau: f64) -> f64 {
     let rise = -libm::expm1(-0.5 * tau);
     0.5 * tau / -libm::log1p(-rise * rise)
 }
 
 /// One full cosine, without impact: (1 + Omega^2)/(1 - exp(-2 pi/Omega)).
-#[must_use]
 pub fn one_cosine(omega: f64) -> f64 {
     (1.0 + omega * omega) / -libm::expm1(-2.0 * PI / omega)
 }
@@ -36,7 +33,6 @@ pub fn one_cosine(omega: f64) -> f64 {
 /// sqrt(A^2 - 1) - (-1)^N A exp(-x_N) = Omega,
 /// x_N = [N pi - asin(1/A)]/Omega. One half cycle is the exact form of
 /// Housner's sqrt(1 + Omega^2); two are mode 2 of the one-sine pulse.
-#[must_use]
 pub fn sine_without_impact(half_cycles: u32, omega: f64) -> f64 {
     let n = f64::from(half_cycles);
     let sign = if half_cycles.is_multiple_of(2) { 1.0 } else { -1.0 };
@@ -57,7 +53,6 @@ fn after_pulse(a: f64, omega: f64) -> f64 {
 }
 
 /// Upper edge of mode 1 (impact after the pulse); none beyond the fold.
-#[must_use]
 pub fn mode_1_upper(omega: f64, eta: f64) -> Option<f64> {
     let need = 1.0 / (eta * eta) - 1.0;
     let mode_2 = sine_without_impact(2, omega);
@@ -68,7 +63,6 @@ pub fn mode_1_upper(omega: f64, eta: f64) -> Option<f64> {
 
 /// Where mode 1 of the one-sine pulse ends (eta > 1/sqrt(2)): Omega and A
 /// at which the largest F equals 1/eta^2 - 1.
-#[must_use]
 pub fn fold(eta: f64) -> (f64, f64) {
     let need = 1.0 / (eta * eta) - 1.0;
     let top = |omega: f64| {

@@ -27,7 +27,6 @@ impl Rectangular {
     /// (sqrt(S)/P) R_F(q^2 C, q^2 (1 - q^2), S1 (1 - q^2)), with
     /// delta = psi - alpha, q = sin(delta/2), S1 = sin^2((y + delta)/2),
     /// S = S1 - q^2, C = 1 - S1, P = p (1 + (a/g)^2)^(1/4).
-    #[must_use]
     pub fn time_s(&self, y_rad: f64) -> f64 {
         let (delta, rate) = self.turned();
         let q = libm::sin(0.5 * delta);
@@ -42,7 +41,6 @@ impl Rectangular {
     /// Pulse after which the energy is that of the saddle plus `above` (in
     /// the units of 1 - cos alpha), s; for 0 the shortest that overturns, which
     /// lifts the block to alpha - asin[sin alpha - (1 - cos alpha) g/a].
-    #[must_use]
     pub fn duration_to_energy_s(&self, above: f64) -> f64 {
         let half = libm::sin(0.5 * self.alpha_rad);
         let need = (2.0 * half * half + above) / self.pull;

@@ -132,7 +132,6 @@ impl SquareHop {
 
 impl SquareWave {
     /// Motion from rest, lifted by the first stretch.
-    #[must_use]
     pub fn motion(&self) -> SquareMotion {
         let first = self.stretches.first().map_or(0.0, |s| s.0);
         let mut state = SquareState { side: -first.signum(), y: 0.0, w: 0.0 };
@@ -167,7 +166,6 @@ impl SquareWave {
     }
 
     /// What becomes of the block after the wave, by energy.
-    #[must_use]
     pub fn ending(&self, end: SquareState) -> Ending {
         let alpha = self.alpha_rad;
         // Above that of the base, and of the saddle above the base.

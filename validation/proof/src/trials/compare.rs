@@ -37,7 +37,6 @@ pub struct DoubleRun {
 
 impl DoubleRun {
     /// What a response says, its peak as a double.
-    #[must_use]
     pub fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
         let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
         Self {
@@ -67,7 +66,6 @@ impl CertificateReading {
     }
 
     /// Whether the run may be relied on.
-    #[must_use]
     pub fn is_clear(self, seen: &DoubleRun) -> bool {
         let is = |wrong| self.0 == Some(wrong);
         Decision::ALL.into_iter().all(|decision| {
@@ -87,7 +85,6 @@ impl CertificateReading {
     }
 
     /// Bound on the error of the peak.
-    #[must_use]
     pub fn estimate(self, seen: &DoubleRun) -> f64 {
         seen.estimate * self.factor()
     }
@@ -123,7 +120,6 @@ pub struct Finding {
 impl Finding {
     /// Error of the peak beyond what the truth itself leaves open; none
     /// where one of the two has no peak.
-    #[must_use]
     pub fn error(&self) -> Option<f64> {
         let WideTruth::Stands { peak_ratio, error } = self.truth else {
             return None;

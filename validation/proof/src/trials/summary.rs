@@ -25,7 +25,6 @@ pub enum Judgement {
 
 impl Judgement {
     /// Judges a finding.
-    #[must_use]
     pub fn of(finding: &Finding, reading: CertificateReading) -> Self {
         let seen = &finding.seen;
         let wrong = match finding.truth {
@@ -54,7 +53,6 @@ impl Judgement {
     }
 
     /// True for what no certificate may do.
-    #[must_use]
     pub fn is_bad(&self) -> bool {
         matches!(self, Self::WrongAndClear | Self::Exceeded(_))
     }
@@ -93,7 +91,6 @@ pub struct TrialSummary {
 
 impl TrialSummary {
     /// Counts findings.
-    #[must_use]
     pub fn of(findings: &[Finding], reading: CertificateReading) -> Self {
         let mut all = Self { runs: findings.len(), ..Self::default() };
         for finding in findings {
@@ -118,14 +115,12 @@ impl TrialSummary {
     }
 
     /// Share of the runs that decide nothing.
-    #[must_use]
     pub fn unresolved_share(&self) -> f64 {
         self.unresolved as f64 / self.runs as f64
     }
 
     /// Error over estimate below which this share lies, in thousandths; not
     /// a number without any.
-    #[must_use]
     pub fn ratio(&self, thousandths: usize) -> f64 {
         let last = self.ratios.len().saturating_sub(1);
         let at = (last * thousandths).div_ceil(1000);

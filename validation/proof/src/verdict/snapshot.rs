@@ -60,7 +60,6 @@ pub struct RejectionResult {
 
 impl CaseResult {
     /// Whether the case passed.
-    #[must_use]
     pub fn passed(&self) -> bool {
         self.verdict == CaseVerdict::Pass
     }
@@ -79,7 +78,6 @@ const MOST_DIGITS: usize = 9;
 const MOST_VALUES: usize = 3;
 
 /// The snapshot's text, ending in a line feed.
-#[must_use]
 pub fn text(cases: &[Case], outcomes: &[CaseOutcome]) -> String {
     let entry = |outcome: &CaseOutcome| {
         let case = cases.iter().find(|c| c.id == outcome.id)?;
@@ -149,7 +147,6 @@ fn digits(check: &Check) -> usize {
 
 /// Significant digits that are printed of a number known to so large a share
 /// of itself.
-#[must_use]
 pub fn supported_digits(relative: f64) -> usize {
     let mut digits = 1;
     let mut unit = 0.1;

@@ -164,6 +164,12 @@ impl Hypothesis {
         Self { left, moved, scatter, likelihood }
     }
 
+    /// That there is no mistake.
+    fn none(given: &[Residual]) -> Self {
+        let errors = given.iter().map(|g| g.error).collect();
+        Self::new(given, errors, vec![0.0; given.len()])
+    }
+
     /// Answers that deviate or should, and those that it explains.
     fn account(&self, given: &[Residual]) -> (usize, usize) {
         let sizes = given.iter().zip(&self.left).zip(&self.moved);
@@ -228,16 +234,20 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
         let (verdict, explanations) = (CodeVerdict::TooFew, Vec::new());
         return Diagnosis { verdict, explanations, scatter: None };
     }
-    let still = vec![0.0; given.len()];
-    let errors = given.iter().map(|g| g.error).collect();
-    let none = Hypothesis::new(&given, errors, still);
+    let none = Hypothesis::none(&given);
     let known = models(&given, withheld, none.likelihood + GAIN);
-    let (explanations, scatter) =
-        if known.is_empty() { inputs(&given) } else { known }
-            .into_parts(&given);
-    if !explanations.is_empty() {
-        let verdict = CodeVerdict::Known;
-        return Diagnosis { verdict, explanations, scatter };
+    let known = if known.is_empty() { inputs(&given) } else { known };
+    if let Some((_, _, first)) = known.first() {
+        let explanations = known.iter().map(|(names, factor, one)| {
+            let (deviating, explained) = one.account(&given);
+            let mistakes = names.iter().map(|name| mistake(name)).collect();
+            Explanation { mistakes, factor: *factor, deviating, explained }
+        });
+        return Diagnosis {
+            verdict: CodeVerdict::Known,
+            explanations: explanations.collect(),
+            scatter: Some(first.scatter.0),
+        };
     }
     let right = given
         .iter()
@@ -246,50 +256,28 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let agrees = right as f64 >= AGREE * given.len() as f64;
     let verdict =
         if agrees { CodeVerdict::None } else { CodeVerdict::Unknown };
-    Diagnosis { verdict, explanations, scatter: Some(none.scatter.0) }
+    let scatter = Some(none.scatter.0);
+    Diagnosis { verdict, explanations: Vec::new(), scatter }
 }
 
-/// Hypotheses that explain the answers, each with its names and its factor.
-struct Hypotheses(Vec<(Vec<String>, Option<f64>, Hypothesis)>);
+/// A hypothesis with its names and its factor.
+type Named = (Vec<String>, Option<f64>, Hypothesis);
 
-impl Hypotheses {
-    fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    fn into_parts(
-        self,
-        given: &[Residual],
-    ) -> (Vec<Explanation>, Option<f64>) {
-        let scatter = self.0.first().map(|(_, _, first)| first.scatter.0);
-        let explanations = self.0.into_iter().map(|(names, factor, one)| {
-            let (deviating, explained) = one.account(given);
-            let mistakes = names.iter().map(|name| mistake(name)).collect();
-            Explanation { mistakes, factor, deviating, explained }
-        });
-        (explanations.collect(), scatter)
-    }
-
-    /// The best ones: those that explain, and as few mistakes as explain.
-    fn of(
-        mut all: Vec<(Vec<String>, Option<f64>, Hypothesis)>,
-        given: &[Residual],
-        least: f64,
-    ) -> Self {
-        let best = all.iter().map(|(_, _, h)| h.likelihood);
-        let best = best.fold(f64::NEG_INFINITY, f64::max);
-        // Rivals must be clearly worse, whether or not they explain all.
-        all.retain(|(_, _, h)| {
-            h.likelihood > (best - TIE).max(least) && h.explains(given)
-        });
-        let fewest = all.iter().map(|(names, ..)| names.len()).min();
-        all.retain(|(names, ..)| Some(names.len()) == fewest);
-        Self(all)
-    }
+/// The best of all: those that explain, and as few mistakes as explain.
+fn best(mut all: Vec<Named>, given: &[Residual], least: f64) -> Vec<Named> {
+    let best = all.iter().map(|(_, _, h)| h.likelihood);
+    let best = best.fold(f64::NEG_INFINITY, f64::max);
+    // Rivals must be clearly worse, whether or not they explain all.
+    all.retain(|(_, _, h)| {
+        h.likelihood > (best - TIE).max(least) && h.explains(given)
+    });
+    let fewest = all.iter().map(|(names, ..)| names.len()).min();
+    all.retain(|(names, ..)| Some(names.len()) == fewest);
+    all
 }
 
 /// The wrong models that explain the answers.
-fn models(given: &[Residual], withheld: &[&str], least: f64) -> Hypotheses {
+fn models(given: &[Residual], withheld: &[&str], least: f64) -> Vec<Named> {
     let names = reference().models.iter().enumerate();
     let names = names.filter(|(_, name)| {
         !name.split('+').any(|name| withheld.contains(&name))
@@ -305,27 +293,27 @@ fn models(given: &[Residual], withheld: &[&str], least: f64) -> Hypotheses {
         let one = Hypothesis::new(given, left.collect(), moved.collect());
         (name.split('+').map(str::to_owned).collect(), None, one)
     });
-    Hypotheses::of(all.collect(), given, least)
+    best(all.collect(), given, least)
 }
 
 /// The inputs of which one factor explains the answers.
-fn inputs(all: &[Residual]) -> Hypotheses {
+fn inputs(all: &[Residual]) -> Vec<Named> {
     let found = (0..INPUTS.len()).flat_map(|input| {
         let Some(by) = factor_less_one(all, input) else {
-            return Hypotheses(Vec::new()).0;
+            return Vec::new();
         };
         // Where a straight line holds, which must be most of the answers.
         let holds = |g: &&Residual| by.abs() * g.condition < STRAIGHT;
         let given: Vec<Residual> = all.iter().filter(holds).cloned().collect();
         if 2 * given.len() < all.len() {
-            return Hypotheses(Vec::new()).0;
+            return Vec::new();
         }
-        input_off(&given, input, by).0
+        input_off(&given, input, by)
     });
     let mut found: Vec<_> = found.collect();
     found.sort_by(|a, b| b.2.likelihood.total_cmp(&a.2.likelihood));
     found.truncate(1);
-    Hypotheses(found)
+    found
 }
 
 /// The factor on an input that the answers say, less one: the weighted median.
@@ -348,7 +336,7 @@ fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
 }
 
 /// The answers explained by a factor on one input, if they are.
-fn input_off(given: &[Residual], input: usize, by: f64) -> Hypotheses {
+fn input_off(given: &[Residual], input: usize, by: f64) -> Vec<Named> {
     let moved: Vec<f64> = given
         .iter()
         .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by))
@@ -366,8 +354,6 @@ fn input_off(given: &[Residual], input: usize, by: f64) -> Hypotheses {
     let moved = moved.into_iter().map(|m| m.abs().min(1.0)).collect();
     let one = Hypothesis::new(given, left, moved);
     let names = vec![INPUTS[input].to_owned()];
-    let errors = given.iter().map(|g| g.error).collect();
-    let none = Hypothesis::new(given, errors, vec![0.0; given.len()]);
-    let least = none.likelihood + GAIN;
-    Hypotheses::of(vec![(names, Some(1.0 + by), one)], given, least)
+    let least = Hypothesis::none(given).likelihood + GAIN;
+    best(vec![(names, Some(1.0 + by), one)], given, least)
 }

@@ -249,12 +249,7 @@ impl Reference {
             }
             items.push(item);
         }
-        let mut mistakes = BTreeMap::new();
-        for row in lines(MISTAKES).records() {
-            let row = text(row)?;
-            let about = [row[1].to_owned(), row[2].to_owned()];
-            mistakes.insert(row[0].to_owned(), about);
-        }
+        let mistakes = text(lines(MISTAKES).deserialize().collect())?;
         Ok(Self { scenes, items, models, mistakes, places })
     }
 

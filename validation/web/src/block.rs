@@ -112,15 +112,6 @@ enum LabMotion {
     Record(NormalisedRecord),
 }
 
-impl LabMotion {
-    fn record(&self) -> Answer<&NormalisedRecord> {
-        match self {
-            Self::Record(record) => Ok(record),
-            Self::Pulse(_) => Err("an IDA needs a record".into()),
-        }
-    }
-}
-
 /// The embedded pulse-type motions, first components: those of the study.
 pub fn motions() -> Answer<Vec<LabComponent>> {
     let pairs = rocking_synthesis::pulse()?;
@@ -293,12 +284,15 @@ impl LabScene {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
         let restitution = Restitution::constant(self.eta)?;
+        let LabMotion::Record(record) = motion else {
+            return Err("an IDA needs a record".into());
+        };
         let analysis = Analysis {
             grid: Grid::Im { step: 0.1 },
             refine: Some(ida::REFINEMENT),
             ..Analysis::paper(block, restitution)
         };
-        let curve = ida::curve(motion.record()?, &analysis)?;
+        let curve = ida::curve(&record, &analysis)?;
         let standing = curve.response(BracketEnd::Refined)?;
         let points: Vec<[f64; 2]> =
             standing.vertices().map(|(im, edp)| [im, edp]).collect();

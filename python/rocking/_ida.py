@@ -210,14 +210,9 @@ class Curves:
         samples = [
             given_sample(self.sample(level, rule=rule)) for level in levels
         ]
-        if dispersion == "common":
-            return tuple(
-                fit._remember(samples, place, asked)
-                for place, fit in enumerate(found)
-            )
         return tuple(
-            fit._remember([sample], 0, asked)
-            for sample, fit in zip(samples, found)
+            fit._remember(samples, place, asked)
+            for place, fit in enumerate(found)
         )
 
     def fit_stripes(

@@ -262,8 +262,8 @@ class FragilityFit(_Fit):
 
     @property
     def _behind(self) -> _rocking.Behind:
-        """The samples that were fitted together, the place of this one's, and
-        how they were fitted."""
+        """The samples of the levels, the place of this one's, and how they
+        were fitted."""
         found: _rocking.Behind = self.__dict__.get("_asked")
         return found
 

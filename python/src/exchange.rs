@@ -173,8 +173,8 @@ pub enum RiskInput {
     Block(FragilityInput),
 }
 
-/// The samples that were fitted together, the place of a fragility's own, and
-/// how they were fitted.
+/// The samples of the levels, the place of a fragility's own, and how they
+/// were fitted.
 type RiskSample<'py> = Option<(Vec<SampleInput<'py>>, usize, Fit)>;
 
 /// What the draws of a sample make of its fragility; none above a shift that

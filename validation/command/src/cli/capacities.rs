@@ -55,10 +55,12 @@ pub struct CapacitiesCommand {
     im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
-    /// EDP levels, FIRST:LAST:STEP or separated by commas.
+    /// EDP levels, FIRST:LAST:STEP or separated by commas; `inf` is
+    /// overturning.
     #[arg(
         long,
         value_name = "LEVELS",
+        value_parser = edp_levels,
         default_value = "0.005:1:0.005",
         allow_hyphen_values = true
     )]
@@ -105,7 +107,7 @@ impl FromStr for Vertices {
     }
 }
 
-/// EDP levels; `inf` is overturning.
+/// EDP levels.
 #[derive(Clone, Debug)]
 pub(super) struct EdpLevels(pub(super) Vec<f64>);
 
@@ -114,9 +116,6 @@ impl FromStr for EdpLevels {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let number = |field: &str| {
-            if field.trim() == "inf" {
-                return Ok(f64::INFINITY);
-            }
             let place = |expected| format!("found `{field}`: {expected}");
             positive(field).map_err(place)
         };
@@ -147,6 +146,16 @@ impl FromStr for EdpLevels {
         };
         Ok(Self((0..=count as u32).map(level).collect()))
     }
+}
+
+/// EDP levels, of which `inf` is overturning.
+pub(super) fn edp_levels(text: &str) -> Result<EdpLevels, String> {
+    let part = |field: &str| match field.trim() {
+        "inf" => Ok(vec![f64::INFINITY]),
+        own => own.parse().map(|EdpLevels(levels)| levels),
+    };
+    let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
+    Ok(EdpLevels(parts.concat()))
 }
 
 /// Runs `rocking capacities`.

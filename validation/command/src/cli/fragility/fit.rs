@@ -17,7 +17,7 @@ use super::source::{self, DispersionArg, IdaArgs};
 use crate::cli::capacities::EdpLevels;
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
-use crate::failure::{AtPlace as _, Failure, bail, ensure};
+use crate::failure::{AtPlace as _, Failure, bail};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
@@ -153,10 +153,6 @@ pub(super) fn run_fragility_fit(
     options.draws =
         args.bootstrap.map(|replicates| Draws { replicates, seed });
     options.band = args.band.as_ref().map_or(Vec::new(), |b| b.0.clone());
-    ensure!(
-        options.band.iter().all(|im| im.is_finite()),
-        "--band inf: expected a finite intensity"
-    );
     match (&args.sample, &args.ida.ida) {
         (Some(path), _) => of_sample(args, path, &options),
         (None, Some(path)) => of_levels(args, path, &options),

@@ -23,7 +23,7 @@ use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
 use super::counts::{self, CountTable};
 use crate::cli::blocks::{self, BlockRow};
-use crate::cli::capacities::EdpLevels;
+use crate::cli::capacities::{EdpLevels, edp_levels};
 use crate::cli::names;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::positive;
@@ -101,6 +101,7 @@ pub struct IdaArgs {
     #[arg(
         long,
         value_name = "LEVELS",
+        value_parser = edp_levels,
         requires = "ida",
         allow_hyphen_values = true
     )]

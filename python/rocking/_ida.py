@@ -249,7 +249,7 @@ class Ida(Curves):
 
     `im[i]` and `edp[i]` are the curve of record i: PGA/(g tan alpha) from the
     onset of rocking (1, 0) to the first overturned level, whose EDP is
-    infinite. `to_pandas` has one row an analysis, `to_csv` is the table of
+    infinite, and with `resurrections_to` beyond. `to_pandas` has one row an analysis, `to_csv` is the table of
     `rocking ida`. Capacities, fits and stripes are in PGA/(g tan alpha);
     `against` gives them in another intensity measure.
     """
@@ -396,7 +396,7 @@ class Ida(Curves):
         """The curves as an `xarray.Dataset` over (record, level).
 
         Level 0 is the onset of rocking, the last level of a record its first
-        overturned one. Curves end at different levels: beyond its end a row
+        overturned one, unless resurrections were sought. Curves end at different levels: beyond its end a row
         holds NaN, and the outcome "". The variables are columns of
         `to_pandas`. `overturning_intensity_pga` has the first overturning of each
         record as `capacities` gives it, refined, and infinite where the
@@ -524,6 +524,7 @@ def ida(
     overturn: Overturn = "alpha",
     certify: bool = False,
     highest_im: float = 100.0,
+    resurrections_to: float | Literal[True] | None = None,
     gravity: float = STANDARD_GRAVITY,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -545,8 +546,14 @@ def ida(
     certify : bool
         Decide each analysis in the precision that it needs, instead of
         counting it as unresolved.
+    eta, model, overturn
+        As in `respond`.
     highest_im : float
         Where curves end that never overturn.
+    resurrections_to : float or True, optional
+        Go on above the first overturning and look where the block stands
+        again: to this PGA/(g tan alpha), or to 3 times the first overturning.
+        `Ida.summarise` counts these levels; capacities do not change.
     gravity : float
         In m/s2, for velocities and for intensity measures.
     threads : int
@@ -570,6 +577,11 @@ def ida(
     records = [suite] if isinstance(suite, Record) else list(suite)
     if not records:
         raise ValueError("no record: expected at least one")
+    upward = None
+    if resurrections_to is True:
+        upward = True, 3.0
+    elif resurrections_to is not None:
+        upward = False, number(resurrections_to, "resurrections_to")
     scan: _rocking.Scan = {
         "step_g": step_g,
         "step_im": step_im,
@@ -577,6 +589,7 @@ def ida(
         "by": by,
         "certify": certify,
         "highest_im": number(highest_im, "highest_im"),
+        "resurrections": upward,
     }
     run = pair_of(block), physics(eta, model, overturn), scan
     events = _events(records) or [""] * len(records)

@@ -34,6 +34,7 @@ class Scan(TypedDict):
     by: str
     certify: bool
     highest_im: float
+    resurrections: tuple[bool, float] | None
 
 Run = tuple[_Block, Physics, Scan]
 WholeRun = tuple[_Block, Physics, Scan, str]

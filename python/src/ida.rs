@@ -14,7 +14,7 @@ use rocking::accelerogram::Accelerogram;
 use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Grid, curves};
+use rocking::ida::{Analysis, Batch, Grid, Resurrections, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::stop;
 use rocking_exchange::ida::{self as tables, Curves, IdaRow};
@@ -42,6 +42,8 @@ pub struct GridInput {
     by: String,
     certify: bool,
     highest_im: f64,
+    /// An intensity, or true and a multiple of the first overturning.
+    resurrections: Option<(bool, f64)>,
 }
 
 /// The analysis of a block by levels.
@@ -63,6 +65,13 @@ fn analysis_of(
         adjust: scan.by.parse().map_err(refuse)?,
         refine: scan.refine,
         highest_im: scan.highest_im,
+        resurrections: scan.resurrections.map(|(is_multiple, to)| {
+            if is_multiple {
+                Resurrections::Multiple(to)
+            } else {
+                Resurrections::To(to)
+            }
+        }),
         certify: scan.certify,
         ..Analysis::paper(block, physics.restitution(&block)?)
     })

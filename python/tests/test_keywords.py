@@ -170,6 +170,7 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                     True,
                 ),
                 "highest_im": 1.5,
+                "resurrections_to": True,
                 "gravity": 9.81,
             },
         ),

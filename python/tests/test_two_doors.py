@@ -506,6 +506,34 @@ def test_every_procedure_of_the_core_has_a_pair() -> None:
     assert known == paired
 
 
+@pytest.mark.parametrize("to", [True, 9])
+def test_resurrections_have_the_bytes_of_the_command_line(
+    to: Any, house: House, command: Command
+) -> None:
+    out = house.folder / "risen.csv"
+    words = [*analysed(house)[:-1], out, "--resurrections-to"]
+    command(*words, *([] if to is True else [to]))
+    block = rk.Block(alpha=0.2, p=3.0)
+    found = rk.ida(block, house.suite, resurrections_to=to)
+    found.to_csv(house.folder / "own.csv")
+    assert (house.folder / "own.csv").read_bytes() == out.read_bytes()
+    assert (found.summarise().resurrections or 0) > 0
+    capacities = found.capacities([0.5, np.inf]).tolist()
+    assert capacities == house.ida.capacities([0.5, np.inf]).tolist()
+
+
+def test_infinity_is_overturning_in_both_doors(
+    house: House, command: Command
+) -> None:
+    words = ["--ida", house.table, "--json"]
+    fit = json.loads(command("fragility", "fit", "--at", "inf", *words))
+    [own] = house.ida.fit([np.inf])
+    assert fit["levels"][0]["fitted"]["median"] == own.fitted.median
+    said = json.loads(command("capacities", "--levels", "inf", *words))
+    [level] = house.ida.levels([np.inf])
+    assert said["levels"] == [level.to_dict()]
+
+
 @pytest.mark.parametrize("im", ["pga", "pgv"])
 def test_a_sample_is_the_file_of_the_command_line(
     im: str, house: House, command: Command

@@ -132,6 +132,8 @@ def respond(
 
     Parameters
     ----------
+    block : Block
+    excitation : Record or Pulse
     eta : float or "housner"
         Coefficient of restitution, a ratio of angular velocities.
     model : "nonlinear" (Eq. 1) or "linearized" (Eq. 2)
@@ -187,9 +189,15 @@ def peak(
 
     Parameters
     ----------
+    blocks : Block or sequence of Block
+    excitations : Record, Pulse or sequence of these
     levels : float or array_like
         PGA/(g tan alpha) for `by="im"`, PGA in g for `by="pga_g"`, factors
         for `by="scale"`.
+    by : "im", "pga_g" or "scale"
+        What `levels` are.
+    eta, model, overturn
+        As in `respond`.
     threads : int
         All processors unless given; at most eight a processor are started.
     progress : callable

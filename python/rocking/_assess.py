@@ -217,6 +217,7 @@ def assess(
 
     Parameters
     ----------
+    objects : Object or sequence of Object
     suite : sequence of Record, optional
         Records of the site; without them the 86 synthetic motions of
         `embedded_suite("ordinary")`.
@@ -224,6 +225,8 @@ def assess(
         Hazard curve of the site. With it objects come by falling annual
         frequency of damage, without it by the rising PGA that damages them
         with a probability of 5 %.
+    years : float
+        Years of probabilities.
     certify : bool
         Decide each fate in the arithmetic that it needs.
     n_resamples, rng : int
@@ -231,6 +234,10 @@ def assess(
         their repetition.
     model_dispersion, model_bias : float or (value, low, high), optional
         Error of the model, as in `risk`.
+    gravity : float
+        In m/s2.
+    threads : int
+        All processors unless given.
 
     >>> cabinet = Object("cabinet", Block.from_dimensions(width_m=0.5, height_m=1.8))
     >>> lobe = [Record([0.0, 0.3, 0.0], 0.2 + 0.1 * k, units="g", name=f"r{k}")

@@ -100,6 +100,10 @@ def surface_fragility(block: Block) -> SurfaceFragility:
     """Overturning fragility of a block under the embedded suites, by a fitted
     surface and without an analysis, with its errors.
 
+    Parameters
+    ----------
+    block : Block
+
     >>> found = surface_fragility(Block(alpha=0.15, p=3.0))
     >>> round(found.suites["ordinary"].median_pga_g, 3)
     0.328
@@ -192,6 +196,18 @@ def export(
 
     OpenQuake and pelicun have no lognormal with a shift: such a fit is written
     as points, which are off by at most 5e-4 in probability.
+
+    Parameters
+    ----------
+    blocks : sequence of BlockFragility
+    path : str or path-like, optional
+        The file.
+    format : str
+        One of the formats above.
+    gravity : float
+        In m/s2, for PGV.
+    model_dispersion, model_bias
+        As in `risk`.
 
     Returns
     -------
@@ -295,6 +311,14 @@ def read_hazard(
     The first is `pga_g`, `pgv_m_s`, `pgv_cm_s` or `intensity` (the unit of
     the fragility), the second `annual_frequency` or
     `probability_of_exceedance` in `years`.
+
+    Parameters
+    ----------
+    path : str or path-like
+    years : float, optional
+        Years of the probabilities, where the file does not state them.
+    site : (longitude, latitude) in degrees or str, optional
+        Which site of several: its place, or its `custom_site_id`.
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
@@ -403,11 +427,14 @@ def risk(
 
     Parameters
     ----------
+    hazard : Hazard
     fragilities : mapping of names to Fragility, FragilityFit or BlockFragility
         Fragilities in the unit of the hazard curve, and those of blocks,
         which are brought to it. Fits to a sample above a known shift have a
         sampling interval; a Fragility is taken as it is, without an error of
         the model unless one is given.
+    years : float
+        Years of the probability.
     gravity : float
         In m/s2, for the PGV of blocks.
     n_resamples, rng : int

@@ -249,9 +249,10 @@ class Ida(Curves):
 
     `im[i]` and `edp[i]` are the curve of record i: PGA/(g tan alpha) from the
     onset of rocking (1, 0) to the first overturned level, whose EDP is
-    infinite, and with `resurrections_to` beyond. `to_pandas` has one row an analysis, `to_csv` is the table of
-    `rocking ida`. Capacities, fits and stripes are in PGA/(g tan alpha);
-    `against` gives them in another intensity measure.
+    infinite, and with `resurrections_to` beyond. `to_pandas` has one row an
+    analysis, `to_csv` is the table of `rocking ida`. Capacities, fits and
+    stripes are in PGA/(g tan alpha); `against` gives them in another intensity
+    measure.
     """
 
     _table: _rocking.IdaTable
@@ -396,11 +397,11 @@ class Ida(Curves):
         """The curves as an `xarray.Dataset` over (record, level).
 
         Level 0 is the onset of rocking, the last level of a record its first
-        overturned one, unless resurrections were sought. Curves end at different levels: beyond its end a row
-        holds NaN, and the outcome "". The variables are columns of
-        `to_pandas`. `overturning_intensity_pga` has the first overturning of each
-        record as `capacities` gives it, refined, and infinite where the
-        record never overturned the block.
+        overturned one, unless resurrections were sought. Curves end at
+        different levels: beyond its end a row holds NaN, and the outcome "".
+        The variables are columns of `to_pandas`. `overturning_intensity_pga`
+        has the first overturning of each record as `capacities` gives it,
+        refined, and infinite where the record never overturned the block.
         """
         import xarray
 
@@ -499,6 +500,10 @@ def _unpickled(
 def read_ida(path: str | os.PathLike[str]) -> Ida:
     """Reads the table of `rocking ida`, or of `Ida.to_csv`.
 
+    Parameters
+    ----------
+    path : str or path-like
+
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
@@ -536,6 +541,8 @@ def ida(
 
     Parameters
     ----------
+    block : Block
+    suite : Record or sequence of Record
     step_g, step_im : float, at most one of them
         Step of the levels: in PGA (g; 0.01 unless given), or in
         PGA/(g tan alpha) from 1.
@@ -562,8 +569,6 @@ def ida(
     progress : callable
         Called now and then with (curves done, curves), in the calling
         thread. What it raises ends the analysis; so does Ctrl-C.
-
-    eta, model and overturn are as in `respond`.
 
     >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
     >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
@@ -629,11 +634,14 @@ def rank_ims(
     ----------
     ida : Ida
         Of the records of `suite`, in their order.
+    suite : sequence of Record
     ims : sequence of str
         Names as in `Ida`; those of `rocking rank` unless given. Ratios are
         to the first one.
     edp : float
         Response whose capacities are compared; infinite for overturning.
+    rule
+        As in `Ida.capacities`.
     magnitude, distance : str
         Names of the records' attributes.
     n_resamples, rng : int

@@ -519,9 +519,18 @@ def read_record(
     Formats: RECORD_FORMATS.
 
     A file of several components is refused: `read_suite` takes the folder that
-    holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are needed if the
-    file states none, and refused if they contradict it. What is suspicious is
-    in `remarks` and in a `UserWarning`.
+    holds it. What is suspicious is in `remarks` and in a `UserWarning`.
+
+    Parameters
+    ----------
+    path : str or path-like
+    dt : float, optional
+        Sampling interval in s; needed if the file states none, and refused if
+        it contradicts the file.
+    units : "g", "m/s2" or "cm/s2", optional
+        Unit of the samples; as `dt`.
+    gravity : float
+        Gravity in m/s2 by which samples of the latter two are divided.
 
     Raises
     ------
@@ -561,15 +570,21 @@ def read_suite(
 ) -> Suite:
     """Reads a folder of record files, or an index (CSV, one row a file).
 
-    Of each pair the component that the study uses, or with
-    `component="both"` both. Columns of the index are the records'
-    `attributes`. `dt` and `units` serve the files that state none; a
-    `UserWarning` counts these if there are others. With `recursive=True` the
-    folders in a folder are entered, and names begin with theirs. What is
-    suspicious about a record is in its `remarks`; a `UserWarning` counts such
-    records. What in a folder is no record of the
-    suite, such as vertical components and files in no known format, is set
-    aside with a `UserWarning` that counts it.
+    Columns of the index are the records' `attributes`. What is suspicious
+    about a record is in its `remarks`; a `UserWarning` counts such records.
+    What in a folder is no record of the suite, such as vertical components and
+    files in no known format, is set aside with a `UserWarning` that counts it.
+
+    Parameters
+    ----------
+    path : str or path-like
+    dt, units, gravity
+        As in `read_record`, for the files that state none; a `UserWarning`
+        counts these if there are others.
+    component : "study" or "both"
+        Of each pair the component that the study uses, or both.
+    recursive : bool
+        Enter the folders in a folder; names begin with theirs.
 
     Raises
     ------
@@ -625,9 +640,14 @@ def embedded_suite(
 
     "ordinary" has 86 pairs whose PGA, PGV, duration and response spectra
     have the mean and the scatter of 86 recorded pairs. "pulse" has 44 pairs
-    of a published near-fault model. `component` is as in `read_suite`; the
-    study's is the first of each pair. Magnitude, distance and site are the
-    records' `attributes`.
+    of a published near-fault model. The study's component is the first of
+    each pair. Magnitude, distance and site are the records' `attributes`.
+
+    Parameters
+    ----------
+    name : "ordinary" or "pulse"
+    component
+        As in `read_suite`.
 
     >>> suite = embedded_suite("pulse")
     >>> len(suite), suite[0].name, suite[0].dt

@@ -28,7 +28,17 @@ def intensity_measures(
     gravity: float = STANDARD_GRAVITY,
 ) -> Measures:
     """PGA, PGV, PGD, Arias intensity, CAV, durations, mean period, and the
-    pseudo-spectral acceleration at `periods` (s).
+    pseudo-spectral acceleration at `periods`.
+
+    Parameters
+    ----------
+    record : Record
+    periods : array_like
+        Periods of the oscillators in s.
+    damping : float
+        Their damping ratio.
+    gravity : float
+        In m/s2.
 
     >>> step = Record([0.1] * 5, 0.5, units="g")
     >>> round(intensity_measures(step).significant_duration_5_75_s, 12)
@@ -108,6 +118,13 @@ def velocity_pulse(
 ) -> VelocityPulse | None:
     """The velocity pulse of a pair of components, if it has one, by the
     algorithm of Shahi and Baker (BSSA 104, 2014).
+
+    Parameters
+    ----------
+    first, second : Record
+        As in `rotd`.
+    gravity : float
+        In m/s2.
 
     >>> from rocking import embedded_suite
     >>> suite = embedded_suite("pulse", component="both")

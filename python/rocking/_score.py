@@ -96,10 +96,13 @@ class Score(Result):
 def score(answers: str | PathLike[str] | Solve) -> Score:
     """Scores a rocking code, and names its mistake.
 
-    `answers` is a CSV with the columns `scene,quantity,value`, or a function
-    that gets a scene of the reference data set as a dictionary, whose fields
-    `fixtures/benchmark/README.md` explains, and gives values by quantity.
-    What is missing, or None, is no answer.
+    Parameters
+    ----------
+    answers : str, path-like or callable
+        A CSV with the columns `scene,quantity,value`, or a function that gets
+        a scene of the reference data set as a dictionary, whose fields
+        `fixtures/benchmark/README.md` explains, and gives values by quantity.
+        What is missing, or None, is no answer.
 
     >>> def solve(scene):
     ...     still = scene["excitation"]["kind"] != "free"

@@ -187,6 +187,14 @@ def read_tests(
     `scale` is a factor on the motion of the file. A `UserWarning` counts
     the motions with remarks.
 
+    Parameters
+    ----------
+    path : str or path-like
+    fate : str
+        Name of the column of fates.
+    dt, units, gravity
+        As in `read_suite`.
+
     Raises
     ------
     FileNotFoundError, ValueError
@@ -229,16 +237,23 @@ def compare_with_tests(
 
     Parameters
     ----------
+    tests : sequence of ShakingTest
     block : Block, optional
         The block of the specimen.
     p : float, optional
         Frequency parameter in rad/s instead of the block: the slenderness is
         then fitted to the fates, so that the bias is 1.
+    eta, model
+        As in `respond`.
     ims : sequence of str
         Intensity measures that predict the same fates by themselves; "pga",
         "pgv" and "avgsa:0.5,1,1.5,2,3" unless given.
     n_resamples, rng : int
         Draws of motions with all their tests, and their repetition.
+    gravity : float
+        In m/s2, for velocities.
+    threads : int
+        All processors unless given.
 
     >>> lobes = [Record([0.0, 0.3, 0.0], 0.2 + 0.1 * k, units="g", name=f"{k}")
     ...          for k in range(8)]

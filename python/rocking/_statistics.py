@@ -268,7 +268,10 @@ class FragilityFit(_Fit):
         return found
 
     def _remember(
-        self: F, samples: Sequence[_rocking.Sample], place: int, fit: _rocking.Fit
+        self: F,
+        samples: Sequence[_rocking.Sample],
+        place: int,
+        fit: _rocking.Fit,
     ) -> F:
         self.__dict__["_asked"] = samples, place, fit
         return self
@@ -385,6 +388,12 @@ def fit_stripes(
     of stripes of the same records, and takes records that were not run to
     every intensity: counts of the others exceed too often.
 
+    Parameters
+    ----------
+    stripes : sequence of (float, int, int)
+    shift : float
+        The intensity below which nothing rocks.
+
     >>> fit = fit_stripes([(1.0, 1, 10), (2.0, 5, 10), (4.0, 9, 10)])
     >>> round(fit.fitted.median, 6)
     2.0
@@ -405,6 +414,7 @@ def test_normality(
 
     Parameters
     ----------
+    sample : array_like, Sample or scipy.stats.CensoredData
     shift : float, "min" or None
         Tests ln(x - shift), 0 for the ordinary lognormal; None tests the
         values themselves.
@@ -413,6 +423,8 @@ def test_normality(
         given.
     rng : int
         Repetition of the simulation.
+    level : float
+        Level of the test.
 
     >>> found = test_normality([1.0, 2.0, 4.0, 8.0, 16.0, 32.0], shift=0.0)
     >>> found.verdict
@@ -436,7 +448,13 @@ def summarise(
 ) -> Summary:
     """Quantiles and notched boxplot of a sample, infinite values counted.
 
-    `quantile_type` is Hyndman and Fan's; 5 is Hazen's, numpy's "hazen".
+    Parameters
+    ----------
+    sample : array_like, Sample or scipy.stats.CensoredData
+    probabilities : array_like
+        Probabilities of the quantiles.
+    quantile_type : int
+        Hyndman and Fan's; 5 is Hazen's, numpy's "hazen".
 
     >>> found = summarise([1.0, 2.0, 3.0, 4.0, 20.0], [0.5])
     >>> found.quantiles[0].value, found.boxplot.whisker_high
@@ -451,8 +469,13 @@ def compare(a: Sample, b: Sample, *, margin: float = 0.05) -> Comparison:
     """Compares two samples of the same records by their ratios a/b.
 
     Values are paired by the names of their records, which `Ida.sample` gives;
-    `contrast` takes samples of different records. Ratios between
-    1/(1 + margin) and 1 + margin count as equivalent to 1.
+    `contrast` takes samples of different records.
+
+    Parameters
+    ----------
+    a, b : Sample
+    margin : float
+        Ratios between 1/(1 + margin) and 1 + margin count as equivalent to 1.
 
     >>> a = Sample([1.0, 2.1, 3.0], records=["x", "y", "z"])
     >>> b = Sample([3.1, 1.0, 2.0], records=["z", "x", "y"])

@@ -70,6 +70,21 @@ def test_every_public_name_says_what_it_is() -> None:
                 assert inspect.getdoc(method), f"{name}.{key}"
 
 
+def test_every_function_explains_its_parameters() -> None:
+    for name in rk.__all__:
+        function = getattr(rk, name)
+        if not inspect.isfunction(function):
+            continue
+        _, _, text = (inspect.getdoc(function) or "").partition(
+            "Parameters\n----------\n"
+        )
+        # A line of names, then what they are, indented.
+        lines = [line for line in text.split("\n") if line[:1] not in ("", " ")]
+        named = {one for line in lines for one in re.findall(r"\w+", line)}
+        missing = set(inspect.signature(function).parameters) - named
+        assert not missing, f"{name}: {missing}"
+
+
 def test_the_stubs_name_what_the_native_half_has() -> None:
     native = importlib.import_module("rocking._rocking")
     stub = (Path(rk.__file__).parent / "_rocking.pyi").read_text()

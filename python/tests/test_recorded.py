@@ -86,7 +86,8 @@ def test_a_suite_has_the_samples_of_the_package(component: Any) -> None:
             data = data.xs("a", level=1)
         assert len(suite) == len(data)
         for record, (_, motion) in zip(suite, data.iterrows()):
-            assert record.acc_g.tolist() == motion.RecordedAcceleration.tolist()
+            samples = motion.RecordedAcceleration
+            assert record.acc_g.tolist() == samples.tolist()
             assert record.dt == motion.DT
             rounded = "RSN292_" in record.name
             assert rounded == bool(record.remarks), record.remarks

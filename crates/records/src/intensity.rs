@@ -215,10 +215,10 @@ pub struct PairMeasures {
     pub components: [Measures; 2],
     /// The geometric mean of both.
     pub geometric_mean: Measures,
-    /// The percentiles asked for, over directions 0, 1, ... 179 degrees, of
-    /// the measure of the rotated motion (RotDnn, Boore 2010), linear between
-    /// the measures in order: RotD50 is the mean of the 90th and the 91st,
-    /// RotD100 the largest.
+    /// The given percentiles, over directions 0, 1, ... 179 degrees, of the
+    /// measure of the rotated motion (RotDnn, Boore 2010), linear between the
+    /// measures in order: RotD50 is the mean of the 90th and the 91st, RotD100
+    /// the largest.
     pub rotd: Vec<Measures>,
 }
 

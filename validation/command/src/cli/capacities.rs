@@ -55,8 +55,7 @@ pub struct CapacitiesCommand {
     im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
-    /// EDP levels, FIRST:LAST:STEP or separated by commas; `inf` is
-    /// overturning.
+    /// EDP levels, FIRST:LAST:STEP or by commas; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",

@@ -96,8 +96,7 @@ pub struct IdaArgs {
         conflicts_with = "sample"
     )]
     pub ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas; `inf` is
-    /// overturning.
+    /// EDP levels of --ida, FIRST:LAST:STEP or by commas; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",

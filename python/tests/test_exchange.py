@@ -72,7 +72,8 @@ def test_limit_states_of_one_dispersion_do_not_cross(
         levels, shift=1.0, dispersion="common", n_resamples=30, rng=1
     )
     with pytest.raises(ValueError, match="do not cross"):
-        nrml(own, block=block)
+        crossing = rk.BlockFragility(block=block, fit=own, im="pga")
+        rk.export([crossing], format="nrml", model_dispersion=0)
     ida.to_csv(tmp_path / "ida.csv")
     words = ["--ida", tmp_path / "ida.csv", "--at", "0.3,0.6,inf"]
     words += ["--shift", 1, "--dispersion", "common", "--format", "nrml"]

@@ -398,7 +398,7 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
         "Ida.sample": (IDA.sample, {"edp": 0.5}, {"rule": "last"}),
         "Ida.capacities": (IDA.capacities, {"edp": 0.5}, {"rule": "last"}),
         "Ida.levels": (IDA.levels, {"edp": [0.5]}, {"rule": "last"}),
-        "Ida.stripes": (IDA.stripes, {"ims": [1.5]}, {"edp": 0.5}),
+        "Ida.stripes": (IDA.stripes, {"ims": [1.1]}, {"edp": 0.1}),
         "Ida.fit": (
             IDA.fit,
             {"edp": [0.5, 0.3]},

@@ -20,7 +20,14 @@ LAW = rk.Fragility(shift=1.0, log_mean=0.0, dispersion=0.5, median=2.0)
 FLOOR = rk.Floor("roof", 0.5, 0.05, 1.3)
 SUITE = rk.embedded_suite("pulse")[:8]
 FATES: list[Any] = ["stood", "overturned"] * 4
-TESTS = [rk.ShakingTest(one, one.name, fate) for one, fate in zip(SUITE, FATES)]
+# Shares that rise with the demand over the capacity.
+RANKED = np.argsort(
+    [one.pga_g for one in SUITE] / rk.ida(BLOCK, SUITE).capacities(np.inf)
+)
+TESTS = [
+    rk.ShakingTest(SUITE[k], SUITE[k].name, fate)
+    for k, fate in zip(RANKED.tolist(), FATES)
+]
 VALUES = [1.3, 1.6, 1.7, 2.0, 2.1, 2.5, 2.6, 3.1, 3.4, 4.2]
 
 

@@ -18,6 +18,7 @@ const LEVEL: f64 = 0.95;
 
 pub mod assess;
 pub mod capacities;
+pub mod cloud;
 pub mod comparison;
 pub mod contrast;
 pub mod counts;
@@ -36,6 +37,7 @@ pub mod stripes;
 pub mod summary;
 
 pub use assess::{AssessOptions, Assessment, Object, assess};
+pub use cloud::{CloudError, CloudFragility, CloudOptions, fit_cloud};
 pub use comparison::{Comparison, ComparisonError, compare};
 pub use contrast::{Contrast, ContrastError, contrast};
 pub use counts::{

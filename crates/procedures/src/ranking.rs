@@ -171,13 +171,8 @@ pub fn rank(
         all.iter().map(pick).collect::<Vec<f64>>()
     });
     let basis = IntervalBasis::new(draws, clusters);
-    let positive = |value, drawn: &[f64]| {
-        let found = basis.estimate(value, drawn, Range::NotNegative);
-        found.unwrap_or_else(|| {
-            let (level, drawn) = (basis.level, drawn.len());
-            BootstrapEstimate::without_interval(value, level, drawn)
-        })
-    };
+    let positive =
+        |value, drawn: &[f64]| basis.value(value, drawn, Range::NotNegative);
     let first = all.first().map_or(f64::NAN, |first| dispersion(first));
     let measure = |(i, candidate): (usize, &CandidateMeasure)| {
         let root = if candidate.squared { "root of " } else { "" };

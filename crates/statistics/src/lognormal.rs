@@ -1,7 +1,7 @@
 //! The lognormal distribution, with or without a shift, and its fits.
 
 mod band;
-mod censored;
+pub(crate) mod censored;
 mod counts;
 mod fit;
 mod profile;

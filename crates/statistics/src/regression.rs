@@ -1,13 +1,16 @@
-//! A straight line through pairs: by least squares, or with a random
-//! intercept for each cluster of pairs.
+//! A straight line through pairs: by least squares, with a random intercept
+//! for each cluster of pairs, or of values censored at a limit.
 
 mod mixed;
+mod tobit;
 
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use thiserror::Error;
 
 pub use mixed::mixed;
+pub use tobit::{CensoredLine, tobit};
 
+use super::lognormal::FitError;
 use super::sample::mean;
 
 /// Why pairs make no line.
@@ -37,6 +40,15 @@ pub enum RegressionError {
     /// x takes one value only.
     #[error("the values of x are all the same: expected distinct values")]
     Constant,
+    /// The pairs have no scatter.
+    #[error(
+        "the pairs that are not censored lie on one line: expected scatter \
+         about it"
+    )]
+    NoScatter,
+    /// The maximum of a likelihood was not found.
+    #[error(transparent)]
+    Likelihood(#[from] FitError),
 }
 
 /// A line y = intercept + slope x.

@@ -60,6 +60,19 @@ impl IntervalBasis {
         let how = Resampling::Bootstrap;
         self.drawn.estimate(value, drawn, how, range, self.level)
     }
+
+    /// A number with its interval, or without one where there is none.
+    pub(crate) fn value(
+        &self,
+        value: f64,
+        drawn: &[f64],
+        range: Range,
+    ) -> BootstrapEstimate {
+        self.estimate(value, drawn, range).unwrap_or_else(|| {
+            let (level, drawn) = (self.level, drawn.len());
+            BootstrapEstimate::without_interval(value, level, drawn)
+        })
+    }
 }
 
 impl fmt::Display for IntervalBasis {

@@ -9,7 +9,7 @@ const STEPS: usize = 100;
 
 /// What is known of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Observation {
+pub(crate) enum Observation {
     /// The value.
     Exact(f64),
     /// It lies between the first two, one of which may be infinite; the third
@@ -21,14 +21,14 @@ use Observation::{Exact, Interval};
 
 /// The log-likelihood at (a, b) = (1/sigma, mu/sigma), its gradient and its
 /// second derivatives (aa, ab, bb).
-struct Point {
-    value: f64,
-    gradient: [f64; 2],
-    curvature: [f64; 3],
+pub(crate) struct Point {
+    pub(crate) value: f64,
+    pub(crate) gradient: [f64; 2],
+    pub(crate) curvature: [f64; 3],
 }
 
 impl Point {
-    fn new(observations: &[Observation], a: f64, b: f64) -> Self {
+    pub(crate) fn new(observations: &[Observation], a: f64, b: f64) -> Self {
         let mut point =
             Self { value: 0.0, gradient: [0.0; 2], curvature: [0.0; 3] };
         for observation in observations {
@@ -121,40 +121,61 @@ pub(super) fn maximise_together(
         let pairs = standard.iter().zip(b);
         pairs.map(|(own, b)| Point::new(own, a, *b)).collect::<Vec<_>>()
     };
-    let value = |all: &[Point]| all.iter().fold(0.0, |sum, p| sum + p.value);
-    let (mut a, mut b) = (1.0, vec![0.0; groups.len()]);
-    let mut here = points(a, &b);
-    let mut last = f64::INFINITY;
+    let value =
+        |all: &Vec<Point>| all.iter().fold(0.0, |sum, p| sum + p.value);
+    let mut start = vec![0.0; groups.len() + 1];
+    start[0] = 1.0;
+    let steps = |here: &Vec<Point>| {
+        let all: Vec<_> = (0..groups.len()).map(|j| step(here, j)).collect();
+        let first = all.first().map_or(0.0, |step| step.0);
+        std::iter::once(first).chain(all.iter().map(|step| step.1)).collect()
+    };
+    let at = |place: &[f64]| points(place[0], &place[1..]);
+    let (place, here) = climb(start, at, value, steps)?;
+    let (a, b) = (place[0], &place[1..]);
+    let found = |(j, (own, centre)): (usize, &(&[Observation], f64))| {
+        let exact = own.iter().filter(|o| matches!(o, Exact(_)));
+        let scale = exact.count() as f64 * log(spread);
+        (centre + spread * b[j] / a, here[j].value - scale)
+    };
+    Ok((groups.iter().enumerate().map(found).collect(), spread / a))
+}
+
+/// The place, from `start` on, of the one maximum of a concave log-likelihood,
+/// and what `at` finds there: by Newton's method with a halved step. The first
+/// number of a place is 1/sigma, which stays positive.
+pub(crate) fn climb<T>(
+    start: Vec<f64>,
+    at: impl Fn(&[f64]) -> T,
+    value: impl Fn(&T) -> f64,
+    steps: impl Fn(&T) -> Vec<f64>,
+) -> Result<(Vec<f64>, T), FitError> {
+    let mut here = at(&start);
+    let (mut place, mut last) = (start, f64::INFINITY);
     for _ in 0..STEPS {
-        let steps: Vec<_> = (0..b.len()).map(|j| step(&here, j)).collect();
-        let step_a = steps.first().map_or(f64::NAN, |step| step.0);
-        let size = steps.iter().zip(&b).fold(0.0, |size: f64, (step, b)| {
-            size.max(step_a.abs().max(step.1.abs()) / (a + b.abs()))
+        let step = steps(&here);
+        if step.iter().any(|by| by.is_nan()) {
+            break;
+        }
+        let rest = step.iter().zip(&place).skip(1);
+        let size = rest.fold(0.0, |size: f64, (step_b, b)| {
+            size.max(step[0].abs().max(step_b.abs()) / (place[0] + b.abs()))
         });
         // Newton's steps shrink until the rounding of narrow intervals.
         if size < 1e-13 || (size < 1e-7 && size >= last) {
-            let found =
-                |(j, (own, centre)): (usize, &(&[Observation], f64))| {
-                    let exact = own.iter().filter(|o| matches!(o, Exact(_)));
-                    let scale = exact.count() as f64 * log(spread);
-                    (centre + spread * b[j] / a, here[j].value - scale)
-                };
-            let all = groups.iter().enumerate().map(found).collect();
-            return Ok((all, spread / a));
+            return Ok((place, here));
         }
         last = size;
         let mut share = 1.0;
         loop {
-            let next_a = a - share * step_a;
-            let moved = b.iter().zip(&steps);
-            let next_b: Vec<f64> =
-                moved.map(|(b, step)| b - share * step.1).collect();
-            if next_a > 0.0 {
-                let next = points(next_a, &next_b);
-                let (old, new) = (value(&here), value(&next));
+            let moved = place.iter().zip(&step);
+            let next: Vec<f64> = moved.map(|(x, by)| x - share * by).collect();
+            if next[0] > 0.0 {
+                let found = at(&next);
+                let (old, new) = (value(&here), value(&found));
                 // At the maximum the value no longer tells steps apart.
                 if new >= old - 1e-13 * old.abs() {
-                    (a, b, here) = (next_a, next_b, next);
+                    (place, here) = (next, found);
                     break;
                 }
             }

@@ -17,6 +17,7 @@ none of these             `embedded_suite`, `recorded_suite`
 a block and a motion      `respond`: what the block does
 many of both              `peak`, `rocking_spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
+unscaled records          `cloud`: fragilities without an IDA
 capacities                `fit_fragility`, `test_normality`, `summarise`,
                           `compare`, `contrast`
 counts of stripes         `fit_stripes`
@@ -56,7 +57,7 @@ from ._fragility import (
     risk,
     surface_fragility,
 )
-from ._ida import Ida, ImCurves, ida, rank_ims, read_ida
+from ._ida import Ida, ImCurves, cloud, ida, rank_ims, read_ida
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
@@ -99,6 +100,8 @@ from ._shaking import (
     read_tests,
 )
 from ._statistics import (
+    CloudFragility,
+    CloudLevel,
     CountsFragility,
     Fragility,
     FragilityFit,
@@ -118,6 +121,8 @@ __all__ = [
     "Block",
     "BlockFragility",
     "Boxplot",
+    "CloudFragility",
+    "CloudLevel",
     "Comparison",
     "Contrast",
     "CountsFragility",
@@ -153,6 +158,7 @@ __all__ = [
     "VelocityPulse",
     "__version__",
     "assess",
+    "cloud",
     "compare",
     "compare_with_tests",
     "contrast",

@@ -24,7 +24,14 @@ from ._inputs import (
 )
 from ._outputs import replace
 from ._results import Bounds, IntervalBasis, Result
-from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit, seed
+from ._statistics import (
+    CloudLevel,
+    CountsFragility,
+    Fragility,
+    FragilityFit,
+    _Fit,
+    seed,
+)
 
 
 @dataclass(frozen=True)
@@ -93,7 +100,7 @@ class SurfaceFragility(Result):
     """By the name of the suite."""
 
 
-Fit = FragilityFit | CountsFragility | SuiteFragility
+Fit = FragilityFit | CountsFragility | SuiteFragility | CloudLevel
 
 
 def surface_fragility(block: Block) -> SurfaceFragility:
@@ -116,6 +123,8 @@ def _source(fit: Fit) -> str | int:
     """The origin of a fit in words, or the size of its sample."""
     if isinstance(fit, SuiteFragility):
         return fit.origin
+    if isinstance(fit, CloudLevel):
+        return "a cloud of unscaled records"
     if isinstance(fit, CountsFragility):
         if fit.degrees_of_freedom is None:
             return "outcomes of each record"

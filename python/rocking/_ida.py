@@ -1,4 +1,4 @@
-"""Incremental dynamic analysis of a suite."""
+"""Incremental dynamic analysis of a suite, and cloud analysis."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._analyses import Progress, physics
+from ._analyses import Progress, peak, physics
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
@@ -41,6 +41,7 @@ from ._results import (
     axes,
 )
 from ._statistics import (
+    CloudFragility,
     CountsFragility,
     Dispersion,
     LevelFit,
@@ -670,3 +671,82 @@ def rank_ims(
         seed(rng),
     )
     return Ranking._of(found)
+
+
+def cloud(
+    block: Block,
+    suite: Sequence[Record],
+    edp: ArrayLike,
+    *,
+    im: str = "pga",
+    shift: float = 0.0,
+    eta: Eta = 0.92,
+    model: Model = "nonlinear",
+    gravity: float = STANDARD_GRAVITY,
+    n_resamples: int = 1000,
+    rng: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> CloudFragility:
+    """Cloud analysis: fragilities from the responses to unscaled records.
+
+    ln EDP = a + b ln(IM - shift) + sigma eps over the records as they are,
+    EDP the peak |theta|/alpha. Where the block overturns, EDP is known only to
+    be at least 1 (Tobit regression). Records that do not rock the block, or
+    whose intensity is not above the shift, are left out and counted. The
+    fragility of a level is lognormal above the shift, with median
+    shift + exp((ln edp - a)/b) and dispersion sigma/b.
+
+    Parameters
+    ----------
+    block : Block
+    suite : sequence of Record
+    edp : array_like
+        Levels of EDP up to 1; 1 and infinity are overturning, |theta| = alpha.
+    im : str
+        Intensity measure by its name as in `Ida.against`; "pga" is
+        PGA/(g tan alpha).
+    shift : float
+        Intensity up to which nothing rocks, such as 1 of "pga".
+    eta, model, threads, progress
+        As in `peak`.
+    gravity : float
+        In m/s2, for intensity measures.
+    n_resamples, rng : int
+        Bootstrap samples of records, of earthquakes where they are known,
+        and their repetition.
+
+    >>> from rocking import embedded_suite
+    >>> suite = embedded_suite("ordinary")
+    >>> block = Block(alpha=0.2, p=3.0)
+    >>> found = cloud(block, suite, [0.5, 1.0], shift=1.0, n_resamples=99)
+    >>> found.n, found.not_rocking, found.overturned
+    (86, 15, 27)
+    >>> [round(level.fitted.median, 2) for level in found.levels]
+    [1.96, 2.23]
+    """
+    records = list(suite)
+    peaks = peak(
+        block,
+        records,
+        levels=1.0,
+        by="scale",
+        eta=eta,
+        model=model,
+        threads=threads,
+        progress=progress,
+    )
+    found = _rocking.cloud(
+        pair_of(block),
+        _members(records) or [],
+        peaks.tolist(),
+        _events(records),
+        model,
+        number(gravity, "gravity"),
+        im,
+        floats(edp, "EDP levels").tolist(),
+        number(shift, "shift"),
+        n_resamples,
+        seed(rng),
+    )
+    return CloudFragility._of(found)

@@ -194,6 +194,19 @@ def ida(
 ) -> IdaTable: ...
 def read_ida(path: str | os.PathLike[str]) -> IdaTable: ...
 def ida_of_csv(text: str, run: WholeRun | None) -> IdaTable: ...
+def cloud(
+    block: _Block,
+    suite: Sequence[Member],
+    peaks: Sequence[float],
+    events: Sequence[str],
+    model: str,
+    gravity: float,
+    im: str,
+    edp: Sequence[float],
+    shift: float,
+    replicates: int,
+    seed: int,
+) -> str: ...
 def intensity_measures(
     record: Given,
     second: tuple[Given, float] | None,

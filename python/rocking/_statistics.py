@@ -16,7 +16,9 @@ from ._results import (
     Bounds,
     Comparison,
     Contrast,
+    Estimate,
     FitIntervals,
+    IntervalBasis,
     Needed,
     Normality,
     Result,
@@ -306,6 +308,38 @@ class CountsFragility(_Fit):
     log_likelihood: float | None
     chi_squared: float | None
     degrees_of_freedom: int | None
+
+
+@dataclass(frozen=True)
+class CloudLevel(_Fit):
+    """The fragility of one level of response; `edp` None is overturning."""
+
+    edp: float | None
+    fitted: Fragility
+    median: Estimate
+    dispersion: Estimate
+
+
+@dataclass(frozen=True)
+class CloudFragility(IntervalBasis):
+    """A line of ln EDP on ln(IM - shift), and the fragilities that follow."""
+
+    n: int
+    not_rocking: int
+    """Records left out because the block did not uplift."""
+    below_shift: int
+    """Other records left out because their IM is not above the shift."""
+    overturned: int
+    shift: float
+    intercept: Estimate
+    """ln EDP where IM - shift is 1."""
+    slope: Estimate
+    deviation: Estimate
+    """Standard deviation of ln EDP about the line."""
+    log_likelihood: float
+    """Of ln EDP."""
+    levels: tuple[CloudLevel, ...]
+    """For `BlockFragility`, `export` and `risk`."""
 
 
 def options(

@@ -24,11 +24,10 @@ use rocking_procedures::{
     Draws, FitOptions, ProcedureError, capacities, fit_levels, fit_outcomes,
     pivot_forces, rank, stripes, summarise_ida,
 };
-use rocking_records::intensity::{
-    AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
-};
+use rocking_records::intensity::{AtUplift, Intensity, IntensityMeasure};
 
 use crate::given::{ExcitationInput, Physics, block_of, suite_of};
+use crate::measures::{MeasuredSuite, Member};
 use crate::procedures::{Fit, answer};
 use crate::work::{self, refuse};
 
@@ -158,52 +157,6 @@ pub fn ida_of_csv(
     Ok(PyIdaTable { table: table.map_err(refuse)?, run: run.transpose()? })
 }
 
-/// A record of a suite, and what else is known of it.
-type Member<'py> = (ExcitationInput<'py>, BTreeMap<String, String>);
-
-/// The records of a table, unscaled and measured.
-struct MeasuredSuite {
-    uplift: AtUplift,
-    periods_s: Vec<f64>,
-    members: Vec<(String, Measures, BTreeMap<String, String>)>,
-}
-
-impl MeasuredSuite {
-    fn at_uplift(&self, measure: &IntensityMeasure) -> PyResult<Vec<f64>> {
-        let of = |(name, measures, known): &(String, _, _)| {
-            let attribute = match measure {
-                IntensityMeasure::Column(column) => cell(name, known, column)?,
-                _ => f64::NAN,
-            };
-            let periods_s = &self.periods_s;
-            Ok(self.uplift.value(measure, measures, periods_s, attribute))
-        };
-        self.members.iter().map(of).collect()
-    }
-
-    fn column(&self, column: &str) -> PyResult<Vec<f64>> {
-        let members = self.members.iter();
-        members.map(|(name, _, known)| cell(name, known, column)).collect()
-    }
-}
-
-/// The positive number that an attribute of a record is.
-fn cell(
-    record: &str,
-    known: &BTreeMap<String, String>,
-    column: &str,
-) -> PyResult<f64> {
-    let found = known.get(column);
-    let value = found.and_then(|text| text.trim().parse::<f64>().ok());
-    value.filter(|x| *x > 0.0 && x.is_finite()).ok_or_else(|| {
-        refuse(format!(
-            "record {record}, attribute {column}: found {}: expected a \
-             positive number",
-            found.map_or("none".to_owned(), |text| format!("`{text}`"))
-        ))
-    })
-}
-
 impl PyIdaTable {
     /// What was run.
     fn run(&self) -> PyResult<&(Analysis, String)> {
@@ -250,23 +203,12 @@ impl PyIdaTable {
         let block = Block::try_new(alpha_rad, setting.p_rad_s);
         let pga_g = uplift_threshold(&block.map_err(refuse)?, setting.model);
         let (p_rad_s, gravity_m_s2) = (setting.p_rad_s, setting.gravity_m_s2);
-        let settings = Settings::of(gravity_m_s2, ims).map_err(refuse)?;
+        let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
         let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
         let records = suite_of(given)?;
         self.of_suite(records.iter())?;
-        let members: Vec<_> = records.into_iter().zip(known).collect();
-        let measured = || {
-            let one = |(record, known): (Accelerogram, _)| {
-                let measures = Measures::of(&record, &settings)?;
-                Ok((record.name().to_owned(), measures, known))
-            };
-            let all = members.into_par_iter().panic_fuse().map(one);
-            all.collect::<Result<Vec<_>, IntensityError>>()
-        };
-        let members = work::on_all(py, measured)?.map_err(refuse)?;
-        let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
-        let periods_s = settings.periods_s().to_vec();
-        Ok(MeasuredSuite { uplift, periods_s, members })
+        let members = records.into_iter().zip(known).collect();
+        MeasuredSuite::of(py, uplift, members, ims)
     }
 }
 
@@ -376,7 +318,8 @@ impl PyIdaTable {
             return Err(refuse(format!("{words}: expected the suite")));
         };
         let ims = std::slice::from_ref(&measure);
-        let factors = self.ground(py, suite, ims)?.at_uplift(&measure)?;
+        let ground = self.ground(py, suite, ims)?;
+        let factors = ground.values(&measure, AtUplift::value)?;
         let curves = self.table.curves(Intensity::Pga).map_err(of_record)?;
         let curves = curves.against(&factors, measure.is_squared());
         Ok(IdaCurves(curves.map_err(refuse)?))
@@ -410,7 +353,7 @@ impl PyIdaTable {
         let candidate = |measure: &IntensityMeasure| {
             Ok(CandidateMeasure {
                 im: measure.words(),
-                at_uplift: ground.at_uplift(measure)?,
+                at_uplift: ground.values(measure, AtUplift::value)?,
                 squared: measure.is_squared(),
             })
         };

@@ -174,6 +174,20 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 "gravity": 9.81,
             },
         ),
+        "cloud": (
+            rk.cloud,
+            {"block": BLOCK, "suite": SUITE, "edp": [0.5], "im": "pgv", **few},
+            {
+                "edp": [0.4],
+                "im": "sa:1",
+                "shift": 0.1,
+                "eta": 0.8,
+                "model": "linearized",
+                "gravity": 9.81,
+                "n_resamples": 21,
+                "rng": 1,
+            },
+        ),
         "rank_ims": (
             rk.rank_ims,
             {"ida": IDA, "suite": SUITE, "ims": ["pga", "pgv"], "edp": 0.5, **few},

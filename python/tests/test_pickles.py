@@ -44,6 +44,7 @@ def made() -> list[object]:
     pairs = [rk.Sample(VALUES, records=names)] * 2
     pair = rk.embedded_suite("pulse", component="both")[:2]
     box = rk.summarise(VALUES)
+    cloud = rk.cloud(rk.Block(alpha=0.2, p=2.0), SUITE, [0.5], n_resamples=9)
     return [
         PULSE,
         BLOCK,
@@ -72,6 +73,8 @@ def made() -> list[object]:
         *ida.stripes([1.2], edp=0.5),
         *ida.crossings(ida.records[0], [0.5]),
         rk.rank_ims(ida, SUITE, ims=["pga", "pgv"], n_resamples=9),
+        cloud,
+        *cloud.levels,
         rk.intensity_measures(SUITE[0]),
         rk.velocity_pulse(*pair),
         rk.test_normality(VALUES, shift=0.0),

@@ -317,6 +317,40 @@ impl AtUplift {
             _ => factor * value(),
         }
     }
+
+    /// The measure of a record as it is, with the units of [`Self::value`].
+    ///
+    /// ```
+    /// use rocking_records::intensity::{
+    ///     AtUplift, IntensityMeasure, Measures, Settings,
+    /// };
+    /// use rocking::accelerogram::Accelerogram;
+    /// let record = Accelerogram::try_new("step", 0.5, vec![0.1; 5])?;
+    /// let measures = Measures::of(&record, &Settings::default())?;
+    /// let uplift =
+    ///     AtUplift { pga_g: 0.2, p_rad_s: 3.0, gravity_m_s2: 9.81 };
+    /// let pga = "pga".parse()?;
+    /// // PGA/(g tan alpha)
+    /// assert_eq!(uplift.unscaled(&pga, &measures, &[], f64::NAN), 0.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn unscaled(
+        &self,
+        measure: &IntensityMeasure,
+        of: &Measures,
+        periods_s: &[f64],
+        attribute: f64,
+    ) -> f64 {
+        let velocity = self.p_rad_s / (self.gravity_m_s2 * self.pga_g);
+        match measure {
+            IntensityMeasure::Column(_) => attribute,
+            IntensityMeasure::Axis(intensity) => {
+                intensity.of(of.pga_g / self.pga_g, velocity * of.pgv_m_s)
+            }
+            _ => measure.value(of, periods_s).unwrap_or(f64::NAN),
+        }
+    }
 }
 
 impl Settings {

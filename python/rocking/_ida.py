@@ -685,8 +685,6 @@ def cloud(
     gravity: float = STANDARD_GRAVITY,
     n_resamples: int = 1000,
     rng: int = 0,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> CloudFragility:
     """Cloud analysis: fragilities from the responses to unscaled records.
 
@@ -708,7 +706,7 @@ def cloud(
         PGA/(g tan alpha).
     shift : float
         Intensity up to which nothing rocks, such as 1 of "pga".
-    eta, model, threads, progress
+    eta, model
         As in `peak`.
     gravity : float
         In m/s2, for intensity measures.
@@ -726,16 +724,8 @@ def cloud(
     [1.96, 2.23]
     """
     records = list(suite)
-    peaks = peak(
-        block,
-        records,
-        levels=1.0,
-        by="scale",
-        eta=eta,
-        model=model,
-        threads=threads,
-        progress=progress,
-    )
+    as_they_are: Any = {"levels": 1.0, "by": "scale"}
+    peaks = peak(block, records, **as_they_are, eta=eta, model=model)
     found = _rocking.cloud(
         pair_of(block),
         _members(records) or [],

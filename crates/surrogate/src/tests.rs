@@ -56,11 +56,14 @@ fn a_surface_of_its_own_form_is_found_again() {
 #[test]
 fn the_coefficients_that_ship_are_the_fit_to_the_blocks_that_are_kept() {
     let blocks = read_table("design.csv", DESIGN).unwrap();
-    assert_eq!(blocks.len(), 2000);
-    for (k, block) in blocks.iter().enumerate() {
-        let (alpha, p) = point(k as u64 % 1000 + 1);
-        assert!((block.alpha_rad - alpha).abs() < 1e-6);
-        assert!((block.p_rad_s - p).abs() < 1e-5);
+    // Without those that a record never overturns.
+    assert!((1980..=2000).contains(&blocks.len()), "{}", blocks.len());
+    for block in &blocks {
+        let is_own = |(alpha, p): (f64, f64)| {
+            (block.alpha_rad - alpha).abs() < 1e-6
+                && (block.p_rad_s - p).abs() < 1e-5
+        };
+        assert!((1..=1000).map(point).any(is_own), "{block:?}");
     }
     let (models, _) = fit(&blocks).unwrap();
     assert_eq!(Surrogate::coefficients(&models), COEFFICIENTS);

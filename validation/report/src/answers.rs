@@ -405,11 +405,11 @@ pub(super) fn done(basis: &FindingSets<'_>) -> String {
 
 /// How the answers of the embedded motions differ from those of each kind of
 /// recorded ones, and on which claims, or that recorded results were left out;
-/// to be less certain is not to answer otherwise.
+/// to be less certain is not to answer differently.
 ///
 /// # Errors
 /// As [`answers`].
-pub(super) fn otherwise(
+pub(super) fn differing(
     basis: &FindingSets<'_>,
 ) -> anyhow::Result<Option<String>> {
     if !basis.has_recorded() {
@@ -430,17 +430,17 @@ pub(super) fn otherwise(
             }
         }
         words.push(match other.as_str() {
-            "" => format!("Embedded synthetic motions answer as {name} ones."),
+            "" => {
+                format!("Embedded motions give the answers of “{name}”.")
+            }
             _ => format!(
-                "Embedded synthetic motions answer otherwise than {name} \
-                 ones (in brackets):{other}"
+                "Embedded motions answer differently from “{name}” (in \
+                 brackets):{other}"
             ),
         });
-        words.push(match turned.join(", ").as_str() {
-            "" => format!("None of {all} results is otherwise."),
-            names => {
-                format!("Of {all} results {count} are otherwise: {names}.")
-            }
+        words.push(match turned.join("; ").as_str() {
+            "" => format!("None of {all} results differs."),
+            names => format!("Of {all} results {count} differ: {names}."),
         });
     }
     Ok(Some(words.join(" ")))

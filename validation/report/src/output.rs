@@ -271,7 +271,7 @@ pub fn first_table(
 ) -> anyhow::Result<(Vec<AnswerRow>, Option<String>)> {
     let basis = FindingSets::of(embedded, findings)?;
     let rows = answers::rows(&basis, &Timings::kept()?, proof, &[])?;
-    Ok((rows, answers::otherwise(&basis)?))
+    Ok((rows, answers::differing(&basis)?))
 }
 
 /// The answers of the page as text for a terminal.

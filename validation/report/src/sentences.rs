@@ -153,11 +153,11 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     });
     match others.collect::<Vec<_>>().join(", ").as_str() {
         "" => words,
-        others => format!("{words} Results otherwise: {others}."),
+        others => format!("{words} Results that differ: {others}."),
     }
 }
 
-/// The claims that are seen otherwise in other findings, once for each suite,
+/// The claims that are seen differently in other findings, once for each suite,
 /// and how many results both have.
 pub(super) fn turned<'a>(
     a: &'a Findings,
@@ -172,7 +172,7 @@ pub(super) fn turned<'a>(
             let Some(x) = x else { continue };
             all += 1;
             if x.sample.seen != y.sample.seen {
-                turned.push(own.id.as_str());
+                turned.push(own.plain.as_str());
             }
         }
     }

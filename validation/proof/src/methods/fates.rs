@@ -1,5 +1,7 @@
 //! Whole scenes written in the case, and the fates of records over levels.
 
+use std::f64::consts::FRAC_PI_2;
+
 use anyhow::{Context as _, Result, bail};
 use serde::Deserialize;
 
@@ -175,6 +177,11 @@ pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
         let record = &pair.components[0];
         for &im in &intensities {
             let alpha = slenderness_rad;
+            let adjusted = record.pga_g() / im;
+            // No block has a slenderness of pi/2 or more.
+            if !(adjusted < FRAC_PI_2) {
+                continue;
+            }
             let factor = im * alpha / record.pga_g();
             let scene = |slenderness_rad: f64, factor: f64| {
                 let block = [slenderness_rad, frequency_rad_s, 1.0];
@@ -182,8 +189,6 @@ pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
                 let scene = CaseScene::new(block, 0.92, forcing);
                 scene.in_equation(Model::Linearized)
             };
-            // A slenderness above pi/2 is none.
-            let adjusted = record.pga_g() / im;
             let scaled = Core.respond(&scene(alpha, factor))?;
             let twin = context.engine.respond(&scene(adjusted, 1.0))?;
             let (a, b) = (twin.peak_ratio, scaled.peak_ratio);

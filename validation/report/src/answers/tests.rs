@@ -237,40 +237,40 @@ fn results_of_other_settings_are_left_out_and_named() {
     assert!(done(&basis).contains("under recorded motions, 86 "));
     // Suites of files have no kept results beside them.
     let own = FindingSets::of(false, &here).unwrap();
-    assert!(!own.has_recorded() && otherwise(&own).unwrap().is_none());
+    assert!(!own.has_recorded() && differing(&own).unwrap().is_none());
     here.settings.eta = 0.90;
     here.settings.arms = vec![Arm::A];
     let basis = FindingSets::of(true, &here).unwrap();
     assert!(!basis.has_recorded());
-    let words = otherwise(&basis).unwrap().unwrap();
+    let words = differing(&basis).unwrap().unwrap();
     assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
     assert!(done(&basis).contains("under synthetic motions, 86 "));
     assert!(!done(&basis).contains("recorded"));
 }
 
 /// Each kind of recorded motions has its sentence, with the claims that are
-/// seen otherwise.
+/// seen differently.
 #[test]
 fn claims_that_embedded_motions_turn_are_named() {
     let mut here = recorded();
     let said = |here: &Findings| {
         let basis = FindingSets::of(true, here).unwrap();
-        otherwise(&basis).unwrap().unwrap()
+        differing(&basis).unwrap().unwrap()
     };
-    let same = "Embedded synthetic motions answer as recorded, kept ones. None of 82 \
-                results is otherwise.";
+    let same = "Embedded motions give the answers of “recorded, kept”. None of \
+                82 results differs.";
     let found = said(&here);
     assert!(found.starts_with(same), "{found}");
-    assert!(found.contains("recorded, repeatable ones"), "{found}");
+    assert!(found.contains("“recorded, repeatable”"), "{found}");
     for id in ["criterion", "quantiles-coincide"] {
         let own = here.claims.iter_mut().find(|own| own.id == id).unwrap();
         own.results.iter_mut().for_each(|result| result.seen = Seen::No);
     }
     let found = said(&here);
-    let turned = "Of 82 results 3 are otherwise: criterion, \
-                  quantiles-coincide.";
+    let turned = "Of 82 results 3 differ: both overturning criteria agree; \
+                  the quantiles coincide.";
     assert!(found.contains(turned), "{found}");
-    let other = "answer otherwise than recorded, kept ones (in brackets): Does \
+    let other = "answer differently from “recorded, kept” (in brackets): Does \
                  shape matter once size is known? Yes (Hardly, if every";
     assert!(found.contains(other), "{found}");
 }

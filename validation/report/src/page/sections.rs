@@ -86,7 +86,7 @@ fn answers(page: &Page<'_>) -> anyhow::Result<Markup> {
     };
     Ok(html! {
         (scrolled("Questions and answers", table))
-        @if let Some(words) = answers::otherwise(basis)? { p { (words) } }
+        @if let Some(words) = answers::differing(basis)? { p { (words) } }
         (drawings(&page.placed(Place::Answers)))
     })
 }

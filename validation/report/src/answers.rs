@@ -328,8 +328,8 @@ pub(super) const LEFT_OUT: &str =
 pub(super) fn not_run(basis: &FindingSets<'_>) -> String {
     let records = match (basis.embedded, basis.has_recorded()) {
         (true, true) => {
-            "recorded motions anew (their results are kept; `python -m \
-             rocking.recorded` gets the repeatable ones), "
+            "recorded motions anew (their results are kept; python -m \
+             rocking.recorded gets those of FEMA P-695), "
         }
         (true, false) => "recorded motions, ",
         (false, _) => "",

@@ -359,10 +359,14 @@ fn printed_intervals_are_possible_and_settled() {
             let scatter = (half - unit) / 4000_f64.sqrt();
             let coarse = |x: f64| (x / unit / 10.0).round() * unit * 10.0;
             let none = [0.0, 1.0, 16.0, 50.0, 90.0];
-            let turns = [low, high].iter().any(|end| {
+            // The end that was rounded to what is printed.
+            let ends = [low, high].into_iter().flat_map(|end| {
+                [-0.49, 0.0, 0.49].map(|part| end + part * unit)
+            });
+            let turns = ends.into_iter().any(|end| {
                 none.iter().any(|none| {
-                    (coarse(*end) > *none) != (*end > *none)
-                        || (coarse(*end) < *none) != (*end < *none)
+                    (coarse(end) > *none) != (end > *none)
+                        || (coarse(end) < *none) != (end < *none)
                 })
             });
             assert!(

@@ -36,8 +36,6 @@ struct MotionMoments {
     d5_75: f64,
     mean_period: f64,
     spectrum: Vec<f64>,
-    /// PGV over the root of the mean square of velocity in D5-95.
-    peak_factor: f64,
     /// (t_PGV - t_PGA)/D5-75.
     delay: f64,
 }
@@ -85,16 +83,6 @@ fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
     for i in 1..a.len() {
         velocity[i] = velocity[i - 1] + 0.5 * dt_s * (a[i - 1] + a[i]);
     }
-    let all = a.iter().fold(0.0, |sum, a| sum + a * a);
-    let mut upto = 0.0;
-    let (mut squares, mut count) = (0.0, 0.0);
-    for (a, v) in a.iter().zip(&velocity) {
-        upto += a * a / all;
-        if (0.05..=0.95).contains(&upto) {
-            squares += v * v;
-            count += 1.0;
-        }
-    }
     let place = |values: &[f64]| {
         let largest = |(i, _): &(usize, &f64)| values[*i].abs();
         let found = values
@@ -103,14 +91,12 @@ fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
             .max_by(|x, y| largest(x).total_cmp(&largest(y)));
         found.map_or(0.0, |(i, _)| i as f64 * dt_s)
     };
-    let rms_m_s = GRAVITY_M_S2 * f64::sqrt(squares / count);
     Ok(MotionMoments {
         pga: libm::log(m.pga_g),
         pgv: libm::log(m.pgv_m_s),
         pgd: libm::log(m.pgd_m),
         d5_75: libm::log(m.significant_duration_5_75_s),
         mean_period: libm::log(m.mean_period_s.ok_or("no mean period")?),
-        peak_factor: m.pgv_m_s / rms_m_s,
         delay: (place(&velocity) - place(a)) / m.significant_duration_5_75_s,
         spectrum: m
             .spectral_acceleration_g
@@ -175,16 +161,11 @@ fn print<'a>(
     for (k, six) in PERIODS_S.windows(6).enumerate().skip(2).take(6) {
         row(&format!("{}..{} s", six[0], six[5]), &average(k, 6));
     }
-    for (label, values) in [
-        ("peak factor of velocity", all(&|m| m.peak_factor)),
-        ("(t_PGV - t_PGA)/D5-75", all(&|m| m.delay)),
-    ] {
-        let [mean, sd] = moments(&values);
-        println!(
-            "{label}: median {:.3}, mean {mean:.3}, sd {sd:.3}",
-            median(&values)
-        );
-    }
+    let delay = all(&|m| m.delay);
+    let ([mean, sd], middle) = (moments(&delay), median(&delay));
+    println!(
+        "(t_PGV - t_PGA)/D5-75: median {middle:.3}, mean {mean:.3}, sd {sd:.3}"
+    );
     println!();
     Ok(())
 }

@@ -35,8 +35,8 @@ MECHANISMS = {"Strike-slip": "strike slip", "Thrust": "reverse"}
 
 
 def event(name: str, year: int) -> str:
-    """The place and year of an earthquake, of which one set gives the country
-    or a number (`Imperial Valley-06`), and another does not."""
+    """The place and year of an earthquake: one set adds the country or a number
+    (`Imperial Valley-06`), another does not."""
     return f"{re.split(r',|-[0-9]+$', name)[0].strip()} {year}"
 
 

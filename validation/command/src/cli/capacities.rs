@@ -147,7 +147,7 @@ impl FromStr for EdpLevels {
     }
 }
 
-/// EDP levels, of which `inf` is overturning.
+/// EDP levels; `inf` is overturning.
 pub(super) fn edp_levels(text: &str) -> Result<EdpLevels, String> {
     let part = |field: &str| match field.trim() {
         "inf" => Ok(vec![f64::INFINITY]),

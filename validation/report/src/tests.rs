@@ -465,7 +465,7 @@ fn a_run_of_other_settings_shows_no_kept_number_and_leads_with_its_own() {
     let own = String::from_utf8_lossy(&files[FINDINGS]);
     let own = numbers(&Findings::parse(&own).expect("findings"));
     assert!(shown_of(&own, &shown) > 20);
-    // One of few digits may be that of another claim here.
+    // A kept number of few digits may equal one of this run.
     let kept = numbers(&basis::recorded());
     let kept: Vec<&String> = kept.difference(&own).collect();
     let on_page = kept.iter().filter(|number| shown.contains(**number));

@@ -37,7 +37,5 @@ mod stop;
 mod study;
 #[path = "support.rs"]
 mod support;
-#[path = "surrogate.rs"]
-mod surrogate;
 #[path = "trials.rs"]
 mod trials;

@@ -27,7 +27,7 @@ an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
                           `pivot_forces`; `rank_ims`
 a table of `rocking ida`  `read_ida`
 a result                  its `to_json`, `to_pandas`, `plot`
-a block, and no analysis  `surface_fragility`
+a block, and no analysis  `law_fragility`
 fragilities of blocks     `export`
 a hazard curve            `read_hazard`, then `risk`
 objects to decide about   `Object`, `Floor`, then `assess`: one page
@@ -53,9 +53,9 @@ from ._fragility import (
     Risk,
     SurfaceFragility,
     export,
+    law_fragility,
     read_hazard,
     risk,
-    surface_fragility,
 )
 from ._ida import Ida, ImCurves, cloud, ida, rank_ims, read_ida
 from ._inputs import (
@@ -168,6 +168,7 @@ __all__ = [
     "fit_stripes",
     "ida",
     "intensity_measures",
+    "law_fragility",
     "peak",
     "rank_ims",
     "read_hazard",
@@ -183,7 +184,6 @@ __all__ = [
     "rocking_spectrum",
     "score",
     "summarise",
-    "surface_fragility",
     "test_normality",
     "velocity_pulse",
 ]

@@ -1,4 +1,4 @@
-"""Fragilities of blocks: of a fitted surface, for other programs, and under a
+"""Fragilities of blocks: by the law of AvgSA, for other programs, and under a
 hazard curve."""
 
 from __future__ import annotations
@@ -12,10 +12,12 @@ from typing import Literal
 import numpy as np
 
 from . import _rocking
+from ._analyses import physics
 from ._choices import ExchangeFormat
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
+    Eta,
     Floats,
     Model,
     frozen,
@@ -35,93 +37,82 @@ from ._statistics import (
 
 
 @dataclass(frozen=True)
-class SurfaceSize(Result):
-    """Root mean square and largest of some errors."""
+class ModelError(Result):
+    """Bias and dispersion of the model: each a value, and the range over
+    which the draws of an interval spread it."""
 
-    rms: float
-    largest: float
-
-
-@dataclass(frozen=True)
-class SurfaceErrors(Result):
-    """From the surface to analyses of blocks that it was not fitted to."""
-
-    blocks: int
-    median_relative: SurfaceSize
-    beta_relative: SurfaceSize
-    probability: SurfaceSize
-    share_within_interval: float
+    bias: Bounds
+    dispersion: Bounds
 
 
 @dataclass(frozen=True)
-class RecordsError(Result):
-    """Half the 95 % interval that the choice of the records leaves."""
+class LawFragility(_Fit):
+    """The fragility of one block by the law of AvgSA."""
 
-    median_relative: float
-    beta_relative: float
-    probability: float
-
-
-@dataclass(frozen=True)
-class RecordedErrors(Result):
-    """From the surface to recorded motions."""
-
-    blocks: int
-    median_relative: SurfaceSize
-    probability: SurfaceSize
-
-
-@dataclass(frozen=True)
-class SuiteFragility(_Fit):
-    """The overturning fragility of one block under one embedded suite.
-
-    None of its three errors holds another.
-    """
-
-    origin: str
-    """Where it comes from, in words."""
-    fitted: Fragility
-    """In PGA/(g tan alpha)."""
-    median_pga_g: float
-    surface_to_analyses: SurfaceErrors
-    half_95_of_records: RecordsError
-    surface_to_recorded: RecordedErrors
-
-
-@dataclass(frozen=True)
-class SurfaceFragility(Result):
-    """Overturning fragilities of one block by the fitted surface."""
-
-    im_unit: str
     alpha_rad: float
     p_rad_s: float
     eta: float
-    suites: dict[str, SuiteFragility]
-    """By the name of the suite."""
+    edp: float | None
+    """Peak |theta|/alpha; None is overturning."""
+    im: str
+    periods_s: tuple[float, ...]
+    """The periods of the measure, in equal ratios."""
+    median_ratio: float
+    """Median AvgSA over g tan alpha."""
+    record_dispersion: float
+    """By the choice of the record."""
+    law_error: float
+    """Root mean square of the logarithm of the median by analyses over the
+    median by the law."""
+    fitted: Fragility
+    """In AvgSA (g), both dispersions together."""
+    model_error: ModelError
+    total: Fragility
+    """With the error of the model."""
+    origin: str
+    """Where it comes from, in words."""
 
 
-Fit = FragilityFit | CountsFragility | SuiteFragility | CloudLevel
+Fit = FragilityFit | CountsFragility | LawFragility | CloudLevel
 
 
-def surface_fragility(block: Block) -> SurfaceFragility:
-    """Overturning fragility of a block under the embedded suites, by a fitted
-    surface and without an analysis, with its errors.
+def law_fragility(
+    block: Block,
+    *,
+    eta: Eta = 0.92,
+    edp: float = np.inf,
+    model_dispersion: ModelValue | None = None,
+    model_bias: ModelValue | Literal["fitted"] | None = None,
+) -> LawFragility:
+    """Fragility of a block in AvgSA, without an analysis, with its errors.
+
+    AvgSA is the geometric mean of SA(T, 5 %) over twelve periods from 0.15 to
+    1.0 times 2 pi/p, the measure "avgsa:rocking". One law gives the fragility
+    of every block and kind of ground motion.
 
     Parameters
     ----------
     block : Block
+    eta
+        As in `respond`.
+    edp : float
+        Peak |theta|/alpha; infinite for overturning.
+    model_dispersion, model_bias
+        As in `risk`.
 
-    >>> found = surface_fragility(Block(alpha=0.15, p=3.0))
-    >>> round(found.suites["ordinary"].median_pga_g, 3)
-    0.306
+    >>> found = law_fragility(Block(alpha=0.15, p=3.0))
+    >>> round(found.median_ratio, 2), round(found.fitted.median, 3)
+    (2.36, 0.357)
     """
-    found = _rocking.surface(pair_of(block))
-    return SurfaceFragility._of(found)
+    error = model_error(model_dispersion, model_bias)
+    known = physics(eta, "nonlinear", "alpha")["eta"]
+    found = _rocking.law(pair_of(block), known, float(edp), error)
+    return LawFragility._of(found)
 
 
 def _source(fit: Fit) -> str | int:
     """The origin of a fit in words, or the size of its sample."""
-    if isinstance(fit, SuiteFragility):
+    if isinstance(fit, LawFragility):
         return fit.origin
     if isinstance(fit, CloudLevel):
         return "a cloud of unscaled records"
@@ -340,15 +331,6 @@ def read_hazard(
     """
     text = Path(path).read_text(encoding="utf-8")
     return Hazard(os.fspath(path), text, years, site)
-
-
-@dataclass(frozen=True)
-class ModelError(Result):
-    """Bias and dispersion of the model: each a value, and the range over
-    which the draws of an interval spread it."""
-
-    bias: Bounds
-    dispersion: Bounds
 
 
 @dataclass(frozen=True)

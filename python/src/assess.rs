@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
-use rocking_assessment::{About, files, set_beside_embedded};
+use rocking_assessment::{About, files, recorded_ratios};
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::{
     AssessOptions, Draws, ModelError, Object, assess as procedure,
@@ -43,7 +43,6 @@ impl GivenObject {
             friction: self.friction,
             limit_ratio: self.limit_ratio,
             floor: floor.transpose()?,
-            surface: None,
         })
     }
 }
@@ -74,7 +73,7 @@ pub fn assess(
     threads: Option<usize>,
 ) -> PyResult<BTreeMap<String, String>> {
     let objects = objects.into_iter().map(GivenObject::object);
-    let mut objects = objects.collect::<PyResult<Vec<Object>>>()?;
+    let objects = objects.collect::<PyResult<Vec<Object>>>()?;
     let records: Vec<Accelerogram> = suite_of(records)?;
     let clusters = match events.as_slice() {
         [] => Clusters::singletons(records.len()),
@@ -82,7 +81,7 @@ pub fn assess(
     };
     let hazard = hazard.as_ref().map(read).transpose()?;
     let ratios = match embedded {
-        true => set_beside_embedded(&mut objects, hazard.as_ref()),
+        true => recorded_ratios(hazard.as_ref()),
         false => Ok(Vec::new()),
     };
     let Options { replicates, seed, .. } = options;

@@ -1,6 +1,7 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
+use rocking::Restitution;
 use rocking_exchange::{
     BlockFragility, ExchangeFormat, Id, LimitState, unit_intensity,
     unstated_origin,
@@ -11,11 +12,11 @@ use rocking_procedures::fragility::hazard::{
 use rocking_procedures::model_error::ModelErrorFault;
 use rocking_procedures::{
     BootstrapFits, DispersionRule, Draws, FitOptions,
-    FragilityInput as ProcedureInput, ModelError, Shift, risk as procedure,
+    FragilityInput as ProcedureInput, ModelError, Shift,
+    law_fragility, risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
-use rocking_surrogate::Surrogate;
 
 use crate::given::{block_of, positive_gravity};
 use crate::procedures::{Fit, SampleInput, answer, clusters_of, sample_of};
@@ -73,6 +74,7 @@ impl FragilityInput {
         let factor = self.factor(gravity)?;
         let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
+        let im = im.of_block(block.frequency_rad_s());
         let (mut limit_states, mut origins) = (Vec::new(), Vec::new());
         for (name, law, source) in self.limit_states {
             let name: Id = name.parse().map_err(refuse)?;
@@ -262,9 +264,21 @@ pub fn risk(
     answer(py, || procedure(&hazard, &all, years))
 }
 
-/// Overturning fragilities of a block by the fitted surface.
+/// The fragility of a block by the law of AvgSA; without eta Housner's.
 #[pyfunction]
-pub fn surface(py: Python<'_>, block: (f64, f64)) -> PyResult<String> {
+pub fn law(
+    py: Python<'_>,
+    block: (f64, f64),
+    eta: Option<f64>,
+    edp: f64,
+    error: ModelErrorInput,
+) -> PyResult<String> {
     let block = block_of(block)?;
-    answer(py, || Surrogate::embedded()?.fragility(&block))
+    let restitution = match eta {
+        Some(eta) => Restitution::constant(eta),
+        None => Restitution::housner(&block),
+    };
+    let eta = restitution.map_err(refuse)?.velocity_ratio();
+    let error = model_error(&error, ModelError::default())?;
+    answer(py, || law_fragility(&block, eta, edp, error))
 }

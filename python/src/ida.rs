@@ -310,6 +310,7 @@ impl PyIdaTable {
         suite: Option<Vec<Member<'_>>>,
     ) -> PyResult<IdaCurves> {
         let measure: IntensityMeasure = im.parse().map_err(refuse)?;
+        let measure = measure.of_block(self.table.setting.p_rad_s);
         if let Some(own) = measure.dimensionless() {
             return Ok(IdaCurves(self.table.curves(own).map_err(of_record)?));
         }
@@ -339,13 +340,16 @@ impl PyIdaTable {
         seed: u64,
     ) -> PyResult<String> {
         let rule: InversionRule = rule.parse().map_err(refuse)?;
-        let ims = match ims.as_slice() {
+        let ims: Vec<IntensityMeasure> = match ims.as_slice() {
             [] => IntensityMeasure::usual(),
             some => some
                 .iter()
                 .map(|im| im.parse().map_err(refuse))
                 .collect::<PyResult<_>>()?,
         };
+        let p_rad_s = self.table.setting.p_rad_s;
+        let own = ims.iter().map(|im| im.of_block(p_rad_s));
+        let ims: Vec<IntensityMeasure> = own.collect();
         let curves = self.table.curves(Intensity::Pga).map_err(of_record)?;
         let found = capacities::intervals(&curves.into_curves(), edp, rule);
         let found = found.map_err(refuse)?;

@@ -36,7 +36,7 @@ mod _rocking {
     #[pymodule_export]
     use crate::assess::assess;
     #[pymodule_export]
-    use crate::exchange::{exchange, hazard, risk, surface};
+    use crate::exchange::{exchange, hazard, law, risk};
     #[pymodule_export]
     use crate::files::{embedded_suite, read_record, read_suite};
     #[pymodule_export]

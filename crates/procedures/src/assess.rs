@@ -26,7 +26,7 @@ use rocking::capacity::CapacityError;
 use rocking::ida::{Analysis, IdaError, ResolutionCounts};
 use rocking_records::floor::{Floor, FloorError};
 use rocking_records::intensity::{IntensityError, IntensityMeasure};
-use rocking_statistics::{Clusters, Estimate, Lognormal};
+use rocking_statistics::{Clusters, Estimate};
 
 /// Coefficients of restitution beside the object's own.
 const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
@@ -50,9 +50,6 @@ pub struct Object {
     pub limit_ratio: Option<f64>,
     /// The floor of a building on which it stands; none on the ground.
     pub floor: Option<NamedFloor>,
-    /// Overturning fragility in PGA in g that other motions gave, such as a
-    /// fitted surface, to stand beside.
-    pub surface: Option<Lognormal>,
 }
 
 /// A floor with its name.
@@ -300,8 +297,8 @@ pub enum Assumption {
     /// Each intensity counted by itself, up to twice that of the first
     /// overturning: a stronger motion may leave the block standing.
     Resurrections,
-    /// The fragility of a fitted surface, which makes no analysis.
-    Surface,
+    /// The law of AvgSA with the spectra of the records, and no analysis.
+    Law,
 }
 
 impl fmt::Display for Assumption {
@@ -319,8 +316,8 @@ impl fmt::Display for Assumption {
                 "each intensity counted by itself (a stronger motion may \
                  leave the object standing)",
             ),
-            Self::Surface => f.write_str(
-                "fitted surface of overturning fragilities, no analysis",
+            Self::Law => f.write_str(
+                "law of AvgSA with the spectra of the records, no analysis",
             ),
         }
     }
@@ -470,7 +467,6 @@ pub enum AssessError {
 ///     friction: None,
 ///     limit_ratio: None,
 ///     floor: None,
-///     surface: None,
 /// };
 /// let options = AssessOptions {
 ///     gravity_m_s2: 9.81,

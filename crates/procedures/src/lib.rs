@@ -26,6 +26,7 @@ pub mod fit;
 pub mod fragility;
 pub mod ida_summary;
 mod inversion;
+pub mod law;
 pub mod model_error;
 pub mod normality;
 pub mod pivot;
@@ -49,6 +50,7 @@ pub use fit::{
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use inversion::inversion_discrepancy;
+pub use law::{LawError, LawFragility, law_fragility};
 pub use model_error::ModelError;
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};

@@ -98,7 +98,13 @@ pub fn compare_with_tests(
     tests: &[ShakingTest],
     options: &TestOptions,
 ) -> Result<TestComparison, ShakingError> {
-    TestRecords::new(tests, options)?.computed()?.compare()
+    let p_rad_s = match options.slenderness {
+        Slenderness::Given(block) => block.frequency_rad_s(),
+        Slenderness::Fitted { p_rad_s } => p_rad_s,
+    };
+    let measures = options.measures.iter().map(|im| im.of_block(p_rad_s));
+    let own = TestOptions { measures: measures.collect(), ..options.clone() };
+    TestRecords::new(tests, &own)?.computed()?.compare()
 }
 
 /// Level of the intervals of a comparison with tests.

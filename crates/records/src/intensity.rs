@@ -9,6 +9,7 @@
 //! For two components there are three ways to one number: either component,
 //! the geometric mean of both, and RotDnn, a percentile over all directions.
 
+mod band;
 mod energy;
 mod fourier;
 mod measure;
@@ -17,6 +18,7 @@ mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
+pub use band::RockingBand;
 pub use measure::{
     AtUplift, Intensity, IntensityMeasure, IntensityRow, ScalarMeasure,
     ScalarRow,

@@ -12,18 +12,17 @@ mod tests;
 use std::collections::BTreeMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use rocking::integrator::{Model, uplift_threshold};
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::ExchangeFormat;
 use rocking_procedures::ModelError;
 use rocking_procedures::assess::{
-    Alternative, Assessment, Damage, Object, ObjectAssessment,
+    Alternative, Assessment, Damage, ObjectAssessment,
 };
 use rocking_procedures::fragility::hazard::Hazard;
 use rocking_statistics::Interval;
-use rocking_surrogate::{Recorded, Surrogate};
 use rocking_synthesis::SuiteKind;
+use serde::Deserialize;
 
 pub use data::json;
 pub use words::text;
@@ -65,32 +64,39 @@ impl About {
     }
 }
 
-/// Sets the fitted surface of the embedded ordinary suite beside each object
-/// that it covers, and gives the median intensities of overturning under
-/// recorded ordinary motions over those under the embedded ones, block by
-/// block: in the measure of the hazard curve or else in PGA, none in a measure
-/// that was not compared.
+/// The study's blocks under embedded and recorded motions.
+const COMPARED: &str = rocking_fixtures::text("comparison/suites.csv");
+
+/// A row of the comparison; other columns are not read.
+#[derive(Deserialize)]
+struct ComparedRow {
+    suite: SuiteKind,
+    group: String,
+    quantity: String,
+    edp: Option<f64>,
+    embedded: Option<f64>,
+    recorded: Option<f64>,
+}
+
+/// The median intensities of overturning under recorded ordinary motions over
+/// those under the embedded ones, block by block: in the measure of the hazard
+/// curve, or in PGA without one; none in a measure that was not compared.
 ///
 /// # Errors
-/// Where the surface or the comparison cannot be read.
-pub fn set_beside_embedded(
-    objects: &mut [Object],
-    hazard: Option<&Hazard>,
-) -> anyhow::Result<Vec<f64>> {
-    let surrogate = Surrogate::embedded()?;
-    for object in objects {
-        let Ok(found) = surrogate.fragility(&object.block) else { continue };
-        let suites = found.suites.iter();
-        let own = suites.filter(|own| own.suite == SuiteKind::Ordinary);
-        let onset_g = uplift_threshold(&object.block, Model::Nonlinear);
-        let own = own.map(|own| own.fitted.scaled(onset_g)).next();
-        let same = object.restitution.velocity_ratio() == found.eta;
-        object.surface = own.transpose()?.filter(|_| same);
-    }
+/// Where the comparison cannot be read.
+pub fn recorded_ratios(hazard: Option<&Hazard>) -> anyhow::Result<Vec<f64>> {
     let im = hazard.map_or(Some("pga".into()), |own| own.im.name());
-    let mut kept = Recorded::kept(&im.unwrap_or_default())?;
-    kept.retain(|own| own.suite == SuiteKind::Ordinary);
-    Ok(kept.iter().map(|own| own.quantiles[1] / own.embedded).collect())
+    let mut ratios = Vec::new();
+    for row in csv::Reader::from_reader(COMPARED.as_bytes()).deserialize() {
+        let row: ComparedRow = row?;
+        let is_own = row.suite == SuiteKind::Ordinary
+            && row.group == "capacity"
+            && row.edp == Some(1.0)
+            && im.as_ref() == Some(&row.quantity);
+        let both = row.recorded.zip(row.embedded).filter(|_| is_own);
+        ratios.extend(both.map(|(recorded, embedded)| recorded / embedded));
+    }
+    Ok(ratios)
 }
 
 /// The files of an assessment, by their names.

@@ -49,7 +49,6 @@ fn object(id: &str, width_m: f64) -> Object {
         friction: None,
         limit_ratio: None,
         floor: None,
-        surface: None,
     }
 }
 

@@ -9,7 +9,7 @@ use libm::log;
 use rocking_statistics::acceptance::distances;
 use rocking_statistics::lilliefors::{LillieforsTable, LillieforsTest};
 
-use crate::distributions::{BlockSamples, factors, scaled};
+use crate::distributions::{BlockSamples, average_factors, factors, scaled};
 use crate::estimates::mean;
 use crate::inference::{Replicates, Resample, Resamples};
 use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
@@ -39,22 +39,29 @@ pub(crate) enum TestSeries {
     ShiftedPgv,
     OriginalGeometricMean,
     ShiftedGeometricMean,
+    OriginalAverageSa,
+    ShiftedAverageSa,
 }
 
 impl TestSeries {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 8] = [
         Self::OriginalPga,
         Self::ShiftedPga,
         Self::OriginalPgv,
         Self::ShiftedPgv,
         Self::OriginalGeometricMean,
         Self::ShiftedGeometricMean,
+        Self::OriginalAverageSa,
+        Self::ShiftedAverageSa,
     ];
 
     fn is_shifted(self) -> bool {
         matches!(
             self,
-            Self::ShiftedPga | Self::ShiftedPgv | Self::ShiftedGeometricMean
+            Self::ShiftedPga
+                | Self::ShiftedPgv
+                | Self::ShiftedGeometricMean
+                | Self::ShiftedAverageSa
         )
     }
 }
@@ -178,7 +185,8 @@ impl SuiteDistances {
         let mut whole: Vec<OverLevels> = Vec::new();
         for tests in TestSeries::ALL {
             for at in 0..COUNT {
-                let p = FREQUENCIES_RAD_S[at / SLENDERNESSES_RAD.len()];
+                let frequency = at / SLENDERNESSES_RAD.len();
+                let p = FREQUENCIES_RAD_S[frequency];
                 let (block, factors) = match tests {
                     TestSeries::OriginalPga | TestSeries::ShiftedPga => {
                         (&pga.blocks[at], Some(vec![1.0; n]))
@@ -191,6 +199,11 @@ impl SuiteDistances {
                     | TestSeries::ShiftedGeometricMean => {
                         (&pga.blocks[at], means.clone())
                     }
+                    TestSeries::OriginalAverageSa
+                    | TestSeries::ShiftedAverageSa => (
+                        &pga.blocks[at],
+                        Some(average_factors(records, frequency)),
+                    ),
                 };
                 whole.push(value(tests, block, factors.as_deref()));
                 let shifted = tests.is_shifted();
@@ -263,7 +276,9 @@ fn value(
         }
         TestSeries::ShiftedPga | TestSeries::ShiftedPgv => of(&block.shifted),
         TestSeries::OriginalGeometricMean
-        | TestSeries::ShiftedGeometricMean => {
+        | TestSeries::ShiftedGeometricMean
+        | TestSeries::OriginalAverageSa
+        | TestSeries::ShiftedAverageSa => {
             let factors = factors.unwrap_or_default();
             let least = match tests.is_shifted() {
                 true => crate::distributions::least(factors),

@@ -157,6 +157,12 @@ pub fn factors(
     ratios_s.map(|ratio_s| intensity.of(1.0, p_rad_s * ratio_s)).collect()
 }
 
+/// Factors from PGA/(g tan alpha) to AvgSA/(g tan alpha), record by record.
+#[must_use]
+pub fn average_factors(records: &[Facts], frequency: usize) -> Vec<f64> {
+    records.iter().map(|r| r.average_ratios[frequency]).collect()
+}
+
 /// The least of some numbers; infinite without any.
 #[must_use]
 pub fn least(values: &[f64]) -> f64 {

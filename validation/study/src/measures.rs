@@ -129,6 +129,13 @@ measures! {
     DistanceSlenderMinusStocky: Probability, Difference, distances::less_slender;
     /// Distance of original samples in PGA minus the distance in PGV.
     DistancePgvGain: Probability, Difference, distances::pgv_gain;
+    /// Distance of original samples in AvgSA.
+    DistanceAverageSa: Probability, Difference, distances::average_sa;
+    /// Reduction of the distance by shifting, in AvgSA.
+    DistanceAverageSaGain: Probability, Difference, distances::average_sa_gain;
+    /// 16, 50 and 84 % quantiles in AvgSA that coincide with those of the
+    /// reference.
+    QuantilesAverageSa: Share, Share, capacities::average_sa_quantiles;
     /// Gain in distance to the sample by shifting.
     ShiftGain: Probability, Difference, fragilities::shift_gain;
     /// Distance of trimmed USFL7 to the SSFL over that of the trimmed USFL.

@@ -14,8 +14,9 @@ use rocking::integrator::{
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking::{Block, Excitation, Observe, Restitution, respond};
+use rocking_procedures::{LawFragility, ModelError, law_fragility};
+use rocking_records::intensity::{Measures, Settings};
 use rocking_records::{ReadOptions, read_all};
-use rocking_surrogate::{SurfaceFragility, Surrogate};
 use serde::{Deserialize, Serialize};
 
 use crate::bits::Bits;
@@ -336,18 +337,47 @@ impl LabScene {
     }
 }
 
-/// The surrogate's answer, and the probability at the intensity.
+/// What the law of AvgSA says of a motion.
 #[derive(Serialize)]
 pub struct LabFragility {
-    /// Suite and probability.
-    probability: Vec<(&'static str, f64)>,
-    fragility: SurfaceFragility,
+    average_sa_g: f64,
+    /// Probability that a real block overturns.
+    probability: f64,
+    law: LawFragility,
 }
 
-/// Overturning fragilities of the block by the surrogate.
-pub fn fragility(shape: &LabBlock, intensity: f64) -> Answer<LabFragility> {
-    let fragility = Surrogate::embedded()?.fragility(&shape.block()?)?;
-    let own = fragility.suites.iter();
-    let own = own.map(|s| (s.suite.name(), s.fitted.cdf(intensity)));
-    Ok(LabFragility { probability: own.collect(), fragility })
+/// Intervals in which the spectrum of a pulse is taken.
+const INTERVALS: u32 = 1000;
+
+impl LabScene {
+    /// Probability of overturning by the law of AvgSA: from the spectrum of
+    /// the motion alone.
+    pub fn fragility(&self) -> Answer<LabFragility> {
+        let block = self.block.block()?;
+        let motion = self.ground.motion()?;
+        let error = ModelError::default();
+        let law = law_fragility(&block, self.eta, f64::INFINITY, error)?;
+        self.at(block, &motion, self.intensity, |_, pga_g| {
+            let scaled = |a: f64| a * pga_g;
+            let (dt_s, samples_g) = match &motion {
+                LabMotion::Record(record) => {
+                    let samples = record.samples().iter().copied();
+                    (record.dt_s(), samples.map(scaled).collect())
+                }
+                LabMotion::Pulse(pulse) => {
+                    let dt_s = pulse.duration_s() / f64::from(INTERVALS);
+                    let samples = (0..=INTERVALS)
+                        .map(|k| pulse.acceleration_g(f64::from(k) * dt_s));
+                    (dt_s, samples.map(scaled).collect())
+                }
+            };
+            let ground = Accelerogram::try_new("ground", dt_s, samples_g)?;
+            let settings = Settings::of(STANDARD_GRAVITY_M_S2, [&law.im])?;
+            let measures = Measures::of(&ground, &settings)?;
+            let found = law.im.value(&measures, settings.periods_s());
+            let average_sa_g = found.ok_or("no spectrum")?;
+            let probability = law.total.cdf(average_sa_g);
+            Ok(LabFragility { average_sa_g, probability, law })
+        })
+    }
 }

@@ -34,13 +34,8 @@ enum LabQuestion {
         /// Frequency parameters, rad/s.
         p_rad_s: Vec<f64>,
     },
-    /// Probability of overturning by the surrogate.
-    Fragility {
-        /// The block.
-        block: block::LabBlock,
-        /// PGA/(g tan alpha).
-        intensity: f64,
-    },
+    /// Probability of overturning by the law of AvgSA.
+    Fragility(block::LabScene),
 }
 
 /// Answers a question; an error is an object with the one field `error`.
@@ -69,9 +64,7 @@ fn found(question: LabQuestion) -> Result<Value, String> {
         LabQuestion::Fates { scene, intensities, p_rad_s } => {
             value(scene.fates(&intensities, &p_rad_s))
         }
-        LabQuestion::Fragility { block, intensity } => {
-            value(block::fragility(&block, intensity))
-        }
+        LabQuestion::Fragility(scene) => value(scene.fragility()),
     }
 }
 

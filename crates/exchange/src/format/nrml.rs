@@ -93,13 +93,15 @@ fn measure(
         // OpenQuake's PGV is in cm/s.
         IntensityMeasure::Axis(Intensity::Pgv) => ("PGV".into(), Some(100.0)),
         IntensityMeasure::Sa(period_s) => (format!("SA({period_s:?})"), None),
-        IntensityMeasure::AverageSa(_) => ("AvgSA".into(), None),
+        IntensityMeasure::AverageSa(_) | IntensityMeasure::RockingSa(_) => {
+            ("AvgSA".into(), None)
+        }
         other => {
             return Err(ExchangeError::Measure {
                 id: one.id.clone(),
                 format: "NRML",
                 im: other.to_string(),
-                expected: "pga, pgv, sa:T or avgsa:T1,T2,..",
+                expected: "pga, pgv, sa:T, avgsa:T1,T2,.. or avgsa:rocking",
             });
         }
     })

@@ -12,8 +12,10 @@ use crate::fragility::hazard::{Hazard, HazardMeasure};
 use crate::pivot::needs_more;
 use crate::ranking::CandidateMeasure;
 use crate::{
-    ModelError, ProcedureError, Ranking, StripeResponses, capacities, rank,
+    ModelError, ProcedureError, Ranking, StripeResponses, capacities,
+    law_fragility, rank,
 };
+use libm::{hypot, log};
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
@@ -26,7 +28,7 @@ use rocking::integrator::uplift_threshold;
 use rocking_records::floor::Floor;
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
 use rocking_statistics::lognormal::{Stripe, fit_counts_alone};
-use rocking_statistics::{Clusters, Estimate, Interval, Range};
+use rocking_statistics::{Clusters, Estimate, Interval, Lognormal, Range};
 
 /// Intensities at which a curve is drawn.
 const POINTS: usize = 40;
@@ -143,7 +145,12 @@ impl<'a> AssessmentSuite<'a> {
                 return Err(AssessError::Measure(found));
             }
         };
-        let usual = IntensityMeasure::usual();
+        let of_object = |object: &Object| {
+            let p_rad_s = object.block.frequency_rad_s();
+            let usual = IntensityMeasure::usual().into_iter();
+            usual.map(move |im| im.of_block(p_rad_s))
+        };
+        let usual: Vec<_> = objects.iter().flat_map(of_object).collect();
         let settings =
             Settings::of(options.gravity_m_s2, usual.iter().chain([&im]));
         let settings = settings.map_err(|source| AssessError::Record {
@@ -316,10 +323,8 @@ impl<'a> AssessmentSuite<'a> {
             let answer = answer.and_then(|fitted| self.point(fitted));
             beside(Assumption::Resurrections, answer)?;
         }
-        if let Some(surface) = object.surface
-            && self.counts_overturning_in_pga(object)
-        {
-            beside(Assumption::Surface, self.point(surface))?;
+        if let Some(law) = self.by_law(object) {
+            beside(Assumption::Law, self.point(law))?;
         }
         let slides_first = match object.friction {
             None => None,
@@ -356,7 +361,7 @@ impl<'a> AssessmentSuite<'a> {
                 ida: self.ida(&made[0], threshold).map_err(refused)?,
                 by_record: self.by_record(&intervals),
                 ranking: self
-                    .ranking(moved, &made[0], damage, threshold)?
+                    .ranking(object, &made[0], damage, threshold)?
                     .map_err(refused)?,
                 fragility,
                 answer,
@@ -407,7 +412,7 @@ impl<'a> AssessmentSuite<'a> {
 
     fn ranking(
         &self,
-        moved: &ObjectMotion,
+        object: &Object,
         curves: &[IdaCurve],
         damage: Damage,
         threshold: f64,
@@ -419,7 +424,8 @@ impl<'a> AssessmentSuite<'a> {
             let squared = im.is_squared();
             let scale =
                 if squared { threshold * threshold } else { threshold };
-            let per = self.per_pga(moved, im).into_iter();
+            let own = im.of_block(object.block.frequency_rad_s());
+            let per = self.per_pga(self.under(object), &own).into_iter();
             let at_uplift = per.map(|per| per * scale).collect();
             CandidateMeasure { im: im.to_string(), at_uplift, squared }
         };
@@ -430,6 +436,32 @@ impl<'a> AssessmentSuite<'a> {
         Ok(all.and_then(|all| {
             rank(&all, &candidates, &[], self.clusters, draws)
         }))
+    }
+
+    /// The fragility by the law of AvgSA and the spectra of the records, in
+    /// the measure and unit of the hazard curve; none outside its range, and on
+    /// a floor.
+    ///
+    /// With IM/AvgSA lognormal over the records, and independent of AvgSA at
+    /// damage, the product of both is lognormal.
+    fn by_law(&self, object: &Object) -> Option<Lognormal> {
+        let (block, eta) =
+            (&object.block, object.restitution.velocity_ratio());
+        let edp = object.limit_ratio.unwrap_or(f64::INFINITY);
+        let law = law_fragility(block, eta, edp, ModelError::none()).ok()?;
+        if object.floor.is_some() {
+            return None;
+        }
+        let moved = self.under(object);
+        let [own, average] =
+            [&self.im, &law.im].map(|im| self.per_pga(moved, im));
+        let ratios = own.iter().zip(&average);
+        let ratios: Vec<f64> =
+            ratios.map(|(own, average)| log(own / average)).collect();
+        let log_mean = law.fitted.log_mean() + (&ratios).mean();
+        let both = hypot(law.fitted.dispersion(), (&ratios).std_dev());
+        let found = Lognormal::try_new(0.0, log_mean, both).ok()?;
+        found.scaled(self.unit).ok()
     }
 
     /// Whether overturning is counted, in the PGA of what the object stands

@@ -78,7 +78,11 @@ impl HazardMeasure {
         match self {
             Self::Own => true,
             Self::Of(own) => own == im,
-            Self::AverageSa => matches!(im, IntensityMeasure::AverageSa(_)),
+            Self::AverageSa => matches!(
+                im,
+                IntensityMeasure::AverageSa(_)
+                    | IntensityMeasure::RockingSa(_)
+            ),
         }
     }
 

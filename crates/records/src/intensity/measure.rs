@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use libm::{exp, log};
 
-use super::{IntensityError, Measures, Settings};
+use super::{IntensityError, Measures, RockingBand, Settings};
 use rocking::names::{UnknownName, as_text, named};
 
 named! {
@@ -162,8 +162,9 @@ impl ScalarMeasure {
 }
 
 /// An intensity measure of a record: its name is `pga`, `pgv`, `pgd`,
-/// `arias`, `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s, or
-/// `column:NAME`; all but NAME in upper or lower case.
+/// `arias`, `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s,
+/// `avgsa:rocking` with those of a block, or `column:NAME`; all but NAME in
+/// upper or lower case.
 ///
 /// ```
 /// use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
@@ -192,6 +193,10 @@ pub enum IntensityMeasure {
     Sa(f64),
     /// Geometric mean of spectral accelerations at periods in s.
     AverageSa(Vec<f64>),
+    /// Geometric mean of spectral accelerations at the periods of a block;
+    /// without a block it has no value, and [`IntensityMeasure::of_block`]
+    /// gives it one.
+    RockingSa(Option<RockingBand>),
     /// A column of a suite's index, or another attribute of its records.
     Column(String),
 }
@@ -210,6 +215,12 @@ impl FromStr for IntensityMeasure {
         };
         let found = match (kind.as_str(), rest) {
             ("sa", Some(t)) => period(t).map(Self::Sa),
+            ("avgsa", Some("rocking")) => Some(Self::RockingSa(None)),
+            ("avgsa", Some(list)) if list.starts_with("rocking:") => {
+                let p = list.split_once(':').and_then(|(_, p)| period(p));
+                p.and_then(RockingBand::try_new)
+                    .map(|band| Self::RockingSa(Some(band)))
+            }
             ("avgsa", Some(list)) => {
                 let periods: Option<_> = list.split(',').map(period).collect();
                 periods.map(Self::AverageSa)
@@ -232,6 +243,7 @@ impl FromStr for IntensityMeasure {
                 .into_iter()
                 .chain(ScalarMeasure::ALL.map(ScalarMeasure::name))
                 .chain(["sa:T", "avgsa:T1,T2,.. (periods in s)"])
+                .chain(["avgsa:rocking"])
                 .chain(["column:NAME"])
                 .collect(),
         })
@@ -244,6 +256,10 @@ impl fmt::Display for IntensityMeasure {
             Self::Sa(period_s) => write!(f, "sa:{period_s}"),
             Self::AverageSa(periods_s) => {
                 write!(f, "avgsa:{}", listed(periods_s, ","))
+            }
+            Self::RockingSa(None) => f.pad("avgsa:rocking"),
+            Self::RockingSa(Some(band)) => {
+                write!(f, "avgsa:rocking:{}", band.p_rad_s())
             }
             Self::Column(name) => write!(f, "column:{name}"),
             Self::Axis(intensity) => f.pad(intensity.name()),
@@ -390,7 +406,7 @@ impl IntensityMeasure {
     pub fn usual() -> Vec<Self> {
         let mut all: Vec<Self> = Self::words_alone().collect();
         all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(Self::Sa));
-        all.push(Self::usual_average());
+        all.push(Self::RockingSa(None));
         all
     }
 
@@ -398,11 +414,32 @@ impl IntensityMeasure {
     /// named: PGA, PGV and the last of the [`usual`](Self::usual) ones.
     #[must_use]
     pub fn usual_of_tests() -> Vec<Self> {
-        vec![Self::PGA, Self::PGV, Self::usual_average()]
+        vec![Self::PGA, Self::PGV, Self::RockingSa(None)]
     }
 
-    fn usual_average() -> Self {
-        Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0])
+    /// The measure for a block with frequency parameter p in rad/s: the
+    /// periods of [`RockingSa`](Self::RockingSa) become those of the block,
+    /// if it has none; any other measure stays as it is.
+    ///
+    /// ```
+    /// use rocking_records::intensity::IntensityMeasure;
+    /// let of_any: IntensityMeasure = "avgsa:rocking".parse()?;
+    /// assert!(of_any.periods_s().is_empty());
+    /// let own = of_any.of_block(3.0);
+    /// assert_eq!(own.periods_s().len(), 12);
+    /// assert_eq!(own.to_string(), "avgsa:rocking:3");
+    /// assert_eq!(own.to_string().parse(), Ok(own.clone()));
+    /// assert_eq!(IntensityMeasure::of_words(&own.words()), Some(own));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn of_block(&self, p_rad_s: f64) -> Self {
+        match self {
+            Self::RockingSa(None) => {
+                Self::RockingSa(RockingBand::try_new(p_rad_s))
+            }
+            other => other.clone(),
+        }
     }
 
     /// Unit of its [`value`](Self::value); empty for a column.
@@ -411,7 +448,7 @@ impl IntensityMeasure {
         match self {
             Self::Axis(intensity) => intensity.row().unit,
             Self::Scalar(scalar) => scalar.row().unit,
-            Self::Sa(_) | Self::AverageSa(_) => "g",
+            Self::Sa(_) | Self::AverageSa(_) | Self::RockingSa(_) => "g",
             Self::Column(_) => "",
         }
     }
@@ -437,6 +474,14 @@ impl IntensityMeasure {
             Self::AverageSa(list) => {
                 format!("AvgSA({} s)", listed(list, ", "))
             }
+            Self::RockingSa(None) => {
+                format!("AvgSA({})", RockingBand::words())
+            }
+            Self::RockingSa(Some(band)) => format!(
+                "AvgSA({}, p = {} rad/s)",
+                RockingBand::words(),
+                band.p_rad_s()
+            ),
         };
         format!("{symbol} ({})", self.unit())
     }
@@ -464,7 +509,15 @@ impl IntensityMeasure {
             });
         let column = words.strip_prefix("column ");
         let name = name.or(column.map(|name| format!("column:{name}")));
-        name?.parse().ok().filter(|found: &Self| found.words() == words)
+        let of_block = words.strip_prefix("AvgSA(").and_then(|rest| {
+            let (_, p) = rest.split_once(", p = ")?;
+            let p = p.strip_suffix(" rad/s) (g)")?;
+            Some(format!("avgsa:rocking:{p}"))
+        });
+        name.or(of_block)?
+            .parse()
+            .ok()
+            .filter(|found: &Self| found.words() == words)
     }
 
     /// Whether it grows with the square of the acceleration; all others grow
@@ -480,6 +533,7 @@ impl IntensityMeasure {
         match self {
             Self::Sa(period_s) => std::slice::from_ref(period_s),
             Self::AverageSa(periods_s) => periods_s,
+            Self::RockingSa(Some(band)) => band.periods_s(),
             _ => &[],
         }
     }
@@ -497,13 +551,14 @@ impl IntensityMeasure {
             Self::Axis(intensity) => intensity.of(of.pga_g, of.pgv_m_s),
             Self::Scalar(scalar) => (scalar.row().value)(of),
             Self::Sa(period_s) => sa_g(period_s)?,
-            Self::AverageSa(all_s) => {
+            Self::AverageSa(_) | Self::RockingSa(Some(_)) => {
+                let all_s = self.periods_s();
                 let sum = all_s.iter().try_fold(0.0, |sum, period_s| {
                     Some(sum + log(sa_g(period_s)?))
                 })?;
                 exp(sum / all_s.len() as f64)
             }
-            Self::Column(_) => return None,
+            Self::RockingSa(None) | Self::Column(_) => return None,
         })
     }
 }

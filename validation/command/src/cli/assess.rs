@@ -24,7 +24,7 @@ use super::shared::{BootstrapArgs, ModelErrorArgs, ThreadsArg};
 use crate::failure::{Failure, ensure};
 use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
-use rocking_assessment::{About, PAGE, set_beside_embedded};
+use rocking_assessment::{About, PAGE, recorded_ratios};
 use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
@@ -106,12 +106,12 @@ pub fn run_assess(args: &AssessCommand) -> Result<(), Failure> {
 }
 
 fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
-    let mut objects = args.objects()?;
+    let objects = args.objects()?;
     let hazard = args.hazard.as_deref();
     let hazard = hazard.map(|path| args.site.read(path)).transpose()?;
     let ratios = match args.suite {
         Some(_) => Vec::new(),
-        None => set_beside_embedded(&mut objects, hazard.as_ref())?,
+        None => recorded_ratios(hazard.as_ref())?,
     };
     let suite = args.suite()?;
     let folder = OutputFolder::open_new(&args.out)?;
@@ -165,7 +165,6 @@ impl AssessCommand {
                     name: name.to_string(),
                     floor,
                 }),
-                surface: None,
             })
         };
         rows.into_iter().zip(floors).map(object).collect()

@@ -32,7 +32,7 @@ use rocking_common::paper::Intensity;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking capacities --ida ida.csv --levels 0.3,0.5,1\n  \
-    rocking capacities --ida ida.csv --im avgsa:0.5,1,2 --suite SUITE\n  \
+    rocking capacities --ida ida.csv --im avgsa:rocking --suite SUITE\n  \
     rocking capacities --ida ida.csv --at 1 --out capacities.txt")]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["curve", "ida"]))]
@@ -49,8 +49,9 @@ pub struct CapacitiesCommand {
     /// Intensity measure, of --ida: pga, which is PGA/(g tan alpha), pgv,
     /// which is p PGV/(g tan alpha); and with --suite pgd, arias, cav,
     /// pgv-d575 (PGV D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean,
-    /// periods in s, 5 % damping) or column:NAME (of --attributes or the
-    /// index, proportional to the acceleration) [default: pga].
+    /// periods in s, 5 % damping), avgsa:rocking (0.15 to 1.0 times 2 pi/p) or
+    /// column:NAME (of --attributes or the index, proportional to the
+    /// acceleration) [default: pga].
     #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
     im: Option<IntensityMeasure>,
     #[command(flatten)]
@@ -220,6 +221,7 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
     let mut outputs = Outputs::of(inputs);
     let out = outputs.open_some(args.out.as_ref())?;
     let (table, suite, set_aside) = suite(args, path, measure)?;
+    let measure = &measure.of_block(table.setting.p_rad_s);
     if let (Some(level), Some(out)) = (args.at, out) {
         out.write(SampleFile::text(&table, &suite, measure, level, rule)?)?;
     }
@@ -267,6 +269,7 @@ fn suite(
         return Ok((table, curves, None));
     }
     let (table, curves) = input::ida(path, Intensity::Pga)?;
+    let measure = &measure.of_block(table.setting.p_rad_s);
     let measures = std::slice::from_ref(measure);
     let ground = with_threads(None, || args.ground.ground(&table, measures))??;
     let factors = ground.at_uplift(measure)?;

@@ -3,15 +3,15 @@
 pub mod counts;
 mod export;
 pub(super) mod fit;
+mod law;
 pub mod source;
-mod surface;
 mod transform;
 
 use clap::Subcommand;
 
 use crate::failure::Failure;
 
-/// Lognormal fragilities: fitted, transformed, or of a fitted surface.
+/// Lognormal fragilities: fitted, transformed, or by the law of AvgSA.
 ///
 /// Medians, quantiles and shift are in the unit of the sample.
 #[derive(clap::Args)]
@@ -21,7 +21,7 @@ use crate::failure::Failure;
     --bootstrap 1000\n  \
     rocking fragility counts --counts counts.csv\n  \
     rocking fragility transform --shift 1 --im50 2.5 --beta 0.4\n  \
-    rocking fragility surface --alpha 0.15 --p 3\n  \
+    rocking fragility law --alpha 0.15 --p 3\n  \
     rocking fragility export --sample capacities.txt --shift 1 \\\n      \
     --alpha 0.15 --p 3 --format nrml --out block.xml")]
 pub struct FragilityCommand {
@@ -34,7 +34,7 @@ enum FragilityAction {
     Fit(Box<fit::FragilityFitCommand>),
     Counts(counts::FragilityCountsCommand),
     Transform(transform::FragilityTransformCommand),
-    Surface(surface::FragilitySurfaceCommand),
+    Law(law::FragilityLawCommand),
     Export(Box<export::FragilityExportCommand>),
 }
 
@@ -49,7 +49,7 @@ pub fn run_fragility(args: &FragilityCommand) -> Result<(), Failure> {
         FragilityAction::Transform(args) => {
             transform::run_fragility_transform(args)
         }
-        FragilityAction::Surface(args) => surface::run_fragility_surface(args),
+        FragilityAction::Law(args) => law::run_fragility_law(args),
         FragilityAction::Export(args) => export::run_fragility_export(args),
     }
 }

@@ -89,11 +89,6 @@ pub fn fit_method() -> impl TypedValueParser<Value = FitMethod> {
     named(all, FitMethod::name, help)
 }
 
-/// The embedded suites.
-pub fn suite() -> impl TypedValueParser<Value = SuiteKind> {
-    named(SuiteKind::ALL, SuiteKind::name, [""; 2])
-}
-
 /// Arms of the study.
 pub fn arm() -> impl TypedValueParser<Value = Arm> {
     named(Arm::ALL, Arm::name, [""; 3])

@@ -37,7 +37,7 @@ use rocking_draw::figures::of_result::ranking_svg;
 #[command(after_help = "Examples:\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1 --im pga --im sa:1 \
-    --im avgsa:0.5,1,2 --magnitude mw --distance rrup_km --plot rank.svg")]
+    --im avgsa:rocking --magnitude mw --distance rrup_km --plot rank.svg")]
 pub struct RankCommand {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
@@ -48,10 +48,10 @@ pub struct RankCommand {
     at: f64,
     /// An intensity measure: pga, pgv, pgd, arias, cav,
     /// pgv-d575 (PGV D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean,
-    /// periods in s) or column:NAME (of --attributes or the index,
-    /// proportional to the acceleration); again for each one [default: pga,
-    /// pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1, 2, 3 and 4 s, and
-    /// avgsa:0.5,1,1.5,2,3]. Ratios are to the first one.
+    /// periods in s), avgsa:rocking (0.15 to 1.0 times 2 pi/p) or column:NAME
+    /// (of --attributes or the index, proportional to the acceleration); again
+    /// for each one [default: pga, pgv, pgd, arias, cav, pgv-d575, sa at 0.5,
+    /// 1, 2, 3 and 4 s, and avgsa:rocking]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,
     #[command(flatten)]
@@ -103,6 +103,9 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
     let mut outputs = Outputs::of(inputs);
     let plot = args.plot.open(&mut outputs)?;
     let (table, curves) = input::ida(&args.ida, Intensity::Pga)?;
+    let p_rad_s = table.setting.p_rad_s;
+    let own = measures.iter().map(|measure| measure.of_block(p_rad_s));
+    let measures: Vec<M> = own.collect();
     let clusters = curves.clusters.clone();
     let capacities = intervals(&curves.into_curves(), args.at, args.point)?;
     let draws = args.bootstrap.draws();

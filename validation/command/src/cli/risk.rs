@@ -32,7 +32,7 @@ use rocking_draw::figures::of_suite::risk_svg;
 /// model; a fragility of --median has that only if it is given.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
-    .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
+    .args(["median", "sample", "ida", "counts", "law", "blocks"]))]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw hazard, fragilities and annual frequency by intensity"
 )))]
@@ -53,7 +53,7 @@ pub struct RiskCommand {
         value_name = "X",
         requires = "dispersion",
         conflicts_with_all = [
-            "sample", "ida", "counts", "surrogate", "im", "blocks",
+            "sample", "ida", "counts", "law", "im", "blocks",
             "BlockArgs", "id", "limit_state", "gravity", "method",
             "bootstrap", "seed"
         ]

@@ -71,9 +71,9 @@ pub struct ValidateCommand {
     )]
     gravity: f64,
     /// An intensity measure that predicts the same fates by itself: pga,
-    /// pgv, pgd, arias, cav, pgv-d575, sa:T or avgsa:T1,T2,.. (periods in
-    /// s); again for each one [default: pga, pgv and
-    /// avgsa:0.5,1,1.5,2,3].
+    /// pgv, pgd, arias, cav, pgv-d575, sa:T, avgsa:T1,T2,.. (periods in s) or
+    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p); again for each one [default:
+    /// pga, pgv and avgsa:rocking].
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,
     #[command(flatten)]

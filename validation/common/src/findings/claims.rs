@@ -102,8 +102,8 @@ impl Theme {
                  alpha = 0.20 (Figures 15 to 18)?"
             }
             Self::Beyond => {
-                "Beyond the paper: has the rest of the slenderness a closed \
-                 form?"
+                "Beyond the paper: the rest of the slenderness, and the \
+                 paper's sentences on average spectral acceleration"
             }
         }
     }

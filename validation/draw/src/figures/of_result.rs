@@ -280,6 +280,7 @@ fn short(measure: &IntensityMeasure) -> String {
             let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
             format!("SA({}–{})", of(first), of(last))
         }
+        M::RockingSa(_) => "AvgSA".to_owned(),
         M::Column(name) => name.clone(),
         other => other.to_string(),
     }

@@ -308,24 +308,19 @@ $("play").onclick = () => {
 $("time").oninput = draw;
 
 async function fragility() {
-  const { probability, fragility: f } = await own.ask({ ask: "fragility",
-    block: shape(), intensity: number("intensity") });
-  const percent = (x) => `${(100 * x).toFixed(1)} %`;
-  rows("fragility", probability.flatMap(([suite, p]) => {
-    const s = f.suites[suite];
-    return [
-      [`${suite}: probability`, percent(p)],
-      [`${suite}: median PGA`, `${digits(s.median_pga_g, 3)} g`],
-      [`${suite}: error of the surface, in probability`,
-        `${percent(s.surface_to_analyses.probability.rms)} (rms over ${s.surface_to_analyses.blocks} other blocks)`],
-      [`${suite}: what the choice of records leaves open (95 %)`,
-        `± ${percent(s.half_95_of_records.probability)}`],
-      [`${suite}: from simulated to recorded motions`,
-        `${percent(s.surface_to_recorded.probability.rms)} (rms over ${s.surface_to_recorded.blocks} blocks)`],
-    ];
-  }));
-  $("fragility-words").textContent = number("eta") === f.eta ? ""
-    : `The surface holds for a coefficient of restitution of ${f.eta}.`;
+  const { average_sa_g, probability, law } =
+    await own.ask({ ask: "fragility", ...scene() });
+  const [first, last] = [law.periods_s[0], law.periods_s.at(-1)];
+  rows("fragility", [
+    [`AvgSA of this motion, ${first} to ${last} s`,
+      `${digits(average_sa_g, 3)} g`],
+    ["Median of overturning", `${digits(law.total.median, 3)} g`],
+    ["Probability of overturning", `${(100 * probability).toFixed(1)} %`],
+    ["Dispersion: choice of the record; law; all, with the model",
+      [law.record_dispersion, law.law_error, law.total.dispersion]
+        .map((x) => digits(x, 2)).join("; ")],
+  ]);
+  $("fragility-words").textContent = "";
 }
 let busy = false, again = false;
 async function answer() {

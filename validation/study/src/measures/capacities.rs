@@ -4,11 +4,11 @@
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::scope::{
-    COINCIDE, MeasureResult, Measured, Scope, compared_blocks, geometric_mean,
-    mean_ratio, ranks, ratios, weighted_mean,
+    COINCIDE, MeasureResult, Measured, Scope, blocks, compared_blocks,
+    geometric_mean, mean_ratio, ranks, ratios, weighted_mean,
 };
 use super::stripes::{STOCKIEST, conforming, notch_holds_1};
-use crate::distributions::factors;
+use crate::distributions::{average_factors, factors, scaled};
 use crate::estimates::mean;
 use crate::inference::least_counted;
 use crate::runs::{capacities, capacities_at, curves_of};
@@ -195,6 +195,40 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
              p = {p}"
         );
         found = found.and(&name, spread(scope, frequency)?);
+    }
+    Ok(found)
+}
+
+/// Figure 8 in AvgSA: intensity given demand.
+pub(super) fn average_sa_quantiles(scope: &Scope<'_>) -> MeasureResult {
+    let records = &scope.suite().records;
+    let mut pairs = Vec::new();
+    for (frequency, slenderness) in compared_blocks() {
+        let factors = average_factors(records, frequency);
+        for demand in DEMANDS {
+            let own = samples(scope, frequency, slenderness, demand)?;
+            let own = own.map(|sample| scaled(sample, &factors));
+            pairs.push(own.map(|sample| RecordRanks::new(&sample)));
+        }
+    }
+    let mut found = coinciding(scope, pairs);
+    for is_average in [false, true] {
+        let mut medians = Vec::new();
+        for (frequency, slenderness) in blocks() {
+            let [own, _] = samples(scope, frequency, slenderness, 1.0)?;
+            let average = average_factors(records, frequency);
+            let factors =
+                if is_average { average } else { vec![1.0; own.len()] };
+            let ranks = RecordRanks::new(&scaled(own, &factors));
+            medians.push(ranks.median(scope.every()));
+        }
+        let ends = span(medians, true);
+        let spread = ends.map_or(f64::NAN, |(low, high)| high / low - 1.0);
+        let im = if is_average { "AvgSA" } else { "PGA" };
+        let name = format!(
+            "spread of the median overturning intensity over all blocks, {im}"
+        );
+        found = found.and(&name, Estimate::exact(spread));
     }
     Ok(found)
 }

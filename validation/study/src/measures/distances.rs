@@ -169,6 +169,22 @@ pub(super) fn geometric_mean(scope: &Scope<'_>) -> MeasureResult {
     beside(scope, found, [("component", own), ("geometric mean", mean)])
 }
 
+/// Distance of original samples in AvgSA from a lognormal.
+pub(super) fn average_sa(scope: &Scope<'_>) -> MeasureResult {
+    let tests = TestSeries::OriginalAverageSa;
+    let counts = |row: &[f64]| vec![above(accepted(row, tests), 0.7)];
+    found(scope, counts, |row| over_blocks(excesses(row, tests)))
+}
+
+/// Reduction of the distance by shifting, in AvgSA.
+pub(super) fn average_sa_gain(scope: &Scope<'_>) -> MeasureResult {
+    let (original, shifted) =
+        (TestSeries::OriginalAverageSa, TestSeries::ShiftedAverageSa);
+    let counts = |row: &[f64]| vec![gain_in_share(row, shifted, original)];
+    let found = found(scope, counts, reduction(original, shifted))?;
+    beside(scope, found, [("original", original), ("shifted", shifted)])
+}
+
 /// Distance of original samples for p = 3 and 4 minus the distance for p = 1.
 pub(super) fn small_minus_large(scope: &Scope<'_>) -> MeasureResult {
     let apart = |values: &[f64]| {

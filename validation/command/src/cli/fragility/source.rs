@@ -1,10 +1,9 @@
 //! Where the fragilities of blocks come from: samples, an IDA, counts, or the
-//! fitted surface. `fragility export` and `risk` take the same.
+//! law of AvgSA. `fragility export` and `risk` take the same.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use rocking::block::Block;
 use rocking::capacity::InversionRule;
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -12,14 +11,14 @@ use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
+use rocking_procedures::law::origin;
 use rocking_procedures::{
     BootstrapFits, DispersionRule, FitOptions, ModelError, Shift, capacities,
-    fit_sample,
+    fit_sample, law_fragility,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::{CensoredSample, Clusters, Lognormal};
-use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
 use super::counts::{self, CountTable};
 use crate::cli::blocks::{self, BlockRow};
@@ -29,7 +28,7 @@ use crate::cli::scene::BlockArgs;
 use crate::cli::shared::positive;
 use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
-use rocking_common::paper::SuiteKind;
+use rocking_common::paper::RESTITUTION;
 use rocking_exchange::sample::SampleSetting;
 
 /// Where fragilities come from, and the blocks they belong to.
@@ -48,15 +47,17 @@ pub struct SourceArgs {
         conflicts_with_all = ["sample", "ida"]
     )]
     counts: Vec<PathBuf>,
-    /// Overturning under an embedded suite by the fitted surface, without an
-    /// analysis.
+    /// By the law of AvgSA, without an analysis, at these EDP levels; inf:
+    /// overturning.
     #[arg(
         long,
-        value_name = "SUITE",
-        value_parser = names::suite(),
+        value_name = "LEVELS",
+        value_parser = edp_levels,
+        num_args = 0..=1,
+        default_missing_value = "inf",
         conflicts_with_all = ["sample", "ida", "counts", "im"]
     )]
-    surrogate: Option<SuiteKind>,
+    law: Option<EdpLevels>,
     /// Measure of --ida [default: pga], --counts, or a sample without one.
     #[arg(long, value_name = "MEASURE")]
     im: Option<IntensityMeasure>,
@@ -140,7 +141,7 @@ pub(super) struct DispersionArg {
 enum LevelValues {
     Sample(CensoredSample, Clusters),
     Counts(CountTable),
-    Surface(rocking_surrogate::Surface),
+    Law { edp: f64 },
 }
 
 /// A fragility, and what the draws of its sample make of it.
@@ -211,8 +212,8 @@ impl SourceArgs {
         }
         let samples = self.sample.iter().map(|path| self.sample(path));
         let counts = self.counts.iter().map(|path| self.counts(path));
-        let surface = self.surrogate.map(surface);
-        samples.chain(counts).chain(surface).collect()
+        let edps = self.law.iter().flat_map(|levels| &levels.0);
+        samples.chain(counts).chain(edps.map(|edp| Ok(law(*edp)))).collect()
     }
 
     fn sample(&self, path: &Path) -> Result<FragilityLevel, Failure> {
@@ -310,23 +311,15 @@ pub(super) fn in_table(
     })
 }
 
-/// The surface of a suite.
-fn surface(suite: SuiteKind) -> Result<FragilityLevel, Failure> {
-    let models = Surrogate::embedded()?.models.into_iter();
-    let mut own = models.filter(|(model, _)| model.suite == suite);
-    let (model, _) = own.next().ok_or_else(|| Failure::input(suite))?;
-    let setting = SampleSetting {
-        eta: Some(RESTITUTION),
-        model: Some(Model::Nonlinear),
-        ..SampleSetting::default()
-    };
-    Ok(FragilityLevel {
-        place: "--surrogate".to_owned(),
-        im: Ok(IntensityMeasure::PGA),
-        setting,
-        values: LevelValues::Surface(model),
-        origin: origin(suite),
-    })
+/// The law at an EDP level.
+fn law(edp: f64) -> FragilityLevel {
+    FragilityLevel {
+        place: "--law".to_owned(),
+        im: Ok(IntensityMeasure::RockingSa(None)),
+        setting: SampleSetting::default(),
+        values: LevelValues::Law { edp },
+        origin: origin(edp),
+    }
 }
 
 impl FragilityLevel {
@@ -338,12 +331,12 @@ impl FragilityLevel {
     fn fit(
         &self,
         options: &FitOptions,
-        block: Option<&Block>,
+        row: Option<&BlockRow>,
     ) -> Result<SampledFragility, Failure> {
         let place = &self.place;
         let refused = |expected: &str| bail!("{place}: {expected}");
         let once = FitOptions { draws: None, ..options.clone() };
-        match (&self.values, options.shift, block) {
+        match (&self.values, options.shift, row) {
             (LevelValues::Sample(sample, clusters), ..) => {
                 let fitted = fit_sample(sample, &once).at(place)?.fitted;
                 let clusters = Some(clusters.clone());
@@ -363,14 +356,15 @@ impl FragilityLevel {
             (LevelValues::Counts(_), ..) => refused(
                 "counts: expected --shift with a number and --method mle",
             ),
-            (LevelValues::Surface(model), _, Some(block))
+            (LevelValues::Law { edp }, _, Some(row))
                 if once == FitOptions::default() =>
             {
-                let alpha_rad = block.slenderness_rad();
-                let p_rad_s = block.frequency_rad_s();
-                Ok((model.at(alpha_rad, p_rad_s).at(place)?, None))
+                let eta = row.eta.unwrap_or(RESTITUTION);
+                let none = ModelError::none();
+                let found = law_fragility(&row.block, eta, *edp, none);
+                Ok((found.at(place)?.fitted, None))
             }
-            (LevelValues::Surface(_), ..) => {
+            (LevelValues::Law { .. }, ..) => {
                 refused("expected a block and no flag of a fit")
             }
         }
@@ -515,8 +509,8 @@ impl FragilitySource {
         };
         let Some(first) = own.first() else {
             bail!(
-                "expected --sample, --ida, --counts or --surrogate, or a \
-                 column `sample`"
+                "expected --sample, --ida, --counts or --law, or a column \
+                  `sample`"
             );
         };
         let (mut laws, mut draws) = (Vec::new(), Vec::new());
@@ -531,17 +525,19 @@ impl FragilitySource {
                 expected.words()
             );
             let unit = level.unit(row, self.gravity_m_s2)?;
-            let (law, sampled) = level.fit(options, Some(&row.block))?;
+            let (law, sampled) = level.fit(options, Some(row))?;
             laws.push(law.scaled(unit)?);
             draws.push(sampled.map(|all| all.scaled(unit)).transpose()?);
             origins.push(level.origin.as_str());
         }
         origins.dedup();
+        let is_law = matches!(first.values, LevelValues::Law { .. });
+        let usual = is_law.then_some(RESTITUTION);
         let fragility = BlockFragility {
             id: row.id.clone(),
             block: row.block,
-            eta: row.eta.or(first.setting.eta),
-            im: first.im()?.clone(),
+            eta: row.eta.or(first.setting.eta).or(usual),
+            im: first.im()?.of_block(row.block.frequency_rad_s()),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),
             model_error: ModelError::none(),

@@ -263,7 +263,7 @@ def origins(folder):
                "PGA"),
         states(folder, [*export, "--counts", "counts.csv", "--im", "pga"],
                "PGA"),
-        states(folder, [*export, "--surrogate", "ordinary"], "PGA"))
+        states(folder, [*export, "--law"], "AvgSA", both=False))
     (folder / "blocks.csv").write_text(
         "id,alpha,p,sample\nshelf,0.15,3,leans.txt\nstatue,0.2,3,falls.txt\n")
     return max(worst, states(

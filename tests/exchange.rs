@@ -123,20 +123,20 @@ fn every_origin_and_measure_goes_out_by_the_same_door() {
     let found = row("--counts counts.csv --im pga");
     // Baker's example (Earthquake Spectra 31 (2015) 579): 1.076.
     near(&found[0]["median"], 1.076_116 * libm::tan(0.1));
-    // The surface says what `fragility surface` says, and where it is from.
-    let found = row("--surrogate ordinary");
-    let own = answer(&place, "fragility surface --alpha 0.1 --p 3 --json");
+    // The law says what `fragility law` says, and where it is from.
+    let found = row("--law 0.35,inf");
+    let own = answer(&place, "fragility law --alpha 0.1 --p 3 --json");
     let own: Value = serde_json::from_str(&own).unwrap();
-    let own = &own["suites"]["ordinary"];
-    near(&found[0]["median"], own["median_pga_g"].as_f64().unwrap());
-    assert!(text("out.csv").contains("without an analysis, ordinary suite"));
+    assert_eq!(found[1]["im"], "avgsa:rocking:3");
+    near(&found[1]["median"], own["fitted"]["median"].as_f64().unwrap());
+    assert!(text("out.csv").contains("overturning by the law of AvgSA"));
     for (flags, names) in [
-        ("--surrogate ordinary --shift 1", "no flag of a fit"),
+        ("--law --shift 1", "no flag of a fit"),
         ("--counts counts.csv", "--im"),
         ("--counts counts.csv --im pga --shift min", "counts: expected"),
         ("--counts counts.csv --im pga --method moment", "counts: expected"),
         ("--sample capacities.txt --limit-state a --limit-state b", "1 limit"),
-        ("--sample capacities.txt --surrogate ordinary", "cannot be used"),
+        ("--sample capacities.txt --law", "cannot be used"),
     ] {
         let flags = format!("{flags} --alpha 0.1 --p 3 --format csv --out x");
         refused(&place, &format!("fragility export {flags}"), names);

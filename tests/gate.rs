@@ -11,6 +11,8 @@ mod compare;
 mod exchange;
 #[path = "house.rs"]
 mod house;
+#[path = "law.rs"]
+mod law;
 #[path = "names.rs"]
 mod names;
 #[path = "page.rs"]

@@ -352,7 +352,7 @@ const COMMANDS: [&str; 22] = [
     "capacities --ida FILE --levels 1",
     "diff FILE FILE",
     "fragility counts --counts FILE --bootstrap 2",
-    "fragility export --surrogate ordinary --format csv --blocks FILE --out -",
+    "fragility export --law --format csv --blocks FILE --out -",
     "fragility fit --sample FILE",
     "ida --alpha 0.2 --p 2 --suite FILE --units g --dt 0.01 --step-im 9 --out -",
     "lilliefors --sample FILE --shift min",

@@ -7,6 +7,7 @@ use anyhow::{Context as _, bail};
 use rocking_common::findings::Findings;
 use rocking_common::table::PlainTable;
 use rocking_report::evidence::Proof;
+use rocking_report::law::LawCells;
 use rocking_report::output::{AnswerRow, first_table};
 use rocking_report::scored::codes_table;
 use rocking_report::timings::Timings;
@@ -16,7 +17,8 @@ use super::compare::{accepting, committed};
 use super::house::{read, root};
 
 /// The pages.
-const PAGES: [&str; 3] = ["README.md", "docs/tour.md", "paper.md"];
+const PAGES: [&str; 4] =
+    ["README.md", "docs/tour.md", "docs/theory.md", "paper.md"];
 
 /// What opens a mark, before its name, and what closes it, behind it.
 const OPENS: [&str; 2] = ["<!-- results: ", " -->"];
@@ -53,6 +55,7 @@ fn renewed(
                     listed(findings, name)?
                 )
             }
+            "law" => law()?,
             // `.ci/accept` runs `rocking assess` for it.
             "assessment" => old.to_owned(),
             _ => bail!("{page}: results {name:?}"),
@@ -80,6 +83,18 @@ fn answers(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
         codes.title,
         codes.reading,
         markdown(&codes)
+    ))
+}
+
+/// The law of AvgSA: its answer, and its table.
+fn law() -> anyhow::Result<String> {
+    let kept = LawCells::kept()?;
+    let (answer, numbers) = kept.answer()?;
+    let table = kept.table()?;
+    Ok(format!(
+        "\n{answer} Numbers: {numbers}.\n\n{}\n{}\n",
+        markdown(&table),
+        table.reading
     ))
 }
 

@@ -262,19 +262,19 @@ def test_fits_of_any_origin_have_the_bytes_of_the_command_line(
         file.write_text("\n".join(map(repr, values)) + "\n")
         flags += ["--sample", file]
     fits = [rk.fit_fragility(values) for values in levels]
-    surface = rk.surface_fragility(BLOCK).suites["ordinary"]
+    law = rk.law_fragility(BLOCK)
     counts = [(1.0, 1, 10), (2.0, 4, 10), (4.0, 9, 10)]
     table = tmp_path / "counts.csv"
     lines = ["intensity,exceeded,n", *(f"{x},{k},{n}" for x, k, n in counts)]
     table.write_text("\n".join(lines) + "\n")
     calls: list[tuple[Any, list[object]]] = [
         (fits, flags),
-        (surface, ["--surrogate", "ordinary"]),
+        (law, ["--law"]),
         (rk.fit_stripes(counts), ["--counts", table, "--im", "pga"]),
     ]
     for fit, words in calls:
-        eta = 0.92 if fit is surface else None
-        one = rk.BlockFragility(block=BLOCK, fit=fit, im="pga", eta=eta)
+        eta, im = (0.92, "avgsa:rocking") if fit is law else (None, "pga")
+        one = rk.BlockFragility(block=BLOCK, fit=fit, im=im, eta=eta)
         out = tmp_path / "out.csv"
         words += ["--alpha", 0.2, "--p", 3, "--format", "csv", "--out", out]
         command("fragility", "export", *words)

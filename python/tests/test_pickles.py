@@ -82,7 +82,7 @@ def made() -> list[object]:
         box.boxplot,
         rk.Reason("no result"),
         rk.risk(HAZARD, {"law": LAW}),
-        rk.surface_fragility(rk.Block(alpha=0.15, p=3.0)),
+        rk.law_fragility(rk.Block(alpha=0.15, p=3.0)),
         rk.score(solve),
         TESTS[0],
         rk.compare_with_tests(TESTS, BLOCK, ims=["pga"], n_resamples=9),

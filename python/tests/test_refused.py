@@ -89,7 +89,7 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         lambda: rk.ida(BLOCK, LOBE).pivot_forces([LOBE], [0.0]),
         "coefficient of friction 0: expected",
     ),
-    (lambda: rk.surface_fragility(rk.Block(alpha=0.2, p=8.0)), "p 8"),
+    (lambda: rk.law_fragility(rk.Block(alpha=0.2, p=9.0)), "p in rad/s 9"),
     (lambda: rk.Hazard("h.csv", "pga,rate\n"), "h.csv:1: found columns"),
     (lambda: rk.risk(HAZARD, {"a": LAW}, years=0.0), "0 years: expected"),
     (
@@ -209,7 +209,7 @@ KINDS: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.ida(NO_BLOCK, LOBE), "tuple: expected a Block"),
     (lambda: rk.respond(NO_BLOCK, LOBE), "tuple: expected a Block"),
     (lambda: rk.peak([NO_BLOCK], LOBE, levels=2.0), "tuple: expected a Block"),
-    (lambda: rk.surface_fragility(NO_BLOCK), "tuple: expected a Block"),
+    (lambda: rk.law_fragility(NO_BLOCK), "tuple: expected a Block"),
     (
         lambda: rk.BlockFragility(block=NO_BLOCK, fit=BY_VELOCITY.fit, im="pga"),
         "tuple: expected a Block",

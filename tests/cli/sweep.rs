@@ -209,25 +209,31 @@ fn a_table_of_blocks_that_makes_no_sweep_is_refused() {
 }
 
 #[test]
-fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
-    let place = folder("sweep-surrogate", &[]);
-    let found = json(&place, "fragility surface --alpha 0.15 --p 3 --json");
-    for suite in ["ordinary", "pulse-type"] {
-        let own = &found["suites"][suite];
-        let median = own["fitted"]["median"].as_f64().unwrap();
-        // PGA of uplift is g tan alpha.
-        let pga_g = own["median_pga_g"].as_f64().unwrap();
-        assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
-        assert!(median > 1.0);
-        assert!(own["half_95_of_records"]["median_relative"].is_number());
-        assert_eq!(own["surface_to_analyses"]["blocks"], 100);
-        assert_eq!(own["surface_to_recorded"]["blocks"], 15);
+fn the_law_of_a_block_needs_no_analysis_and_refuses_what_it_does_not_know() {
+    let place = folder("law", &[]);
+    let found = json(&place, "fragility law --alpha 0.15 --p 3 --json");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let ratio = number(&found["median_ratio"]) * libm::tan(0.15);
+    let fitted = &found["fitted"];
+    assert!((number(&fitted["median"]) / ratio - 1.0).abs() < 1e-12);
+    // Both dispersions are in the fragility, and that of the model is in the
+    // total.
+    let both = libm::hypot(
+        number(&found["record_dispersion"]),
+        number(&found["law_error"]),
+    );
+    assert!((number(&fitted["dispersion"]) - both).abs() < 1e-12);
+    let total = number(&found["total"]["dispersion"]);
+    assert!((total - libm::hypot(both, 0.2)).abs() < 1e-12);
+    for (flags, words) in [
+        ("--alpha 0.7 --p 3", ["alpha in rad 0.7", "0.05 to 0.6"]),
+        ("--alpha 0.2 --p 12", ["p in rad/s 12", "0.7 to 8"]),
+        ("--alpha 0.2 --p 3 --eta 0.8", ["eta 0.8", "0.85 to 0.986"]),
+        ("--alpha 0.2 --p 3 --at 0.1", ["|theta|/alpha 0.1", "0.2 to 1"]),
+        ("--alpha 0.2 --p 3 --at NaN", ["|theta|/alpha NaN", "0.2 to 1"]),
+    ] {
+        refused_for(&place, &format!("fragility law {flags}"), &words);
     }
-    let outside = "fragility surface --alpha 0.7 --p 3";
-    refused_for(&place, outside, &["alpha 0.7", "0.05 to 0.6 rad"]);
-    let shifted = "fragility surface --alpha 0.2 --p 3 --shift 1";
-    let said = super::support::refused(&place, shifted);
-    assert!(said.contains("--shift"), "{said}");
 }
 
 /// The page's commands, in its order: a plan, a job as SLURM starts it, and

@@ -82,14 +82,16 @@ pub struct LawFragility {
     pub origin: String,
 }
 
-/// Where the fragilities of the law come from, in words.
-#[must_use]
-pub fn origin(edp: f64) -> String {
-    let what = match edp.is_finite() {
-        true => format!("EDP {edp}"),
-        false => "overturning".to_owned(),
-    };
-    format!("{what} by the law of AvgSA, without an analysis")
+impl LawFragility {
+    /// Where the fragilities of the law come from, in words.
+    #[must_use]
+    pub fn origin(edp: f64) -> String {
+        let what = match edp.is_finite() {
+            true => format!("EDP {edp}"),
+            false => "overturning".to_owned(),
+        };
+        format!("{what} by the law of AvgSA, without an analysis")
+    }
 }
 
 /// The fragility of a block by the law of average spectral acceleration.
@@ -175,6 +177,6 @@ pub fn law_fragility(
         model_error,
         // Without a shift the total is lognormal.
         total: total.closed().unwrap_or(fitted),
-        origin: origin(edp),
+        origin: LawFragility::origin(edp),
     })
 }

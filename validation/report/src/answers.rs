@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use crate::basis::FindingSets;
 use crate::evidence::Proof;
+use crate::law::LawCells;
 use crate::quantity::{EstimateText, ValueScale, count_text, effect_text};
 use crate::sentences::{SentenceCounts, SuiteResult, by_suite, seen, turned};
 use crate::shaking::RockTests;
@@ -272,7 +273,14 @@ pub(super) fn rows(
         AnswerRow { question: question.into(), answer, effect, shown }
     };
     let (fast, rate) = timings.speed();
+    let (one, spread) = LawCells::kept()?.answer()?;
     let others = [
+        row(
+            "Is there one curve for all blocks?",
+            one,
+            spread,
+            &[("law", "figure"), ("law-of-avgsa", "annex")],
+        ),
         row(
             "How sure are integrator and model?",
             format!("{} The model: {}.", sure(proof, lead), tests.right()),

@@ -8,6 +8,7 @@ pub mod evidence;
 mod findings;
 pub mod head;
 pub mod lab;
+pub mod law;
 mod ledger;
 pub mod output;
 mod page;

@@ -10,6 +10,7 @@ pub use crate::answers::AnswerRow;
 use crate::basis::{self, FindingSets};
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
+use crate::law::LawCells;
 use crate::page::{Page, TITLE, annexes, html};
 use crate::quantity::{count_text, effect_text};
 use crate::scored;
@@ -112,6 +113,7 @@ pub fn files(
     let mut charts = vec![timings.figure(), scored::codes_figure()?];
     charts.extend(evidence::charts()?);
     charts.extend(tests.figures());
+    charts.push(LawCells::kept()?.figure()?);
     let basis = FindingSets::of(study.results.embedded(), &study.findings)?;
     let figures = basis.figures(&study.figures)?;
     for figure in figures.iter().chain(&charts) {

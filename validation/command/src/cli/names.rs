@@ -7,7 +7,7 @@ use rocking::integrator::{Model, Order, Overturning};
 use rocking_statistics::QuantileType;
 use rocking_statistics::lognormal::FitMethod;
 
-use rocking_common::paper::{Arm, Intensity, SuiteKind};
+use rocking_common::paper::{Arm, Intensity};
 
 /// What each of some values is called, and what the help says of it, if
 /// anything.

@@ -7,6 +7,7 @@ use super::chapter::{drawings, tables};
 use super::content::Page;
 use crate::basis::FindingSets;
 use crate::evidence::{self, Proof};
+use crate::law::LawCells;
 use crate::ledger;
 use crate::scored;
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2};
@@ -107,6 +108,12 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
             compared.collect(),
         )
         .with(page.placed(Place::SuitesByBlock)),
+        Annex::new(
+            "law-of-avgsa",
+            "One curve: the law of AvgSA by suite",
+            vec![LawCells::kept()?.table()?],
+        )
+        .filed(),
         Annex::new(
             "others",
             "How do others do?",

@@ -11,10 +11,9 @@ use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
 use rocking_procedures::fragility::hazard::HazardMeasure;
-use rocking_procedures::law::origin;
 use rocking_procedures::{
-    BootstrapFits, DispersionRule, FitOptions, ModelError, Shift, capacities,
-    fit_sample, law_fragility,
+    BootstrapFits, DispersionRule, FitOptions, LawFragility, ModelError,
+    Shift, capacities, fit_sample, law_fragility,
 };
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use rocking_statistics::lognormal::FitMethod;
@@ -318,7 +317,7 @@ fn law(edp: f64) -> FragilityLevel {
         im: Ok(IntensityMeasure::RockingSa(None)),
         setting: SampleSetting::default(),
         values: LevelValues::Law { edp },
-        origin: origin(edp),
+        origin: LawFragility::origin(edp),
     }
 }
 

@@ -4,7 +4,7 @@
 
 writes the fragility of a block as NRML and as a pelicun library, shifted and
 unshifted, in PGA and in PGV; the same of every origin (samples of two limit
-states, an IDA, counts, the fitted surface, a table of blocks) and in SA; runs the
+states, an IDA, counts, the law of AvgSA, a table of blocks) and in SA; runs the
 tour of docs/tour.md from records to decisions; reads all these files with
 openquake.engine 3.26 and pelicun 3.10; and compares their probabilities with
 those of lognormal and model at forty intensities. OpenQuake then calculates

@@ -298,6 +298,41 @@ fn risk_under_average_accelerations_at_a_site_with_an_id() {
 }
 
 #[test]
+fn risk_by_the_law_under_curves_in_sa_needs_a_stated_correlation() {
+    let place = folder("sa-curves");
+    for (file, period, frequency) in
+        [("short.csv", "0.2", 1e-2), ("long.csv", "2.5", 5e-4)]
+    {
+        let text = format!(
+            "#,\"investigation_time=50.0, imt='SA({period})'\"\nlon,lat,\
+             poe-0.1,poe-1.0\n0,0,{},{}\n",
+            -libm::expm1(-50.0 * frequency),
+            -libm::expm1(-50.0 * frequency / 100.0)
+        );
+        fs::write(place.join(file), text).unwrap();
+    }
+    let risk = "risk --hazard short.csv --hazard long.csv --law --alpha 0.1 \
+                --p 3";
+    let found = |correlation: &str| {
+        let words = format!("{risk} --json --correlation {correlation}");
+        let found: Value =
+            serde_json::from_str(&answer(&place, &words)).unwrap();
+        assert_eq!(found["im"], "avgsa:rocking:3");
+        let own = &found["fragilities"][0];
+        own["annual_frequency_truncation_lower"].as_f64().unwrap()
+    };
+    // Perfect correlation is the upper bound.
+    assert!(found("1") > 1.1 * found("0.5,0.6"));
+    near(&found("1").into(), found("0.5,0"));
+    refused(&place, risk, "--correlation");
+    let short = risk.replace("--hazard long.csv", "--correlation 1");
+    refused(&place, &short, "span 0.3142 to 2.094 s");
+    let other = "--median 0.2 --dispersion 0.2 --correlation 1";
+    let other = risk.replace("--law --alpha 0.1 --p 3", other);
+    refused(&place, &other, "a fragility in AvgSA");
+}
+
+#[test]
 fn a_hazard_curve_that_is_none_is_refused_with_its_line() {
     let place = folder("hazard");
     let risk = "risk --hazard bad.csv --median 1 --dispersion 0.5";

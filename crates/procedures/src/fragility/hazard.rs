@@ -1,5 +1,6 @@
 //! Hazard curves as files: the project's own CSV, and OpenQuake's.
 
+mod average;
 mod site;
 
 use std::fmt;
@@ -12,6 +13,9 @@ use rocking::names::as_text;
 use rocking::stop;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 
+pub use average::{
+    AverageHazardError, CorrelationFault, SpectralCorrelation, average_hazard,
+};
 pub use site::{Site, SiteError};
 
 /// The first columns of the project's own table: name, and measure with the
@@ -127,6 +131,8 @@ pub enum HazardRemark {
     Certain(usize),
     /// The periods of AvgSA are not stated.
     Periods,
+    /// The curve is made of several in SA.
+    Averaged,
 }
 
 impl fmt::Display for HazardRemark {
@@ -145,6 +151,10 @@ impl fmt::Display for HazardRemark {
             Self::Periods => f.write_str(
                 "the hazard curve is in AvgSA and does not state its \
                  periods: they are taken to be those of the fragility",
+            ),
+            Self::Averaged => f.write_str(
+                "the hazard curve in AvgSA is made of curves in SA, with the \
+                 correlation that is stated",
             ),
         }
     }

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
-use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
+use rocking_procedures::fragility::hazard::{
+    Hazard, HazardOptions, Site, SpectralCorrelation, average_hazard,
+};
 use rocking_procedures::{
     FitOptions, FragilityInput, ModelError, Shift, risk,
 };
@@ -40,11 +42,18 @@ use rocking_draw::figures::of_suite::risk_svg;
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
     rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
-    --alpha 0.15 --p 3")]
+    --alpha 0.15 --p 3\n  \
+    rocking risk --hazard avgsa.csv --law --alpha 0.15 --p 3")]
 pub struct RiskCommand {
-    /// Hazard curve, CSV; `-` is standard input.
-    #[arg(long, value_name = "HAZARD.csv")]
-    hazard: PathBuf,
+    /// Hazard curve, CSV; `-` is standard input. Several in SA make one in
+    /// AvgSA, with --correlation.
+    #[arg(long, value_name = "HAZARD.csv", required = true)]
+    hazard: Vec<PathBuf>,
+    /// Of several --hazard in SA: mean correlation of ln SA over all pairs of
+    /// periods, and dispersion of SA given the earthquake; 1, perfect
+    /// correlation, is the upper bound.
+    #[arg(long, value_name = "R,S")]
+    correlation: Option<SpectralCorrelation>,
     #[command(flatten)]
     site: SiteArgs,
     /// Median of the fragility, in the unit of the hazard curve.
@@ -129,9 +138,9 @@ enum RiskBasis {
 /// [`Failure`] for a curve, a fragility or a parameter that is refused.
 pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     let standard = Path::new("-");
-    if args.hazard == standard
-        && args.source.inputs().iter().any(|path| path == standard)
-    {
+    let read = args.source.inputs();
+    let read = read.iter().chain(&args.hazard);
+    if read.filter(|path| *path == standard).count() > 1 {
         bail!("--hazard - and another file -: expected one of them as a file");
     }
     let basis = match args.median.zip(args.dispersion) {
@@ -143,10 +152,10 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
         RiskBasis::Files(source) => source.inputs(),
         RiskBasis::Parameters(..) => Vec::new(),
     };
-    let inputs = inputs.chain(named).chain([args.hazard.clone()]).collect();
+    let inputs = inputs.chain(named).chain(args.hazard.clone()).collect();
     let mut outputs = Outputs::of(inputs);
     let plot = args.plot.open(&mut outputs)?;
-    let hazard = args.site.read(&args.hazard)?;
+    let hazard = args.hazard(&basis)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match &basis {
         RiskBasis::Files(source) => args
@@ -163,6 +172,28 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
         out.write(svg(&hazard, &fragilities)?)?;
     }
     args.json.show_beside(&outputs, &found)
+}
+
+impl RiskCommand {
+    /// The hazard curve, or the average of several.
+    fn hazard(&self, basis: &RiskBasis) -> Result<Hazard, Failure> {
+        let all = self.hazard.iter().map(|path| self.site.read(path));
+        let mut all = all.collect::<Result<Vec<Hazard>, Failure>>()?;
+        match (self.correlation, basis) {
+            (None, _) if all.len() == 1 => Ok(all.remove(0)),
+            (Some(correlation), RiskBasis::Files(source)) => {
+                Ok(average_hazard(&all, &source.im()?, correlation)?)
+            }
+            (Some(_), _) => bail!(
+                "--correlation: expected a fragility in AvgSA, such as --law"
+            ),
+            (None, _) => bail!(
+                "--hazard: {} curves: expected one, or several in SA with \
+                 --correlation",
+                all.len()
+            ),
+        }
+    }
 }
 
 /// Fragilities that one drawing can hold.

@@ -409,6 +409,24 @@ impl FragilitySource {
         rule.family(&samples.collect::<Vec<_>>())
     }
 
+    /// The measure of the fragilities of one block.
+    ///
+    /// # Errors
+    /// [`Failure`] for several blocks, or values without a measure.
+    pub fn im(&self) -> Result<IntensityMeasure, Failure> {
+        let mut own = self.samples.values().chain(&self.levels);
+        let im = own.next().map_or(Ok(&IntensityMeasure::PGA), |l| l.im())?;
+        match self.rows.as_slice() {
+            [] => Ok(im.clone()),
+            [one] => Ok(im.of_block(one.block.frequency_rad_s())),
+            many => bail!(
+                "{} blocks: their periods differ: expected one block with \
+                 several --hazard",
+                many.len()
+            ),
+        }
+    }
+
     /// The fragilities in the unit of a hazard curve's measure; where that is
     /// their own, in that of their values. Where there are several, they have
     /// names.
@@ -433,9 +451,12 @@ impl FragilitySource {
         }
         let is_own = im.dimensionless().is_none() && self.rows.is_empty();
         let own = self.samples.values().chain(&self.levels);
+        let p_rad_s = self.rows.first().map(|r| r.block.frequency_rad_s());
         for level in own {
+            let of = level.im()?;
+            let of = p_rad_s.map_or_else(|| of.clone(), |p| of.of_block(p));
             if let Some(im_name) = im.name()
-                && !im.is_of(level.im()?)
+                && !im.is_of(&of)
             {
                 bail!(
                     "{}: a sample of {}, a hazard curve of {im_name}: \

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking_records::intensity::velocity_pulse::{Candidate, candidates};
 use rocking_records::intensity::{
-    IntensityError, Measures, PairMeasures, Settings,
+    IntensityError, IntensityMeasure, Measures, PairMeasures, Settings,
 };
 use serde::Serialize;
 
@@ -30,6 +30,15 @@ pub(super) struct MeasureArgs {
         requires = "intensity"
     )]
     periods: Option<Vec<f64>>,
+    /// Frequency parameter of a block in rad/s: its periods, 0.15 to 1.0 times
+    /// 2 pi/p, and AvgSA over them (avgsa:rocking).
+    #[arg(
+        long,
+        value_name = "P",
+        requires = "intensity",
+        conflicts_with = "periods"
+    )]
+    p: Option<f64>,
     /// Percentiles of pairs over all directions: 50 is RotD50, 100 the
     /// largest.
     #[arg(
@@ -52,6 +61,9 @@ const OWN: &str = "own";
 /// What was measured: a row a record, and two a pair.
 #[derive(Serialize)]
 pub(super) struct RecordMeasures {
+    /// The measure that is the average over the periods of a block.
+    #[serde(skip)]
+    average: Option<IntensityMeasure>,
     damping_ratio: f64,
     periods_s: Vec<f64>,
     intensity: Vec<MeasuresOf>,
@@ -64,6 +76,9 @@ struct MeasuresOf {
     /// File, or name of the pair.
     of: String,
     component: String,
+    /// AvgSA over the periods of the block.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average_sa_g: Option<f64>,
     #[serde(flatten)]
     measures: Measures,
 }
@@ -94,7 +109,18 @@ impl MeasureArgs {
         gravity_m_s2: f64,
     ) -> Result<Option<RecordMeasures>, Failure> {
         let usual = Settings::default();
-        let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
+        let average = self.p.map(|p_rad_s| {
+            let own = IntensityMeasure::RockingSa(None).of_block(p_rad_s);
+            let is_known = !own.periods_s().is_empty();
+            is_known.then_some(own).ok_or_else(|| {
+                let found = format!("--p {p_rad_s}");
+                Failure::input(format!("{found}: expected 0.001 to 1000"))
+            })
+        });
+        let average = average.transpose()?;
+        let of_block = average.as_ref().map(IntensityMeasure::periods_s);
+        let periods = self.periods.as_deref().or(of_block);
+        let periods = periods.unwrap_or(usual.periods_s());
         // Without a record nothing is measured, and what is wrong was said of
         // each file.
         let gravity_m_s2 = if records.is_empty() {
@@ -119,6 +145,7 @@ impl MeasureArgs {
              records; expected a suite with pairs, or two files alone"
         );
         let mut found = RecordMeasures {
+            average: average.clone(),
             damping_ratio,
             periods_s: settings.periods_s().to_vec(),
             intensity: Vec::new(),
@@ -178,8 +205,15 @@ impl RecordMeasures {
 
     fn add(&mut self, of: &str, component: &str, measures: Option<Measures>) {
         let (of, component) = (of.to_owned(), component.to_owned());
-        let row =
-            measures.map(|measures| MeasuresOf { of, component, measures });
+        let row = measures.map(|measures| MeasuresOf {
+            of,
+            component,
+            average_sa_g: self
+                .average
+                .as_ref()
+                .and_then(|im| im.value(&measures, &self.periods_s)),
+            measures,
+        });
         self.intensity.extend(row);
     }
 

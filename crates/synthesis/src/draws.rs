@@ -38,9 +38,10 @@ impl Deviates {
 
 /// Lower Cholesky factor of a correlation matrix given by the rows of its
 /// strict lower triangle; `None` where it is not positive definite.
-pub(super) fn cholesky(lower: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
+pub(super) fn cholesky(lower: &[impl AsRef<[f64]>]) -> Option<Vec<Vec<f64>>> {
     let mut factor: Vec<Vec<f64>> = Vec::with_capacity(lower.len());
     for row in lower {
+        let row = row.as_ref();
         let mut new: Vec<f64> = Vec::with_capacity(row.len() + 1);
         for (j, rho) in row.iter().enumerate() {
             let done = dot(&new, &factor[j][..j]);
@@ -93,8 +94,8 @@ mod tests {
 
     #[test]
     fn cholesky_of_two_and_refusal() {
-        let factor = cholesky(&[&[], &[0.6]]).expect("definite");
+        let factor = cholesky(&[vec![], vec![0.6]]).expect("definite");
         assert_eq!(factor[1], vec![0.6, 0.8]);
-        assert!(cholesky(&[&[], &[1.0]]).is_none());
+        assert!(cholesky(&[vec![], vec![1.0]]).is_none());
     }
 }

@@ -103,21 +103,6 @@ pub(super) fn bend(pairs: &mut [[[f64; QUANTITIES]; 2]], medians: &[f64; 7]) {
     }
 }
 
-/// The affine transformation of logarithms that gives a sample the recorded
-/// moments: what PGA and PGV do not explain of a quantity keeps its
-/// correlations.
-///
-/// Scores have mean 0, standard deviation 1 and no correlation: one is that of
-/// PGA, the other is of what PGA does not explain of PGV.
-#[derive(Clone, Debug)]
-pub(super) struct Conditioning {
-    recorded: &'static Moments,
-    /// Of each quantity of the sample: mean, and slopes on the two scores.
-    rows: [[f64; 3]; QUANTITIES],
-    /// Stretch of what the scores do not explain.
-    stretch: [f64; QUANTITIES],
-}
-
 /// Slopes of a quantity of the recorded suite on the two scores, and the
 /// standard deviation of the rest.
 fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
@@ -129,67 +114,63 @@ fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
     [with_pga, second, rest].map(|x| deviation * x)
 }
 
-impl Conditioning {
-    /// From a sample of logarithms, one row a motion, to recorded moments.
-    pub(super) fn of(
-        sample: &[[f64; QUANTITIES]],
-        recorded: &'static Moments,
-    ) -> Self {
-        let column = |k: usize| {
-            let values: Vec<f64> = sample.iter().map(|v| v[k]).collect();
-            let [mean, _] = moments(&values);
-            (mean, values.iter().map(|x| x - mean).collect::<Vec<_>>())
-        };
-        let slope = |scores: &[f64], values: &[f64]| {
-            dot(scores, values) / (sample.len() as f64 - 1.0)
-        };
-        let less = |values: &[f64], slope: f64, scores: &[f64]| {
-            let rest = values.iter().zip(scores).map(|(x, z)| x - slope * z);
-            rest.collect::<Vec<f64>>()
-        };
-        let score = |values: &[f64]| {
-            let [_, deviation] = moments(values);
-            values.iter().map(|x| x / deviation).collect::<Vec<f64>>()
-        };
-        let first = score(&column(0).1);
-        let pgv = column(PGV).1;
-        let second = score(&less(&pgv, slope(&first, &pgv), &first));
-        let (mut rows, mut stretch) =
-            ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
-        for k in 0..QUANTITIES {
-            let (mean, values) = column(k);
-            let [one, other] = [&first, &second].map(|z| slope(z, &values));
-            rows[k] = [mean, one, other];
-            let rest = less(&values, one, &first);
-            let [_, rest] = moments(&less(&rest, other, &second));
-            // Nothing but rounding is left of PGA and of PGV.
-            if k != 0 && k != PGV {
-                stretch[k] = slopes(recorded, k)[2] / rest;
-            }
+/// Gives a sample of logarithms, the first component of each pair, the recorded
+/// moments by an affine transformation, which takes the second ones along: what
+/// PGA and PGV do not explain of a quantity keeps its correlations.
+///
+/// Scores have mean 0, standard deviation 1 and no correlation: one is that of
+/// PGA, the other is of what PGA does not explain of PGV.
+pub(super) fn condition(
+    pairs: &mut [[[f64; QUANTITIES]; 2]],
+    recorded: &Moments,
+) {
+    let column = |k: usize| {
+        let values: Vec<f64> = pairs.iter().map(|p| p[0][k]).collect();
+        let [mean, _] = moments(&values);
+        (mean, values.iter().map(|x| x - mean).collect::<Vec<_>>())
+    };
+    let slope = |scores: &[f64], values: &[f64]| {
+        dot(scores, values) / (values.len() as f64 - 1.0)
+    };
+    let less = |values: &[f64], slope: f64, scores: &[f64]| {
+        let rest = values.iter().zip(scores).map(|(x, z)| x - slope * z);
+        rest.collect::<Vec<f64>>()
+    };
+    let score = |values: &[f64]| {
+        let [_, deviation] = moments(values);
+        values.iter().map(|x| x / deviation).collect::<Vec<f64>>()
+    };
+    let first = score(&column(0).1);
+    let pgv = column(PGV).1;
+    let second = score(&less(&pgv, slope(&first, &pgv), &first));
+    // Of each quantity of the sample: mean, and slopes on the two scores;
+    // and the stretch of what the scores do not explain.
+    let (mut rows, mut stretch) = ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
+    for k in 0..QUANTITIES {
+        let (mean, values) = column(k);
+        let [one, other] = [&first, &second].map(|z| slope(z, &values));
+        rows[k] = [mean, one, other];
+        let rest = less(&values, one, &first);
+        let [_, rest] = moments(&less(&rest, other, &second));
+        // Nothing but rounding is left of PGA and of PGV.
+        if k != 0 && k != PGV {
+            stretch[k] = slopes(recorded, k)[2] / rest;
         }
-        Self { recorded, rows, stretch }
     }
-
-    /// The logarithms of one motion, transformed.
-    pub(super) fn apply(
-        &self,
-        values: &[f64; QUANTITIES],
-    ) -> [f64; QUANTITIES] {
-        let [mean, deviation, _] = self.rows[0];
+    for values in pairs.iter_mut().flatten() {
+        let [mean, deviation, _] = rows[0];
         let first = (values[0] - mean) / deviation;
-        let [mean, slope, deviation] = self.rows[PGV];
+        let [mean, slope, deviation] = rows[PGV];
         let second = (values[PGV] - mean - slope * first) / deviation;
-        let mut out = *values;
-        for (k, x) in out.iter_mut().enumerate() {
-            let [mean, one, other] = self.rows[k];
+        for (k, x) in values.iter_mut().enumerate() {
+            let [mean, one, other] = rows[k];
             let rest = *x - mean - one * first - other * second;
-            let [slope, next, _] = slopes(self.recorded, k);
-            *x = libm::log(self.recorded[k][0])
+            let [slope, next, _] = slopes(recorded, k);
+            *x = libm::log(recorded[k][0])
                 + slope * first
                 + next * second
-                + self.stretch[k] * rest;
+                + stretch[k] * rest;
         }
-        out
     }
 }
 

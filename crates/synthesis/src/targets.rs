@@ -4,7 +4,7 @@ use crate::attenuation::{
     PGV, QUANTITIES, between_components, correlation, deviation, median,
 };
 use crate::draws::{Deviates, cholesky, correlate};
-use crate::moments::{Conditioning, Moments, bend};
+use crate::moments::{Moments, bend, condition};
 use crate::pair::{
     LEAST_PGA_G, MOST_DRAWS, Role, Scenario, SynthesisError, stream_index,
 };
@@ -68,11 +68,7 @@ pub(super) fn conditioned(
         let mut out: Vec<_> = drawn.iter().map(|t| t.components).collect();
         for _ in 0..BENDS {
             bend(&mut out, suite.medians);
-            let first: Vec<_> = out.iter().map(|c| c[0]).collect();
-            let conditioning = Conditioning::of(&first, suite.recorded);
-            for c in out.iter_mut().flatten() {
-                *c = conditioning.apply(c);
-            }
+            condition(&mut out, suite.recorded);
         }
         let least = libm::log(LEAST_PGA_G);
         let weak = |i: &usize| !out[*i].iter().all(|c| c[0] > least);
@@ -154,10 +150,8 @@ pub(super) fn draw(
 
 /// Factor of the correlation between the quantities of one component.
 pub(super) fn factor() -> Vec<Vec<f64>> {
-    let lower = correlation();
-    let rows: Vec<&[f64]> = lower.iter().map(Vec::as_slice).collect();
     // Definite for these constants; a test holds it.
-    cholesky(&rows).unwrap_or_default()
+    cholesky(&correlation()).unwrap_or_default()
 }
 
 /// Quantile at probability `p` of a table of positive numbers, whose logarithm

@@ -510,9 +510,8 @@ fn solved(
             (0..k).map(with).collect()
         })
         .collect();
-    let rows: Vec<&[f64]> = lower.iter().map(Vec::as_slice).collect();
     // Definite because D is.
-    let factor = cholesky(&rows).unwrap_or_default();
+    let factor = cholesky(&lower).unwrap_or_default();
     let mut x: Vec<f64> = Vec::with_capacity(missed.len());
     for (k, row) in factor.iter().enumerate() {
         let rest = scale[k] * missed[k] - dot(row, &x);

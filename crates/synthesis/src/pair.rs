@@ -109,25 +109,14 @@ pub(crate) fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {
 pub(crate) fn finished(
     suite: &str,
     pair: u64,
-    [mut a, mut b]: [Vec<f64>; 2],
+    [a, b]: [Vec<f64>; 2],
 ) -> Result<Option<[Accelerogram; 2]>, AccelerogramError> {
-    settle(&mut a);
-    settle(&mut b);
-    let a = component(suite, pair, 'a', a)?;
-    let b = component(suite, pair, 'b', b)?;
-    let strong = a.pga_g() > LEAST_PGA_G && b.pga_g() > LEAST_PGA_G;
-    Ok(strong.then_some([a, b]))
-}
-
-fn component(
-    suite: &str,
-    pair: u64,
-    letter: char,
-    samples_g: Vec<f64>,
-) -> Result<Accelerogram, AccelerogramError> {
-    Accelerogram::try_new(
-        format!("{suite}-{pair:02}-{letter}"),
-        DT_S,
-        samples_g,
-    )
+    let component = |letter: char, mut samples_g: Vec<f64>| {
+        settle(&mut samples_g);
+        let name = format!("{suite}-{pair:02}-{letter}");
+        Accelerogram::try_new(name, DT_S, samples_g)
+    };
+    let both = [component('a', a)?, component('b', b)?];
+    let strong = both.iter().all(|one| one.pga_g() > LEAST_PGA_G);
+    Ok(strong.then_some(both))
 }

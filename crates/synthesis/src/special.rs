@@ -118,14 +118,9 @@ pub(super) fn two_sided_exponential_quantile(
     } else {
         -libm::log(1.0 - (probability - at_zero) * a / c) / a
     };
-    // The published constants close the distribution to four digits only.
-    if x >= lowest && x <= highest {
-        x
-    } else if x < lowest {
-        lowest
-    } else {
-        highest
-    }
+    // The published constants close the distribution to four digits only:
+    // beyond, x is NaN.
+    x.min(highest).max(lowest)
 }
 
 #[cfg(test)]

@@ -96,8 +96,8 @@ pub(super) fn pair(
         Envelope::of(d5_75_s, shape)
     });
     let mut lead_s = LEAD_S;
-    let ends = envelopes.map(|e| e.time_s(0.99));
-    let mut end_s = if ends[0] > ends[1] { ends[0] } else { ends[1] };
+    let [first, second] = envelopes.map(|e| e.time_s(0.99));
+    let mut end_s = first.max(second);
     // Beginning and end of the pulse after the beginning of the envelope.
     let mut pulse_s = 0.0;
     if let Some(pulse) = &target.pulse {
@@ -105,18 +105,16 @@ pub(super) fn pair(
         let delay_s = pulse.delay_s.clamp(-most, most);
         let centre = envelopes[0].time_s(0.3) + delay_s;
         pulse_s = centre - pulse.half_s();
-        if !(lead_s + pulse_s > 0.0) {
-            lead_s = -pulse_s;
-        }
-        let last = centre + pulse.half_s();
-        if last > end_s {
-            end_s = last;
-        }
+        lead_s = lead_s.max(-pulse_s);
+        end_s = end_s.max(centre + pulse.half_s());
     }
-    let n = (duration_s(lead_s, end_s) / DT_S).round() as usize + 1;
-    let nodes = nodes_of(n, envelopes[0].d5_75_s)
-        .max(nodes_of(n, envelopes[1].d5_75_s));
-    let common = shared.normals(nodes);
+    // The motion has all but ended after `end_s`: a fifth and eight seconds
+    // more, at least 20 s.
+    let duration_s = (lead_s + 1.2 * end_s + 8.0).ceil();
+    let duration_s = duration_s.clamp(20.0, LONGEST_S);
+    let n = (duration_s / DT_S).round() as usize + 1;
+    let [first, second] = envelopes.map(|e| nodes_of(n, e.d5_75_s));
+    let common = shared.normals(first.max(second));
     let from = ((lead_s + pulse_s) / DT_S).round() as usize;
     let component = |k: usize, role: Role| {
         let mut draws = Deviates::new(seed, stream(role));
@@ -138,12 +136,6 @@ pub(super) fn pair(
         matched(packets, pulse, &target.components[k], n)
     };
     [component(0, Role::First), component(1, Role::Second)]
-}
-
-/// Length of a record whose motion has all but ended `end_s` after its
-/// beginning: a fifth and eight seconds more, at least 20 s.
-fn duration_s(lead_s: f64, end_s: f64) -> f64 {
-    (lead_s + 1.2 * end_s + 8.0).ceil().clamp(20.0, LONGEST_S)
 }
 
 /// Amplitude whose square is a gamma density.
@@ -247,7 +239,7 @@ impl Noise<'_> {
         let content_hz = |t: f64| {
             let since_s = t.clamp(ends[0], ends[2]) - ends[1];
             let hz = FILTER_HZ + self.rate_hz_s * since_s;
-            if hz > LEAST_HZ { hz } else { LEAST_HZ }
+            hz.max(LEAST_HZ)
         };
         let content: Vec<f64> =
             (0..n).map(|i| content_hz(time_s(i))).collect();
@@ -400,11 +392,11 @@ fn matched(
         let sizes: Vec<f64> =
             peaks.iter().map(|p| p.found(&pulse.samples).size).collect();
         let room = target[PGV] - libm::log(sizes[PGV]);
-        pulse_gain = if room < 0.0 { room } else { 0.0 };
+        pulse_gain = room.min(0.0);
         for (left, size) in left.iter_mut().zip(&sizes) {
             let share = libm::exp(libm::log(*size) + pulse_gain - *left);
             let rest = 1.0 - share * share;
-            *left += 0.5 * libm::log(if rest > 0.1 { rest } else { 0.1 });
+            *left += 0.5 * libm::log(rest.max(0.1));
         }
     }
     let mut ln_gains: Vec<f64> = packets
@@ -413,7 +405,7 @@ fn matched(
             let x = -libm::log(packet.hz);
             // Above 10 Hz spectra of acceleration fall.
             let above = 3.0 * (-libm::log(10.0) - x);
-            read_off(&left, x) - if above > 0.0 { above } else { 0.0 }
+            read_off(&left, x) - above.max(0.0)
         })
         .collect();
     let size = peaks[0].found(&sum(&packets, &ln_gains, n)).size;

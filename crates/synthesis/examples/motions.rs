@@ -27,18 +27,9 @@ const P_RAD_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
 
 const GRAVITY_M_S2: f64 = 9.80665;
 
-/// What the table needs of one motion; accelerations, PGV and D5-75 as
-/// natural logarithms.
-struct MotionMoments {
-    pga: f64,
-    pgv: f64,
-    pgd: f64,
-    d5_75: f64,
-    mean_period: f64,
-    spectrum: Vec<f64>,
-    /// (t_PGV - t_PGA)/D5-75.
-    delay: f64,
-}
+/// What the table needs of one motion: natural logarithms of measures by their
+/// labels, PGA and PGV first, and (t_PGV - t_PGA)/D5-75.
+type MotionMoments = (Vec<(String, f64)>, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
@@ -91,19 +82,31 @@ fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
             .max_by(|x, y| largest(x).total_cmp(&largest(y)));
         found.map_or(0.0, |(i, _)| i as f64 * dt_s)
     };
-    Ok(MotionMoments {
-        pga: libm::log(m.pga_g),
-        pgv: libm::log(m.pgv_m_s),
-        pgd: libm::log(m.pgd_m),
-        d5_75: libm::log(m.significant_duration_5_75_s),
-        mean_period: libm::log(m.mean_period_s.ok_or("no mean period")?),
-        delay: (place(&velocity) - place(a)) / m.significant_duration_5_75_s,
-        spectrum: m
-            .spectral_acceleration_g
-            .iter()
-            .map(|sa| libm::log(*sa))
-            .collect(),
-    })
+    let delay = (place(&velocity) - place(a)) / m.significant_duration_5_75_s;
+    let single = [
+        ("PGA", m.pga_g),
+        ("PGV", m.pgv_m_s),
+        ("PGD", m.pgd_m),
+        ("Tm", m.mean_period_s.ok_or("no mean period")?),
+        ("D5-75", m.significant_duration_5_75_s),
+    ];
+    let mut rows: Vec<(String, f64)> =
+        single.map(|(label, x)| (label.to_owned(), libm::log(x))).into();
+    let sa: Vec<f64> =
+        m.spectral_acceleration_g.iter().map(|sa| libm::log(*sa)).collect();
+    let (own, averages) = sa.split_at(PERIODS_S.len());
+    for (period, sa) in PERIODS_S.iter().zip(own) {
+        rows.push((format!("SA {period} s"), *sa));
+    }
+    for (p, ten) in P_RAD_S.iter().zip(averages.chunks(10)) {
+        rows.push((format!("AvgSA p={p}"), moments(ten)[0]));
+    }
+    let neighbours = PERIODS_S.windows(6).zip(own.windows(6));
+    for (periods, six) in neighbours.skip(2).take(6) {
+        let label = format!("{}..{} s", periods[0], periods[5]);
+        rows.push((label, moments(six)[0]));
+    }
+    Ok((rows, delay))
 }
 
 fn print<'a>(
@@ -112,12 +115,7 @@ fn print<'a>(
 ) -> Result<(), Box<dyn Error>> {
     let motions: Vec<MotionMoments> =
         motions.map(measured).collect::<Result<_, _>>()?;
-    let all = |of: &dyn Fn(&MotionMoments) -> f64| -> Vec<f64> {
-        motions.iter().map(of).collect()
-    };
     println!("{name}: {} motions", motions.len());
-    let pga = all(&|m| m.pga);
-    let pgv = all(&|m| m.pgv);
     println!(
         "{:>10} {:>9} {:>7} {:>9} {:>7} {:>8} {:>8} {:>8}",
         "measure",
@@ -129,9 +127,15 @@ fn print<'a>(
         "rho PGV",
         "med/mean"
     );
-    let row = |label: &str, of: &dyn Fn(&MotionMoments) -> f64| {
-        let own = all(of);
-        let ratio = all(&|m| of(m) - m.pga);
+    let column = |k: usize| -> Vec<f64> {
+        motions.iter().map(|(rows, _)| rows[k].1).collect()
+    };
+    let (pga, pgv) = (column(0), column(1));
+    let labels = motions.first().map_or(&[][..], |(rows, _)| rows);
+    for (k, (label, _)) in labels.iter().enumerate() {
+        let own = column(k);
+        let ratio: Vec<f64> =
+            own.iter().zip(&pga).map(|(x, pga)| x - pga).collect();
         let ([mean, sd], [middle, ratio_sd]) =
             (moments(&own), moments(&ratio));
         println!(
@@ -143,25 +147,8 @@ fn print<'a>(
             correlation(&own, &pgv),
             libm::exp(median(&ratio) - middle),
         );
-    };
-    row("PGA", &|m| m.pga);
-    row("PGV", &|m| m.pgv);
-    row("PGD", &|m| m.pgd);
-    row("Tm", &|m| m.mean_period);
-    row("D5-75", &|m| m.d5_75);
-    for (k, period) in PERIODS_S.iter().enumerate() {
-        row(&format!("SA {period} s"), &|m| m.spectrum[k]);
     }
-    let average = |from: usize, n: usize| {
-        move |m: &MotionMoments| moments(&m.spectrum[from..from + n])[0]
-    };
-    for (j, p) in P_RAD_S.iter().enumerate() {
-        row(&format!("AvgSA p={p}"), &average(PERIODS_S.len() + 10 * j, 10));
-    }
-    for (k, six) in PERIODS_S.windows(6).enumerate().skip(2).take(6) {
-        row(&format!("{}..{} s", six[0], six[5]), &average(k, 6));
-    }
-    let delay = all(&|m| m.delay);
+    let delay: Vec<f64> = motions.iter().map(|(_, delay)| *delay).collect();
     let ([mean, sd], middle) = (moments(&delay), median(&delay));
     println!(
         "(t_PGV - t_PGA)/D5-75: median {middle:.3}, mean {mean:.3}, sd {sd:.3}"

@@ -86,31 +86,23 @@ impl LillieforsTable {
     /// Reads rows `n,replicates,level,critical_value,standard_error`; a row
     /// that is no such row is left out, which the tests would see.
     fn parse(csv: &str) -> Self {
-        let mut columns: Vec<LevelColumn> = Vec::new();
-        for line in csv.lines() {
-            let fields: Vec<f64> =
-                line.split(',').filter_map(|f| f.parse().ok()).collect();
-            let &[n, replicates, level, value, error] = fields.as_slice()
-            else {
-                continue;
-            };
-            let n = n as usize;
-            if columns.last().is_none_or(|column| column.n != n) {
-                columns.push(LevelColumn {
-                    n,
-                    replicates,
-                    levels: Vec::new(),
-                    values: Vec::new(),
-                    errors: Vec::new(),
-                });
+        let rows = csv.lines().filter_map(|line| {
+            let fields = line.split(',').filter_map(|f| f.parse().ok());
+            fields.collect::<Vec<f64>>().try_into().ok()
+        });
+        let rows: Vec<[f64; 5]> = rows.collect();
+        let column = |own: &[[f64; 5]]| {
+            let each = |k: usize| own.iter().map(|row| row[k]).collect();
+            LevelColumn {
+                n: own[0][0] as usize,
+                replicates: own[0][1],
+                levels: each(2),
+                values: each(3),
+                errors: each(4),
             }
-            if let Some(column) = columns.last_mut() {
-                column.levels.push(level);
-                column.values.push(value);
-                column.errors.push(error);
-            }
-        }
-        Self { columns }
+        };
+        let columns = rows.chunk_by(|a, b| a[0] == b[0]).map(column);
+        Self { columns: columns.collect() }
     }
 
     /// Critical value and its standard error at a size and a tabulated or

@@ -66,20 +66,13 @@ impl Clusters {
         labels: impl IntoIterator<Item: AsRef<str>>,
     ) -> Self {
         let mut known = std::collections::BTreeMap::new();
-        let mut members: Vec<Vec<usize>> = Vec::new();
-        let mut place = |(record, label): (usize, _)| {
-            let label: &str = AsRef::<str>::as_ref(&label);
-            let next = known.len();
-            let cluster = *known.entry(label.to_owned()).or_insert(next);
-            match members.get_mut(cluster) {
-                Some(own) => own.push(record),
-                None => members.push(vec![record]),
-            }
-            cluster
-        };
-        let mut of = Vec::new();
-        for label in labels.into_iter().enumerate() {
-            of.push(place(label));
+        let (mut of, mut members) = (Vec::new(), Vec::<Vec<usize>>::new());
+        for (record, label) in labels.into_iter().enumerate() {
+            let label = label.as_ref().to_owned();
+            let cluster = *known.entry(label).or_insert(members.len());
+            members.resize_with(known.len(), Vec::new);
+            members[cluster].push(record);
+            of.push(cluster);
         }
         Self { unit, of, members }
     }

@@ -49,7 +49,7 @@ pub enum PairedError {
 }
 
 /// Pairs sorted by what they allow.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Pairs {
@@ -91,16 +91,7 @@ impl Pairs {
         if a.len() != b.len() {
             return Err(PairedError::Lengths { a: a.len(), b: b.len() });
         }
-        let mut pairs = Self {
-            ratios: Vec::new(),
-            n: a.len(),
-            only_a_infinite: 0,
-            only_b_infinite: 0,
-            both_infinite: 0,
-            both_zero: 0,
-            only_a_zero: 0,
-            only_b_zero: 0,
-        };
+        let mut pairs = Self { n: a.len(), ..Self::default() };
         for (i, (&a, &b)) in a.iter().zip(b).enumerate() {
             for value in [a, b] {
                 if value.is_nan() || value < 0.0 {

@@ -137,17 +137,15 @@ pub fn mixed(
         .map(|g| Group::new(clusters.members(g), &x, &y))
         .collect();
     let at = |ratio| solve(&groups, n, ratio);
-    let value = |place: f64| {
-        at(exp(place)).map_or(f64::NEG_INFINITY, |found| found.likelihood)
-    };
+    let likelihood =
+        |ratio| at(ratio).map_or(f64::NEG_INFINITY, |found| found.likelihood);
+    let value = |place: f64| likelihood(exp(place));
     // ln(tau^2/s^2) from 1e-4 to 1e4, in steps of which the best is refined.
     let places: Vec<f64> = (-18..=18).map(|k| 0.5 * f64::from(k)).collect();
     let best = places.iter().copied().fold(f64::NAN, |best, place| {
         if value(place) <= value(best) { best } else { place }
     });
     let ratio = exp(golden(value, best - 0.5, best + 0.5));
-    let likelihood =
-        |ratio| at(ratio).map_or(f64::NEG_INFINITY, |found| found.likelihood);
     let is_zero = likelihood(0.0) >= likelihood(ratio);
     let ratio = if is_zero { 0.0 } else { ratio };
     let found = at(ratio).ok_or(RegressionError::Constant)?;

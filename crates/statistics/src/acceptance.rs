@@ -199,7 +199,7 @@ fn scores(levels: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, AcceptanceError> {
         }
         let sample =
             Sample::try_new(values).map_err(|_| AcceptanceError::Empty)?;
-        standardised(&sample)
+        standardised(&sample, 4)
             .map_err(|source| AcceptanceError::Scores { level, source })?;
         let (centre, norm) = (mean(values), sum_of_squares(values).sqrt());
         scores.push(values.iter().map(|x| (x - centre) / norm).collect());

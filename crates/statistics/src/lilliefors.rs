@@ -121,7 +121,7 @@ impl Statistic {
     /// vary. The test itself needs 4.
     pub fn try_new(sample: &Sample) -> Result<Self, LillieforsError> {
         let n = sample.len();
-        let scores = scores(sample, 3)?;
+        let scores = standardised(sample, 3)?;
         let count = n as f64;
         let (mut d_plus, mut d_minus) = (f64::MIN, f64::MIN);
         for (i, z) in scores.iter().enumerate() {
@@ -145,14 +145,11 @@ impl Statistic {
     }
 }
 
-/// Ascending scores (y - m)/s of at least 4 values that vary.
+/// Ascending scores (y - m)/s of at least `least` values that vary.
 pub(super) fn standardised(
     sample: &Sample,
+    least: usize,
 ) -> Result<Vec<f64>, LillieforsError> {
-    scores(sample, 4)
-}
-
-fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
     let n = sample.len();
     if n < least {
         return Err(LillieforsError::TooFew { found: n, least });

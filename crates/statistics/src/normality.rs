@@ -57,7 +57,7 @@ impl NormalityTest {
 pub fn anderson_darling(
     sample: &Sample,
 ) -> Result<NormalityTest, LillieforsError> {
-    let scores = standardised(sample)?;
+    let scores = standardised(sample, 4)?;
     let n = scores.len() as f64;
     let statistic = a2(&scores);
     let a = statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
@@ -84,7 +84,7 @@ pub fn anderson_darling(
 pub fn cramer_von_mises(
     sample: &Sample,
 ) -> Result<NormalityTest, LillieforsError> {
-    let scores = standardised(sample)?;
+    let scores = standardised(sample, 4)?;
     let n = scores.len() as f64;
     let statistic = w2(&scores);
     let w = statistic * (1.0 + 0.5 / n);

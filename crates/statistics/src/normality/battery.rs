@@ -40,9 +40,6 @@ pub struct SimulatedTest {
     pub p_value: Estimate,
 }
 
-/// Replicates that share their working space.
-const CHUNK: u64 = 1024;
-
 impl Battery {
     /// Largest sample that [`simulate`](Self::simulate) takes: Shapiro and
     /// Wilk's weights hold up to it.
@@ -65,27 +62,17 @@ impl Battery {
         }
         let streams = Streams::new(&format!("normality, {n}"), seed);
         let weights = weights(n);
-        let rows: Vec<Vec<[f64; 3]>> = (0..replicates.div_ceil(CHUNK))
-            .into_par_iter()
-            .panic_fuse()
-            .map(|chunk| {
-                let first = chunk * CHUNK;
-                (first..(first + CHUNK).min(replicates))
-                    .map(|index| {
-                        stop::point();
-                        let mut stream = streams.stream(index);
-                        let mut values = vec![0.0; n];
-                        standard_normals(&mut stream, &mut values);
-                        let scores =
-                            standardised(&Sample::from_finite(values))?;
-                        let deficit = deficit(&weights, &scores);
-                        Ok([a2(&scores), w2(&scores), deficit])
-                    })
-                    .collect::<Result<_, LillieforsError>>()
-            })
-            .collect::<Result<_, _>>()?;
+        let row = |index| {
+            stop::point();
+            let mut values = vec![0.0; n];
+            standard_normals(&mut streams.stream(index), &mut values);
+            let scores = standardised(&Sample::from_finite(values), 4)?;
+            Ok([a2(&scores), w2(&scores), deficit(&weights, &scores)])
+        };
+        let rows = (0..replicates).into_par_iter().panic_fuse().map(row);
+        let rows = rows.collect::<Result<Vec<_>, LillieforsError>>()?;
         let null = |k: usize| {
-            let column = rows.iter().flatten().map(|row| row[k]).collect();
+            let column = rows.iter().map(|row| row[k]).collect();
             NullDistribution::from_statistics(n, column)
         };
         Ok(Self { n, nulls: [null(0), null(1), null(2)] })
@@ -104,7 +91,7 @@ impl Battery {
             let (found, expected) = (sample.len(), self.n);
             return Err(LillieforsError::Size { found, expected });
         }
-        let scores = standardised(sample)?;
+        let scores = standardised(sample, 4)?;
         let deficit = deficit(&weights(self.n), &scores);
         let statistics = [a2(&scores), w2(&scores), deficit];
         let p = [0, 1, 2].map(|k: usize| self.nulls[k].p_value(statistics[k]));

@@ -25,7 +25,7 @@ pub(super) const LARGEST: usize = 5000;
 pub fn shapiro_wilk(
     sample: &Sample,
 ) -> Result<NormalityTest, LillieforsError> {
-    let scores = standardised(sample)?;
+    let scores = standardised(sample, 4)?;
     if scores.len() > LARGEST {
         return Err(LillieforsError::TooMany {
             found: scores.len(),

@@ -92,7 +92,11 @@ impl QuantileType {
     /// (1 - g) x_(j) + g x_(j+1), with j + g = n p + m; m by the type. As in
     /// R, g within a few rounding errors of a whole number is that number,
     /// so that a weight of zero never touches its neighbour.
-    fn of_sorted(self, sorted: &[f64], p: f64) -> Result<f64, QuantileError> {
+    pub(crate) fn of_sorted(
+        self,
+        sorted: &[f64],
+        p: f64,
+    ) -> Result<f64, QuantileError> {
         if !(0.0..=1.0).contains(&p) {
             return Err(QuantileError::Probability(p));
         }

@@ -10,7 +10,7 @@ use std::fmt;
 
 use super::bootstrap::{Bootstrap, BootstrapEstimate};
 use super::clusters::{Clusters, SamplingUnit};
-use super::{Estimate, Interval, Range};
+use super::{Estimate, Interval, QuantileType, Range};
 use rocking::names::as_text;
 
 /// How often a draw of `places` holds each of `n` records.
@@ -334,36 +334,11 @@ impl RecordRanks {
     /// has weight, NaN where there is no value.
     #[must_use]
     pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
-        let n: u32 = self.0.iter().map(|(_, record)| counts[*record]).sum();
-        if n == 0 {
+        let drawn = self.drawn(counts);
+        if drawn.is_empty() {
             return f64::NAN;
         }
-        let position = f64::from(n) * p + 0.5;
-        let fuzz = 4.0 * f64::EPSILON * position;
-        let rank = (position + fuzz).floor();
-        let weight = position - rank;
-        let last = f64::from(n);
-        let low = self.value_at(counts, rank.clamp(1.0, last));
-        if weight <= fuzz {
-            return low;
-        }
-        let high = self.value_at(counts, (rank + 1.0).clamp(1.0, last));
-        if low == high || high == f64::INFINITY {
-            return high;
-        }
-        f64::mul_add(weight, high, (1.0 - weight) * low)
-    }
-
-    /// The value of a rank, from 1.
-    fn value_at(&self, counts: &[u32], rank: f64) -> f64 {
-        let mut passed = 0.0;
-        for (x, record) in &self.0 {
-            passed += f64::from(counts[*record]);
-            if passed >= rank {
-                return *x;
-            }
-        }
-        f64::NAN
+        QuantileType::default().of_sorted(&drawn, p).unwrap_or(f64::NAN)
     }
 
     /// Median of a replicate.

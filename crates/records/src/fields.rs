@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::number::{self, Form, Reading};
+use super::number::{self, Form};
 use super::text::{Text, excerpt};
 use crate::error::{Fault, RecordError};
 use crate::quality::Remark;
@@ -17,12 +17,19 @@ pub(super) struct FieldLayout {
     pub(super) per_line: usize,
     /// Characters by which the first field of a line is narrower.
     pub(super) missing: usize,
+    /// Whether numbers are each written in their own form.
+    varied: bool,
 }
 
 impl FieldLayout {
     /// Fields of one width.
     pub(super) const fn even(per_line: usize, width: usize) -> Self {
-        Self { width, per_line, missing: 0 }
+        Self { width, per_line, missing: 0, varied: false }
+    }
+
+    /// The same fields, for numbers that are each written in their own form.
+    pub(super) const fn varied(self) -> Self {
+        Self { varied: true, ..self }
     }
 
     /// Bytes of field `k` in a line.
@@ -65,7 +72,7 @@ pub(super) fn layout_of(line: &str, missing: usize) -> Option<FieldLayout> {
     if first.end + missing != width {
         return None;
     }
-    let mut layout = FieldLayout { width, per_line: 2, missing };
+    let mut layout = FieldLayout { missing, ..FieldLayout::even(2, width) };
     for token in tokens {
         if token?.end != layout.field(layout.per_line).end {
             return None;
@@ -95,41 +102,27 @@ pub(super) fn read(
             .map(|line| number::tokens(line.as_bytes()).count())
             .sum(),
     };
-    let mut samples = Vec::with_capacity(count);
-    let mut form = None;
+    let samples = Vec::with_capacity(count);
+    let varied = layout.is_some_and(|layout| layout.varied);
+    let mut lines =
+        LineReader { text, index: first, form: None, varied, samples };
     for index in first..end {
-        let mut line = LineReader { text, index, form: Some(&mut form) };
+        lines.index = index;
         match layout {
-            Some(layout) => {
-                line.fixed(layout, index + 1 == end, &mut samples)?;
-            }
-            None => line.free(&mut samples)?,
+            Some(layout) => lines.fixed(layout, index + 1 == end)?,
+            None => lines.free()?,
         }
     }
-    Ok(samples)
-}
-
-/// As [`read`] by a layout, for numbers that are each written in their own
-/// form.
-pub(super) fn read_varied(
-    text: &Text<'_>,
-    first: usize,
-    end: usize,
-    layout: FieldLayout,
-) -> Result<Vec<f64>, RecordError> {
-    let mut values = Vec::new();
-    for index in first..end {
-        let mut line = LineReader { text, index, form: None };
-        line.fixed(layout, index + 1 == end, &mut values)?;
-    }
-    Ok(values)
+    Ok(lines.samples)
 }
 
 struct LineReader<'t, 'a> {
     text: &'t Text<'a>,
     index: usize,
-    /// The first number's form, where all have one.
-    form: Option<&'t mut Option<Form>>,
+    /// The first number's form, which all have unless they are `varied`.
+    form: Option<Form>,
+    varied: bool,
+    samples: Vec<f64>,
 }
 
 impl LineReader<'_, '_> {
@@ -148,23 +141,21 @@ impl LineReader<'_, '_> {
         byte: usize,
         found: &str,
         expected: impl Fn() -> String,
-    ) -> Result<f64, RecordError> {
+    ) -> Result<(), RecordError> {
         match number::read(found) {
-            Reading::Finite(value, form) => {
-                let Some(first) = self.form.as_mut() else {
-                    return Ok(value);
-                };
-                let first = *first.get_or_insert(form);
-                if form == first {
-                    return Ok(value);
+            Some((value, form)) if value.is_finite() => {
+                let first = *self.form.get_or_insert(form);
+                if form != first && !self.varied {
+                    return Err(self.refuse(byte, found, describe(first)));
                 }
-                Err(self.refuse(byte, found, describe(first)))
+                self.samples.push(value);
+                Ok(())
             }
-            Reading::NotFinite => {
+            Some(_) => {
                 let fault = Fault::NotFinite(excerpt(found));
                 Err(self.text.at(self.index, byte, fault))
             }
-            Reading::Other => Err(self.refuse(byte, found, expected())),
+            None => Err(self.refuse(byte, found, expected())),
         }
     }
 
@@ -172,9 +163,8 @@ impl LineReader<'_, '_> {
         &mut self,
         layout: FieldLayout,
         last: bool,
-        samples: &mut Vec<f64>,
     ) -> Result<(), RecordError> {
-        let FieldLayout { width, per_line, missing } = layout;
+        let FieldLayout { width, per_line, missing, .. } = layout;
         let line = self.text.line(self.index).unwrap_or("").trim_end();
         let full = width * per_line - missing;
         if line.len() > full {
@@ -195,12 +185,12 @@ impl LineReader<'_, '_> {
             if field.len() < place.len() {
                 return Err(self.refuse(byte, found, expected()));
             }
-            samples.push(self.number(byte, found, expected)?);
+            self.number(byte, found, expected)?;
         }
         Ok(())
     }
 
-    fn free(&mut self, samples: &mut Vec<f64>) -> Result<(), RecordError> {
+    fn free(&mut self) -> Result<(), RecordError> {
         let line = self.text.line(self.index).unwrap_or("");
         let mut at = 0;
         for part in line.split([' ', '\t', ',']) {
@@ -211,7 +201,7 @@ impl LineReader<'_, '_> {
                     .map_or(part.len(), |token| token.end);
                 let found = part.get(start..end).unwrap_or(rest);
                 let expected = || "a number".to_owned();
-                samples.push(self.number(at + start, found, expected)?);
+                self.number(at + start, found, expected)?;
                 start = end;
             }
             at += part.len() + 1;
@@ -339,10 +329,8 @@ pub(super) fn one_number(
 ) -> Result<(f64, Form), RecordError> {
     let found = found.trim();
     match number::read(found) {
-        Reading::Finite(value, form) => Ok((value, form)),
-        Reading::NotFinite => {
-            Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
-        }
-        Reading::Other => Err(text.no_number(index, found, "a number")),
+        Some(known) if known.0.is_finite() => Ok(known),
+        Some(_) => Err(text.on_line(index, Fault::NotFinite(excerpt(found)))),
+        None => Err(text.no_number(index, found, "a number")),
     }
 }

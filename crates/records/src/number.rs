@@ -1,10 +1,8 @@
 //! Numbers as programs write them, with or without room between.
 
-/// A number found in a line: its bytes, and the form in which it is written.
+/// A number found in a line: its end, and the form in which it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token {
-    /// First byte.
-    pub(super) start: usize,
     /// Byte after the last.
     pub(super) end: usize,
     /// Its form.
@@ -13,7 +11,7 @@ pub(super) struct Token {
 
 /// How a number is written: a format statement fixes both counts, so a
 /// number that lost a digit shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Form {
     /// Digits after the decimal point; none without a point.
     pub(super) decimals: Option<usize>,
@@ -57,7 +55,7 @@ pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
         exponent = 4;
     }
     end += exponent;
-    Some(Token { start, end, form: Form { decimals, exponent } })
+    Some(Token { end, form: Form { decimals, exponent } })
 }
 
 /// All numbers of a line, glued ones too; `None` ends them at whatever is
@@ -77,25 +75,21 @@ pub(super) fn tokens(line: &[u8]) -> impl Iterator<Item = Option<Token>> {
     })
 }
 
-/// What a text is as a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Reading {
-    /// A finite number.
-    Finite(f64, Form),
-    /// NaN, infinite, or too large for a double.
-    NotFinite,
-    /// Something else.
-    Other,
+/// Whether a line is numbers and nothing else.
+pub(super) fn is_data(line: &str) -> bool {
+    let mut numbers = tokens(line.as_bytes()).peekable();
+    numbers.peek().is_some() && numbers.all(|token| token.is_some())
 }
 
-/// Reads a text that must be one number from end to end.
-pub(super) fn read(text: &str) -> Reading {
+/// The number that a text is from end to end, and its form; not finite for
+/// NaN, an infinity, and what is too large for a double.
+pub(super) fn read(text: &str) -> Option<(f64, Form)> {
     let bytes = text.as_bytes();
     let Some(token) = token_at(bytes, 0).filter(|t| t.end == bytes.len())
     else {
         let word = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
         let named = ["nan", "inf", "infinity"].contains(&word.as_str());
-        return if named { Reading::NotFinite } else { Reading::Other };
+        return named.then_some((f64::NAN, Form::default()));
     };
     let mantissa = &text[..token.end - token.form.exponent];
     let exponent =
@@ -105,22 +99,15 @@ pub(super) fn read(text: &str) -> Reading {
     } else {
         format!("{mantissa}e{exponent}").parse::<f64>()
     };
-    match parsed {
-        Ok(value) if value.is_finite() => Reading::Finite(value, token.form),
-        Ok(_) => Reading::NotFinite,
-        Err(_) => Reading::Other,
-    }
+    Some((parsed.ok()?, token.form))
 }
 
 /// The finite number that a text is from end to end.
 pub(super) fn finite(text: &str) -> Option<f64> {
-    match read(text) {
-        Reading::Finite(value, _) => Some(value),
-        _ => None,
-    }
+    read(text).map(|(value, _)| value).filter(|value| value.is_finite())
 }
 
 /// Whether a text is meant as a number, finite or not.
 pub(super) fn is_number(text: &str) -> bool {
-    !matches!(read(text), Reading::Other)
+    read(text).is_some()
 }

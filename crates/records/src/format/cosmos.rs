@@ -172,12 +172,10 @@ impl SampleBlock<'_> {
 
 /// A block is followed by words, never by more numbers.
 fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
-    let Some(line) = text.line(end) else { return Ok(()) };
-    let mut numbers = number::tokens(line.as_bytes()).peekable();
-    if numbers.peek().is_some() && numbers.all(|token| token.is_some()) {
-        return Err(text.no_number(end, line, "the end of the samples"));
+    match text.line(end).filter(|line| number::is_data(line)) {
+        Some(line) => Err(text.no_number(end, line, "the end of the samples")),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn announced<'a>(
@@ -292,7 +290,8 @@ fn numeric_header(
         return Err(text.at_end(Fault::Ends("the header values")));
     }
     // Values of a header have each their own number of decimals.
-    let values = fields::read_varied(text, index + 1, end, layout)?;
+    let layout = Some(layout.varied());
+    let values = fields::read(text, index + 1, end, layout)?;
     if values.len() != count {
         return Err(header("as many values as the line says"));
     }

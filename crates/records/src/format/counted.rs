@@ -13,7 +13,7 @@ use super::csv::bracketed;
 use super::{Channel, Format, Header};
 use crate::error::RecordError;
 use crate::fields;
-use crate::number::{self, Reading};
+use crate::number::{self, is_data};
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -116,21 +116,13 @@ fn count(text: &str) -> Option<usize> {
 /// A sampling interval in a usual form: a whole number of samples per second,
 /// or at most four decimals.
 pub(super) fn interval(text: &str) -> Option<f64> {
-    let Reading::Finite(dt_s, form) = number::read(text.trim()) else {
-        return None;
-    };
+    let (dt_s, form) = number::read(text.trim())?;
     if form.decimals.is_none() || !(1e-4..=0.2).contains(&dt_s) {
         return None;
     }
     let whole = |x: f64, within: f64| (x - x.round()).abs() <= within * x;
     let plain = whole(1.0 / dt_s, 1e-4) || whole(dt_s * 1e4, 1e-9);
     plain.then_some(dt_s)
-}
-
-/// Whether a line is numbers and nothing else.
-fn is_data(line: &str) -> bool {
-    let mut numbers = number::tokens(line.as_bytes()).peekable();
-    numbers.peek().is_some() && numbers.all(|token| token.is_some())
 }
 
 /// Reads the file's one channel.

@@ -117,7 +117,8 @@ fn component(
         return Err(header.refuse(0, "the first line of a component"));
     }
     let integers = fields::read(text, integers, reals, Some(LAYOUT))?;
-    let reals = fields::read_varied(text, reals, samples, LAYOUT)?;
+    let varied = Some(LAYOUT.varied());
+    let reals = fields::read(text, reals, samples, varied)?;
     let counts = counts(&header, &integers)?;
     let dt = interval(&header, &reals, counts[0])?;
     let mut end = samples;
@@ -130,7 +131,7 @@ fn component(
             let fault = Fault::Count { found, expected: count };
             return Err(text.at_end(fault));
         }
-        let values = fields::read_varied(text, start, end, LAYOUT)?;
+        let values = fields::read(text, start, end, varied)?;
         text.check_count(end.max(1) - 1, values.len(), count)?;
         blocks.push(values);
     }

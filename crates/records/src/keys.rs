@@ -71,12 +71,12 @@ pub(super) fn count(
 /// The peak of `samples` against the one that the header states.
 pub(super) fn check_peak(
     text: &Text<'_>,
-    samples: impl Iterator<Item = f64>,
+    samples: &[f64],
     expected: f64,
     allowed: f64,
     unit: rocking::units::AccelerationUnit,
 ) -> Result<(), RecordError> {
-    let found = samples.fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    let found = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
     let expected = expected.abs();
     if (found - expected).abs() <= allowed {
         return Ok(());

@@ -54,8 +54,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     let channel = |((samples, name), peak): ((Vec<f64>, &str), f64)| {
         // Header and samples have the same decimals.
-        let (values, allowed) = (samples.iter().copied(), 1e-6 * peak.abs());
-        keys::check_peak(text, values, peak, allowed + 1e-6, unit)?;
+        let allowed = 1e-6 * peak.abs() + 1e-6;
+        keys::check_peak(text, &samples, peak, allowed, unit)?;
         Ok(Channel {
             dt: Some(dt),
             unit: Some(unit),

@@ -47,8 +47,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let (_, expected) = keys::number(text, peak, "")?;
         // Files differ in the digits of header and samples.
         let allowed = 1e-4 * expected.abs() + 1e-5;
-        let peaks = samples.iter().copied();
-        keys::check_peak(text, peaks, expected, allowed, unit)?;
+        keys::check_peak(text, &samples, expected, allowed, unit)?;
     }
     let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
     let (dt, unit) = (Some(dt), Some(unit));

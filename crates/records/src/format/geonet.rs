@@ -143,7 +143,7 @@ fn component(
     let peak = peak(&header)? / PER_GAL;
     // Large samples have fewer decimals than the text.
     let allowed = 1e-4 * peak.abs() + 0.06 / PER_GAL;
-    keys::check_peak(text, samples.iter().copied(), peak, allowed, unit)?;
+    keys::check_peak(text, &samples, peak, allowed, unit)?;
     let name = header.line(COMPONENT);
     let name = name.strip_prefix("Component").unwrap_or("").trim();
     let label = name.split("  ").next().unwrap_or("");

@@ -77,11 +77,11 @@ fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
     let Some(key) = key else { return Ok(()) };
     let expected = keys::positive(text, key, "")?;
     let mean = mean(samples);
-    let moving = samples.iter().map(|a| a - mean);
+    let moving: Vec<f64> = samples.iter().map(|a| a - mean).collect();
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     // The mean may be that of a part, and the maximum is rounded.
     let allowed = 0.01 * expected + 0.001;
-    keys::check_peak(text, moving, expected, allowed, unit)
+    keys::check_peak(text, &moving, expected, allowed, unit)
 }
 
 /// Gal per count: `7845(gal)/8223790`.

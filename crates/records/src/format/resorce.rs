@@ -48,8 +48,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     if si && keys::find(text, peak).is_some() {
         let expected = keys::positive(text, peak, "")?;
         // The header has the samples' digits.
-        let peaks = samples.iter().copied();
-        keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
+        keys::check_peak(text, &samples, expected, 1e-6 * expected, unit)?;
     }
     let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
     let (dt, unit) = (Some(dt), Some(unit));

@@ -110,7 +110,6 @@ fn check_peak(
     };
     let expected = largest.abs().max(least.abs());
     // Samples have four digits.
-    let samples = samples.iter().copied();
     keys::check_peak(text, samples, expected, 1e-3 * expected, unit)
 }
 

@@ -184,8 +184,7 @@ impl<'a> ChannelHeader<'_, 'a> {
         peak: f64,
     ) -> Result<(), RecordError> {
         let Some(unit) = series.unit else { return Ok(()) };
-        let samples = series.samples.iter().copied();
         let allowed = PEAK_SHARE * peak.abs();
-        keys::check_peak(self.text, samples, peak, allowed, unit)
+        keys::check_peak(self.text, series.samples, peak, allowed, unit)
     }
 }

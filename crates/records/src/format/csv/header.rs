@@ -91,22 +91,22 @@ pub(super) fn header(
 ) -> Result<Units, RecordError> {
     let line = text.line(index).unwrap_or("");
     let (time, value) = columns(line, cells);
-    let time = Name::of(&time);
-    let value = Name::of(&value);
-    if !TIMES.contains(&time.name.as_str()) {
+    let (time, time_unit) = named(&time);
+    let (value, value_unit) = named(&value);
+    if !TIMES.contains(&time.as_str()) {
         let expected = "a first column of times, named t or time";
         return Err(text.header(index, expected));
     }
-    let spectrum = ["sa", "sv", "sd"].contains(&value.name.as_str());
-    if spectrum || OTHERS.iter().any(|other| value.name.contains(other)) {
+    let spectrum = ["sa", "sv", "sd"].contains(&value.as_str());
+    if spectrum || OTHERS.iter().any(|other| value.contains(other)) {
         return Err(text.quantity(index));
     }
-    let in_seconds = |unit: &String| {
+    let in_seconds = |unit| {
         let refuse = || text.on_line(index, Fault::Interval(excerpt(unit)));
         per_second(unit).ok_or_else(refuse)
     };
-    let per_second = time.unit.as_ref().map_or(Ok(1.0), in_seconds)?;
-    let unit = value.unit.as_ref().map(|unit| text.unit(index, unit));
+    let per_second = time_unit.map_or(Ok(1.0), in_seconds)?;
+    let unit = value_unit.map(|unit| text.unit(index, unit));
     let acceleration = unit.transpose()?;
     Ok(Units { per_second, acceleration })
 }
@@ -128,39 +128,26 @@ fn columns(line: &str, cells: &[&str]) -> (String, String) {
 }
 
 /// A column's name in small letters, and its unit.
-struct Name {
-    name: String,
-    unit: Option<String>,
-}
-
-impl Name {
-    fn of(column: &str) -> Self {
-        let column = column.trim();
-        let lower = column.to_ascii_lowercase();
-        if let Some(unit) = bracketed(column).next() {
-            let end = column.find(['(', '[']).unwrap_or(column.len());
-            let name = lower[..end].trim().to_owned();
-            return Self { name, unit: Some(unit.to_owned()) };
-        }
-        let suffixes = [
-            ("_cm_s2", "cm/s2"),
-            ("_m_s2", "m/s2"),
-            ("_gal", "gal"),
-            ("_g", "g"),
-            ("_ms", "ms"),
-            ("_sec", "s"),
-            ("_s", "s"),
-        ];
-        let found = suffixes.iter().find_map(|(suffix, unit)| {
-            Some((lower.strip_suffix(suffix)?, *unit))
-        });
-        match found {
-            Some((name, unit)) => {
-                Self { name: name.to_owned(), unit: Some(unit.to_owned()) }
-            }
-            None => Self { name: lower, unit: None },
-        }
+fn named(column: &str) -> (String, Option<&str>) {
+    let column = column.trim();
+    let lower = column.to_ascii_lowercase();
+    if let Some(unit) = bracketed(column).next() {
+        let end = column.find(['(', '[']).unwrap_or(column.len());
+        return (lower[..end].trim().to_owned(), Some(unit));
     }
+    let suffixes = [
+        ("_cm_s2", "cm/s2"),
+        ("_m_s2", "m/s2"),
+        ("_gal", "gal"),
+        ("_g", "g"),
+        ("_ms", "ms"),
+        ("_sec", "s"),
+        ("_s", "s"),
+    ];
+    let found = suffixes.iter().find_map(|(suffix, unit)| {
+        Some((lower.strip_suffix(suffix)?.to_owned(), Some(*unit)))
+    });
+    found.unwrap_or((lower, None))
 }
 
 /// Texts in round or square brackets.

@@ -331,7 +331,8 @@ fn constant(
     };
     // dt is at least each slope from an upper end to a later lower end, and
     // at most each from a lower end to a later upper end.
-    let (mut rise, mut fall) = (Steepest::from(0.0), Steepest::default());
+    let (mut rise, mut fall) =
+        (Steepest::from(0.0), Steepest::from(f64::NEG_INFINITY));
     for (index, &found_s) in times_s.iter().enumerate() {
         let ((low, high), off) = (ends(index), drift(index));
         let (least, most) = (rise.slope, -fall.slope);
@@ -358,12 +359,6 @@ struct Steepest {
     /// Lower hull of the points, from left to right.
     hull: Vec<(f64, f64)>,
     slope: f64,
-}
-
-impl Default for Steepest {
-    fn default() -> Self {
-        Self::from(f64::NEG_INFINITY)
-    }
 }
 
 impl Steepest {

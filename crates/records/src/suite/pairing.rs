@@ -65,21 +65,17 @@ pub(super) fn pair_by_name<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
 /// Marks, in each pair, the component whose name sorts first; a record
 /// without a partner is marked too.
 pub(super) fn mark_first<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
-    let mut first: BTreeMap<String, String> = BTreeMap::new();
+    let mut first: BTreeMap<Option<String>, String> = BTreeMap::new();
     for member in members.iter() {
-        let Some(pair) = &member.pair else { continue };
         let name = member.accelerogram.name();
-        let least = first.entry(pair.clone()).or_insert(name.to_owned());
+        let least = first.entry(member.pair.clone()).or_insert(name.into());
         if name < least.as_str() {
             name.clone_into(least);
         }
     }
     for member in members {
-        let name = member.accelerogram.name();
-        member.study_component = member
-            .pair
-            .as_ref()
-            .is_none_or(|pair| first.get(pair).is_some_and(|f| f == name));
+        let is_first = first[&member.pair] == member.accelerogram.name();
+        member.study_component = member.pair.is_none() || is_first;
     }
 }
 
@@ -112,10 +108,7 @@ pub(super) fn check_names<M: MemberMotion>(
 ) -> Result<(), SuiteError> {
     let names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();
-    match suite_names(&names) {
-        Ok(_) => Ok(()),
-        Err(source) => {
-            Err(SuiteError::Names { path: path.to_owned(), source })
-        }
-    }
+    let path = path.to_owned();
+    let refuse = |source| SuiteError::Names { path, source };
+    suite_names(&names).map(|_| ()).map_err(refuse)
 }

@@ -196,57 +196,66 @@ fn announced<'a>(
         false => layout(line),
     };
     let layout = layout.ok_or_else(|| header("a format such as (8F10.3)"))?;
-    let lower = rest.to_ascii_lowercase();
     if count == 0 {
         return Err(header("a positive number of samples"));
     }
-    if is_cosmos(line) {
+    let (quantity, unit, dt_s) = if is_cosmos(line) {
+        let lower = rest.to_ascii_lowercase();
         let quantity = lower.find("pts").map_or("", |end| &rest[..end]);
         let unit = lower.find("units=").map_or("", |at| &rest[at + 6..]);
         let unit = unit.split(['(', ',']).next().unwrap_or("").trim();
-        let unit = unit.trim_end_matches('.');
-        return Ok(SampleBlock { count, quantity, unit, layout, dt_s: None });
+        (quantity, unit.trim_end_matches('.'), None)
+    } else if is_raw(line) {
+        raw(text, index, rest)?
+    } else {
+        equally_spaced(text, index, rest)?
+    };
+    Ok(SampleBlock { count, quantity, unit, layout, dt_s })
+}
+
+/// Quantity, unit and interval that a line states behind its count.
+type Announcement<'a> = (&'a str, &'a str, Option<f64>);
+
+/// What CSMIP V1 announces.
+fn raw<'a>(
+    text: &Text<'_>,
+    index: usize,
+    rest: &'a str,
+) -> Result<Announcement<'a>, RecordError> {
+    let lower = rest.to_ascii_lowercase();
+    let after = |part: &str| {
+        let from = lower.find(part).map_or(rest.len(), |at| at + part.len());
+        rest[from..].split_ascii_whitespace().next().unwrap_or("")
+    };
+    let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
+    match number::finite(after(RAW_RATE)).filter(|rate| *rate > 0.0) {
+        Some(rate) => Ok(("accel", unit, Some(1.0 / rate))),
+        None => Err(text.differs(index, excerpt(rest), "a rate in points/s")),
     }
-    if is_raw(line) {
-        let after = |part: &str| {
-            let from =
-                lower.find(part).map_or(rest.len(), |at| at + part.len());
-            rest[from..].split_ascii_whitespace().next().unwrap_or("")
-        };
-        let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
-        let rate = number::finite(after(RAW_RATE)).filter(|rate| *rate > 0.0);
-        let dt_s = rate.map(|rate| 1.0 / rate);
-        if dt_s.is_none() {
-            let expected = "a rate in points/s";
-            return Err(text.differs(index, excerpt(rest), expected));
-        }
-        return Ok(SampleBlock {
-            count,
-            quantity: "accel",
-            unit,
-            layout,
-            dt_s,
-        });
-    }
+}
+
+/// What CSMIP V2 announces.
+fn equally_spaced<'a>(
+    text: &Text<'_>,
+    index: usize,
+    rest: &'a str,
+) -> Result<Announcement<'a>, RecordError> {
     let spaced = "equally spaced at";
-    let at = lower.find(spaced).unwrap_or(0);
-    let quantity = &rest[..at];
+    let at = rest.to_ascii_lowercase().find(spaced).unwrap_or(0);
     let after = rest[at + spaced.len()..].trim_start();
     let end = after.find([' ', '\t', ',']).unwrap_or(after.len());
     let seconds = after[end..].trim_start().to_ascii_lowercase();
     let dt_s = number::finite(&after[..end]);
     let dt_s = dt_s.filter(|x| *x > 0.0 && seconds.starts_with("sec"));
     if dt_s.is_none() {
-        let fault = Fault::Interval(excerpt(after));
-        return Err(text.on_line(index, fault));
+        return Err(text.on_line(index, Fault::Interval(excerpt(after))));
     }
     let unit = [" in units ", " in ", "units:"].iter().find_map(|word| {
         let from = seconds.find(word)? + word.len();
         let rest = &after[after.len() - seconds.len() + from..];
         rest.split(['(', ')', ',', ' ']).find(|part| !part.is_empty())
     });
-    let unit = unit.unwrap_or("").trim_end_matches('.');
-    Ok(SampleBlock { count, quantity, unit, layout, dt_s })
+    Ok((&rest[..at], unit.unwrap_or("").trim_end_matches('.'), dt_s))
 }
 
 /// The Fortran format of one kind of number in a line: `(8F10.3)`,
@@ -259,13 +268,12 @@ fn layout(line: &str) -> Option<FieldLayout> {
     let format = line[open..].trim_start_matches('(');
     let letter =
         format.find(|c: char| "FEGIfegi".contains(c)).filter(|at| *at > 0)?;
-    let repeat: String =
-        format.chars().take_while(char::is_ascii_digit).collect();
-    let width: String = format[letter + 1..]
-        .chars()
-        .take_while(char::is_ascii_digit)
-        .collect();
-    let layout = FieldLayout::even(repeat.parse().ok()?, width.parse().ok()?);
+    let count = |text: &str| {
+        let digits = text.split(|c: char| !c.is_ascii_digit()).next()?;
+        digits.parse().ok()
+    };
+    let layout =
+        FieldLayout::even(count(format)?, count(&format[letter + 1..])?);
     let sane = (2..=64).contains(&layout.width)
         && (1..=64).contains(&layout.per_line);
     sane.then_some(layout)

@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::cells::split;
-use super::{PEAK_TOLERANCE, SuiteError, SuiteMember};
+use super::{PEAK_TOLERANCE, StudyRule, SuiteError, SuiteMember};
 use crate::read::settle_one;
 use crate::record::{Agreement, Fallback, ReadOptions, Record, sha256_hex};
 use crate::text::{self, excerpt};
@@ -14,19 +14,23 @@ use rocking::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
 pub(super) struct Index {
-    columns: Rc<[Arc<str>]>,
-    rows: Vec<IndexRow>,
-    paired: bool,
+    /// In the index's order.
+    pub(super) rows: Vec<IndexRow>,
+    /// Whether rows name their pair.
+    pub(super) paired: bool,
+    /// Who chooses the study components.
+    pub(super) study_rule: StudyRule,
 }
 
 /// One row of an index.
 pub(super) struct IndexRow {
-    path: Rc<str>,
+    head: Rc<IndexHead>,
+    /// Counted from 1.
     line: usize,
-    file: String,
+    /// Relative to the index.
+    pub(super) file: String,
     /// PEER's number stands for a column `pair`.
     pair: Option<String>,
-    columns: Rc<[Arc<str>]>,
     cells: Vec<String>,
 }
 
@@ -93,107 +97,84 @@ impl Index {
         let content = text::decode(path, bytes)?;
         let lines: Vec<&str> = content.lines().collect();
         let peer = lines.iter().position(|line| is_peer(line));
-        let head = peer.unwrap_or(0);
-        let mut table = IndexTable {
-            path: path.into(),
-            columns: Rc::from([]),
-            separator: separator(lines.get(head).copied().unwrap_or("")),
-            lines: &lines,
-        };
-        let head_cells = table.head(head)?;
-        table.columns = head_cells.into_iter().map(Arc::from).collect();
-        let left = lines.len().saturating_sub(head + 1);
+        let at = peer.unwrap_or(0);
+        let first = lines.get(at).copied().unwrap_or("");
+        let head = Rc::new(IndexHead::parse(path, at + 1, first)?);
+        let left = lines.len().saturating_sub(at + 1);
         let mut rows = Vec::with_capacity(left.min(MOST_ROWS));
-        for (line, text) in lines.iter().enumerate().skip(head + 1) {
+        for (text, line) in lines.iter().zip(1..).skip(at + 1) {
             let blank = text.trim_matches([',', ';', ' ', '\t']).is_empty();
             if blank && peer.is_some() {
                 break;
             }
             if rows.len() >= MOST_ROWS {
                 let expected = format!("at most {MOST_ROWS} records");
-                return Err(table.refuse(line, text, &expected));
+                return Err(head.refuse(line, text, &expected));
             }
             if !blank {
-                let cells = table.cells(line)?;
+                let cells = head.cells(line, text)?;
                 match peer {
-                    None => rows.push(table.plain_row(line, cells)?),
-                    Some(_) => rows.extend(table.peer_rows(line, &cells)?),
+                    None => rows.push(head.row(line, "file", None, cells)?),
+                    Some(_) => rows.extend(head.peer_rows(line, &cells)?),
                 }
             }
         }
-        let paired = peer.is_some() || table.place("pair").is_some();
-        Ok(Self { columns: table.columns, rows, paired })
-    }
-
-    /// Rows in the index's order.
-    pub(super) fn into_rows(self) -> Vec<IndexRow> {
-        self.rows
-    }
-
-    /// Whether rows name their pair.
-    pub(super) fn is_paired(&self) -> bool {
-        self.paired
-    }
-
-    /// Whether there is a column `name`.
-    pub(super) fn has(&self, name: &str) -> bool {
-        self.columns.iter().any(|column| **column == *name)
+        let paired = peer.is_some() || head.place("pair").is_some();
+        let study_rule = match head.place("study_component") {
+            Some(_) => StudyRule::Index,
+            None => StudyRule::FirstName,
+        };
+        Ok(Self { rows, paired, study_rule })
     }
 }
 
-/// The refusal of a line, counted from 1.
-fn refusal(
-    path: &str,
-    line: usize,
-    found: &str,
-    expected: &str,
-) -> SuiteError {
-    let (found, expected) = (excerpt(found), expected.to_owned());
-    SuiteError::Index { path: path.to_owned(), line, found, expected }
-}
-
-/// Lines under a head of column names.
-struct IndexTable<'a> {
-    path: Rc<str>,
-    columns: Rc<[Arc<str>]>,
+/// What the rows of an index have in common.
+struct IndexHead {
+    path: String,
+    columns: Vec<Arc<str>>,
     separator: char,
-    lines: &'a [&'a str],
 }
 
-impl IndexTable<'_> {
-    fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
-        refusal(&self.path, line + 1, found, expected)
-    }
-
-    fn head(&self, line: usize) -> Result<Vec<String>, SuiteError> {
-        let text = self.lines.get(line).copied().unwrap_or("");
+impl IndexHead {
+    /// The columns that `text` names, line `line` of the index.
+    fn parse(path: &str, line: usize, text: &str) -> Result<Self, SuiteError> {
+        let mut head = Self {
+            path: path.to_owned(),
+            columns: Vec::new(),
+            separator: separator(text),
+        };
         let known = |name: &String| is_file(name) || name == PEER_FIRST;
-        let mut columns = split(text, self.separator)
+        let mut columns = split(text, head.separator)
             .filter(|columns| columns.iter().any(known))
             .ok_or_else(|| {
                 let expected =
                     "a folder, or an index: a CSV file with a column `file`";
-                self.refuse(line, text, expected)
+                head.refuse(line, text, expected)
             })?;
         for column in &mut columns {
             if COLUMNS.iter().any(|name| column.eq_ignore_ascii_case(name)) {
                 column.make_ascii_lowercase();
             }
         }
-        self.check_names(line, &columns)?;
+        head.check_names(line, &columns)?;
         if let Some(long) = columns.iter().find(|c| c.len() > LONGEST_NAME) {
             let expected = format!("names of at most {LONGEST_NAME} bytes");
-            return Err(self.refuse(line, long, &expected));
+            return Err(head.refuse(line, long, &expected));
         }
         let mut sorted: Vec<&String> =
             columns.iter().filter(|name| !name.is_empty()).collect();
         sorted.sort_unstable();
-        match sorted.windows(2).find(|w| w[0] == w[1]) {
-            Some(twice) => {
-                Err(self.refuse(line, twice[0], "each column once"))
-            }
-            None => Ok(columns),
+        if let Some(twice) = sorted.windows(2).find(|w| w[0] == w[1]) {
+            return Err(head.refuse(line, twice[0], "each column once"));
         }
+        head.columns = columns.into_iter().map(Arc::from).collect();
+        Ok(head)
+    }
+
+    /// The refusal of a line, counted from 1.
+    fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
+        let (found, expected) = (excerpt(found), expected.to_owned());
+        SuiteError::Index { path: self.path.clone(), line, found, expected }
     }
 
     /// Refuses cells that results cannot carry: all of them become names of
@@ -214,8 +195,11 @@ impl IndexTable<'_> {
         self.columns.iter().position(|column| **column == *name)
     }
 
-    fn cells(&self, line: usize) -> Result<Vec<String>, SuiteError> {
-        let text = self.lines[line];
+    fn cells(
+        &self,
+        line: usize,
+        text: &str,
+    ) -> Result<Vec<String>, SuiteError> {
         let mut cells = split(text, self.separator).ok_or_else(|| {
             let expected = format!(
                 "cells separated by {:?}, quotes closed",
@@ -239,63 +223,49 @@ impl IndexTable<'_> {
         Ok(cells)
     }
 
-    fn plain_row(
-        &self,
-        line: usize,
-        cells: Vec<String>,
-    ) -> Result<IndexRow, SuiteError> {
-        let file = self.place("file").map_or("", |place| &cells[place]);
-        self.row(line, file.to_owned(), None, cells)
-    }
-
+    /// The row whose column `name` has the file.
     fn row(
-        &self,
+        self: &Rc<Self>,
         line: usize,
-        file: String,
+        name: &str,
         pair: Option<String>,
         cells: Vec<String>,
     ) -> Result<IndexRow, SuiteError> {
+        let file = self.place(name).map_or("", |place| &cells[place]);
         if file.is_empty() {
-            return Err(self.refuse(line, &file, "the name of a file"));
+            return Err(self.refuse(line, file, "the name of a file"));
         }
-        let (path, columns) = (self.path.clone(), self.columns.clone());
-        Ok(IndexRow { path, line: line + 1, file, pair, columns, cells })
+        let (head, file) = (Rc::clone(self), file.to_owned());
+        Ok(IndexRow { head, line, file, pair, cells })
     }
 
     /// The two horizontal components of a row of PEER's search results.
     fn peer_rows(
-        &self,
+        self: &Rc<Self>,
         line: usize,
         cells: &[String],
     ) -> Result<Vec<IndexRow>, SuiteError> {
-        let cell = |name| self.place(name).map_or("", |i| cells[i].as_str());
-        let files = [cell(PEER_FIRST), cell(PEER_SECOND)];
-        let there = |file: &&str| !file.trim_matches(['-', ' ']).is_empty();
+        let cell = |name: &str| self.place(name).map_or("", |i| &cells[i]);
+        let there =
+            |name: &&str| !cell(name).trim_matches(['-', ' ']).is_empty();
         let pair = format!("RSN{}", cell(PEER_NUMBER));
-        let row = |file: &str| {
-            self.row(line, file.to_owned(), Some(pair.clone()), cells.to_vec())
-        };
-        files.into_iter().filter(there).map(row).collect()
+        let row =
+            |name| self.row(line, name, Some(pair.clone()), cells.to_vec());
+        [PEER_FIRST, PEER_SECOND].into_iter().filter(there).map(row).collect()
     }
 }
 
 impl IndexRow {
-    /// The file, relative to the index.
-    pub(super) fn file(&self) -> &str {
-        &self.file
-    }
-
     /// A cell that is there and not empty.
     fn cell(&self, name: &str) -> Option<&str> {
-        let place =
-            self.columns.iter().position(|column| **column == *name)?;
-        Some(self.cells[place].as_str()).filter(|cell| !cell.is_empty())
+        let cell = self.cells[self.head.place(name)?].as_str();
+        Some(cell).filter(|cell| !cell.is_empty())
     }
 
     /// The earthquake, which the index states for all records or for none.
     fn event(&self) -> Result<Option<String>, SuiteError> {
-        let stated = |name: &str| self.columns.iter().any(|c| **c == *name);
-        match ["event", PEER_EVENT].into_iter().find(|name| stated(name)) {
+        let stated = |name: &&str| self.head.place(name).is_some();
+        match ["event", PEER_EVENT].into_iter().find(stated) {
             None => Ok(None),
             Some(name) => match self.cell(name) {
                 Some(event) => Ok(Some(event.to_owned())),
@@ -305,7 +275,7 @@ impl IndexRow {
     }
 
     fn refuse(&self, found: &str, expected: &str) -> SuiteError {
-        refusal(&self.path, self.line, found, expected)
+        self.head.refuse(self.line, found, expected)
     }
 
     fn mismatch(
@@ -315,7 +285,7 @@ impl IndexRow {
         expected: &str,
     ) -> SuiteError {
         SuiteError::Mismatch {
-            path: self.path.to_string(),
+            path: self.head.path.clone(),
             line: self.line,
             file: self.file.clone(),
             quantity,
@@ -372,7 +342,7 @@ impl IndexRow {
             Some("1" | "true") => true,
             Some(cell) => return Err(self.refuse(cell, "1 or 0")),
         };
-        let named = self.columns.iter().zip(&self.cells);
+        let named = self.head.columns.iter().zip(&self.cells);
         let attributes = named
             .filter(|(name, _)| !COLUMNS.contains(&&***name))
             .map(|(name, cell)| (Arc::clone(name), cell.clone()))

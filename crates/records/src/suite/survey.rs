@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use super::index::{self, Index};
+use super::pairing;
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
-use super::{index, pairing};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
 use crate::quality::{MemberMotion, Remark};
@@ -200,18 +201,11 @@ impl<K> Survey<K> {
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
         mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
     ) -> Result<Self, E> {
-        let index = index::Index::parse(path, bytes)?;
-        let paired = index.is_paired();
-        let study_rule = if index.has("study_component") {
-            StudyRule::Index
-        } else {
-            StudyRule::FirstName
-        };
-        let rows = index.into_rows();
+        let Index { rows, paired, study_rule } = Index::parse(path, bytes)?;
         let mut members = Vec::with_capacity(rows.len());
         let mut given = FallbackUse::default();
         for row in rows {
-            let bytes = file_bytes(row.file()).map_err(SuiteError::from);
+            let bytes = file_bytes(&row.file).map_err(SuiteError::from);
             let member = bytes.and_then(|bytes| {
                 row.member(&bytes, options, |settled| given.see(settled))
             });

@@ -116,29 +116,13 @@ impl<K> Survey<K> {
         path: &str,
         names: &[String],
         options: &ReadOptions,
-        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
     ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
         let (names, doubled): (Vec<&String>, Vec<&String>) =
             names.iter().partition(|name| known.insert(*name));
-        let mut survey =
-            Self::of_each(path, &names, options, file_bytes, keep)?;
-        for name in doubled {
-            let shown = format!("{path}/{name}");
-            survey.refuse(name, Fault::Doubled.whole(&shown));
-        }
-        Ok(survey)
-    }
-
-    /// Reads every record among files of different names.
-    fn of_each<E: From<SuiteError>>(
-        path: &str,
-        names: &[&String],
-        options: &ReadOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
-    ) -> Result<Self, E> {
+        let mut survey;
         if let Some(results) = names.iter().find(|n| **n == PEER_RESULTS) {
             let bytes = file_bytes(results).map_err(SuiteError::from)?;
             let shown = format!("{path}/{results}");
@@ -147,42 +131,46 @@ impl<K> Survey<K> {
                 listed.insert(name.to_owned());
                 file_bytes(name)
             };
-            let survey = Self::of_index(&shown, &bytes, options, read, keep)?;
-            let name = container(path).to_owned();
-            let mut survey = Self { name, ..survey };
+            survey = Self::of_index(&shown, &bytes, options, read, keep)?;
+            container(path).clone_into(&mut survey.name);
             for name in names.iter().filter(|name| !listed.contains(**name)) {
                 let shown = format!("{path}/{name}");
                 survey.refuse(name, Fault::Unlisted.whole(&shown));
             }
-            return Ok(survey);
-        }
-        let mut survey = Self {
-            path: path.to_owned(),
-            name: container(path).to_owned(),
-            members: Vec::new(),
-            set_aside: SetAside::default(),
-            study_rule: StudyRule::FirstName,
-            paired: false,
-        };
-        let mut given = FallbackUse::default();
-        for name in names {
-            let shown = Path::new(path).join(name).display().to_string();
-            let records = file_bytes(name)
-                .and_then(|bytes| settle(&shown, &bytes, options, None));
-            let found = records.unwrap_or_else(|error| {
-                survey.refuse(name, error);
-                Vec::new()
-            });
-            let within = name.rsplit_once('/').map(|(within, _)| within);
-            let within = within.filter(|_| options.recursive);
-            for settled in found {
-                match horizontal(&shown, name, within, given.see(settled)) {
-                    Ok(member) => survey.members.push(Ok(keep(member)?)),
-                    Err(error) => survey.refuse(name, error),
+        } else {
+            survey = Self {
+                path: path.to_owned(),
+                name: container(path).to_owned(),
+                members: Vec::new(),
+                set_aside: SetAside::default(),
+                study_rule: StudyRule::FirstName,
+                paired: false,
+            };
+            let mut given = FallbackUse::default();
+            for name in names {
+                let shown = Path::new(path).join(name).display().to_string();
+                let records = file_bytes(name)
+                    .and_then(|bytes| settle(&shown, &bytes, options, None));
+                let found = records.unwrap_or_else(|error| {
+                    survey.refuse(name, error);
+                    Vec::new()
+                });
+                let within = name.rsplit_once('/').map(|(within, _)| within);
+                let within = within.filter(|_| options.recursive);
+                for settled in found {
+                    let record = given.see(settled);
+                    match horizontal(&shown, name, within, record) {
+                        Ok(member) => survey.members.push(Ok(keep(member)?)),
+                        Err(error) => survey.refuse(name, error),
+                    }
                 }
             }
+            survey.members.extend(given.unused());
         }
-        survey.members.extend(given.unused());
+        for name in doubled {
+            let shown = format!("{path}/{name}");
+            survey.refuse(name, Fault::Doubled.whole(&shown));
+        }
         Ok(survey)
     }
 

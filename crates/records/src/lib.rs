@@ -39,8 +39,7 @@ pub use error::{Fault, RecordError};
 pub use format::{Format, Header};
 pub use processing::{Processing, ProcessingError};
 pub use quality::{
-    MemberMotion, Profile, Remark, RemarkInput, duplicates, remarks,
-    remarks_together,
+    MemberMotion, Profile, Remark, RemarkInput, remarks, remarks_together,
 };
 pub use read::{file_bytes, read, read_all, read_as, read_file};
 pub use record::{Fallback, ReadOptions, Record, sha256_hex};

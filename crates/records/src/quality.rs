@@ -295,24 +295,14 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
     longest
 }
 
-/// The other records that look like one recording with a record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Duplicates {
-    /// Index of the first of them.
-    pub first: usize,
-    /// Absolute correlation with it.
-    pub correlation: f64,
-    /// How many there are.
-    pub count: usize,
-}
-
-/// For each record, the others that look like one recording with it, if any.
+/// For each record, the others that look like one recording with it, if any:
+/// index of the first of them, absolute correlation with it, and how many there
+/// are.
 ///
 /// Compared are pairs of equal interval, aligned at their peaks: 32 samples
 /// on each side, and where these are alike, up to 512; scale, sign and mean
 /// do not matter.
-#[must_use]
-pub fn duplicates(records: &[&Profile]) -> Vec<Option<Duplicates>> {
+fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {
         let (first, second) = (records[i], records[j]);
@@ -322,16 +312,13 @@ pub fn duplicates(records: &[&Profile]) -> Vec<Option<Duplicates>> {
         let correlation = correlation(first, second);
         (correlation > SAME_RECORDING).then_some(correlation)
     };
-    let mut found: Vec<Option<Duplicates>> = vec![None; records.len()];
+    let mut found = vec![None; records.len()];
     let mut note = |of: usize, by: usize, correlation| {
-        let own = found[of].get_or_insert(Duplicates {
-            first: by,
-            correlation,
-            count: 0,
-        });
-        own.count += 1;
-        if by < own.first {
-            (own.first, own.correlation) = (by, correlation);
+        let (first, with_first, count) =
+            found[of].get_or_insert((by, correlation, 0));
+        *count += 1;
+        if by < *first {
+            (*first, *with_first) = (by, correlation);
         }
     };
     // Some records against all later ones, so that these are read once.
@@ -351,8 +338,8 @@ pub fn duplicates(records: &[&Profile]) -> Vec<Option<Duplicates>> {
 }
 
 /// What is suspicious about each of several records: what their reading
-/// found, [`remarks`], components of a pair that are not alike, and
-/// [`duplicates`].
+/// found, [`remarks`], components of a pair that are not alike, and records
+/// that look like one recording.
 #[must_use]
 pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     let mut found: Vec<Vec<Remark>> = records
@@ -375,11 +362,10 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     }
     let profiles: Vec<_> = records.iter().map(|one| &*one.profile).collect();
     for (own, others) in found.iter_mut().zip(duplicates(&profiles)) {
-        if let Some(Duplicates { first, correlation, count }) = others {
+        own.extend(others.map(|(first, correlation, count)| {
             let other = profiles[first].name.clone();
-            let more = count - 1;
-            own.push(Remark::Duplicate { other, correlation, more });
-        }
+            Remark::Duplicate { other, correlation, more: count - 1 }
+        }));
     }
     found
 }

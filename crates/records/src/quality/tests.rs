@@ -80,7 +80,7 @@ fn a_recording_is_known_again_by_its_shape() {
     let found = duplicates(&profiles.iter().collect::<Vec<_>>());
     let others: Vec<(usize, usize, usize)> = (0..)
         .zip(&found)
-        .filter_map(|(i, of)| of.map(|of| (i, of.first, of.count)))
+        .filter_map(|(i, of)| of.map(|(first, _, count)| (i, first, count)))
         .collect();
     assert_eq!(others, [(0, 37, 1), (1, 35, 1), (35, 1, 1), (37, 0, 1)]);
 }

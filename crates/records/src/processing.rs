@@ -89,11 +89,9 @@ impl Processing {
         demean: bool,
         high_pass_hz: Option<f64>,
     ) -> Result<Self, ProcessingError> {
-        match high_pass_hz {
-            Some(hz) if !(hz > 0.0 && hz.is_finite()) => {
-                Err(ProcessingError::Corner(hz))
-            }
-            _ => Ok(Self { demean, high_pass_hz }),
+        match high_pass_hz.filter(|hz| !(*hz > 0.0 && hz.is_finite())) {
+            Some(hz) => Err(ProcessingError::Corner(hz)),
+            None => Ok(Self { demean, high_pass_hz }),
         }
     }
 
@@ -128,9 +126,11 @@ impl Processing {
         if let Some(corner_hz) = self.high_pass_hz {
             let nyquist_hz = 0.5 / dt_s;
             if !(corner_hz < nyquist_hz) {
-                let error =
-                    ProcessingError::Nyquist { name, corner_hz, nyquist_hz };
-                return Err(error);
+                return Err(ProcessingError::Nyquist {
+                    name,
+                    corner_hz,
+                    nyquist_hz,
+                });
             }
             let zeros = (self.padding_s() / dt_s).ceil();
             if !(2.0 * zeros + samples.len() as f64 <= MOST_SAMPLES) {
@@ -152,17 +152,13 @@ impl Processing {
 
 impl fmt::Display for Processing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mean = if self.demean { "mean removed" } else { "" };
-        f.write_str(mean)?;
-        let Some(hz) = self.high_pass_hz else { return Ok(()) };
-        if self.demean {
-            f.write_str("; ")?;
-        }
-        write!(
-            f,
+        let mean = self.demean.then(|| "mean removed".to_owned());
+        let filter = self.high_pass_hz.map(|hz| format!(
             "Butterworth high-pass of order {ORDER} at {hz} Hz, forwards and backwards, {} s of zeros added at both ends",
             self.padding_s()
-        )
+        ));
+        let all: Vec<String> = mean.into_iter().chain(filter).collect();
+        f.write_str(&all.join("; "))
     }
 }
 

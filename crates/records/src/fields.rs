@@ -259,33 +259,31 @@ impl Forms {
         &self,
         text: &Text<'_>,
     ) -> Result<Vec<Remark>, RecordError> {
-        let (Some(before), Some(last)) = (self.before, self.last) else {
+        let (Some(before), Some(last), false) =
+            (self.before, self.last, text.is_ended)
+        else {
             return Ok(Vec::new());
         };
-        if text.is_ended {
-            return Ok(Vec::new());
-        }
-        let refuse = |expected: String| {
-            let line = text.line(text.len() - 1).unwrap_or("");
-            let found = excerpt(line);
-            Err(text.at_end(Fault::Number { found, expected }))
-        };
-        if !self.varied && self.count >= 4 {
+        let expected = if !self.varied && self.count >= 4 {
             let shorter = last.decimals < before.decimals
                 || last.exponent < before.exponent;
-            let whole = || Ok(Vec::new());
-            return if shorter { refuse(describe(before)) } else { whole() };
-        }
-        if let Some(least) = self.exponent
+            if !shorter {
+                return Ok(Vec::new());
+            }
+            describe(before)
+        } else if let Some(least) = self.exponent
             && last.exponent < least
             && (last.exponent > 0 || self.last_value.abs() >= LEAST_MANTISSA)
         {
-            return refuse(format!(
+            format!(
                 "an exponent of {least} characters, as in other numbers, or \
                  the end of the line"
-            ));
-        }
-        Ok(vec![Remark::LastLine])
+            )
+        } else {
+            return Ok(vec![Remark::LastLine]);
+        };
+        let line = text.line(text.len() - 1).unwrap_or("");
+        Err(text.no_number(text.len() - 1, line, &expected))
     }
 }
 

@@ -83,8 +83,8 @@ fn unit(
     for (index, line) in text.lines().take(counting).enumerate() {
         let Some(end) = after_units_of(line) else {
             match in_unit(line) {
-                Some(Ok(unit)) => return Ok(Some(unit)),
-                Some(Err(_)) => return Err(text.quantity(index)),
+                Some(None) => return Err(text.quantity(index)),
+                Some(unit) => return Ok(unit),
                 None => continue,
             }
         };
@@ -97,21 +97,18 @@ fn unit(
             .next()
             .unwrap_or("")
             .trim_end_matches(['.', ',', ';', ':']);
-        return match AccelerationUnit::parse(named) {
-            Some(unit) => Ok(Some(unit)),
-            None => {
-                let rest = line[end..].trim_start();
-                let fault = Fault::Unit(excerpt(named));
-                Err(text.at(index, line.len() - rest.len(), fault))
-            }
+        let refuse = || {
+            let place = line.len() - line[end..].trim_start().len();
+            text.at(index, place, Fault::Unit(excerpt(named)))
         };
+        return AccelerationUnit::parse(named).map(Some).ok_or_else(refuse);
     }
     Ok(None)
 }
 
 /// The unit of a line such as `ACCELERATION IN G`, `Accelerations (g)` or
-/// `The units are (g)`, or the unit of another quantity.
-fn in_unit(line: &str) -> Option<Result<AccelerationUnit, &str>> {
+/// `The units are (g)`; `Some(None)` for the unit of another quantity.
+fn in_unit(line: &str) -> Option<Option<AccelerationUnit>> {
     let named = |words: &[&str]| {
         words.iter().find_map(|word| text::after_word(line, word))
     };
@@ -124,13 +121,13 @@ fn in_unit(line: &str) -> Option<Result<AccelerationUnit, &str>> {
     let units = ["ACCELERATION", "ACCELERATIONS", "ACC", "UNITS", "UNIT"];
     if let Some(end) = named(&units) {
         let word = unit(end)?.trim_end_matches(['.', ',', ';', ':']);
-        return AccelerationUnit::parse(word).map(Ok);
+        return AccelerationUnit::parse(word).map(Some);
     }
     let end = named(&["VELOCITY", "DISPLACEMENT"])?;
     let word = unit(end)?.to_ascii_lowercase();
     let length = ["cm", "m", "in", "mm"];
     let other = word.split(['/', '.', ',']).next().unwrap_or("");
-    length.contains(&other).then_some(Err(line))
+    length.contains(&other).then_some(None)
 }
 
 fn after_units_of(line: &str) -> Option<usize> {

@@ -146,14 +146,23 @@ impl LillieforsTest {
         scale: Scale,
         null: Null<'_>,
     ) -> Result<Verdict, Inapplicable> {
-        let tested = transformed(sample, scale)?;
+        let (censored, n) = (sample.censored(), sample.len());
+        if censored > 0 {
+            return Err(Inapplicable::Censored { censored, n });
+        }
+        let tested = match scale {
+            Scale::Linear => Sample::try_new(sample.sorted())?,
+            Scale::Logarithmic { shift } => {
+                Sample::try_new(&shifted_finite(sample, shift)?)?
+            }
+        };
         let (distinct, largest_tie) =
             (tested.distinct(), tested.largest_tie());
         let statistic = Statistic::try_new(&tested);
         self.tested = Some(tested);
         let statistic = statistic?;
         self.statistic = Some(statistic);
-        let (n, d) = (statistic.n, statistic.d);
+        let d = statistic.d;
         let (p_value, source) = match null {
             Null::Table(table) => {
                 let critical = table.critical_value(n, self.level)?;
@@ -177,23 +186,4 @@ impl LillieforsTest {
         }
         Ok(Verdict::at_level(&p_value, self.level))
     }
-}
-
-/// The values to be tested.
-fn transformed(
-    sample: &ExtendedSample,
-    scale: Scale,
-) -> Result<Sample, Inapplicable> {
-    if sample.censored() > 0 {
-        return Err(Inapplicable::Censored {
-            censored: sample.censored(),
-            n: sample.len(),
-        });
-    }
-    Ok(match scale {
-        Scale::Linear => Sample::try_new(sample.sorted())?,
-        Scale::Logarithmic { shift } => {
-            Sample::try_new(&shifted_finite(sample, shift)?)?
-        }
-    })
 }

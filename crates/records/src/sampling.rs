@@ -8,6 +8,8 @@
 
 use thiserror::Error;
 
+use crate::number::{self, Form};
+
 /// The step of times, and how far the times lie from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -132,21 +134,26 @@ impl Digits {
         let mut digits = Self::default();
         for time in times {
             let text = format!("{time:e}");
-            let (mantissa, exponent) =
-                text.split_once('e').unwrap_or_default();
-            let count = mantissa.bytes().filter(u8::is_ascii_digit).count();
-            let count = i32::try_from(count).unwrap_or(Self::MOST);
-            let exponent: i32 = exponent.parse().unwrap_or(0);
-            digits.add(count - 1 - exponent, count);
+            if let Some((_, form)) = number::read(&text) {
+                digits.add(&text, form);
+            }
         }
         digits
     }
 
-    /// Takes account of a time with `decimals` places after the point and
-    /// `significant` digits.
-    pub(super) fn add(&mut self, decimals: i32, significant: i32) {
+    /// Takes account of a time as it is written, in this form.
+    pub(super) fn add(&mut self, time: &str, form: Form) {
+        let (mantissa, exponent) = time.split_at(time.len() - form.exponent);
+        let exponent = exponent.trim_start_matches(['e', 'E', 'd', 'D']);
+        let exponent: i32 = exponent.parse().unwrap_or(0);
+        let count = |n: usize| i32::try_from(n).unwrap_or(i32::MAX);
+        let decimals = count(form.decimals.unwrap_or(0));
+        let decimals = decimals.saturating_sub(exponent);
+        let written = mantissa.trim_start_matches(['+', '-', '0', '.']);
+        let significant = written.bytes().filter(u8::is_ascii_digit).count();
         self.decimals = self.decimals.max(decimals).clamp(0, Self::MOST);
-        self.significant = self.significant.max(significant).min(Self::MOST);
+        let significant = self.significant.max(count(significant));
+        self.significant = significant.min(Self::MOST);
     }
 
     /// Half a unit in s of the last digit with which `time_s` is written: the

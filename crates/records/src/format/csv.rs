@@ -118,7 +118,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             return Err(text.no_number(index, line, expected));
         };
         let (time_read, form) = one_number(text, index, time)?;
-        add(&mut digits, time, form);
+        digits.add(time, form);
         times.push(time_read);
         let (sample, form) = one_number(text, index, value)?;
         forms.push(sample, form);
@@ -141,20 +141,6 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     remarks.extend(Remark::of_times(dt_s, off_s));
     let (dt, unit) = (Some(dt_s), units.acceleration);
     Ok(vec![Channel { dt, unit, samples, remarks, ..Channel::default() }])
-}
-
-/// Adds the decimal places and the significant digits of a written time.
-fn add(digits: &mut Digits, time: &str, form: number::Form) {
-    let (mantissa, exponent) = time.split_at(time.len() - form.exponent);
-    let exponent = exponent
-        .trim_start_matches(['e', 'E', 'd', 'D'])
-        .parse::<i32>()
-        .unwrap_or(0);
-    let count = |n: usize| i32::try_from(n).unwrap_or(i32::MAX);
-    let decimals = count(form.decimals.unwrap_or(0));
-    let written = mantissa.trim_start_matches(['+', '-', '0', '.']);
-    let significant = written.bytes().filter(u8::is_ascii_digit).count();
-    digits.add(decimals.saturating_sub(exponent), count(significant));
 }
 
 /// Index of the line of sample `i`: what is no comment, after the header if

@@ -116,6 +116,28 @@ pub(super) fn read(
     Ok(lines.samples)
 }
 
+/// Reads `count` numbers in full lines of a layout from the line of index
+/// `first` on, and says which line is next.
+///
+/// # Errors
+/// As of [`read`], and for fewer lines or numbers.
+pub(super) fn block(
+    text: &Text<'_>,
+    first: usize,
+    count: usize,
+    layout: FieldLayout,
+) -> Result<(Vec<f64>, usize), RecordError> {
+    let end = first.saturating_add(count.div_ceil(layout.per_line));
+    if end > text.len() {
+        let lines = text.len().saturating_sub(first);
+        let found = lines.saturating_mul(layout.per_line);
+        return Err(text.at_end(Fault::Count { found, expected: count }));
+    }
+    let values = read(text, first, end, Some(layout))?;
+    text.check_count(end.max(1) - 1, values.len(), count)?;
+    Ok((values, end))
+}
+
 struct LineReader<'t, 'a> {
     text: &'t Text<'a>,
     index: usize,

@@ -107,9 +107,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             continue;
         }
         let block = announced(text, index)?;
-        let end = block.end(text, index)?;
-        let samples = fields::read(text, index + 1, end, Some(block.layout))?;
-        text.check_count(end - 1, samples.len(), block.count)?;
+        let (samples, end) =
+            fields::block(text, index + 1, block.count, block.layout)?;
         after_block(text, end)?;
         let header = ChannelHeader { text, head, announced: index };
         header.check_count(block.count)?;
@@ -149,25 +148,6 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         return Err(text.quantity(first.unwrap_or_default().0));
     }
     Ok(channels)
-}
-
-impl SampleBlock<'_> {
-    /// Index of the line after the block announced on line `index`.
-    fn end(
-        &self,
-        text: &Text<'_>,
-        index: usize,
-    ) -> Result<usize, RecordError> {
-        let rows = self.count.div_ceil(self.layout.per_line);
-        let end = index.saturating_add(1).saturating_add(rows);
-        if end <= text.len() {
-            return Ok(end);
-        }
-        let found = text.len() - index - 1;
-        let found = found.saturating_mul(self.layout.per_line);
-        let expected = self.count;
-        Err(text.at_end(Fault::Count { found, expected }))
-    }
 }
 
 /// A block is followed by words, never by more numbers.

@@ -117,22 +117,15 @@ fn component(
         return Err(header.refuse(0, "the first line of a component"));
     }
     let integers = fields::read(text, integers, reals, Some(LAYOUT))?;
-    let varied = Some(LAYOUT.varied());
-    let reals = fields::read(text, reals, samples, varied)?;
+    let layout = Some(LAYOUT.varied());
+    let reals = fields::read(text, reals, samples, layout)?;
     let counts = counts(&header, &integers)?;
     let dt = interval(&header, &reals, counts[0])?;
     let mut end = samples;
     let mut blocks = Vec::with_capacity(counts.len());
     for count in counts {
-        let start = end;
-        end = start.saturating_add(count.div_ceil(LAYOUT.per_line));
-        if end > text.len() {
-            let found = text.len().saturating_sub(start) * LAYOUT.per_line;
-            let fault = Fault::Count { found, expected: count };
-            return Err(text.at_end(fault));
-        }
-        let values = fields::read(text, start, end, varied)?;
-        text.check_count(end.max(1) - 1, values.len(), count)?;
+        let values;
+        (values, end) = fields::block(text, end, count, LAYOUT.varied())?;
         blocks.push(values);
     }
     let mut samples = blocks.swap_remove(0);

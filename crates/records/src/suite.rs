@@ -1,7 +1,6 @@
 //! Suites of records: a folder of self-describing files, or an index.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,29 +22,20 @@ use crate::processing::{Processing, ProcessingError};
 use crate::quality::{MemberMotion, Profile, Remark, RemarkInput};
 use crate::record::{Fallback, ReadOptions, Record};
 use rocking::accelerogram::Accelerogram;
+use rocking::names::named;
 use rocking::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the
 /// record's.
 pub const PEAK_TOLERANCE: f64 = 1e-4;
 
-/// Who chose the component of each pair that a study uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StudyRule {
-    /// The index's column `study_component`.
-    Index,
-    /// The component whose file name sorts first in its pair.
-    FirstName,
-}
-
-impl fmt::Display for StudyRule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Index => "the index's study_component",
-            Self::FirstName => {
-                "the component whose file name sorts first in its pair"
-            }
-        })
+named! {
+    /// Who chose the component of each pair that a study uses.
+    pub enum StudyRule: "rule" {
+        /// The index's column `study_component`.
+        Index = "the index's study_component",
+        /// The component whose file name sorts first in its pair.
+        FirstName = "the component whose file name sorts first in its pair",
     }
 }
 

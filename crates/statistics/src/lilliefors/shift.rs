@@ -173,34 +173,28 @@ fn dispersion_of_any_shift(sample: &Sample) -> Result<f64, LillieforsError> {
     }
 }
 
-/// Two normal variables with a correlation.
+/// Two normal variables, u and y, with a correlation.
 struct Joint {
-    mean_u: f64,
-    sd_u: f64,
-    mean_y: f64,
-    sd_y: f64,
+    means: [f64; 2],
+    deviations: [f64; 2],
     correlation: f64,
 }
 
 impl Joint {
     fn new(u: &[f64], y: &[f64]) -> Result<Self, LillieforsError> {
-        let (mean_u, mean_y) = (mean(u), mean(y));
-        let (square_u, square_y) = (sum_of_squares(u), sum_of_squares(y));
+        let means = [u, y].map(mean);
+        let squares = [u, y].map(sum_of_squares);
         let cross = u.iter().zip(y).fold(0.0, |sum, (u, y)| {
-            f64::mul_add(u - mean_u, y - mean_y, sum)
+            f64::mul_add(u - means[0], y - means[1], sum)
         });
         let degrees = u.len() as f64 - 1.0;
-        let correlation = cross / (square_u * square_y).sqrt();
-        if !(square_u > 0.0 && square_y > 0.0 && correlation.is_finite()) {
+        let correlation = cross / (squares[0] * squares[1]).sqrt();
+        if !(squares.iter().all(|x| *x > 0.0) && correlation.is_finite()) {
             return Err(LillieforsError::Degenerate);
         }
-        Ok(Self {
-            mean_u,
-            sd_u: (square_u / degrees).sqrt(),
-            mean_y,
-            sd_y: (square_y / degrees).sqrt(),
-            correlation: correlation.clamp(-1.0, 1.0),
-        })
+        let deviations = squares.map(|square| (square / degrees).sqrt());
+        let correlation = correlation.clamp(-1.0, 1.0);
+        Ok(Self { means, deviations, correlation })
     }
 
     /// Fills in ln(x* - IM_R*) of one draw, with x* = IM_R + exp(y*), and
@@ -212,13 +206,14 @@ impl Joint {
         values: &mut [f64],
     ) -> bool {
         let rest = (1.0 - self.correlation * self.correlation).sqrt();
+        let ([mean_u, mean_y], [sd_u, sd_y]) = (self.means, self.deviations);
         let mut lowest = f64::INFINITY;
         for value in &mut *values {
             let a = standard_normal(stream);
             let b = standard_normal(stream);
-            lowest = lowest.min(self.mean_u + self.sd_u * a);
+            lowest = lowest.min(mean_u + sd_u * a);
             let z = self.correlation * a + rest * b;
-            *value = shift + exp(self.mean_y + self.sd_y * z);
+            *value = shift + exp(mean_y + sd_y * z);
         }
         let drawn_shift = exp(lowest);
         for value in &mut *values {

@@ -158,7 +158,7 @@ impl Clusters {
         let first = *finite.first()?;
         let away: Vec<f64> = finite.iter().map(|x| x - first).collect();
         let used = away.len() as f64;
-        let centre = finite_mean(&away);
+        let centre = away.iter().fold(0.0, |sum, x| sum + x) / used;
         let (factor, divisor) = match how {
             Resampling::Bootstrap => {
                 let effective = self.effective();
@@ -271,13 +271,6 @@ impl Clusters {
             replicates: values.len(),
         })
     }
-}
-
-/// Mean of the values that are finite.
-fn finite_mean(values: &[f64]) -> f64 {
-    let finite = values.iter().filter(|x| x.is_finite());
-    let (sum, count) = finite.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-    sum / count
 }
 
 /// A sample in ascending order, each value with its record: quantiles of a

@@ -89,13 +89,13 @@ impl NullDistribution {
                     stop::point();
                     // Lanes beyond the last replicate repeat another.
                     let count = LANES.min((end - group) as usize);
-                    for lane in 0..count {
-                        let mut stream = streams.stream(group + lane as u64);
-                        let drawn = draw(&mut stream, &mut scratch.values);
-                        counted = u64::saturating_add(counted, drawn);
-                        scratch.put(lane);
-                    }
-                    for lane in count..LANES {
+                    for lane in 0..LANES {
+                        if lane < count {
+                            let index = group + lane as u64;
+                            let mut stream = streams.stream(index);
+                            let drawn = draw(&mut stream, &mut scratch.values);
+                            counted = u64::saturating_add(counted, drawn);
+                        }
                         scratch.put(lane);
                     }
                     statistics.extend(&scratch.statistics()[..count]);

@@ -58,18 +58,13 @@ impl Direction {
     pub(super) fn of_word(word: &str) -> Self {
         let plain = word.replace('-', "");
         let is = |name: &&str| plain.eq_ignore_ascii_case(name);
-        if VERTICAL.iter().any(is) {
-            return Self::Vertical;
-        }
-        if is_code(word) {
-            return match word.ends_with('Z') {
-                true => Self::Vertical,
-                false => Self::Horizontal,
-            };
-        }
-        match HORIZONTAL.iter().any(is) || is_bearing(word) {
-            true => Self::Horizontal,
-            false => Self::Unknown,
+        let code = is_code(word);
+        if VERTICAL.iter().any(is) || (code && word.ends_with('Z')) {
+            Self::Vertical
+        } else if code || HORIZONTAL.iter().any(is) || is_bearing(word) {
+            Self::Horizontal
+        } else {
+            Self::Unknown
         }
     }
 
@@ -84,8 +79,7 @@ impl Direction {
             number if azimuths && is_azimuth(number) => Self::Horizontal,
             _ => Self::of_word(word),
         };
-        let mut known = words.map(of).filter(|d| *d != Self::Unknown);
-        known.next().unwrap_or(Self::Unknown)
+        words.map(of).find(|d| *d != Self::Unknown).unwrap_or_default()
     }
 
     /// The direction by the name of a file without its ending. PEER names
@@ -132,16 +126,12 @@ pub(super) fn is_code(part: &str) -> bool {
 
 /// A quadrant bearing such as `N08W`.
 fn is_bearing(word: &str) -> bool {
-    let bytes = word.as_bytes();
-    let (Some((first, rest)), true) =
-        (bytes.split_first(), (3..=4).contains(&bytes.len()))
-    else {
-        return false;
-    };
-    let (degrees, last) = rest.split_at(rest.len() - 1);
-    b"NS".contains(first)
-        && b"EW".contains(&last[0])
-        && degrees.iter().all(u8::is_ascii_digit)
+    matches!(
+        word.as_bytes(),
+        [b'N' | b'S', degrees @ .., b'E' | b'W']
+            if (1..=2).contains(&degrees.len())
+                && degrees.iter().all(u8::is_ascii_digit)
+    )
 }
 
 /// One to three digits from 0 to 360.

@@ -80,37 +80,35 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut integers = Vec::new();
     let mut index = 0;
     while let Some(line) = text.line(index) {
+        let here = index;
+        index += 1;
         if text::contains(line, "integer-header values follow") {
             // Codes of the station and the sensor; no sample hangs on them.
-            integers = numeric_header(text, index).unwrap_or_default().0;
-            index += 1;
+            integers = numeric_header(text, here).unwrap_or_default().0;
             continue;
         }
         if text::contains(line, "real-header values follow") {
-            let end;
-            (reals, end) = numeric_header(text, index)?;
-            index = end;
+            (reals, index) = numeric_header(text, here)?;
             continue;
         }
         if ends_block(line) {
             // Its samples were read just before, or nothing announced them.
-            if index != head || index == 0 {
+            if here != head || here == 0 {
                 let expected = "samples, announced before their end";
-                return Err(text.header(index, expected));
+                return Err(text.header(here, expected));
             }
             head += 1;
-            index += 1;
             continue;
         }
         if !announces(line) {
-            index += 1;
             continue;
         }
-        let block = announced(text, index)?;
-        let (samples, end) =
-            fields::block(text, index + 1, block.count, block.layout)?;
-        after_block(text, end)?;
-        let header = ChannelHeader { text, head, announced: index };
+        let block = announced(text, here)?;
+        let samples;
+        (samples, index) =
+            fields::block(text, index, block.count, block.layout)?;
+        after_block(text, index)?;
+        let header = ChannelHeader { text, head, announced: here };
         header.check_count(block.count)?;
         if text::contains(block.quantity, "acc") {
             let unit = header.unit(block.unit)?;
@@ -132,8 +130,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 ..Channel::default()
             });
         }
-        head = end;
-        index = end;
+        head = index;
     }
     let rest = text.lines_from(head).any(|line| {
         let line = line.trim_start();

@@ -141,20 +141,15 @@ impl<'a> ChannelHeader<'_, 'a> {
         let value = |place: usize| {
             reals.get(place - 1).copied().filter(|x| *x != UNKNOWN)
         };
-        let dt_s = match value(INTERVAL_MS) {
-            None => None,
-            Some(ms) if ms > 0.0 => Some(ms / 1000.0),
-            Some(ms) => {
-                let found = format!("real header value {INTERVAL_MS}: {ms}");
-                let expected = "a positive interval in ms";
-                return Err(self.text.differs(
-                    self.announced,
-                    found,
-                    expected,
-                ));
-            }
-        };
-        let line = self.text.line(self.announced).unwrap_or("");
+        let (text, announced) = (self.text, self.announced);
+        let interval_ms = value(INTERVAL_MS);
+        if let Some(ms) = interval_ms.filter(|ms| !(*ms > 0.0)) {
+            let found = format!("real header value {INTERVAL_MS}: {ms}");
+            let expected = "a positive interval in ms";
+            return Err(text.differs(announced, found, expected));
+        }
+        let dt_s = interval_ms.map(|ms| ms / 1000.0);
+        let line = text.line(announced).unwrap_or("");
         let approx = text::after_word(line, "approx").and_then(|end| {
             let word = line[end..].split_ascii_whitespace().next()?;
             word.parse::<f64>().ok()
@@ -168,7 +163,7 @@ impl<'a> ChannelHeader<'_, 'a> {
                 let allowed = rounded_s + 1.5 * dt_s + 0.01 * expected_s;
                 if !((found_s - expected_s).abs() <= allowed) {
                     let fault = Fault::Duration { found_s, expected_s };
-                    return Err(self.text.on_line(self.announced, fault));
+                    return Err(text.on_line(announced, fault));
                 }
             }
         }

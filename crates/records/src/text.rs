@@ -36,11 +36,8 @@ pub(super) fn decode<'a>(
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // Old systems end a text file with one or more Ctrl-Z.
-    let mut end = bytes.len();
-    while end > 0 && bytes[end - 1] == 0x1a {
-        end -= 1;
-    }
-    let bytes = &bytes[..end];
+    let last = bytes.iter().rposition(|b| *b != 0x1a);
+    let bytes = &bytes[..last.map_or(0, |at| at + 1)];
     if let Some(offset) = bytes.iter().position(|&b| is_control(b)) {
         if looks_like_utf_16(bytes) {
             return Err(Fault::Utf16("no byte order mark").whole(file));
@@ -154,6 +151,11 @@ impl<'a> Text<'a> {
             (self.starts.get(index)?, self.starts.get(index + 1)?);
         let line = &self.text[*start as usize..*end as usize];
         Some(line.trim_end_matches(['\r', '\n']))
+    }
+
+    /// Lines that are no comment, which begins with `#`, and their indices.
+    pub(super) fn data(&self) -> impl Iterator<Item = (usize, &'a str)> {
+        self.lines().enumerate().filter(|(_, line)| !line.starts_with('#'))
     }
 
     /// Lines from index `first` on.

@@ -29,16 +29,13 @@ pub(super) static FORMAT: Format = Format {
 
 /// Whether the first line that is no comment is one number.
 fn recognises(text: &Text<'_>) -> bool {
-    text.lines()
-        .find(|line| !line.starts_with('#'))
-        .is_some_and(|line| number::is_number(line.trim()))
+    let first = text.data().next();
+    first.is_some_and(|(_, line)| number::is_number(line.trim()))
 }
 
 /// Reads the file's one channel.
 fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let lines = text.lines().enumerate();
-    let lines = lines.filter(|(_, line)| !line.starts_with('#'));
-    let (samples, forms) = fields::column(text, lines)?;
+    let (samples, forms) = fields::column(text, text.data())?;
     check_first(text, &samples, &forms)?;
     let remarks = forms.check_ended(text)?;
     let unit = csv::comments(text)?.acceleration;
@@ -53,8 +50,7 @@ fn check_first(
     forms: &Forms,
 ) -> Result<(), RecordError> {
     let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
-    let lines = text.lines().enumerate();
-    let mut lines = lines.filter(|(_, line)| !line.starts_with('#'));
+    let mut lines = text.data();
     let (index, line) = lines.next().unwrap_or_default();
     let interval = |line: &str| counted::interval(line).is_some();
     let whole = line.trim().bytes().all(|b| b.is_ascii_digit() || b == b'+');

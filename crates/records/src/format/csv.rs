@@ -37,7 +37,7 @@ pub(super) static FORMAT: Format = Format {
 
 /// Whether the first or second line has two numbers.
 fn recognises(text: &Text<'_>) -> bool {
-    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let mut lines = text.data().map(|(_, line)| line);
     let numbers = |line: Option<&str>, count: usize| {
         line.is_some_and(|line| {
             let parts = split(line);
@@ -89,10 +89,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut units = comments(text)?;
     let mut head = true;
     let mut numbered = false;
-    for (index, line) in text.lines().enumerate() {
-        if line.starts_with('#') {
-            continue;
-        }
+    for (index, line) in text.data() {
         let parts = split(line);
         if head && !parts.iter().all(|p| number::is_number(p)) {
             numbered = is_numbered(line);
@@ -146,8 +143,6 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
 /// Index of the line of sample `i`: what is no comment, after the header if
 /// there is one.
 fn line_of(text: &Text<'_>, times: &[f64], i: usize) -> usize {
-    let data =
-        || text.lines().enumerate().filter(|(_, l)| !l.starts_with('#'));
-    let header = data().count() - times.len();
-    data().nth(header + i).map_or(0, |(index, _)| index)
+    let header = text.data().count() - times.len();
+    text.data().nth(header + i).map_or(0, |(index, _)| index)
 }

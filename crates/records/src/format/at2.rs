@@ -183,11 +183,8 @@ fn read_interval(rest: &str) -> Result<f64, Fault> {
     let refuse = || Fault::Interval(excerpt(rest));
     let seconds = number::finite(&rest[..end]).filter(|x| *x > 0.0);
     let seconds = seconds.ok_or_else(refuse)?;
-    let unit: String = rest[end..]
-        .trim_start()
-        .chars()
-        .take_while(|c| c.is_alphanumeric())
-        .collect();
+    let unit = rest[end..].trim_start();
+    let unit = unit.split(|c: char| !c.is_alphanumeric()).next().unwrap_or("");
     let known = ["", "S", "SEC", "SECS", "SECOND", "SECONDS", "NPTS"];
     let plain = known.iter().any(|name| unit.eq_ignore_ascii_case(name));
     // A pole count may follow directly where the unit is missing.

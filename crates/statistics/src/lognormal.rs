@@ -35,6 +35,12 @@ pub enum LognormalError {
     Shift(f64),
 }
 
+/// Refuses a shift that is negative or not finite.
+fn check_shift(shift: f64) -> Result<(), LognormalError> {
+    let known = shift >= 0.0 && shift.is_finite();
+    known.then_some(()).ok_or(LognormalError::Shift(shift))
+}
+
 /// ln(X - r) normal with mean mu and standard deviation beta.
 ///
 /// r >= 0 is the shift (IM_R, below which nothing rocks; 0 for the ordinary
@@ -83,9 +89,7 @@ impl Lognormal {
         log_mean: f64,
         dispersion: f64,
     ) -> Result<Self, LognormalError> {
-        if !(shift >= 0.0 && shift.is_finite()) {
-            return Err(LognormalError::Shift(shift));
-        }
+        check_shift(shift)?;
         if !log_mean.is_finite() {
             return Err(LognormalError::LogMean(log_mean));
         }

@@ -4,7 +4,7 @@ use libm::{exp, lgamma, log};
 
 use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
-use super::{FitError, Lognormal, LognormalError, LognormalFit};
+use super::{FitError, Lognormal, LognormalFit, check_shift};
 use crate::Estimate;
 
 /// The records run at one intensity.
@@ -120,9 +120,7 @@ type Maximum = (Vec<Observation>, f64, (f64, f64, f64));
 /// The observations of stripes, the logarithm of their binomial
 /// coefficients, and the maximum of their likelihood.
 fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
-    if !(shift >= 0.0 && shift.is_finite()) {
-        return Err(LognormalError::Shift(shift).into());
-    }
+    check_shift(shift)?;
     let (mut known, mut places) = (Vec::new(), Vec::new());
     // The highest intensity at which a record did not exceed the level, and
     // the lowest one at which a record did.

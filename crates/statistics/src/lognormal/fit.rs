@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::censored::Observation::{self, Exact, Interval};
 use super::censored::{maximise, maximise_together};
-use super::{Lognormal, LognormalError};
+use super::{Lognormal, LognormalError, check_shift};
 use crate::sample::{mean, sum_of_squares};
 use crate::{ExtendedSample, QuantileType};
 use rocking::names::{UnknownName, as_text, find};
@@ -404,9 +404,7 @@ fn known_logarithms(
     intervals: &[(f64, f64)],
     shift: f64,
 ) -> Result<KnownLogarithms, FitError> {
-    if !(shift >= 0.0 && shift.is_finite()) {
-        return Err(LognormalError::Shift(shift).into());
-    }
+    check_shift(shift)?;
     let logarithm = |x: f64| {
         if x <= shift { f64::NEG_INFINITY } else { log(x - shift) }
     };
@@ -461,9 +459,7 @@ pub fn shifted_finite(
     sample: &ExtendedSample,
     shift: f64,
 ) -> Result<Vec<f64>, FitError> {
-    if !(shift >= 0.0 && shift.is_finite()) {
-        return Err(LognormalError::Shift(shift).into());
-    }
+    check_shift(shift)?;
     let finite = sample.finite();
     match finite.first() {
         Some(&value) if value <= shift => {

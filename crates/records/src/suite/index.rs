@@ -6,10 +6,9 @@ use std::sync::Arc;
 use super::cells::split;
 use super::{PEAK_TOLERANCE, StudyRule, SuiteError, SuiteMember};
 use crate::read::settle_one;
-use crate::record::{Agreement, Fallback, ReadOptions, Record, sha256_hex};
+use crate::record::{Agreement, ReadOptions, Record, sha256_hex};
 use crate::text::{self, excerpt};
-use rocking::accelerogram::EXPECTED;
-use rocking::accelerogram::result_name;
+use rocking::accelerogram::{EXPECTED, result_name};
 use rocking::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
@@ -310,28 +309,28 @@ impl IndexRow {
         options: &ReadOptions,
         see: impl FnOnce(Agreement) -> Record,
     ) -> Result<SuiteMember, SuiteError> {
-        self.check_sum(content)?;
-        let unit = match self.cell("units") {
-            None => options.unit,
-            Some(cell) => Some(
-                AccelerationUnit::parse(cell)
-                    .ok_or_else(|| self.refuse(cell, "g, m/s2 or cm/s2"))?,
-            ),
+        if let Some(expected) = self.cell("sha256") {
+            let found = sha256_hex(content);
+            if !found.eq_ignore_ascii_case(expected) {
+                return Err(self.mismatch("sha256", found, expected));
+            }
+        }
+        let unit = |cell| {
+            let refuse = || self.refuse(cell, "g, m/s2 or cm/s2");
+            AccelerationUnit::parse(cell).ok_or_else(refuse)
         };
+        let unit = self.cell("units").map(unit).transpose()?;
         let dt_s = self.positive("dt_s")?;
-        let stated = Fallback {
-            dt: dt_s.is_some(),
-            unit: self.cell("units").is_some(),
-        };
-        let dt_s = dt_s.or(options.dt_s);
-        let read_options = ReadOptions { dt_s, unit, ..*options };
+        let mut read_options = *options;
+        read_options.unit = unit.or(options.unit);
+        read_options.dt_s = dt_s.or(options.dt_s);
         let mut settled = settle_one(&self.file, content, &read_options)?;
         // The row describes only this file.
-        if stated.dt {
+        if dt_s.is_some() {
             settled.dt?;
             (settled.dt, settled.record.given.dt) = (Ok(()), false);
         }
-        if stated.unit {
+        if unit.is_some() {
             settled.unit?;
             (settled.unit, settled.record.given.unit) = (Ok(()), false);
         }
@@ -354,25 +353,12 @@ impl IndexRow {
                 named.map_err(|_| self.refuse(name, EXPECTED))?;
         }
         let pair = self.pair.as_deref().or_else(|| self.cell("pair"));
-        let (pair, event) = (pair.map(str::to_owned), self.event()?);
-        let line = Some(self.line);
-        Ok(SuiteMember {
-            pair,
-            study_component,
-            event,
-            line,
-            attributes,
-            ..member
-        })
-    }
-
-    fn check_sum(&self, content: &[u8]) -> Result<(), SuiteError> {
-        let Some(expected) = self.cell("sha256") else { return Ok(()) };
-        let found = sha256_hex(content);
-        if found.eq_ignore_ascii_case(expected) {
-            return Ok(());
-        }
-        Err(self.mismatch("sha256", found, expected))
+        member.pair = pair.map(str::to_owned);
+        member.study_component = study_component;
+        member.event = self.event()?;
+        member.line = Some(self.line);
+        member.attributes = attributes;
+        Ok(member)
     }
 
     fn check(

@@ -5,8 +5,7 @@ use thiserror::Error;
 
 use super::codes::coded;
 use super::sampling::Uneven;
-use rocking::accelerogram::AccelerogramError;
-use rocking::accelerogram::{EscapedName, NameError};
+use rocking::accelerogram::{AccelerogramError, EscapedName, NameError};
 use rocking::units::AccelerationUnit;
 
 /// A record that was refused.

@@ -14,8 +14,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use rocking::accelerogram::mean;
-use rocking::accelerogram::{Accelerogram, AccelerogramError};
+use rocking::accelerogram::{Accelerogram, AccelerogramError, mean};
 
 /// Order of the filter, in each direction.
 const ORDER: f64 = 4.0;

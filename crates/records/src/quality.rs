@@ -9,8 +9,7 @@ use thiserror::Error;
 
 use super::codes::coded;
 use crate::record::Fallback;
-use rocking::accelerogram::Accelerogram;
-use rocking::accelerogram::mean;
+use rocking::accelerogram::{Accelerogram, mean};
 use rocking::stop;
 
 pub use profile::{MemberMotion, Profile};

@@ -140,9 +140,8 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         return Err(text.at_end(Fault::Ends("samples after a header")));
     }
     if channels.is_empty() {
-        let mut lines = text.lines().enumerate();
-        let first = lines.find(|(_, line)| announces(line));
-        return Err(text.quantity(first.unwrap_or_default().0));
+        let first = text.lines().position(announces);
+        return Err(text.quantity(first.unwrap_or_default()));
     }
     Ok(channels)
 }

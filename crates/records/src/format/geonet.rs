@@ -203,8 +203,7 @@ fn interval(
     if !reals.get(INTERVAL_S - 1).is_some_and(same) {
         return Err(header.refuse(INTERVAL, "the interval of real 26"));
     }
-    let duration_s = header.after(POINTS, "duration");
-    let Some((expected_s, _)) = duration_s else {
+    let Some((expected_s, _)) = header.after(POINTS, "duration") else {
         return Err(header.refuse(POINTS, "a duration in s"));
     };
     let found_s = count as f64 * dt_s;

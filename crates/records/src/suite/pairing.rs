@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
-use crate::direction::Direction;
-use crate::direction::{glued, is_azimuth, is_code};
+use crate::direction::{Direction, glued, is_azimuth, is_code};
 use crate::quality::MemberMotion;
 use rocking::accelerogram::suite_names;
 

@@ -211,17 +211,12 @@ pub(super) fn student(freedom: f64, level: f64) -> Option<f64> {
 
 impl std::fmt::Display for Clusters {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let records = self.records();
-        match self.unit {
-            SamplingUnit::Record => {
-                write!(f, "{records} records; unit: record")
-            }
-            unit => write!(
-                f,
-                "{records} records of {} {unit}s; unit: {unit}",
-                self.count()
-            ),
+        let unit = self.unit;
+        write!(f, "{} records", self.records())?;
+        if unit != SamplingUnit::Record {
+            write!(f, " of {} {unit}s", self.count())?;
         }
+        write!(f, "; unit: {unit}")
     }
 }
 

@@ -85,13 +85,11 @@ impl FromStr for FitMethod {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let types = (1..=9).filter_map(|n| QuantileType::try_new(n).ok());
         let mut written = types.flat_map(Self::all);
-        written.find(|m| m.to_string() == text).map_or_else(
-            || {
-                let all = Self::all(QuantileType::default());
-                find("fit method", text, &all, Self::name)
-            },
-            Ok,
-        )
+        if let Some(method) = written.find(|m| m.to_string() == text) {
+            return Ok(method);
+        }
+        let all = Self::all(QuantileType::default());
+        find("fit method", text, &all, Self::name)
     }
 }
 

@@ -75,12 +75,9 @@ fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
         velocity[i] = velocity[i - 1] + 0.5 * dt_s * (a[i - 1] + a[i]);
     }
     let place = |values: &[f64]| {
-        let largest = |(i, _): &(usize, &f64)| values[*i].abs();
-        let found = values
-            .iter()
-            .enumerate()
-            .max_by(|x, y| largest(x).total_cmp(&largest(y)));
-        found.map_or(0.0, |(i, _)| i as f64 * dt_s)
+        let sizes = values.iter().map(|x| x.abs()).enumerate();
+        let largest = sizes.max_by(|x, y| x.1.total_cmp(&y.1));
+        largest.map_or(0.0, |(i, _)| i as f64 * dt_s)
     };
     let delay = (place(&velocity) - place(a)) / m.significant_duration_5_75_s;
     let single = [

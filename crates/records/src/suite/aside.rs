@@ -10,6 +10,8 @@ coded! {
     /// Why something in a folder or an archive is no record of the suite, and no
     /// fault of the suite either.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
     #[non_exhaustive]
     pub enum AsideReason {
         /// A vertical component.
@@ -109,23 +111,12 @@ impl Aside {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AsideCount<'a> {
     /// The reason.
-    #[cfg_attr(
-        feature = "serde",
-        serde(rename = "code", serialize_with = "code")
-    )]
+    #[cfg_attr(feature = "serde", serde(rename = "code"))]
     pub reason: AsideReason,
     /// Number of files; of files with several channels, number of channels.
     pub files: usize,
     /// The first of them.
     pub first: &'a str,
-}
-
-#[cfg(feature = "serde")]
-fn code<S: serde::Serializer>(
-    reason: &AsideReason,
-    to: S,
-) -> Result<S::Ok, S::Error> {
-    to.serialize_str(reason.code())
 }
 
 /// All that was set aside when a suite was read; in words, the number for

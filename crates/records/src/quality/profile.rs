@@ -33,12 +33,10 @@ impl Profile {
     #[must_use]
     pub fn of(record: &Accelerogram) -> Self {
         let samples = record.samples_g();
-        let mut peak = 0;
-        for (index, sample) in samples.iter().enumerate() {
-            if sample.abs() > samples[peak].abs() {
-                peak = index;
-            }
-        }
+        // The first of those that are largest.
+        let sizes = samples.iter().map(|a| a.abs()).enumerate().rev();
+        let peak = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
+        let peak = peak.map_or(0, |(index, _)| index);
         let from = peak.saturating_sub(COMPARED_SAMPLES);
         let to = samples.len().min(peak + COMPARED_SAMPLES + 1);
         let pga_g = record.pga_g();

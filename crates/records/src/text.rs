@@ -284,14 +284,12 @@ pub(super) fn after_word(line: &str, word: &str) -> Option<usize> {
     let letter = |i: usize| {
         bytes.get(i).is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_')
     };
-    (0..(bytes.len() + 1).saturating_sub(word.len()))
-        .find(|&start| {
-            let end = start + word.len();
-            bytes[start..end].eq_ignore_ascii_case(word.as_bytes())
-                && (start == 0 || !letter(start - 1))
-                && !letter(end)
-        })
-        .map(|start| start + word.len())
+    (word.len()..=bytes.len()).find(|&end| {
+        let start = end - word.len();
+        bytes[start..end].eq_ignore_ascii_case(word.as_bytes())
+            && (start == 0 || !letter(start - 1))
+            && !letter(end)
+    })
 }
 
 /// Whether `line` contains `part`, whatever the case.

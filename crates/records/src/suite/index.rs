@@ -264,13 +264,10 @@ impl IndexRow {
     /// The earthquake, which the index states for all records or for none.
     fn event(&self) -> Result<Option<String>, SuiteError> {
         let stated = |name: &&str| self.head.place(name).is_some();
-        match ["event", PEER_EVENT].into_iter().find(stated) {
-            None => Ok(None),
-            Some(name) => match self.cell(name) {
-                Some(event) => Ok(Some(event.to_owned())),
-                None => Err(self.refuse("", "the earthquake of each record")),
-            },
-        }
+        let name = ["event", PEER_EVENT].into_iter().find(stated);
+        let Some(name) = name else { return Ok(None) };
+        let event = self.cell(name).map(|event| Some(event.to_owned()));
+        event.ok_or_else(|| self.refuse("", "the earthquake of each record"))
     }
 
     fn refuse(&self, found: &str, expected: &str) -> SuiteError {

@@ -143,33 +143,31 @@ pub(super) fn condition(
     let first = score(&column(0).1);
     let pgv = column(PGV).1;
     let second = score(&less(&pgv, slope(&first, &pgv), &first));
-    // Of each quantity of the sample: mean, and slopes on the two scores;
-    // and the stretch of what the scores do not explain.
-    let (mut rows, mut stretch) = ([[0.0; 3]; QUANTITIES], [0.0; QUANTITIES]);
-    for k in 0..QUANTITIES {
+    // Of each quantity of the sample: mean, slopes on the two scores, and the
+    // stretch of what the scores do not explain.
+    let rows: [[f64; 4]; QUANTITIES] = std::array::from_fn(|k| {
         let (mean, values) = column(k);
         let [one, other] = [&first, &second].map(|z| slope(z, &values));
-        rows[k] = [mean, one, other];
         let rest = less(&values, one, &first);
         let [_, rest] = moments(&less(&rest, other, &second));
         // Nothing but rounding is left of PGA and of PGV.
-        if k != 0 && k != PGV {
-            stretch[k] = slopes(recorded, k)[2] / rest;
-        }
-    }
+        let is_score = k == 0 || k == PGV;
+        let stretch = slopes(recorded, k)[2] / rest;
+        [mean, one, other, if is_score { 0.0 } else { stretch }]
+    });
     for values in pairs.iter_mut().flatten() {
-        let [mean, deviation, _] = rows[0];
+        let [mean, deviation, ..] = rows[0];
         let first = (values[0] - mean) / deviation;
-        let [mean, slope, deviation] = rows[PGV];
+        let [mean, slope, deviation, _] = rows[PGV];
         let second = (values[PGV] - mean - slope * first) / deviation;
         for (k, x) in values.iter_mut().enumerate() {
-            let [mean, one, other] = rows[k];
+            let [mean, one, other, stretch] = rows[k];
             let rest = *x - mean - one * first - other * second;
             let [slope, next, _] = slopes(recorded, k);
             *x = libm::log(recorded[k][0])
                 + slope * first
                 + next * second
-                + stretch[k] * rest;
+                + stretch * rest;
         }
     }
 }

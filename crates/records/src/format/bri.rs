@@ -49,13 +49,8 @@ fn head<'a>(text: &Text<'a>) -> Option<FirstLine<'a>> {
     let (channels, per_second, count) = (count()?, count()?, count()?);
     let station = words.next().unwrap_or("").trim_end_matches(':');
     let event = format!("{date} {time}");
-    (shape(date, b'/', 10) && shape(time, b':', 8)).then_some(FirstLine {
-        event,
-        channels,
-        per_second,
-        count,
-        station,
-    })
+    let known = shape(date, b'/', 10) && shape(time, b':', 8);
+    known.then_some(FirstLine { event, channels, per_second, count, station })
 }
 
 /// Reads every channel.

@@ -69,12 +69,8 @@ fn one_line(text: &Text<'_>, index: usize) -> Option<CountLine> {
     let pairs = number::tokens(next.as_bytes()).count() == 2;
     let numbers = words.len();
     let known = numbers == EMOD3D || ([2, 3].contains(&numbers) && !pairs);
-    (known && is_data(text.line(index)?)).then_some(CountLine {
-        count,
-        dt_s,
-        numbers,
-        first,
-    })
+    let known = known && is_data(text.line(index)?);
+    known.then_some(CountLine { count, dt_s, numbers, first })
 }
 
 /// `1559 points at equal spacing of 0.02 sec`, and more lines of words.
@@ -97,13 +93,9 @@ fn in_words(text: &Text<'_>) -> Option<CountLine> {
 /// A count and an interval on lines of their own, before that many samples.
 fn two_lines(text: &Text<'_>) -> Option<CountLine> {
     let (count, dt_s) = (count(text.line(0)?)?, interval(text.line(1)?)?);
-    let first = 2;
-    (text.len() - first == count).then_some(CountLine {
-        count,
-        dt_s,
-        numbers: 2,
-        first,
-    })
+    let (numbers, first) = (2, 2);
+    let known = text.len() - first == count;
+    known.then_some(CountLine { count, dt_s, numbers, first })
 }
 
 /// A number of samples.

@@ -101,13 +101,19 @@ impl QuantileType {
             return Err(QuantileError::Probability(p));
         }
         let n = sorted.len() as f64;
+        // From type 4 on, of the plotting position (k - a)/(n + 1 - a - b).
+        let (a, b) = match self.0 {
+            4 => (0.0, 1.0),
+            5 => (0.5, 0.5),
+            6 => (0.0, 0.0),
+            7 => (1.0, 1.0),
+            8 => (1.0 / 3.0, 1.0 / 3.0),
+            _ => (0.375, 0.375),
+        };
         let position = match self.0 {
             1 | 2 => n * p,
             3 => n * p - 0.5,
-            number => {
-                let (a, b) = plotting(number);
-                a + p * (n + 1.0 - a - b)
-            }
+            _ => a + p * (n + 1.0 - a - b),
         };
         let fuzz = 4.0 * f64::EPSILON * position.abs().max(1.0);
         let j = (position + fuzz).floor();
@@ -129,18 +135,6 @@ impl QuantileType {
         } else {
             f64::mul_add(weight, high, (1.0 - weight) * low)
         })
-    }
-}
-
-/// The constants a and b of the plotting position (k - a)/(n + 1 - a - b).
-fn plotting(number: u8) -> (f64, f64) {
-    match number {
-        4 => (0.0, 1.0),
-        5 => (0.5, 0.5),
-        6 => (0.0, 0.0),
-        7 => (1.0, 1.0),
-        8 => (1.0 / 3.0, 1.0 / 3.0),
-        _ => (0.375, 0.375),
     }
 }
 

@@ -9,6 +9,7 @@ mod shapiro_wilk;
 use libm::exp;
 
 pub use battery::{Battery, SimulatedTest};
+use shapiro_wilk::polynomial;
 pub use shapiro_wilk::shapiro_wilk;
 
 use super::lilliefors::{LillieforsError, standardised};
@@ -62,13 +63,13 @@ pub fn anderson_darling(
     let statistic = a2(&scores);
     let a = statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
     let p_value = if a < 0.2 {
-        1.0 - exp(quadratic(-13.436, 101.14, -223.73, a))
+        1.0 - exp(polynomial(&[-13.436, 101.14, -223.73], a))
     } else if a < 0.34 {
-        1.0 - exp(quadratic(-8.318, 42.796, -59.938, a))
+        1.0 - exp(polynomial(&[-8.318, 42.796, -59.938], a))
     } else if a < 0.6 {
-        exp(quadratic(0.9177, -4.279, -1.38, a))
+        exp(polynomial(&[0.9177, -4.279, -1.38], a))
     } else if a < 10.0 {
-        exp(quadratic(1.2937, -5.709, 0.0186, a))
+        exp(polynomial(&[1.2937, -5.709, 0.0186], a))
     } else {
         3.7e-24
     };
@@ -89,13 +90,13 @@ pub fn cramer_von_mises(
     let statistic = w2(&scores);
     let w = statistic * (1.0 + 0.5 / n);
     let p_value = if w < 0.0275 {
-        1.0 - exp(quadratic(-13.953, 775.5, -12542.61, w))
+        1.0 - exp(polynomial(&[-13.953, 775.5, -12542.61], w))
     } else if w < 0.051 {
-        1.0 - exp(quadratic(-5.903, 179.546, -1515.29, w))
+        1.0 - exp(polynomial(&[-5.903, 179.546, -1515.29], w))
     } else if w < 0.092 {
-        exp(quadratic(0.886, -31.62, 10.897, w))
+        exp(polynomial(&[0.886, -31.62, 10.897], w))
     } else if w < 1.1 {
-        exp(quadratic(1.111, -34.242, 12.832, w))
+        exp(polynomial(&[1.111, -34.242, 12.832], w))
     } else {
         7.37e-10
     };
@@ -123,10 +124,6 @@ fn w2(scores: &[f64]) -> f64 {
         let gap = normal::cdf(*z) - (2 * i + 1) as f64 / (2.0 * n);
         f64::mul_add(gap, gap, sum)
     })
-}
-
-fn quadratic(a: f64, b: f64, c: f64, x: f64) -> f64 {
-    f64::mul_add(f64::mul_add(c, x, b), x, a)
 }
 
 #[cfg(test)]

@@ -106,6 +106,7 @@ fn p_value(n: usize, deficit: f64) -> f64 {
     normal::survival((y - mean) / deviation)
 }
 
-fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+/// A polynomial by its coefficients, the constant first.
+pub(super) fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |s, c| f64::mul_add(s, x, *c))
 }

@@ -180,7 +180,7 @@ impl LawCells {
             "dispersion {s_low:.2} to {s_high:.2}; p {p_low} to {p_high} \
              rad/s, alpha {alpha_low} to {alpha_high}, eta {eta_low} to \
              {eta_high}; six other suites: {} of {all} cells within 15 %, {} \
-             open, {} off; measured fates over the law {}",
+             open, {} off; tests over the law {}",
             cells.holds,
             cells.open,
             cells.fails,
@@ -259,11 +259,9 @@ impl LawCells {
              and a single cosine, against the frequency of the pulse over p.",
         );
         let heading = Heading { place: Place::Answers, ..heading };
-        let reading = "Lognormals without a shift: 15 blocks under seven \
-                       suites, five of them recorded. AvgSA: geometric mean \
-                       of SA(T, 5 %) over 0.15 to 1.0 times 2π/p. (c) Where \
-                       the pulse is slower than 4 p, AvgSA at overturning \
-                       hardly depends on it.";
+        let reading = "Lognormals of 15 blocks under seven suites, five of \
+                       them recorded. (c) Why: AvgSA at overturning by one \
+                       pulse.";
         Ok(Chart { heading, panels, columns: 3 }.figure(reading))
     }
 

@@ -155,8 +155,7 @@ fn limits(page: &Page<'_>) -> Markup {
             }
         }
         p {
-            "The model leaves out " (answers::LEFT_OUT) ". "
-            (answers::not_run(basis)) "."
+            "The model leaves out " (answers::LEFT_OUT) "."
         }
         (folded(
             "deviations",

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use indexmap::IndexMap;
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_records::{
     Fallback, Fault, Format, ReadOptions, RecordError, Remark, RemarkInput,
-    SetAside, Suite, SuiteMember,
+    SetAside, Suite, SuiteError, SuiteMember,
 };
 use serde::Serialize;
 
@@ -153,30 +154,20 @@ struct RecordsSummary<'a> {
 
 /// Why files were refused: one line a cause, with the number of its files.
 fn causes(refused: &[RecordFinding]) -> String {
-    let cause = |r: &RecordFinding| {
-        let place = format!("{}: ", r.file);
-        r.message.strip_prefix(&place).map(str::to_owned)
-    };
-    let mut causes: Vec<(Option<String>, &RecordFinding, usize)> = Vec::new();
-    for refused in refused {
-        let cause = cause(refused);
-        let known =
-            causes.iter_mut().find(|(c, ..)| c.is_some() && *c == cause);
-        match known {
-            Some((.., count)) => *count += 1,
-            None => causes.push((cause, refused, 1)),
-        }
+    let mut causes: IndexMap<_, (&str, usize)> = IndexMap::new();
+    for (place, refused) in refused.iter().enumerate() {
+        let message = refused.message.as_str();
+        let cause = message.strip_prefix(&refused.file);
+        let cause = cause.and_then(|cause| cause.strip_prefix(": "));
+        // A message that does not begin with its file stands alone.
+        causes.entry(cause.ok_or(place)).or_insert((message, 0)).1 += 1;
     }
-    let line =
-        |(_, refused, count): (Option<String>, &RecordFinding, usize)| {
-            let others = match count {
-                1 => String::new(),
-                2 => " (and 1 more file)".to_owned(),
-                n => format!(" (and {} more files)", n - 1),
-            };
-            format!("{}{others}", refused.message)
-        };
-    causes.into_iter().map(line).collect::<Vec<_>>().join("\nrocking: ")
+    let line = |(message, count): (&str, usize)| match count {
+        1 => message.to_owned(),
+        2 => format!("{message} (and 1 more file)"),
+        n => format!("{message} (and {} more files)", n - 1),
+    };
+    causes.into_values().map(line).collect::<Vec<_>>().join("\nrocking: ")
 }
 
 #[derive(Default)]
@@ -200,7 +191,8 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let options = args.reading.options(args.gravity);
     let mut listing = RecordsListing::default();
     for path in &args.paths {
-        listing.add(path, options);
+        let added = listing.add(path, options);
+        listing.refused.extend(added.err());
     }
     listing.refuse_unused();
     let processing = args.processing.processing()?;
@@ -241,7 +233,7 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
             set_aside: set_aside
                 .map(|aside| RecordFinding {
                     code: aside.reason.code(),
-                    ..RecordFinding::from(&aside.error)
+                    ..SuiteError::from(aside.error.clone()).into()
                 })
                 .collect(),
             refused: &listing.refused,
@@ -255,12 +247,12 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     args.reading.judge(&listing.set_aside, &remarks)
 }
 
-impl From<&RecordError> for RecordFinding {
-    fn from(error: &RecordError) -> Self {
+impl From<SuiteError> for RecordFinding {
+    fn from(error: SuiteError) -> Self {
         Self {
-            file: error.file.clone(),
-            code: error.fault.code(),
-            line: error.line,
+            file: error.file().to_owned(),
+            code: error.code(),
+            line: error.line(),
             message: error.to_string(),
         }
     }
@@ -278,42 +270,37 @@ impl RecordFinding {
 }
 
 impl RecordsListing {
-    fn add(&mut self, path: &Path, options: ReadOptions) {
+    fn add(
+        &mut self,
+        path: &Path,
+        options: ReadOptions,
+    ) -> Result<(), RecordFinding> {
         self.inputs.push(path.to_owned());
         if path.is_dir() || inputs::is_zip(path) {
             return self.add_survey(path, options);
         }
         let file = path.display().to_string();
-        let bytes = match rocking_records::file_bytes(path) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                return self.refused.push(RecordFinding::from(&error));
-            }
-        };
+        let bytes =
+            rocking_records::file_bytes(path).map_err(SuiteError::from)?;
         if rocking_records::is_index(&bytes) {
             return self.add_survey(path, options);
         }
-        match self.read(&file, &bytes, options) {
-            Err(error) => self.refused.push(RecordFinding::from(&error)),
-            Ok(records) => {
-                let several = records.len() > 1;
-                self.records.extend(records.into_iter().map(|record| {
-                    RecordListing {
-                        file: match record.channel.filter(|_| several) {
-                            Some(channel) => format!("{file}:{channel}"),
-                            None => file.clone(),
-                        },
-                        format: record.format,
-                        unit: record.unit,
-                        motion: record.accelerogram,
-                        pair: None,
-                        study_component: None,
-                        remarks: record.remarks,
-                        given: record.given,
-                    }
-                }))
-            }
-        }
+        let records = self.read(&file, &bytes, options)?;
+        let several = records.len() > 1;
+        self.records.extend(records.into_iter().map(|record| RecordListing {
+            file: match record.channel.filter(|_| several) {
+                Some(channel) => format!("{file}:{channel}"),
+                None => file.clone(),
+            },
+            format: record.format,
+            unit: record.unit,
+            motion: record.accelerogram,
+            pair: None,
+            study_component: None,
+            remarks: record.remarks,
+            given: record.given,
+        }));
+        Ok(())
     }
 
     /// Reads a file, which keeps the interval and the unit that it states.
@@ -322,7 +309,7 @@ impl RecordsListing {
         file: &str,
         bytes: &[u8],
         options: ReadOptions,
-    ) -> Result<Vec<rocking_records::Record>, RecordError> {
+    ) -> Result<Vec<rocking_records::Record>, SuiteError> {
         let error = match rocking_records::read_all(file, bytes, &options) {
             Ok(records) => return Ok(records),
             Err(error) => error,
@@ -334,7 +321,7 @@ impl RecordsListing {
             Fault::UnitConflict { .. } => {
                 ReadOptions { unit: None, ..options }
             }
-            _ => return Err(error),
+            _ => return Err(error.into()),
         };
         self.contradicted.push(error);
         self.read(file, bytes, options)
@@ -346,12 +333,11 @@ impl RecordsListing {
             self.records.iter().any(|listed| taken(listed.given))
         };
         let (dt, unit) = (given(|g| g.dt), given(|g| g.unit));
-        let unused = |error: &&RecordError| match &error.fault {
+        self.contradicted.retain(|error| match &error.fault {
             Fault::IntervalConflict { .. } => !dt,
             _ => !unit,
-        };
-        let unused = self.contradicted.iter().filter(unused);
-        let unused: Vec<&RecordError> = unused.collect();
+        });
+        let unused = std::mem::take(&mut self.contradicted);
         let files: BTreeSet<&str> = unused.iter().map(|e| &*e.file).collect();
         // A file of several components has them behind colons.
         self.records.retain(|listed| {
@@ -360,36 +346,30 @@ impl RecordsListing {
             let mut ends = ends.chain([file.len()]);
             !ends.any(|end| files.contains(&file[..end]))
         });
-        self.refused.extend(unused.into_iter().map(RecordFinding::from));
+        let refused = unused.into_iter().map(SuiteError::from);
+        self.refused.extend(refused.map(RecordFinding::from));
     }
 
-    fn add_survey(&mut self, path: &Path, options: ReadOptions) {
-        let refused = |error: &rocking_records::SuiteError| RecordFinding {
-            file: error.file().to_owned(),
-            code: error.code(),
-            line: error.line(),
-            message: error.to_string(),
-        };
-        let survey = match inputs::visit(path, options, Ok) {
-            Ok(survey) => survey,
-            Err(error) => return self.refused.push(refused(&error)),
-        };
+    fn add_survey(
+        &mut self,
+        path: &Path,
+        options: ReadOptions,
+    ) -> Result<(), RecordFinding> {
+        let survey = inputs::visit(path, options, Ok::<_, SuiteError>)?;
         self.set_aside.extend(survey.set_aside.all().iter().cloned());
         if survey.members.iter().all(Result::is_ok) {
-            match survey.into_suite() {
-                Ok(suite) => self.add_suite(path, &suite),
-                Err(error) => self.refused.push(refused(&error)),
-            }
-            return;
+            self.add_suite(path, &survey.into_suite()?);
+            return Ok(());
         }
-        for member in &survey.members {
+        for member in survey.members {
             match member {
                 Ok(member) => {
-                    self.records.push(RecordListing::member(member, false));
+                    self.records.push(RecordListing::member(&member, false));
                 }
-                Err(error) => self.refused.push(refused(error)),
+                Err(error) => self.refused.push(error.into()),
             }
         }
+        Ok(())
     }
 
     fn add_suite(&mut self, path: &Path, suite: &Suite) {

@@ -2,7 +2,7 @@
 
 mod forces;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -341,7 +341,7 @@ impl IdaCommand {
             overturning: self.model.overturn,
             grid,
             adjust: self.by,
-            refine: self.refine.map_or(Some(REFINEMENT), |width| width.0),
+            refine: self.refine.unwrap_or(Some(REFINEMENT)),
             highest_im: HIGHEST_IM,
             resurrections,
             order: self.order,
@@ -355,26 +355,19 @@ impl IdaCommand {
         &self,
         suite: &'s Suite<Profile>,
     ) -> Result<Vec<&'s SuiteMember<Profile>>, Failure> {
-        let mut chosen: Vec<_> = match self.component {
-            ComponentChoice::Study => suite.study_components().collect(),
-            ComponentChoice::Both => suite.members().iter().collect(),
-            ComponentChoice::First | ComponentChoice::Second => suite
-                .both()
-                .into_iter()
-                .map(|(a, b)| {
-                    let in_order = a.file <= b.file;
-                    let first = self.component == ComponentChoice::First;
-                    if in_order == first { a } else { b }
-                })
-                .collect(),
+        let first = self.component == ComponentChoice::First;
+        let of_pair = suite.both().into_iter().map(|(a, b)| {
+            let in_order = a.file <= b.file;
+            if in_order == first { &a.accelerogram } else { &b.accelerogram }
+        });
+        let of_pairs: BTreeSet<&str> = of_pair.map(Profile::name).collect();
+        let is_chosen = |member: &&SuiteMember<Profile>| match self.component {
+            ComponentChoice::Study => member.study_component,
+            ComponentChoice::Both => true,
+            _ => of_pairs.contains(member.accelerogram.name()),
         };
-        let places: BTreeMap<&str, usize> = suite
-            .members()
-            .iter()
-            .enumerate()
-            .map(|(place, member)| (member.accelerogram.name(), place))
-            .collect();
-        chosen.sort_by_key(|member| places[member.accelerogram.name()]);
+        let chosen: Vec<_> =
+            suite.members().iter().filter(is_chosen).collect();
         ensure!(
             !chosen.is_empty(),
             "{}: no record of the component asked for",
@@ -385,13 +378,12 @@ impl IdaCommand {
 }
 
 /// Width to which the first overturning is bisected, if it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Refine(Option<f64>);
+type Refine = Option<f64>;
 
 fn refine(text: &str) -> Result<Refine, String> {
     match positive(text) {
-        _ if text == "none" => Ok(Refine(None)),
-        Ok(width) => Ok(Refine(Some(width))),
+        _ if text == "none" => Ok(None),
+        Ok(width) => Ok(Some(width)),
         Err(expected) => Err(format!("{expected}, or none")),
     }
 }

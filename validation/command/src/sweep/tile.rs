@@ -47,30 +47,20 @@ pub(super) fn read(
     content: Content,
     tile: usize,
 ) -> Result<String, TileState> {
+    use TileState::{Damaged, Foreign, Missing};
     let path = planned.tile_path(content, tile);
-    let Ok(text) = fs::read_to_string(path) else {
+    let Ok(text) = fs::read_to_string(&path) else {
         // A file that is there and is no text was written by nobody here.
-        let there = planned.tile_path(content, tile).exists();
-        return Err(if there {
-            TileState::Damaged
-        } else {
-            TileState::Missing
-        });
+        return Err(if path.exists() { Damaged } else { Missing });
     };
-    let Some(at) = text.trim_end().rfind('\n').map(|at| at + 1) else {
-        return Err(TileState::Damaged);
-    };
+    let at = text.trim_end().rfind('\n').ok_or(Damaged)? + 1;
     let (body, last) = text.split_at(at);
     if last == footer(planned, tile, body) {
         return Ok(body.to_owned());
     }
     let of_plan = last.starts_with(&format!("{} ", source(planned)));
     let has_plan = last.starts_with("# plan ");
-    Err(if has_plan && !of_plan {
-        TileState::Foreign
-    } else {
-        TileState::Damaged
-    })
+    Err(if has_plan && !of_plan { Foreign } else { Damaged })
 }
 
 /// The tiles of task `task` of `of` that are not done.

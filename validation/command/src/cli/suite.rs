@@ -74,10 +74,7 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
             records: rows.len(),
             index: args.out.join(format!("{name}.csv")).display().to_string(),
         });
-        let named = |(path, content): (PathBuf, Vec<u8>)| {
-            (path.display().to_string(), content)
-        };
-        files.extend(export::files(name, &rows)?.into_iter().map(named));
+        files.extend(export::files(name, &rows)?);
         Ok::<(), Failure>(())
     };
     match &args.suite {
@@ -102,6 +99,7 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     }
     let folder = OutputFolder::open_new(&args.out)?;
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
-    folder.write(&files.into_iter().collect(), &[&last])?;
+    let files = files.into_iter().map(|(path, text)| (path, text.into()));
+    folder.write(&files.collect(), &[&last])?;
     say(&text(&shown)?)
 }

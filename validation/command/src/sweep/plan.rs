@@ -160,7 +160,7 @@ impl SweepPlan {
         plan.check_blocks().map_err(Failure::input)?;
         let path = folder.join("plan.json");
         let there = fs::read_to_string(&path).ok();
-        let write = |path: &Path, text: &str| match there {
+        let write = |path: &str, text: &str| match there {
             Some(_) => Ok(()),
             None => write_atomically(&folder.join(path), text),
         };

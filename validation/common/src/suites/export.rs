@@ -2,7 +2,6 @@
 //! from which the same accelerograms are read, bit for bit.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 use anyhow::bail;
 use rocking::accelerogram::Accelerogram;
@@ -94,16 +93,12 @@ const COLUMNS: [&str; 10] = [
 pub fn files(
     name: &str,
     rows: &[ExportRow<'_>],
-) -> anyhow::Result<Vec<(PathBuf, Vec<u8>)>> {
+) -> anyhow::Result<Vec<(String, String)>> {
     let extra = rows.iter().flat_map(|row| row.attributes.iter());
     let mut packing = Packing::new(name, extra.map(|(name, _)| *name));
-    let mut files = Vec::with_capacity(rows.len() + 1);
-    for row in rows {
-        let (path, text) = packing.add(row)?;
-        files.push((path, text.into_bytes()));
-    }
-    let (path, text) = packing.finish();
-    files.push((path, text.into_bytes()));
+    let packed = rows.iter().map(|row| packing.add(row));
+    let mut files = packed.collect::<Result<Vec<_>, _>>()?;
+    files.push(packing.finish());
     Ok(files)
 }
 
@@ -131,7 +126,7 @@ impl<'a> Packing<'a> {
     pub fn add(
         &mut self,
         row: &ExportRow<'_>,
-    ) -> anyhow::Result<(PathBuf, String)> {
+    ) -> anyhow::Result<(String, String)> {
         let motion = row.motion;
         if !is_file_name(motion.name()) {
             bail!(
@@ -158,13 +153,12 @@ impl<'a> Packing<'a> {
             cells.push(own.map_or(String::new(), |(_, text)| text.clone()));
         }
         self.index.row(cells);
-        Ok((PathBuf::from(file), text))
+        Ok((file, text))
     }
 
     /// The index: its path and its text.
-    pub fn finish(self) -> (PathBuf, String) {
-        let path = PathBuf::from(format!("{}.csv", self.name));
-        (path, self.index.finish())
+    pub fn finish(self) -> (String, String) {
+        (format!("{}.csv", self.name), self.index.finish())
     }
 }
 

@@ -16,7 +16,7 @@ use rocking_statistics::clusters::SamplingUnit;
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 
-use inputs::{hex, read_suite};
+use inputs::read_suite;
 use remarks::Remarks;
 
 /// Where the records of a suite come from.
@@ -165,9 +165,9 @@ impl StudySuite {
 
     /// The study components: names, and SHA-256 over interval and samples.
     pub fn list(&self) -> Vec<RecordName> {
-        let one = |motion: &StudyMotion| RecordName {
-            name: motion.study.name().to_owned(),
-            sha256: hex(&hash(&motion.study, Sha256::new()).finalize()),
+        let one = |StudyMotion { study, .. }: &StudyMotion| RecordName {
+            name: study.name().to_owned(),
+            sha256: format!("{:x}", hash(study, Sha256::new()).finalize()),
         };
         self.motions.iter().map(one).collect()
     }
@@ -181,7 +181,7 @@ impl StudySuite {
             sum.update([0]);
             sum = hash(study, sum);
         }
-        hex(&sum.finalize())
+        format!("{:x}", sum.finalize())
     }
 }
 

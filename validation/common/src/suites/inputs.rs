@@ -31,11 +31,6 @@ const INDEX_PART: u64 = 12;
 /// records of one block and their curves at a time, however large the suite is.
 pub const BLOCK_SAMPLES: usize = 1 << 22;
 
-/// Bytes as hexadecimal digits.
-pub(super) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// Reads the suite at `path`: a folder, an index, or a zip of either.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, Seek as _, Write};
+use std::mem::replace;
 use std::path::{Path, PathBuf};
 
 use tempfile::{NamedTempFile, SpooledTempFile};
@@ -61,43 +62,17 @@ enum OutputSink {
 #[derive(Debug, Default)]
 pub struct Outputs {
     inputs: Vec<PathBuf>,
-    /// Where those opened so far go.
-    taken: Vec<Destination>,
-}
-
-/// Where an output goes that nothing else may go to: a device or a pipe
-/// keeps nothing that could be lost.
-#[derive(Debug, PartialEq, Eq)]
-enum Destination {
-    Standard,
-    File(PathBuf),
-}
-
-impl Destination {
-    fn of(sink: &OutputSink) -> io::Result<Option<Self>> {
-        Ok(match sink {
-            OutputSink::Standard(_) => Some(Self::Standard),
-            OutputSink::Stream(..) => None,
-            OutputSink::File { target, .. } => {
-                let folder = fs::canonicalize(folder_of(target))?;
-                let name = target.file_name().unwrap_or_default();
-                Some(Self::File(folder.join(name)))
-            }
-        })
-    }
-
-    fn is(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::File(a), Self::File(b)) => a == b || is_same_file(a, b),
-            _ => self == other,
-        }
-    }
+    /// Files to which those opened so far go: a device or a pipe keeps
+    /// nothing that could be lost.
+    files: Vec<PathBuf>,
+    /// Whether one of them goes to standard output.
+    standard: bool,
 }
 
 impl Outputs {
     /// Outputs of a command that reads the files `inputs`.
     pub fn of(inputs: Vec<PathBuf>) -> Self {
-        Self { inputs, taken: Vec::new() }
+        Self { inputs, ..Self::default() }
     }
 
     /// Opens `path`.
@@ -124,18 +99,27 @@ impl Outputs {
     /// Whether one of them goes to standard output, where then nothing else
     /// is printed.
     pub fn take_standard_output(&self) -> bool {
-        self.taken.contains(&Destination::Standard)
+        self.standard
     }
 
     fn sink(&mut self, path: &Path) -> io::Result<OutputSink> {
         let sink = OutputSink::open(path, &self.inputs)?;
-        if let Some(place) = Destination::of(&sink)? {
-            if self.taken.iter().any(|other| place.is(other)) {
-                return Err(io::Error::other(
-                    "another output goes there: expected a file of its own",
-                ));
+        let is_taken = match &sink {
+            OutputSink::Standard(_) => replace(&mut self.standard, true),
+            OutputSink::Stream(..) => false,
+            OutputSink::File { target, .. } => {
+                let folder = fs::canonicalize(folder_of(target))?;
+                let file = folder.join(target.file_name().unwrap_or_default());
+                let is_it = |a: &PathBuf| *a == file || is_same_file(a, &file);
+                let is_taken = self.files.iter().any(is_it);
+                self.files.push(file);
+                is_taken
             }
-            self.taken.push(place);
+        };
+        if is_taken {
+            return Err(io::Error::other(
+                "another output goes there: expected a file of its own",
+            ));
         }
         Ok(sink)
     }

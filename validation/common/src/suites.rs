@@ -13,7 +13,7 @@ use rocking::accelerogram::Accelerogram;
 use rocking_records::{Processing, ReadOptions, SetAside, SuiteMember};
 use rocking_statistics::Clusters;
 use rocking_statistics::clusters::SamplingUnit;
-use rocking_synthesis::Pair;
+use rocking_synthesis::{ORDINARY_SEED, PULSE_SEED, Pair, ordinary, pulse};
 use sha2::{Digest as _, Sha256};
 
 use inputs::read_suite;
@@ -111,16 +111,8 @@ impl StudySuite {
                 .collect(),
         };
         Ok([
-            of(
-                SuiteKind::Ordinary,
-                rocking_synthesis::ORDINARY_SEED,
-                rocking_synthesis::ordinary()?,
-            ),
-            of(
-                SuiteKind::PulseType,
-                rocking_synthesis::PULSE_SEED,
-                rocking_synthesis::pulse()?,
-            ),
+            of(SuiteKind::Ordinary, ORDINARY_SEED, ordinary()?),
+            of(SuiteKind::PulseType, PULSE_SEED, pulse()?),
         ])
     }
 

@@ -136,7 +136,12 @@ impl OutputFolder {
         files: &BTreeMap<String, Vec<u8>>,
         last: &[&str],
     ) -> Result<(), WriteError> {
-        self.fill(files)?;
+        for (name, content) in files {
+            let path = self.unfinished(FILES).join(name);
+            system::create_dir_all(folder_of(&path))
+                .and_then(|()| system::write(&path, content))
+                .map_err(WriteError::at(&self.path.join(name)))?;
+        }
         self.put(files, last)
     }
 
@@ -144,20 +149,6 @@ impl OutputFolder {
     fn unfinished(&self, name: &str) -> PathBuf {
         let part = self.part.as_ref().map(|(part, _)| part.as_path());
         part.unwrap_or(&self.path).join(name)
-    }
-
-    /// Makes all files in the unfinished folder, below `files`.
-    fn fill(
-        &self,
-        files: &BTreeMap<String, Vec<u8>>,
-    ) -> Result<(), WriteError> {
-        for (name, content) in files {
-            let path = self.unfinished(FILES).join(name);
-            system::create_dir_all(folder_of(&path))
-                .and_then(|()| system::write(&path, content))
-                .map_err(WriteError::at(&self.path.join(name)))?;
-        }
-        Ok(())
     }
 
     /// Puts all files into place.
@@ -174,12 +165,10 @@ impl OutputFolder {
                 "{folder} is unfinished: the same command, run again, \
                  completes it"
             );
-            move |error: io::Error| WriteError {
-                path,
-                source: io::Error::new(
-                    error.kind(),
-                    format!("{error}; {again}"),
-                ),
+            move |error: io::Error| {
+                let reason = format!("{error}; {again}");
+                let source = io::Error::new(error.kind(), reason);
+                WriteError { path, source }
             }
         };
         for name in last {

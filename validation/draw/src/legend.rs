@@ -90,8 +90,7 @@ pub fn draw(scene: &mut Drawing, entries: &[Entry]) {
         for entry in row {
             draw_sample(scene, entry.sample, x, y);
             let at = (x + SAMPLE_PX + GAP_PX, y + 0.36 * TEXT_PX);
-            let text = entry.label.as_str();
-            scene.text(TextLine::new(text, at, Horizontal::Left));
+            scene.text(TextLine::new(&entry.label, at, Horizontal::Left));
             x += entry.width() + BETWEEN_PX;
         }
     }

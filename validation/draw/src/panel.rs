@@ -116,19 +116,13 @@ impl<'s> Panel<'s> {
         let (second, empty) = (None, true);
         let reason = "no data in this range";
         let panel = Self { scene, frame, x, y, second, empty, reason };
-        if panel.x.grid {
-            for tick in &panel.x.ticks {
-                let x = panel.to_px((tick.at, 0.0)).0;
-                let ends = [(x, frame.top), (x, frame.bottom)];
-                panel.scene.line(&ends, GRID);
-            }
+        for tick in panel.x.ticks.iter().filter(|_| panel.x.grid) {
+            let x = panel.to_px((tick.at, 0.0)).0;
+            panel.scene.line(&[(x, frame.top), (x, frame.bottom)], GRID);
         }
-        if panel.y.grid {
-            for tick in &panel.y.ticks {
-                let y = panel.to_px((0.0, tick.at)).1;
-                let ends = [(frame.left, y), (frame.right, y)];
-                panel.scene.line(&ends, GRID);
-            }
+        for tick in panel.y.ticks.iter().filter(|_| panel.y.grid) {
+            let y = panel.to_px((0.0, tick.at)).1;
+            panel.scene.line(&[(frame.left, y), (frame.right, y)], GRID);
         }
         panel
     }
@@ -213,16 +207,18 @@ impl<'s> Panel<'s> {
         }
     }
 
+    /// Where a point lies in px, or the place in the frame that is nearest.
+    fn inside(&self, point: Point) -> Point {
+        let ((x, y), f) = (self.to_px(point), self.frame);
+        (x.clamp(f.left, f.right), y.clamp(f.top, f.bottom))
+    }
+
     /// A filled rectangle between two points, cut at the frame.
     pub fn bar(&mut self, a: Point, b: Point, fill: Fill) {
-        let (a, b) = (self.to_px(a), self.to_px(b));
-        let f = self.frame;
-        let bar = Rect {
-            left: a.0.min(b.0).clamp(f.left, f.right),
-            right: a.0.max(b.0).clamp(f.left, f.right),
-            top: a.1.min(b.1).clamp(f.top, f.bottom),
-            bottom: a.1.max(b.1).clamp(f.top, f.bottom),
-        };
+        let (a, b) = (self.inside(a), self.inside(b));
+        let (left, right) = (a.0.min(b.0), a.0.max(b.0));
+        let (top, bottom) = (a.1.min(b.1), a.1.max(b.1));
+        let bar = Rect { left, right, top, bottom };
         if bar.width() > 0.0 && bar.height() > 0.0 {
             self.scene.area(&bar.corners(), fill);
             self.empty = false;
@@ -231,16 +227,12 @@ impl<'s> Panel<'s> {
 
     /// A filled band between two ordinates along x, where both are finite.
     pub fn band(&mut self, rows: &[(f64, f64, f64)], fill: Fill) {
-        let f = self.frame;
-        let inside = |p: Point| {
-            (p.0.clamp(f.left, f.right), p.1.clamp(f.top, f.bottom))
-        };
         let whole = |r: &&(f64, f64, f64)| {
             r.0.is_finite() && r.1.is_finite() && r.2.is_finite()
         };
         let rows: Vec<_> = rows.iter().filter(whole).collect();
-        let below = rows.iter().map(|r| inside(self.to_px((r.0, r.1))));
-        let above = rows.iter().rev().map(|r| inside(self.to_px((r.0, r.2))));
+        let below = rows.iter().map(|r| self.inside((r.0, r.1)));
+        let above = rows.iter().rev().map(|r| self.inside((r.0, r.2)));
         let corners: Vec<Point> = below.chain(above).collect();
         self.scene.area(&corners, fill);
     }
@@ -249,18 +241,17 @@ impl<'s> Panel<'s> {
     pub fn corner(&mut self, text: impl Into<String>, lines: usize) {
         let up = 8.0 + NOTE_PX * lines as f64;
         let at = (self.frame.right - 5.0, self.frame.bottom - up);
-        let line = TextLine::new(text, at, Horizontal::Right);
-        self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+        self.note(text, at, Horizontal::Right);
     }
 
-    /// A note at a point of the data's coordinates, on its baseline.
-    pub fn words_at(
+    /// A note on a baseline at a point in px.
+    pub fn note(
         &mut self,
-        at: Point,
         text: impl Into<String>,
+        at: Point,
         align: Horizontal,
     ) {
-        let line = TextLine::new(text, self.to_px(at), align);
+        let line = TextLine::new(text, at, align);
         self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
     }
 
@@ -287,23 +278,21 @@ impl<'s> Panel<'s> {
         }
         self.axis_lines();
         let middle = (f.left + f.right) / 2.0;
-        let title_y = if self.second.is_some() {
-            self.upper_axis();
+        let title_y = if let Some(second) = self.second.take() {
+            self.upper_axis(&second);
             f.top - 40.0
         } else if subtitle.is_empty() {
             f.top - 9.0
         } else {
             let at = (middle, f.top - 7.0);
-            let line = TextLine::new(subtitle, at, Horizontal::Centre);
-            self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+            self.note(subtitle, at, Horizontal::Centre);
             f.top - 20.0
         };
         let line = TextLine::new(title, (middle, title_y), Horizontal::Centre);
         self.scene.text(line.size(TITLE_PX));
     }
 
-    fn upper_axis(&mut self) {
-        let Some(second) = self.second.take() else { return };
+    fn upper_axis(&mut self, second: &Axis) {
         let f = self.frame;
         self.hairline((f.left, f.top), (f.right, f.top));
         let px = |at: f64| second.place(at).mul_add(f.width(), f.left);
@@ -352,14 +341,13 @@ impl<'s> Panel<'s> {
             self.hairline((f.left - TICK_PX, y), (f.left, y));
             let at = (f.left - TICK_PX - 3.0, y + 0.36 * TEXT_PX);
             widest = widest.max(markup::width(&tick.label, TEXT_PX));
-            let label = tick.label.as_str();
-            self.scene.text(TextLine::new(label, at, Horizontal::Right));
+            let label = TextLine::new(&tick.label, at, Horizontal::Right);
+            self.scene.text(label);
         }
         self.label(&x.title, ((f.left + f.right) / 2.0, f.bottom + 33.0));
         let room = TICK_PX + 3.0 + widest + 8.0;
         let beside = (f.left - room.max(28.0), (f.top + f.bottom) / 2.0);
-        let label =
-            TextLine::new(y.title.as_str(), beside, Horizontal::Centre);
+        let label = TextLine::new(&y.title, beside, Horizontal::Centre);
         self.scene.text(label.upwards());
     }
 }

@@ -401,7 +401,7 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
         Mark::Across(pen) => return panel.horizontal(at.1, pen),
         Mark::Upright(pen) => return panel.vertical(at.0, pen),
         Mark::Words(align) => {
-            return panel.words_at(at, series.label.as_str(), align);
+            return panel.note(&series.label, panel.to_px(at), align);
         }
         Mark::Corner | Mark::Edge => return,
         _ => {}

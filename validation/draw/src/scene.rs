@@ -57,13 +57,8 @@ impl Drawing {
 
     /// A closed outline.
     pub fn outline(&mut self, corners: &[Point], pen: Pen) {
-        if let Some(first) = corners.first()
-            && finite(corners)
-        {
-            let mut points = corners.to_vec();
-            points.push(*first);
-            self.shapes.push(VectorShape::Line(points, pen));
-        }
+        let closed = corners.iter().chain(corners.first()).copied();
+        self.line(&closed.collect::<Vec<_>>(), pen);
     }
 
     /// A filled polygon.

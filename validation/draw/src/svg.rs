@@ -94,7 +94,10 @@ impl Svg {
     /// A filled circle: a point of a thick round pen, so that many make one
     /// path.
     pub(super) fn dot(&mut self, centre: Point, radius_px: f64, ink: Ink) {
-        let (ink, width) = (ink.class(), 2.0 * whole_steps(radius_px));
+        let per_px = f64::from(PER_PX);
+        // A whole number of steps.
+        let width = 2.0 * ((radius_px * per_px).round() / per_px);
+        let ink = ink.class();
         self.path(format!("class=\"l r {ink}\" stroke-width=\"{width}\""));
         self.move_to(steps(&centre));
         self.out.push_str("h0");
@@ -195,12 +198,6 @@ fn px(steps: i32) -> String {
         true => text.replacen("0.", ".", 1),
         false => text.to_owned(),
     }
-}
-
-/// A length in px, rounded to a whole number of steps.
-fn whole_steps(length_px: f64) -> f64 {
-    let per_px = f64::from(PER_PX);
-    (length_px * per_px).round() / per_px
 }
 
 /// Attributes of a line.

@@ -203,6 +203,13 @@ pub(super) struct Panels {
 }
 
 impl Chart {
+    /// A chart of panels side by side, by its name, title and description.
+    pub fn of(heading: [&str; 3], panels: Vec<ChartPanel>) -> Self {
+        let [name, title, description] = heading;
+        let heading = Heading::new(name, title, description);
+        Self { heading, columns: panels.len(), panels }
+    }
+
     /// The chart without the points of its lines that lie within a tenth of
     /// a pixel of what remains, on panels of this size in px. Of the points
     /// behind the first one that is not finite that one alone stays.

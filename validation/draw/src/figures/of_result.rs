@@ -94,17 +94,15 @@ pub fn record_svg(
         || "as given".to_owned(),
         |words| format!("processed: {words}"),
     );
-    let heading = Heading::new(
-        "record",
-        format!("Record {name}"),
-        format!(
-            "Acceleration, velocity and displacement of {name} against time \
-             ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
-             response spectrum."
-        ),
+    let title = format!("Record {name}");
+    let words = format!(
+        "Acceleration, velocity and displacement of {name} against time \
+         ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
+         response spectrum."
     );
-    let chart = Chart { heading, panels, columns: 2 };
-    chart.thinned((440.0, 280.0)).figure(String::new()).svg()
+    let chart = Chart::of(["record", &title, &words], panels);
+    let chart = Chart { columns: 2, ..chart }.thinned((440.0, 280.0));
+    chart.figure(String::new()).svg()
 }
 
 /// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a
@@ -139,7 +137,7 @@ pub fn ranking_svg(
     let beta = rows.iter().map(|row| row.dispersion.estimate);
     let names = measures.iter().map(|m| markup::escape(&short(m)));
     let x = ChartAxis::named(names.collect());
-    let label = format!("dispersion at EDP {}", edp);
+    let label = format!("dispersion at EDP {edp}");
     let series = Series::new(
         "95 % interval by the bootstrap of records",
         Mark::Points,
@@ -151,21 +149,14 @@ pub fn ranking_svg(
     let most = ends.fold(0.0, f64::max);
     let top = if most > 0.0 { 1.1 * most } else { 1.0 };
     let y = ChartAxis::linear(label, (0.0, top));
-    let chart = Chart {
-        heading: Heading::new(
-            "rank",
-            "Efficiency of intensity measures",
-            format!(
-                "Dispersion of the intensity at EDP {} in {} intensity \
-                 measures, with 95 % intervals.",
-                edp,
-                rows.len()
-            ),
-        ),
-        panels: vec![ChartPanel::new("", x, y, vec![series])],
-        columns: 1,
-    };
-    chart.figure(String::new()).svg()
+    let words = format!(
+        "Dispersion of the intensity at EDP {edp} in {} intensity measures, \
+         with 95 % intervals.",
+        rows.len()
+    );
+    let heading = ["rank", "Efficiency of intensity measures", &words];
+    let panel = ChartPanel::new("", x, y, vec![series]);
+    Chart::of(heading, vec![panel]).figure(String::new()).svg()
 }
 
 /// Digits of answers against their condition, and their medians by level
@@ -192,19 +183,12 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
             ),
         ],
     );
-    let own = Some(("these answers", score));
+    let own = ("these answers", score);
     let right = by_level("Median of each level", codes, own, "best");
-    let chart = Chart {
-        heading: Heading::new(
-            "score",
-            "Digits against difficulty",
-            "Digits of each answer against its condition number, and the \
-             median of each level beside known codes.",
-        ),
-        panels: vec![left, right],
-        columns: 2,
-    };
-    chart.figure(String::new()).svg()
+    let words = "Digits of each answer against its condition number, and \
+                 the median of each level beside known codes.";
+    let heading = ["score", "Digits against difficulty", words];
+    Chart::of(heading, vec![left, right]).figure(String::new()).svg()
 }
 
 fn digits_axis() -> ChartAxis {
@@ -215,7 +199,7 @@ fn digits_axis() -> ChartAxis {
 fn by_level(
     title: &str,
     codes: &[Code],
-    own: Option<(&str, &Score)>,
+    (name, own): (&str, &Score),
     setting: &str,
 ) -> ChartPanel {
     let of = |code: &[&Code]| {
@@ -235,14 +219,11 @@ fn by_level(
     }
     notes.sort_by(|a, b| a.y[0].total_cmp(&b.y[0]));
     series.extend(notes);
-    if let Some((name, score)) = own {
-        let levels = score.levels.iter();
-        let own = levels.filter_map(|level| {
-            Some((f64::from(level.level), level.median_digits?))
-        });
-        let (x, y) = own.unzip();
-        series.push(Series::new(name, Mark::LineAndPoints, x, y));
-    }
+    let own = own.levels.iter().filter_map(|level| {
+        Some((f64::from(level.level), level.median_digits?))
+    });
+    let (x, y) = own.unzip();
+    series.push(Series::new(name, Mark::LineAndPoints, x, y));
     let levels = [1, 2, 3, 4, 5].map(|level| format!("level {level}"));
     let x = ChartAxis::named(levels.into());
     ChartPanel::new(title, x, digits_axis(), series)
@@ -251,21 +232,16 @@ fn by_level(
 /// Medians of each level of known codes, in both settings, beside those of
 /// this program.
 pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
-    let own = Some(("this program", own));
-    Chart {
-        heading: Heading::new(
-            "codes",
-            "Digits against difficulty, this project and other codes",
-            "Median digits of the answers of each code, level by level: free \
-             rocking, pulses without and with impacts, records, hard cases; \
-             as shipped and with the finest settings tried.",
-        ),
-        panels: vec![
-            by_level("as shipped", codes, own, "default"),
-            by_level("finest settings tried", codes, own, "best"),
-        ],
-        columns: 2,
-    }
+    let own = ("this program", own);
+    let title = "Digits against difficulty, this project and other codes";
+    let words = "Median digits of the answers of each code, level by level: \
+                 free rocking, pulses without and with impacts, records, hard \
+                 cases; as shipped and with the finest settings tried.";
+    let panels = vec![
+        by_level("as shipped", codes, own, "default"),
+        by_level("finest settings tried", codes, own, "best"),
+    ];
+    Chart::of(["codes", title, words], panels)
 }
 
 /// A few letters, for the tick of an axis.

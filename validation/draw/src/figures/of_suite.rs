@@ -6,9 +6,7 @@ use rocking_procedures::fragility::hazard::{Hazard, HazardMeasure};
 use rocking_procedures::{FragilityInput, StripeResponses};
 use rocking_records::intensity::IntensityMeasure as M;
 
-use super::{
-    Chart, ChartAxis, ChartPanel, Heading, Look, Mark, Series, common,
-};
+use super::{Chart, ChartAxis, ChartPanel, Look, Mark, Series, common};
 use crate::colour::{Fill, Ink, Pen};
 use crate::markup;
 use crate::panel::Marker;
@@ -21,11 +19,8 @@ const MOST_EDP: f64 = 1.2;
 
 /// A chart as SVG, of panels side by side.
 fn svg(heading: [&str; 3], panels: Vec<ChartPanel>) -> String {
-    let [name, title, description] = heading;
-    let heading = Heading::new(name, title, description);
-    let columns = panels.len();
-    let chart = Chart { heading, panels, columns };
-    chart.thinned((560.0, 320.0)).figure(String::new()).svg()
+    let chart = Chart::of(heading, panels).thinned((560.0, 320.0));
+    chart.figure(String::new()).svg()
 }
 
 /// Quantiles of the rotation over slenderness by intensity.

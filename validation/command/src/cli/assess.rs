@@ -8,10 +8,7 @@ use rocking::block::Restitution;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 use rocking_procedures::assess::NamedFloor;
-use rocking_procedures::fragility::hazard::Hazard;
-use rocking_procedures::{
-    AssessOptions, Assessment, ModelError, Object, assess,
-};
+use rocking_procedures::{AssessOptions, ModelError, Object, assess};
 use rocking_records::floor::Floor;
 
 use super::blocks::{self, BlockRow};
@@ -115,7 +112,18 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     };
     let suite = args.suite()?;
     let folder = OutputFolder::open_new(&args.out)?;
-    let found = args.found(&objects, &suite, (hazard.as_ref(), &ratios))?;
+    let studied = suite.motions.iter().map(|motion| motion.study.clone());
+    let options = AssessOptions {
+        gravity_m_s2: STANDARD_GRAVITY_M_S2,
+        hazard: hazard.as_ref(),
+        years: args.site.years(),
+        draws: args.bootstrap.draws(),
+        certify: args.certify,
+        model_error: args.model_error.or(ModelError::default()),
+        recorded_ratios: &ratios,
+    };
+    let records: Vec<Accelerogram> = studied.collect();
+    let found = assess(&objects, &records, &suite.clusters, &options)?;
     let about = args.about(&suite)?;
     let mut files = rocking_assessment::files(&found, &about)?;
     files.insert(SUMS.into(), sums(&files));
@@ -217,26 +225,5 @@ impl AssessCommand {
         self.reading.refuse_unused(self.processing, "--suite")?;
         let [ordinary, _] = StudySuite::embedded()?;
         Ok(ordinary)
-    }
-
-    fn found(
-        &self,
-        objects: &[Object],
-        suite: &StudySuite,
-        (hazard, recorded_ratios): (Option<&Hazard>, &[f64]),
-    ) -> Result<Assessment, Failure> {
-        let motions = suite.motions.iter();
-        let records: Vec<Accelerogram> =
-            motions.map(|motion| motion.study.clone()).collect();
-        let options = AssessOptions {
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
-            hazard,
-            years: self.site.years(),
-            draws: self.bootstrap.draws(),
-            certify: self.certify,
-            model_error: self.model_error.or(ModelError::default()),
-            recorded_ratios,
-        };
-        Ok(assess(objects, &records, &suite.clusters, &options)?)
     }
 }

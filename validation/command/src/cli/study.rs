@@ -208,18 +208,16 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
 /// earlier report.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     // What a killed run left is not whole, and known by what it left.
-    let foreign = match is_interrupted(out) {
-        true => None,
-        false => output::foreign(out),
-    };
-    match foreign {
-        None => Ok(()),
-        Some(name) => bail!(
+    if !is_interrupted(out)
+        && let Some(name) = output::foreign(out)
+    {
+        bail!(
             "cannot write {}: it holds {name}, which no study wrote: expected \
              a new or an empty folder, or one that `rocking study` wrote",
             out.display()
-        ),
+        );
     }
+    Ok(())
 }
 
 /// Fails where the report in `out` is not these files.

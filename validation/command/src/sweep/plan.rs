@@ -156,8 +156,8 @@ impl SweepPlan {
             tile_blocks: wanted.tile_blocks.unwrap_or(by_default),
         };
         // Refused before the records are packed.
-        plan.check_settings().map_err(Failure::input)?;
-        plan.check_blocks().map_err(Failure::input)?;
+        plan.check_settings()?;
+        plan.check_blocks()?;
         let path = folder.join("plan.json");
         let there = fs::read_to_string(&path).ok();
         let write = |path: &str, text: &str| match there {
@@ -197,9 +197,8 @@ impl SweepPlan {
 
     /// The plan of a text, if its parts fit each other and a task can work on
     /// them.
-    fn parse(text: &str) -> Result<Self, String> {
-        let plan: Self =
-            serde_json::from_str(text).map_err(|e| e.to_string())?;
+    fn parse(text: &str) -> Result<Self, Failure> {
+        let plan: Self = serde_json::from_str(text)?;
         plan.check_settings()?;
         plan.check_blocks()?;
         plan.check_records()?;
@@ -264,13 +263,13 @@ impl SweepFolder {
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let path = folder.join("plan.json");
         let text = input::text(&path)?;
-        let refused = |found: String| {
+        let plan = SweepPlan::parse(&text).map_err(|found| {
             Failure::input(format!(
-                "{}: {found}; expected a plan of `rocking sweep plan`",
-                path.display()
+                "{}: {}; expected a plan of `rocking sweep plan`",
+                path.display(),
+                found.message
             ))
-        };
-        let plan = SweepPlan::parse(&text).map_err(refused)?;
+        })?;
         Ok(Self {
             hash: sha256_hex(text.as_bytes()),
             folder: folder.into(),

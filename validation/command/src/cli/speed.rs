@@ -17,7 +17,7 @@ use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 use rocking_common::suites::inputs::read_suite;
 use rocking_report::speed::answers::ToolAnswer;
-use rocking_report::speed::cases::{self, SpeedCase};
+use rocking_report::speed::cases;
 use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
@@ -90,7 +90,12 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     let mut outputs = Outputs::of(args.answers.clone());
     let out = outputs.open_some(args.out.as_ref())?;
     let table = outputs.open_some(args.throughput.as_ref())?;
-    let cases = with_references(cases)?;
+    let referenced = |case| {
+        let reference = ToolAnswer::reference(&case)?;
+        Ok((case, reference))
+    };
+    let cases = cases.into_iter().map(referenced);
+    let cases = cases.collect::<Result<Vec<_>, Failure>>()?;
     let bar = progress(((ORDERS.len() + 1) * cases.len()) as u64);
     let (_, rows) = on_threads(1, || singles::measure(&cases, || bar.inc(1)))?;
     bar.finish_and_clear();
@@ -127,18 +132,6 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
     })
-}
-
-fn with_references(
-    cases: Vec<SpeedCase>,
-) -> Result<Vec<(SpeedCase, ToolAnswer)>, Failure> {
-    cases
-        .into_iter()
-        .map(|case| {
-            let reference = ToolAnswer::reference(&case)?;
-            Ok((case, reference))
-        })
-        .collect()
 }
 
 /// The records that are analysed, and what was set aside beside them.

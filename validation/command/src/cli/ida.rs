@@ -336,7 +336,7 @@ impl IdaCommand {
         );
         Ok(Analysis {
             block,
-            restitution: self.model.restitution(&block)?,
+            restitution: self.model.eta.restitution(&block)?,
             model,
             overturning: self.model.overturn,
             grid,

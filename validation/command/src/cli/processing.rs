@@ -13,7 +13,7 @@ pub struct ProcessingArgs {
     /// Pass what lies above this corner in Hz: Butterworth of order 4,
     /// forwards and backwards, with 6/corner s of zeros added at both ends.
     #[arg(long, value_name = "CORNER_HZ")]
-    high_pass: Option<f64>,
+    pub high_pass: Option<f64>,
 }
 
 impl ProcessingArgs {
@@ -23,11 +23,6 @@ impl ProcessingArgs {
     /// [`Failure`] for a corner that is none.
     pub fn processing(self) -> Result<Processing, Failure> {
         Processing::try_new(self.demean, self.high_pass).at("--high-pass")
-    }
-
-    /// Whether slow drifts are filtered out.
-    pub fn passes_high(self) -> bool {
-        self.high_pass.is_some()
     }
 
     /// The first flag given, to be refused where no record is read.

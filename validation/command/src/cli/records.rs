@@ -214,7 +214,7 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let mut remarks: Vec<RecordFinding> =
         records.iter().flat_map(RecordFinding::remarks).collect();
     if let Some(measured) = &measured
-        && !args.processing.passes_high()
+        && args.processing.high_pass.is_none()
     {
         let baseline = done.unwrap_or("no baseline correction");
         remarks.extend(measured.drifts(baseline));

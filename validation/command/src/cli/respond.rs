@@ -107,7 +107,7 @@ struct SceneSummary<'a> {
 pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2;
     let block: Block = args.block.block(gravity_m_s2)?;
-    let restitution = args.model.restitution(&block)?;
+    let restitution = args.model.eta.restitution(&block)?;
     let threshold = uplift_threshold(&block, args.model.model);
     let p_rad_s = block.frequency_rad_s();
     let ground = args.excitation.ground(gravity_m_s2, threshold, p_rad_s)?;

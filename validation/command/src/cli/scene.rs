@@ -88,7 +88,7 @@ pub struct ModelArgs {
     /// Coefficient of restitution (ratio of angular velocities), or
     /// `housner` for 1 - 1.5 sin^2(alpha).
     #[arg(long, value_name = "E|housner", default_value = "0.92")]
-    eta: Eta,
+    pub eta: Eta,
     /// Equation of motion: Eq. 1 or Eq. 2.
     #[arg(
         long,
@@ -145,15 +145,5 @@ impl Eta {
             Self::Constant(eta) => Restitution::constant(eta)?,
             Self::Housner => Restitution::housner(block)?,
         })
-    }
-}
-
-impl ModelArgs {
-    /// Restitution of a block.
-    ///
-    /// # Errors
-    /// [`Failure`] for a coefficient outside (0, 1].
-    pub fn restitution(&self, block: &Block) -> Result<Restitution, Failure> {
-        self.eta.restitution(block)
     }
 }

@@ -143,30 +143,21 @@ impl ExcitationArgs {
             let target =
                 self.target_pga_g(threshold, p, unit.velocity_ratio_s());
             let dt_s = Some(record.dt_s());
-            let ground = match target {
+            let (motion, pga_g) = match target {
                 None => {
                     let factor = self.scale.unwrap_or(1.0);
                     let pga_g = record.pga_g() * factor.abs();
-                    GroundMotion::of(
-                        MotionSource::Factor(record, factor),
-                        pga_g,
-                    )
+                    (MotionSource::Factor(record, factor), pga_g)
                 }
-                Some(_) if !(unit.pga_g() > 0.0) => {
-                    bail!(
-                        "{}: all samples are zero and cannot be scaled",
-                        path.display()
-                    );
-                }
-                Some(pga_g) => {
-                    GroundMotion::of(MotionSource::Peak(unit, pga_g), pga_g)
-                }
+                Some(_) if !(unit.pga_g() > 0.0) => bail!(
+                    "{}: all samples are zero and cannot be scaled",
+                    path.display()
+                ),
+                Some(pga_g) => (MotionSource::Peak(unit, pga_g), pga_g),
             };
-            return Ok(GroundMotion {
-                dt_s,
-                remarks: Some(remarks),
-                ..ground
-            });
+            let ground = GroundMotion::of(motion, pga_g);
+            let remarks = Some(remarks);
+            return Ok(GroundMotion { dt_s, remarks, ..ground });
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
@@ -234,6 +225,29 @@ impl ExcitationArgs {
                 None => bail!("--pulse {name} needs --{parameter}"),
             }
         })
+    }
+
+    /// The files that are read.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.record.iter().cloned().collect()
+    }
+
+    /// What was done to the record, in words.
+    ///
+    /// # Errors
+    /// [`Failure`] for a corner that is none.
+    pub fn processing(&self) -> Result<Option<String>, Failure> {
+        Ok(words(&self.processing.processing()?))
+    }
+
+    /// What moves the ground, in a word.
+    pub fn name(&self) -> String {
+        let file = self.record.as_deref().and_then(|path| path.file_stem());
+        match (file, self.pulse) {
+            (Some(stem), _) => stem.to_string_lossy().into_owned(),
+            (None, Some(pulse)) => pulse.to_string(),
+            (None, None) => "free motion".to_owned(),
+        }
     }
 }
 
@@ -314,31 +328,6 @@ impl GroundMotion {
             }
             MotionSource::Pulse(pulse) => Excitation::Pulse(pulse),
             MotionSource::Free => Excitation::Free,
-        }
-    }
-}
-
-impl ExcitationArgs {
-    /// The files that are read.
-    pub fn inputs(&self) -> Vec<PathBuf> {
-        self.record.iter().cloned().collect()
-    }
-
-    /// What was done to the record, in words.
-    ///
-    /// # Errors
-    /// [`Failure`] for a corner that is none.
-    pub fn processing(&self) -> Result<Option<String>, Failure> {
-        Ok(words(&self.processing.processing()?))
-    }
-
-    /// What moves the ground, in a word.
-    pub fn name(&self) -> String {
-        let file = self.record.as_deref().and_then(|path| path.file_stem());
-        match (file, self.pulse) {
-            (Some(stem), _) => stem.to_string_lossy().into_owned(),
-            (None, Some(pulse)) => pulse.to_string(),
-            (None, None) => "free motion".to_owned(),
         }
     }
 }

@@ -90,18 +90,10 @@ pub struct ModelArgs {
     #[arg(long, value_name = "E|housner", default_value = "0.92")]
     pub eta: Eta,
     /// Equation of motion: Eq. 1 or Eq. 2.
-    #[arg(
-        long,
-        value_parser = names::model(),
-        default_value_t = Model::Nonlinear
-    )]
+    #[arg(long, value_parser = names::model(), default_value = "nonlinear")]
     pub model: Model,
     /// When the block counts as overturned.
-    #[arg(
-        long,
-        value_parser = names::overturning(),
-        default_value_t = Overturning::Alpha
-    )]
+    #[arg(long, value_parser = names::overturning(), default_value = "alpha")]
     pub overturn: Overturning,
     /// Gravity in m/s2, where sizes or SI records meet it.
     #[arg(

@@ -40,11 +40,7 @@ pub struct StripesCommand {
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
     /// Intensity measure.
-    #[arg(
-        long,
-        value_parser = names::intensity(),
-        default_value_t = Intensity::Pga
-    )]
+    #[arg(long, value_parser = names::intensity(), default_value = "pga")]
     im: Intensity,
     /// Intensities, FIRST:LAST:STEP or separated by commas.
     #[arg(long, value_name = "LEVELS", allow_hyphen_values = true)]

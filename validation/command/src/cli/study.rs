@@ -54,11 +54,7 @@ pub struct StudyCommand {
     #[arg(long, default_value_t = RESTITUTION)]
     eta: f64,
     /// When a block counts as overturned.
-    #[arg(
-        long,
-        value_parser = names::overturning(),
-        default_value_t = Overturning::Alpha
-    )]
+    #[arg(long, value_parser = names::overturning(), default_value = "alpha")]
     overturn: Overturning,
     /// Width in dimensionless intensity to which arms B and C bisect the
     /// first overturning.

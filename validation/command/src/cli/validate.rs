@@ -56,11 +56,7 @@ pub struct ValidateCommand {
     #[arg(long, value_name = "E|housner", default_value = "0.92")]
     eta: Eta,
     /// Equation of motion: Eq. 1 or Eq. 2.
-    #[arg(
-        long,
-        value_parser = names::model(),
-        default_value_t = Model::Nonlinear
-    )]
+    #[arg(long, value_parser = names::model(), default_value = "nonlinear")]
     model: Model,
     /// Gravity in m/s2, where sizes or SI records meet it.
     #[arg(

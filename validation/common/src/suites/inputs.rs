@@ -116,11 +116,16 @@ pub fn visit<K, E: From<SuiteError>>(
         return Survey::visit(path, &read, keep);
     }
     let shown = path.display().to_string();
-    let file = File::open(path).map_err(|e| SuiteError::Unreadable {
-        path: shown.clone(),
-        reason: e.to_string(),
-    })?;
+    let file = File::open(path).map_err(unreadable(&shown))?;
     visit_zip(&shown, file, &read, keep)
+}
+
+/// Makes of a reason why the suite at `shown` cannot be read the error.
+fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
+    move |reason| SuiteError::Unreadable {
+        path: shown.to_owned(),
+        reason: reason.to_string(),
+    }
 }
 
 /// Reads every record of the zip `archive`, which `shown` names in messages.
@@ -140,43 +145,38 @@ pub fn visit_zip<K, E: From<SuiteError>>(
     options: &ReadOptions,
     keep: impl FnMut(SuiteMember) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
-    let unreadable = |reason: String| SuiteError::Unreadable {
-        path: shown.to_owned(),
-        reason,
-    };
-    let size = archive.seek(SeekFrom::End(0));
-    let size = size.map_err(|e| unreadable(e.to_string()))?;
+    let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
     let index_limit = left / INDEX_PART;
-    if !has_end(&mut archive, size).map_err(|e| unreadable(e.to_string()))? {
+    if !has_end(&mut archive, size).map_err(unreadable(shown))? {
         let cut =
             "the archive is cut: expected a list of its files at its end";
-        return Err(unreadable(cut.to_owned()).into());
+        return Err(unreadable(shown)(cut).into());
     }
-    let refuse = |e: zip::result::ZipError| unreadable(e.to_string());
-    let opened = ZipArchive::new(&mut archive).map_err(refuse)?;
+    let opened = ZipArchive::new(&mut archive).map_err(unreadable(shown))?;
     let start = opened.central_directory_start();
-    let doubled = opened.has_duplicate_names();
-    let doubled = match doubled.then(|| doubled_names(&mut archive, start)) {
-        Some(names) => names.map_err(|e| unreadable(e.to_string()))?,
-        None => Vec::new(),
-    };
-    let mut archive = ZipArchive::new(archive).map_err(refuse)?;
+    let mut doubled = Vec::new();
+    if opened.has_duplicate_names() {
+        let names = doubled_names(&mut archive, start);
+        doubled = names.map_err(unreadable(shown))?;
+    }
+    let mut archive = ZipArchive::new(archive).map_err(unreadable(shown))?;
     if let Some((one, other)) = shared(&mut archive) {
         let reason = format!(
             "files {one} and {other} of the archive share their bytes: \
              expected each file once"
         );
-        return Err(unreadable(reason).into());
+        return Err(unreadable(shown)(reason).into());
     }
     let mut names = Vec::new();
     for name in archive.file_names() {
-        names.push(name.map_err(refuse)?.into_owned());
+        names.push(name.map_err(unreadable(shown))?.into_owned());
     }
     for name in doubled {
         let found = archive.index_for_name_raw(&name);
         let name = found.and_then(|index| archive.name_for_index(index));
-        names.extend(name.transpose().map_err(refuse)?.map(Into::into));
+        let name = name.transpose().map_err(unreadable(shown))?;
+        names.extend(name.map(Into::into));
     }
     let (base, names) = contents(names);
     let unpacked = |name: &str| {

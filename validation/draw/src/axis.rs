@@ -18,8 +18,10 @@ pub struct Tick {
 
 /// How values go to places.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-enum AxisScale {
+pub enum AxisScale {
+    /// Linear.
     Linear,
+    /// Logarithmic.
     Logarithmic,
     /// Inverse hyperbolic sine of the logarithm over this width: linear
     /// within it about 1, logarithmic twice over beyond.

@@ -22,9 +22,7 @@ mod series;
 mod sketch;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
-pub use chart::{
-    Chart, ChartAxis, ChartPanel, ChartScale, Column, DIGITS, Layout, Of,
-};
+pub use chart::{Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of};
 pub use fates::{FateMap, MapFate};
 pub use figure::Figure;
 pub use heading::{Heading, Motions, Place};

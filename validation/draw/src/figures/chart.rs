@@ -3,7 +3,7 @@
 use super::common;
 use super::heading::Heading;
 use super::series::{Mark, Series};
-use crate::axis::Axis;
+use crate::axis::{Axis, AxisScale};
 use crate::colour::Pen;
 use crate::geometry::{Point, kept};
 use crate::grid::Grid;
@@ -57,8 +57,8 @@ pub struct ChartPanel {
 pub struct ChartAxis {
     /// Label with unit, in markup.
     pub label: String,
-    /// Linear or logarithmic.
-    pub scale: ChartScale,
+    /// Linear, or logarithmic: then values that are not positive are gaps.
+    pub scale: AxisScale,
     /// Both ends; none: from the data.
     pub range: AxisRange,
     /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
@@ -91,7 +91,7 @@ pub struct Second {
 impl ChartAxis {
     fn new(
         label: impl Into<String>,
-        scale: ChartScale,
+        scale: AxisScale,
         range: AxisRange,
     ) -> Self {
         let (label, categories) = (label.into(), Vec::new());
@@ -103,7 +103,7 @@ impl ChartAxis {
         label: impl Into<String>,
         ends: impl Into<AxisRange>,
     ) -> Self {
-        Self::new(label, ChartScale::Linear, ends.into())
+        Self::new(label, AxisScale::Linear, ends.into())
     }
 
     /// A logarithmic axis with these ends, or with those of the data.
@@ -111,27 +111,18 @@ impl ChartAxis {
         label: impl Into<String>,
         ends: impl Into<AxisRange>,
     ) -> Self {
-        Self::new(label, ChartScale::Logarithmic, ends.into())
+        Self::new(label, AxisScale::Logarithmic, ends.into())
     }
 
     /// An axis with these names at 1, 2, 3 and so on.
     pub fn named(categories: Vec<String>) -> Self {
-        Self { categories, ..Self::new("", ChartScale::Linear, None) }
+        Self { categories, ..Self::new("", AxisScale::Linear, None) }
     }
 
     /// The same axis with another unit beside its own.
     pub fn with_second(self, factor: f64, label: impl Into<String>) -> Self {
         Self { second: Some(Second { factor, label: label.into() }), ..self }
     }
-}
-
-/// Scale of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ChartScale {
-    /// Linear.
-    Linear,
-    /// Logarithmic; values that are not positive are gaps.
-    Logarithmic,
 }
 
 impl ChartPanel {
@@ -348,8 +339,8 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
             let (low, high) = x.range();
             let range = (second.factor * low, second.factor * high);
             let of = match shown.x.scale {
-                ChartScale::Logarithmic => Axis::logarithmic(range.0, range.1),
-                ChartScale::Linear => Axis::linear(range.0, range.1, 6),
+                AxisScale::Logarithmic => Axis::logarithmic(range.0, range.1),
+                _ => Axis::linear(range.0, range.1, 6),
             };
             of.label(second.label.as_str())
         });
@@ -390,7 +381,7 @@ fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
     if !asked.categories.is_empty() {
         return Axis::named(&asked.categories).label(asked.label.as_str());
     }
-    let logarithmic = asked.scale == ChartScale::Logarithmic;
+    let logarithmic = asked.scale == AxisScale::Logarithmic;
     let span = asked.range.or_else(|| common::span(values, logarithmic));
     let (low, high) = span.unwrap_or((1.0, 10.0));
     let axis = match (logarithmic, asked.range) {

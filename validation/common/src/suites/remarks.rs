@@ -1,7 +1,7 @@
 //! Remarks on suspicious records of a command, reported wherever its
 //! results are.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rocking_records::{
     MemberMotion, Remark, RemarkInput, Suite, remarks_together,
@@ -46,12 +46,8 @@ impl Remarks {
     pub fn of(records: &[RemarkInput<'_>]) -> Self {
         let mut remarks = remarks_together(records);
         for of_one in &mut remarks {
-            let mut seen = Vec::new();
-            of_one.retain(|remark| {
-                let is_new = !seen.contains(&remark.code());
-                seen.push(remark.code());
-                is_new
-            });
+            let mut seen = BTreeSet::new();
+            of_one.retain(|remark| seen.insert(remark.code()));
         }
         let named = records.iter().map(|one| one.profile.name().to_owned());
         let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());

@@ -2,7 +2,7 @@
 //! is reported at once, and written whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Seek as _, Write};
+use std::io::{self, Seek as _, Write as _};
 use std::mem::replace;
 use std::path::{Path, PathBuf};
 
@@ -40,10 +40,8 @@ enum OutputSink {
     Standard(SpooledTempFile),
     /// A device or a named pipe.
     Stream(PathBuf, SpooledTempFile),
-    File {
-        target: PathBuf,
-        part: NamedTempFile,
-    },
+    /// Where the file goes, and its unfinished part.
+    File(PathBuf, NamedTempFile),
 }
 
 /// The outputs of one command: none of them is a file that it reads, and no
@@ -107,7 +105,7 @@ impl Outputs {
         let is_taken = match &sink {
             OutputSink::Standard(_) => replace(&mut self.standard, true),
             OutputSink::Stream(..) => false,
-            OutputSink::File { target, .. } => {
+            OutputSink::File(target, _) => {
                 let folder = fs::canonicalize(folder_of(target))?;
                 let file = folder.join(target.file_name().unwrap_or_default());
                 let is_it = |a: &PathBuf| *a == file || is_same_file(a, &file);
@@ -143,7 +141,14 @@ impl Output {
     /// # Errors
     /// [`WriteError`]; a regular file is as it was before then.
     pub fn add(&mut self, piece: impl AsRef<[u8]>) -> Result<(), WriteError> {
-        self.write_all(piece.as_ref()).map_err(WriteError::at(&self.path))
+        let piece = piece.as_ref();
+        match &mut self.sink {
+            OutputSink::Standard(held) | OutputSink::Stream(_, held) => {
+                held.write_all(piece)
+            }
+            OutputSink::File(_, part) => system::add(part.as_file(), piece),
+        }
+        .map_err(WriteError::at(&self.path))
     }
 
     /// Puts what was written in its place.
@@ -152,23 +157,6 @@ impl Output {
     /// [`WriteError`]; a regular file is as it was before then.
     pub fn finish(self) -> Result<(), WriteError> {
         self.sink.finish().map_err(WriteError::at(&self.path))
-    }
-}
-
-impl Write for Output {
-    fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
-        match &mut self.sink {
-            OutputSink::Standard(held) | OutputSink::Stream(_, held) => {
-                held.write(piece)
-            }
-            OutputSink::File { part, .. } => {
-                system::add(part.as_file(), piece)
-            }
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 
@@ -208,7 +196,7 @@ impl OutputSink {
         if let Ok(found) = fs::metadata(&target) {
             system::set_permissions(part.as_file(), found.permissions())?;
         }
-        Ok(Self::File { target, part })
+        Ok(Self::File(target, part))
     }
 
     fn finish(self) -> io::Result<()> {
@@ -227,7 +215,7 @@ impl OutputSink {
                 let mut device = File::options().write(true).open(path)?;
                 io::copy(&mut part, &mut device).map(drop)
             }
-            Self::File { target, part } => {
+            Self::File(target, part) => {
                 system::sync(part.as_file())?;
                 let (error, mut part) = match system::persist(part, &target) {
                     Ok(_) => return Ok(()),

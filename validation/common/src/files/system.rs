@@ -26,17 +26,15 @@ pub(super) fn create_dir_all(path: &Path) -> io::Result<()> {
 
 /// A new file with these bytes, which have reached the disk.
 pub(super) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    begin("create")?;
-    let mut file = File::create(path)?;
-    begin("write")?;
-    file.write_all(content)?;
+    let file = create(path)?;
+    add(&file, content)?;
     sync(&file)
 }
 
-/// Writes to an open file.
-pub(super) fn add(mut file: &File, content: &[u8]) -> io::Result<usize> {
+/// Writes all of it to an open file.
+pub(super) fn add(mut file: &File, content: &[u8]) -> io::Result<()> {
     begin("write")?;
-    file.write(content)
+    file.write_all(content)
 }
 
 pub(super) fn sync(file: &File) -> io::Result<()> {

@@ -81,10 +81,8 @@ pub fn draw(scene: &mut Drawing, entries: &[Entry]) {
     let width = scene.extent().right;
     for (i, row) in rows(entries, width - 2.0 * BETWEEN_PX).iter().enumerate()
     {
-        let mut total = BETWEEN_PX * (row.len() - 1) as f64;
-        for entry in row {
-            total += entry.width();
-        }
+        let between = BETWEEN_PX * (row.len() - 1) as f64;
+        let total = row.iter().fold(between, |sum, e| sum + e.width());
         let mut x = (width - total) / 2.0;
         let y = (i as f64).mul_add(ROW_PX, 16.0);
         for entry in row {

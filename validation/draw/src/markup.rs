@@ -51,43 +51,36 @@ pub struct Run {
 /// assert_eq!(parts[1].level, Level::Sub);
 /// ```
 pub fn runs(markup: &str) -> Vec<Run> {
-    let mut done: Vec<Run> = Vec::new();
-    let mut now =
-        Run { text: String::new(), italic: false, level: Level::Base };
-    let turn = |now: &mut Run, done: &mut Vec<Run>| {
-        if !now.text.is_empty() {
-            done.push(now.clone());
-            now.text.clear();
-        }
-    };
+    let mut runs: Vec<Run> = Vec::new();
+    let (mut italic, mut level) = (false, Level::Base);
     let mut characters = markup.chars().peekable();
     while let Some(c) = characters.next() {
+        let mut next = Some(c);
         match c {
-            '\\' => now.text.extend(characters.next()),
-            '*' => {
-                turn(&mut now, &mut done);
-                now.italic = !now.italic;
-            }
+            '\\' => next = characters.next(),
+            '*' => (italic, next) = (!italic, None),
             // Fonts place the combining tilde badly over italics.
             '\u{303}' => {
-                turn(&mut now, &mut done);
-                let text = String::from('˜');
-                done.push(Run { text, italic: false, level: Level::Accent });
+                let (text, level) = ('˜'.into(), Level::Accent);
+                runs.push(Run { text, italic: false, level });
+                next = None;
             }
-            '_' | '^' if characters.peek() == Some(&'{') => {
-                characters.next();
-                turn(&mut now, &mut done);
-                now.level = if c == '_' { Level::Sub } else { Level::Super };
+            '_' | '^' if characters.next_if_eq(&'{').is_some() => {
+                level = if c == '_' { Level::Sub } else { Level::Super };
+                next = None;
             }
-            '}' if now.level != Level::Base => {
-                turn(&mut now, &mut done);
-                now.level = Level::Base;
+            '}' if level != Level::Base => (level, next) = (Level::Base, None),
+            _ => {}
+        }
+        let Some(c) = next else { continue };
+        match runs.last_mut() {
+            Some(run) if (run.italic, run.level) == (italic, level) => {
+                run.text.push(c);
             }
-            _ => now.text.push(c),
+            _ => runs.push(Run { text: c.into(), italic, level }),
         }
     }
-    turn(&mut now, &mut done);
-    done
+    runs
 }
 
 /// Text that is to be read as it is, such as a file name.

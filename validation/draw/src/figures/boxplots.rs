@@ -218,81 +218,65 @@ fn ratio_range(figure: &Boxplots) -> (f64, f64) {
     )
 }
 
+/// Boxes, with the share of usable ratios beside them.
 fn draw_stripes(
     panel: &mut Panel<'_>,
     shown: &BoxPanel,
     ink: Ink,
-    range: (f64, f64),
+    (low, high): (f64, f64),
 ) {
     for (k, stripe) in shown.stripes.iter().enumerate() {
         let y = (k + 1) as f64;
         let percent = (100.0 * stripe.usable_share()).round();
         let (_, y_px) = panel.to_px((1.0, y));
         panel.right_of_px(y_px, format!("{percent} %"));
-        if let Some(summary) = &stripe.summary {
-            let notched = stripe.usable >= NOTCHED;
-            draw_box(panel, summary, (y, notched), ink, range);
+        let Some(b) = &stripe.summary else { continue };
+        let notched = stripe.usable >= NOTCHED;
+        let pen = Pen::new(ink, 0.9);
+        let waist = if notched { WAIST } else { HALF };
+        // Without a notch its ends are the median.
+        let notch = |end: f64| if notched { end } else { b.median };
+        let upper = [
+            (b.q1, HALF),
+            (notch(b.notch_low), HALF),
+            (b.median, waist),
+            (notch(b.notch_high), HALF),
+            (b.q3, HALF),
+        ];
+        let lower = upper.iter().rev().map(|(x, up)| (*x, -up));
+        let px = |(x, up): Point| panel.to_px((x.clamp(low, high), y + up));
+        let corners: Vec<Point> =
+            upper.into_iter().chain(lower).map(px).collect();
+        if corners.iter().any(|c| !c.0.is_finite()) {
+            continue;
         }
-    }
-}
-
-fn draw_box(
-    panel: &mut Panel<'_>,
-    b: &Boxplot,
-    (y, notched): (f64, bool),
-    ink: Ink,
-    (low, high): (f64, f64),
-) {
-    let pen = Pen::new(ink, 0.9);
-    let waist = if notched { WAIST } else { HALF };
-    // Without a notch its ends are the median.
-    let notch = |end: f64| if notched { end } else { b.median };
-    let corners: Vec<Point> = [
-        (b.q1, HALF),
-        (notch(b.notch_low), HALF),
-        (b.median, waist),
-        (notch(b.notch_high), HALF),
-        (b.q3, HALF),
-        (b.q3, -HALF),
-        (notch(b.notch_high), -HALF),
-        (b.median, -waist),
-        (notch(b.notch_low), -HALF),
-        (b.q1, -HALF),
-    ]
-    .into_iter()
-    .map(|(x, up)| panel.to_px((x.clamp(low, high), y + up)))
-    .collect();
-    if corners.iter().any(|c| !c.0.is_finite()) {
-        return;
-    }
-    panel.mark_used();
-    for x in &b.outliers {
-        if *x >= low && *x <= high {
-            panel.marks([(*x, y)], Marker::Cross, 2.6, ink);
+        panel.mark_used();
+        let inside = b.outliers.iter().filter(|x| (low..=high).contains(*x));
+        panel.marks(inside.map(|x| (*x, y)), Marker::Cross, 2.6, ink);
+        panel.line([(b.whisker_low, y), (b.q1, y)], pen);
+        panel.line([(b.q3, y), (b.whisker_high, y)], pen);
+        for end in [b.whisker_low, b.whisker_high] {
+            let cap = HALF / 2.0;
+            panel.line([(end, y - cap), (end, y + cap)], pen);
         }
-    }
-    panel.line([(b.whisker_low, y), (b.q1, y)], pen);
-    panel.line([(b.q3, y), (b.whisker_high, y)], pen);
-    for end in [b.whisker_low, b.whisker_high] {
-        let cap = HALF / 2.0;
-        panel.line([(end, y - cap), (end, y + cap)], pen);
-    }
-    panel.scene().area(&corners, Fill::tint(ink, 24));
-    panel.scene().outline(&corners, pen);
-    let median = [(b.median, y - waist), (b.median, y + waist)];
-    panel.line(median, Pen::new(ink, 1.6));
-    if let Some(interval) = b.median_interval {
-        let (from, to) = interval.interval.ends();
-        panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
-    }
-    let edges = [
-        (b.outliers.iter().any(|x| *x > high), high, Marker::Beyond, -8.0),
-        (b.outliers.iter().any(|x| *x < low), low, Marker::BeyondLeft, 8.0),
-    ];
-    for (wanted, edge, marker, inwards) in edges {
-        if wanted {
-            let (x, y) = panel.to_px((edge, y));
-            marker.draw(panel.scene(), (x + inwards, y), 3.0, ink);
+        panel.scene().area(&corners, Fill::tint(ink, 24));
+        panel.scene().outline(&corners, pen);
+        let median = [(b.median, y - waist), (b.median, y + waist)];
+        panel.line(median, Pen::new(ink, 1.6));
+        if let Some(interval) = b.median_interval {
+            let (from, to) = interval.interval.ends();
+            panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
+        }
+        let above = b.outliers.iter().any(|x| *x > high);
+        let below = b.outliers.iter().any(|x| *x < low);
+        for (wanted, edge, marker, inwards) in [
+            (above, high, Marker::Beyond, -8.0),
+            (below, low, Marker::BeyondLeft, 8.0),
+        ] {
+            if wanted {
+                let (x, y) = panel.to_px((edge, y));
+                marker.draw(panel.scene(), (x + inwards, y), 3.0, ink);
+            }
         }
     }
 }

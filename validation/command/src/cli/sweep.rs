@@ -236,9 +236,7 @@ fn run_task(args: &SweepRunCommand) -> Result<(), Failure> {
     );
     let planned = SweepFolder::read(&args.dir)?;
     let total = planned.plan.tiles();
-    let done = |tile: usize| {
-        note(&format!("tile {tile} of {total} done"));
-    };
+    let done = |tile| note(&format!("tile {tile} of {total} done"));
     let run = || sweep::run(&planned, SOFTWARE, (task, of), &done);
     until(args.threads.threads, run)?.transpose()?;
     let left = sweep::left(&planned, (task, of));

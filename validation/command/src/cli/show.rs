@@ -81,12 +81,10 @@ const UNITS: [(&str, &str); 13] = [
 
 /// The name of a field in words, and its unit.
 fn heading(name: &str) -> String {
-    let unit = UNITS.iter().find(|(end, _)| name.ends_with(end));
-    match unit {
-        Some((end, unit)) => {
-            let words = name[..name.len() - end.len()].replace('_', " ");
-            format!("{words} ({unit})")
-        }
+    let with_unit =
+        |(end, unit): &(&str, _)| Some((name.strip_suffix(end)?, *unit));
+    match UNITS.iter().find_map(with_unit) {
+        Some((words, unit)) => format!("{} ({unit})", words.replace('_', " ")),
         None => name.replace('_', " "),
     }
 }

@@ -115,13 +115,11 @@ fn pen(boundary: usize) -> Pen {
 }
 
 fn scene(figure: &FateMap) -> Drawing {
-    let mut legend: Vec<Entry> = MapFate::ALL
-        .into_iter()
-        .filter_map(|fate| {
-            let sample = Sample::Band(fate.fill()?);
-            Some(Entry::new(sample, fate.name()))
-        })
-        .collect();
+    let entry = |fate: MapFate| {
+        Some(Entry::new(Sample::Band(fate.fill()?), fate.name()))
+    };
+    let mut legend: Vec<Entry> =
+        MapFate::ALL.into_iter().filter_map(entry).collect();
     for (k, (name, _)) in figure.boundaries.iter().enumerate() {
         legend.push(Entry::new(Sample::Line(pen(k)), name.as_str()));
     }

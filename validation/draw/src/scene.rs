@@ -82,7 +82,8 @@ impl Drawing {
         }
     }
 
-    /// All lines of text, for tests of the layout.
+    /// All lines of text.
+    #[cfg(test)]
     pub fn texts(&self) -> impl Iterator<Item = &TextLine> {
         self.shapes.iter().filter_map(|s| match s {
             VectorShape::Text(text) => Some(text),

@@ -28,11 +28,8 @@ pub fn rounded_text(x: f64) -> String {
 
 /// The letter of a panel: a, b, c and so on.
 pub fn letter(panel: usize) -> String {
-    let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i));
-    match letter {
-        Some(c) if c.is_ascii_lowercase() => char::from(c).to_string(),
-        _ => (panel + 1).to_string(),
-    }
+    let letter = ('a'..='z').nth(panel);
+    letter.map_or_else(|| (panel + 1).to_string(), String::from)
 }
 
 /// A number rounded to `digits` significant digits.

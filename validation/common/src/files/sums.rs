@@ -2,7 +2,6 @@
 //! `sha256sum` writes and checks it.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::{Component, Path};
@@ -17,12 +16,10 @@ pub const SUMS: &str = "SHA256SUMS";
 
 /// The manifest of these files, by their paths below the folder.
 pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
-    let mut text = String::new();
-    for (name, content) in files {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}  {name}", sha256_hex(content));
-    }
-    text.into_bytes()
+    let line = |(name, content): (&String, &Vec<u8>)| {
+        format!("{}  {name}\n", sha256_hex(content))
+    };
+    files.iter().map(line).collect::<String>().into_bytes()
 }
 
 /// Why the files of a folder are not those of one run.

@@ -333,12 +333,8 @@ impl SampleCount {
         all: impl IntoIterator<Item = T>,
         is: impl Fn(T) -> bool,
     ) -> Self {
-        let (mut k, mut n) = (0, 0);
-        for one in all {
-            n += 1;
-            k += usize::from(is(one));
-        }
-        Self::of(k, n)
+        let all: Vec<bool> = all.into_iter().map(is).collect();
+        Self::of(all.iter().filter(|is| **is).count(), all.len())
     }
 
     /// A number that is no share of things.

@@ -179,9 +179,7 @@ fn at2(motion: &Accelerogram) -> String {
         motion.dt_s()
     );
     for line in samples.chunks(5) {
-        for sample in line {
-            text.push_str(&fixed(*sample));
-        }
+        text.extend(line.iter().map(|sample| fixed(*sample)));
         text.push('\n');
     }
     text

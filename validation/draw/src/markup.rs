@@ -5,6 +5,8 @@
 
 use std::fmt::Write as _;
 
+use maud::Render as _;
+
 /// Size of sub- and superscripts relative to the text.
 const SCRIPT: f64 = 0.72;
 /// How far a subscript goes down, in units of the text size.
@@ -172,7 +174,7 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
         let step = shift - raised;
         raised = shift;
         if step == 0.0 && along == 0.0 && !script && !run.italic {
-            write_escaped(out, &run.text);
+            out.push_str(&escaped(&run.text));
         } else {
             out.push_str("<tspan");
             if along != 0.0 {
@@ -189,7 +191,7 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
                 out.push_str(" font-style=\"italic\"");
             }
             out.push('>');
-            write_escaped(out, &run.text);
+            out.push_str(&escaped(&run.text));
             out.push_str("</tspan>");
         }
         along = if run.level == Level::Accent {
@@ -202,19 +204,10 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
     }
 }
 
-/// Writes characters so that XML reads them back; control characters, which
-/// XML cannot hold, are left out.
-pub(super) fn write_escaped(out: &mut String, text: &str) {
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() => {}
-            c => out.push(c),
-        }
-    }
+/// Characters so that XML reads them back; control characters, which XML
+/// cannot hold, are left out.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace(char::is_control, "").render().into_string()
 }
 
 /// Marked-up text without its marks.

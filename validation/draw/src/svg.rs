@@ -27,24 +27,18 @@ pub(super) struct Svg {
 impl Svg {
     /// Starts an SVG of this size.
     pub(super) fn new((width, height): (u32, u32), caption: &Caption) -> Self {
-        let mut out = String::new();
-        let mut id = String::new();
-        markup::write_escaped(&mut id, &caption.name);
-        let _ = write!(
-            out,
+        let Caption { name, title, description } = caption;
+        let [id, title, description] =
+            [name, title, description].map(|text| markup::escaped(text));
+        let out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"fig\" \
              width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-desc\" \
              font-family=\"{FONTS}\" font-size=\"{TEXT_PX}\">\n\
-             <title id=\"{id}-title\">"
-        );
-        markup::write_escaped(&mut out, &caption.title);
-        let _ = write!(out, "</title>\n<desc id=\"{id}-desc\">");
-        markup::write_escaped(&mut out, &caption.description);
-        let _ = write!(
-            out,
-            "</desc>\n<style>{STYLE}</style>\n\
+             <title id=\"{id}-title\">{title}</title>\n\
+             <desc id=\"{id}-desc\">{description}</desc>\n\
+             <style>{STYLE}</style>\n\
              <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
         );
         Self { out, open: String::new(), at: (0, 0) }

@@ -3,8 +3,6 @@
 //! A backslash takes the next character as it is; a `_` or `^` without a
 //! brace after it is an ordinary character.
 
-use std::fmt::Write as _;
-
 use maud::Render as _;
 
 /// Size of sub- and superscripts relative to the text.
@@ -156,9 +154,9 @@ fn character_width(c: char) -> u16 {
     }
 }
 
-/// Writes the content of a `<text>` element: tspans where the style changes.
-pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
-    let mut raised = 0.0;
+/// The content of a `<text>` element: tspans where the style changes.
+pub(super) fn tspans(markup: &str, size_px: f64) -> String {
+    let (mut out, mut raised) = (String::new(), 0.0);
     // Width of the last letter, and how far the next run is to be moved.
     let (mut letter, mut along) = (0.0, 0.0);
     for run in runs(markup) {
@@ -173,27 +171,18 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
         }
         let step = shift - raised;
         raised = shift;
-        if step == 0.0 && along == 0.0 && !script && !run.italic {
-            out.push_str(&escaped(&run.text));
-        } else {
-            out.push_str("<tspan");
-            if along != 0.0 {
-                let _ = write!(out, " dx=\"{:.2}\"", along * size_px);
-            }
-            if step != 0.0 {
-                let _ = write!(out, " dy=\"{step:.2}\"");
-            }
-            if script {
-                let size = SCRIPT * size_px;
-                let _ = write!(out, " font-size=\"{size:.2}\"");
-            }
-            if run.italic {
-                out.push_str(" font-style=\"italic\"");
-            }
-            out.push('>');
-            out.push_str(&escaped(&run.text));
-            out.push_str("</tspan>");
-        }
+        let attributes = [
+            (along != 0.0).then(|| format!(" dx=\"{:.2}\"", along * size_px)),
+            (step != 0.0).then(|| format!(" dy=\"{step:.2}\"")),
+            script.then(|| format!(" font-size=\"{:.2}\"", SCRIPT * size_px)),
+            run.italic.then(|| " font-style=\"italic\"".to_owned()),
+        ];
+        let attributes: String = attributes.into_iter().flatten().collect();
+        let text = escaped(&run.text);
+        out += &match attributes.is_empty() {
+            true => text,
+            false => format!("<tspan{attributes}>{text}</tspan>"),
+        };
         along = if run.level == Level::Accent {
             0.5 * (letter - TILDE_EM) - ACCENT_SLANT_EM
         } else {
@@ -202,6 +191,7 @@ pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
         let last = run.text.chars().last();
         letter = last.map_or(0.0, |c| f64::from(character_width(c)) / 1000.0);
     }
+    out
 }
 
 /// Characters so that XML reads them back; control characters, which XML

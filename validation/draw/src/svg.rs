@@ -102,24 +102,21 @@ impl Svg {
         self.close();
         let (x, y) = steps(&line.at);
         let (x, y) = (px(x), px(y));
-        let _ = write!(self.out, "<text class=\"{}\"", line.ink.class());
-        let _ = if line.upwards {
-            write!(self.out, " transform=\"translate({x} {y}) rotate(-90)\"")
-        } else {
-            write!(self.out, " x=\"{x}\" y=\"{y}\"")
+        let place = match line.upwards {
+            true => format!("transform=\"translate({x} {y}) rotate(-90)\""),
+            false => format!("x=\"{x}\" y=\"{y}\""),
         };
-        match line.align {
-            Horizontal::Left => {}
-            Horizontal::Centre => {
-                self.out.push_str(" text-anchor=\"middle\"");
-            }
-            Horizontal::Right => self.out.push_str(" text-anchor=\"end\""),
+        let align = match line.align {
+            Horizontal::Left => "",
+            Horizontal::Centre => " text-anchor=\"middle\"",
+            Horizontal::Right => " text-anchor=\"end\"",
+        };
+        let (ink, size) = (line.ink.class(), line.size_px);
+        let _ = write!(self.out, "<text class=\"{ink}\" {place}{align}");
+        if size != TEXT_PX {
+            let _ = write!(self.out, " font-size=\"{size}\"");
         }
-        if line.size_px != TEXT_PX {
-            let _ = write!(self.out, " font-size=\"{}\"", line.size_px);
-        }
-        let mut content = String::new();
-        markup::write_tspans(&mut content, &line.markup, line.size_px);
+        let content = markup::tspans(&line.markup, size);
         if content.contains('<') {
             self.out.push_str(" xml:space=\"preserve\"");
         }
@@ -198,9 +195,8 @@ fn px(steps: i32) -> String {
 fn stroke(pen: Pen) -> String {
     let width = (100.0 * pen.width_px).round().max(1.0) / 100.0;
     let ink = pen.ink.class();
-    let mut out = format!("class=\"l {ink}\" stroke-width=\"{width}\"");
-    if let Some(array) = pen.dash.array() {
-        let _ = write!(out, " stroke-dasharray=\"{array}\"");
-    }
-    out
+    let array = pen.dash.array();
+    let dash = array.map(|array| format!(" stroke-dasharray=\"{array}\""));
+    let dash = dash.unwrap_or_default();
+    format!("class=\"l {ink}\" stroke-width=\"{width}\"{dash}")
 }

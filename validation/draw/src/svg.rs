@@ -55,8 +55,7 @@ impl Svg {
     pub(super) fn line(&mut self, points: &[Point], pen: Pen) {
         let points: Vec<_> = points.iter().map(steps).collect();
         if let [first, rest @ ..] = points.as_slice() {
-            self.path(stroke(pen));
-            self.move_to(*first);
+            self.start(stroke(pen), *first);
             match rest.split_last() {
                 Some((last, between))
                     if last == first && !between.is_empty() =>
@@ -78,8 +77,7 @@ impl Svg {
                 let opacity = f64::from(fill.percent) / 100.0;
                 let _ = write!(attributes, " fill-opacity=\"{opacity}\"");
             }
-            self.path(attributes);
-            self.move_to(*first);
+            self.start(attributes, *first);
             self.lines(rest);
             self.out.push('z');
         }
@@ -92,8 +90,8 @@ impl Svg {
         // A whole number of steps.
         let width = 2.0 * ((radius_px * per_px).round() / per_px);
         let ink = ink.class();
-        self.path(format!("class=\"l r {ink}\" stroke-width=\"{width}\""));
-        self.move_to(steps(&centre));
+        let pen = format!("class=\"l r {ink}\" stroke-width=\"{width}\"");
+        self.start(pen, steps(&centre));
         self.out.push_str("h0");
     }
 
@@ -123,13 +121,18 @@ impl Svg {
         let _ = writeln!(self.out, ">{content}</text>");
     }
 
-    /// Makes sure that a path with these attributes is open.
-    fn path(&mut self, attributes: String) {
+    /// Goes to a point of a path with these attributes, which is opened where
+    /// none is.
+    fn start(&mut self, attributes: String, at: (i32, i32)) {
         if self.open != attributes {
             self.close();
             let _ = write!(self.out, "<path {attributes} d=\"");
             self.open = attributes;
         }
+        self.out.push('M');
+        self.next(at.0);
+        self.next(at.1);
+        self.at = at;
     }
 
     fn close(&mut self) {
@@ -137,13 +140,6 @@ impl Svg {
             self.out.push_str("\"/>\n");
             self.open.clear();
         }
-    }
-
-    fn move_to(&mut self, to: (i32, i32)) {
-        self.out.push('M');
-        self.out.push_str(&px(to.0));
-        self.next(to.1);
-        self.at = to;
     }
 
     fn lines(&mut self, points: &[(i32, i32)]) {
@@ -155,20 +151,19 @@ impl Svg {
             }
             if first {
                 self.out.push('l');
-                self.out.push_str(&px(dx));
-            } else {
-                self.next(dx);
             }
+            self.next(dx);
             self.next(dy);
             first = false;
             self.at = *p;
         }
     }
 
-    /// Writes a number after another one.
+    /// Writes a number after a letter or another number.
     fn next(&mut self, steps: i32) {
         let number = px(steps);
-        if !number.starts_with('-') {
+        let is_second = self.out.ends_with(|c: char| c.is_ascii_digit());
+        if is_second && !number.starts_with('-') {
             self.out.push(' ');
         }
         self.out.push_str(&number);

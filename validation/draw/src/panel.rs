@@ -127,9 +127,10 @@ impl<'s> Panel<'s> {
         panel
     }
 
-    /// Another horizontal axis over the same width, at the upper edge.
-    pub fn with_second(self, second: Axis) -> Self {
-        Self { second: Some(second), ..self }
+    /// Another horizontal axis over the same width, at the upper edge, where
+    /// there is one.
+    pub fn with_second(self, second: Option<Axis>) -> Self {
+        Self { second, ..self }
     }
 
     /// Says why there may be nothing to see.

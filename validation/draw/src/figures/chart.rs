@@ -1,5 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
+use std::iter::empty;
+
 use super::common;
 use super::heading::Heading;
 use super::series::{Mark, Series};
@@ -337,17 +339,12 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
         let (x, y) = axes(shown);
         let second = shown.x.second.as_ref().map(|second| {
             let (low, high) = x.range();
-            let range = (second.factor * low, second.factor * high);
-            let of = match shown.x.scale {
-                AxisScale::Logarithmic => Axis::logarithmic(range.0, range.1),
-                _ => Axis::linear(range.0, range.1, 6),
-            };
-            of.label(second.label.as_str())
+            let range = Some((second.factor * low, second.factor * high));
+            axis(&ChartAxis::new(&second.label, shown.x.scale, range), empty())
         });
-        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
-        if let Some(second) = second {
-            panel = panel.with_second(second);
-        }
+        let frame = grid.frame(i);
+        let mut panel =
+            Panel::new(&mut scene, frame, x, y).with_second(second);
         for series in &shown.series {
             let rank = labels.iter().position(|label| *label == series.label);
             draw_series(&mut panel, series, rank);

@@ -104,7 +104,7 @@ pub fn parse(
             (None, None, Some(width_m), Some(height_m)) => {
                 Block::from_dimensions(width_m, height_m, gravity_m_s2)
             }
-            _ => return Err(at(format!("expected {EXPECTED}"))),
+            _ => bail!("{place}: expected {EXPECTED}"),
         };
         let block = block.at(&place)?;
         if let Some(eta) = cells.eta {
@@ -112,9 +112,10 @@ pub fn parse(
         }
         let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
         if let Some(before) = ids.insert(id.clone(), line) {
-            return Err(at(format!(
-                "{id} stands on line {before} too: expected an id of its own"
-            )));
+            bail!(
+                "{place}: {id} stands on line {before} too: expected an id of \
+                 its own"
+            );
         }
         let samples = cells.sample.map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
@@ -122,9 +123,7 @@ pub fn parse(
         let BlockCells { eta, friction, limit_ratio, floor, .. } = cells;
         let mu = friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
         if let Some(mu) = mu {
-            return Err(at(format!(
-                "friction {mu}: expected a positive number"
-            )));
+            bail!("{place}: friction {mu}: expected a positive number");
         }
         rows.push(BlockRow {
             place,

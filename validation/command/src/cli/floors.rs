@@ -52,18 +52,17 @@ pub fn parse(
         let record = record.map_err(|e| no_csv(path, e))?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
-        let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let cells: FloorCells = record
-            .deserialize(Some(&header))
-            .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
+        let cells: FloorCells =
+            record.deserialize(Some(&header)).map_err(|e| {
+                Failure::input(format!("{place}: {e}: expected {EXPECTED}"))
+            })?;
         let FloorCells { name, period_s, damping, height_ratio } = cells;
         let floor = Floor::try_new(period_s, damping, height_ratio);
-        if floors.insert(name.clone(), floor.at(&place)?).is_some() {
-            return Err(at(format!(
-                "floor {name} stands on a line above, too: expected each \
-                 name once"
-            )));
-        }
+        ensure!(
+            floors.insert(name.clone(), floor.at(&place)?).is_none(),
+            "{place}: floor {name} stands on a line above, too: expected each \
+             name once"
+        );
     }
     ensure!(!floors.is_empty(), "{place}: no floor");
     Ok(floors)

@@ -239,25 +239,20 @@ impl<'s> Panel<'s> {
     }
 
     /// A note in the lower right-hand corner, so many lines above it.
-    pub fn corner(&mut self, text: impl Into<String>, lines: usize) {
+    pub fn corner(&mut self, text: &str, lines: usize) {
         let up = 8.0 + NOTE_PX * lines as f64;
         let at = (self.frame.right - 5.0, self.frame.bottom - up);
         self.note(text, at, Horizontal::Right);
     }
 
     /// A note on a baseline at a point in px.
-    pub fn note(
-        &mut self,
-        text: impl Into<String>,
-        at: Point,
-        align: Horizontal,
-    ) {
+    pub fn note(&mut self, text: &str, at: Point, align: Horizontal) {
         let line = TextLine::new(text, at, align);
         self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
     }
 
     /// Words outside the right-hand edge, at an ordinate in px.
-    pub fn right_of_px(&mut self, y: f64, text: impl Into<String>) {
+    pub fn right_of_px(&mut self, y: f64, text: &str) {
         let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);
         let line = TextLine::new(text, at, Horizontal::Left);
         self.scene.text(line.size(TEXT_PX - 1.0));

@@ -49,11 +49,7 @@ pub struct TextLine {
 
 impl TextLine {
     /// Text of the usual size and ink.
-    pub fn new(
-        markup: impl Into<String>,
-        at: Point,
-        align: Horizontal,
-    ) -> Self {
+    pub fn new(markup: &str, at: Point, align: Horizontal) -> Self {
         Self {
             markup: markup.into(),
             at,

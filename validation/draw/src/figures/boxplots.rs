@@ -229,7 +229,7 @@ fn draw_stripes(
         let y = (k + 1) as f64;
         let percent = (100.0 * stripe.usable_share()).round();
         let (_, y_px) = panel.to_px((1.0, y));
-        panel.right_of_px(y_px, format!("{percent} %"));
+        panel.right_of_px(y_px, &format!("{percent} %"));
         let Some(b) = &stripe.summary else { continue };
         let notched = stripe.usable >= NOTCHED;
         let pen = Pen::new(ink, 0.9);

@@ -451,12 +451,12 @@ fn outer_words(panel: &mut Panel<'_>, all: &[Series]) {
     let of = |mark| all.iter().filter(move |s| s.mark == mark);
     let corner: Vec<&Series> = of(Mark::Corner).collect();
     for (k, note) in corner.iter().rev().enumerate() {
-        panel.corner(note.label.as_str(), k);
+        panel.corner(&note.label, k);
     }
     let mut last = f64::INFINITY;
     for words in of(Mark::Edge) {
         let y = panel.to_px((0.0, words.y[0])).1.min(last - APART_PX);
-        panel.right_of_px(y, words.label.as_str());
+        panel.right_of_px(y, &words.label);
         last = y;
     }
 }

@@ -75,9 +75,7 @@ impl Series {
     }
 
     /// Its points.
-    pub(super) fn points(
-        &self,
-    ) -> impl DoubleEndedIterator<Item = Point> + Clone {
+    pub(super) fn points(&self) -> impl Iterator<Item = Point> {
         self.x.iter().zip(&self.y).map(|(x, y)| (*x, *y))
     }
 }

@@ -21,11 +21,8 @@ named! {
 impl Content {
     /// What a sweep keeps.
     pub fn kept(plan: &SweepPlan) -> Vec<Self> {
-        let mut out = vec![Self::Fragilities, Self::Capacities];
-        if plan.rows {
-            out.push(Self::Rows);
-        }
-        out
+        let is_kept = |what: &Self| plan.rows || *what != Self::Rows;
+        Self::ALL.into_iter().filter(is_kept).collect()
     }
 
     /// Names of the columns.

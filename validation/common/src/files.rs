@@ -12,7 +12,7 @@ pub use folder::{OutputFolder, is_interrupted};
 pub use standard::standard_output;
 pub use sums::{FolderError, SUMS, is_whole, sums};
 pub use unfinished::WriteError;
-use unfinished::{builder, folder_of, remove_left_behind, said};
+use unfinished::{folder_of, remove_left_behind, said};
 
 mod folder;
 mod standard;
@@ -189,8 +189,8 @@ impl OutputSink {
         };
         let folder = folder_of(&target);
         remove_left_behind(folder);
-        let part = system::file_in(&builder(), folder)
-            .map_err(|error| said(error, folder))?;
+        let part =
+            system::file_in(folder).map_err(|error| said(error, folder))?;
         // Other runs leave alone what is locked.
         system::lock(part.as_file())?;
         if let Ok(found) = fs::metadata(&target) {

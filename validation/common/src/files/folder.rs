@@ -10,7 +10,7 @@ use rocking_records::sha256_hex;
 use super::sums::{SUMS, listed, sums};
 use super::system::{self, Lock};
 use super::unfinished::{
-    LOCK, MOVING, WriteError, builder, folder_of, is_unfinished, moving,
+    LOCK, MOVING, WriteError, folder_of, is_unfinished, moving,
     remove_left_behind, said, state,
 };
 
@@ -90,13 +90,7 @@ impl OutputFolder {
             earlier.remove_but(&folder.path, &BTreeMap::new())?;
             folder.refuse_used(None)?;
         }
-        let mut builder = builder();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            builder.permissions(fs::Permissions::from_mode(0o777));
-        }
-        let part = system::folder_in(&builder, &folder.path)
+        let part = system::folder_in(&folder.path)
             .map_err(|error| said(error, &folder.path))?;
         let lock = part.join(LOCK);
         // From here on it is removed where anything fails.

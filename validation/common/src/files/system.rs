@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 use rustix::io::Errno;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
+/// How the names of unfinished files and folders begin and end.
+pub(super) const PART: (&str, &str) = (".rocking-", ".part");
+
 /// Whether another process holds the lock of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lock {
@@ -66,24 +69,32 @@ pub(super) fn remove_dir_all(path: &Path) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
+/// Names of what is unfinished, and its rights, of which the user's mask
+/// takes its part.
+#[cfg_attr(not(unix), expect(unused_variables))]
+fn builder(mode: u32) -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(PART.0).suffix(PART.1);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        builder.permissions(Permissions::from_mode(mode));
+    }
+    builder
+}
+
 /// A new folder below `folder`, which nothing removes.
-pub(super) fn folder_in(
-    builder: &Builder<'_, '_>,
-    folder: &Path,
-) -> io::Result<PathBuf> {
+pub(super) fn folder_in(folder: &Path) -> io::Result<PathBuf> {
     begin("mkdir")?;
-    let made = builder.tempdir_in(folder)?.keep();
+    let made = builder(0o777).tempdir_in(folder)?.keep();
     // As `folder` is spelt, which the library makes absolute.
     Ok(folder.join(made.file_name().unwrap_or_default()))
 }
 
 /// A new file in `folder`, which is removed unless it is put into place.
-pub(super) fn file_in(
-    builder: &Builder<'_, '_>,
-    folder: &Path,
-) -> io::Result<NamedTempFile> {
+pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
     begin("create")?;
-    builder.tempfile_in(folder)
+    builder(0o666).tempfile_in(folder)
 }
 
 pub(super) fn persist(

@@ -6,13 +6,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use tempfile::Builder;
 use thiserror::Error;
 
-use super::system::{self, Lock};
-
-/// How the names of unfinished files and folders begin and end.
-pub(super) const PART: (&str, &str) = (".rocking-", ".part");
+use super::system::{self, Lock, PART};
 
 /// Locks an unfinished folder for its owner.
 pub(super) const LOCK: &str = "lock";
@@ -48,19 +44,6 @@ pub(super) fn folder_of(path: &Path) -> &Path {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     }
-}
-
-/// Names and rights of what is unfinished.
-pub(super) fn builder() -> Builder<'static, 'static> {
-    let mut builder = Builder::new();
-    builder.prefix(PART.0).suffix(PART.1);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // The user's mask takes its part of them.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder
 }
 
 /// An error of the library without the unfinished name.

@@ -41,9 +41,8 @@ impl From<&Estimate> for Keys {
 impl TryFrom<Keys> for Estimate {
     type Error = EstimateError;
 
-    fn try_from(
-        Keys { value, low, high }: Keys,
-    ) -> Result<Self, EstimateError> {
+    fn try_from(keys: Keys) -> Result<Self, EstimateError> {
+        let Keys { value, low, high } = keys;
         if low.is_nan() && high.is_nan() {
             return Ok(Self::exact(value));
         }

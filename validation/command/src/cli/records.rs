@@ -172,6 +172,7 @@ fn causes(refused: &[RecordFinding]) -> String {
 
 #[derive(Default)]
 struct RecordsListing {
+    options: ReadOptions,
     records: Vec<RecordListing>,
     refused: Vec<RecordFinding>,
     /// Files that state another interval or unit than was given.
@@ -189,9 +190,9 @@ struct RecordsListing {
 /// listed.
 pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let options = args.reading.options(args.gravity);
-    let mut listing = RecordsListing::default();
+    let mut listing = RecordsListing { options, ..RecordsListing::default() };
     for path in &args.paths {
-        let added = listing.add(path, options);
+        let added = listing.add(path);
         listing.refused.extend(added.err());
     }
     listing.refuse_unused();
@@ -270,22 +271,18 @@ impl RecordFinding {
 }
 
 impl RecordsListing {
-    fn add(
-        &mut self,
-        path: &Path,
-        options: ReadOptions,
-    ) -> Result<(), RecordFinding> {
+    fn add(&mut self, path: &Path) -> Result<(), RecordFinding> {
         self.inputs.push(path.to_owned());
         if path.is_dir() || inputs::is_zip(path) {
-            return self.add_survey(path, options);
+            return self.add_survey(path);
         }
         let file = path.display().to_string();
         let bytes =
             rocking_records::file_bytes(path).map_err(SuiteError::from)?;
         if rocking_records::is_index(&bytes) {
-            return self.add_survey(path, options);
+            return self.add_survey(path);
         }
-        let records = self.read(&file, &bytes, options)?;
+        let records = self.read(&file, &bytes, self.options)?;
         let several = records.len() > 1;
         self.records.extend(records.into_iter().map(|record| RecordListing {
             file: match record.channel.filter(|_| several) {
@@ -350,12 +347,8 @@ impl RecordsListing {
         self.refused.extend(refused.map(RecordFinding::from));
     }
 
-    fn add_survey(
-        &mut self,
-        path: &Path,
-        options: ReadOptions,
-    ) -> Result<(), RecordFinding> {
-        let survey = inputs::visit(path, options, Ok::<_, SuiteError>)?;
+    fn add_survey(&mut self, path: &Path) -> Result<(), RecordFinding> {
+        let survey = inputs::visit(path, self.options, Ok::<_, SuiteError>)?;
         self.set_aside.extend(survey.set_aside.all().iter().cloned());
         if survey.members.iter().all(Result::is_ok) {
             self.add_suite(path, &survey.into_suite()?);

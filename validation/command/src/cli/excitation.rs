@@ -131,6 +131,11 @@ impl ExcitationArgs {
             let ground = GroundMotion::of(MotionSource::Free, 0.0);
             return Ok(GroundMotion { initial_ratio: ratio, ..ground });
         }
+        let kind = self.im_kind.unwrap_or(Intensity::Pga);
+        let target_pga_g = |velocity_ratio_s| {
+            let by_im = |im| kind.pga_g(im, threshold, p, velocity_ratio_s);
+            self.pga.or(self.im.map(by_im))
+        };
         if let Some(path) = &self.record {
             let options = self.reading.of_one(gravity_m_s2)?;
             let Record { accelerogram, remarks: read, .. } =
@@ -140,8 +145,7 @@ impl ExcitationArgs {
             let remarks = Remarks::of(&[remarked]);
             self.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);
-            let target =
-                self.target_pga_g(threshold, p, unit.velocity_ratio_s());
+            let target = target_pga_g(unit.velocity_ratio_s());
             let dt_s = Some(record.dt_s());
             let (motion, pga_g) = match target {
                 None => {
@@ -161,7 +165,7 @@ impl ExcitationArgs {
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
-        let target = self.target_pga_g(threshold, p, ratio_s);
+        let target = target_pga_g(ratio_s);
         let pulse = match (target, self.scale) {
             (Some(pga_g), _) => pulse.with_pga(pga_g)?,
             (None, Some(scale)) => pulse.scaled(scale)?,
@@ -169,18 +173,6 @@ impl ExcitationArgs {
         };
         let pga_g = pulse.pga_g();
         Ok(GroundMotion::of(MotionSource::Pulse(pulse), pga_g))
-    }
-
-    /// Peak ground acceleration asked for, g.
-    fn target_pga_g(
-        &self,
-        threshold: f64,
-        p: f64,
-        velocity_ratio_s: f64,
-    ) -> Option<f64> {
-        let kind = self.im_kind.unwrap_or(Intensity::Pga);
-        let by_im = |im| kind.pga_g(im, threshold, p, velocity_ratio_s);
-        self.pga.or(self.im.map(by_im))
     }
 
     /// Refuses a flag that the chosen excitation has no use for.

@@ -40,12 +40,8 @@ impl Drawing {
     /// Everything there is room for.
     pub fn extent(&self) -> Rect {
         let (width, height) = self.size_px;
-        Rect {
-            left: 0.0,
-            top: 0.0,
-            right: f64::from(width),
-            bottom: f64::from(height),
-        }
+        let [right, bottom] = [width, height].map(f64::from);
+        Rect { left: 0.0, top: 0.0, right, bottom }
     }
 
     /// A polyline; nothing if a point is not finite.
@@ -82,8 +78,7 @@ impl Drawing {
         }
     }
 
-    /// All lines of text.
-    #[cfg(test)]
+    /// All lines of text, for tests of the layout.
     pub fn texts(&self) -> impl Iterator<Item = &TextLine> {
         self.shapes.iter().filter_map(|s| match s {
             VectorShape::Text(text) => Some(text),

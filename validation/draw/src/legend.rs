@@ -1,11 +1,11 @@
 //! One legend for all panels, above them.
 
 use crate::colour::{Fill, Ink, Pen};
+use crate::geometry::Rect;
 use crate::markup;
 use crate::panel::Marker;
 use crate::scene::Drawing;
-use crate::text::TEXT_PX;
-use crate::text::{Horizontal, TextLine};
+use crate::text::{Horizontal, TEXT_PX, TextLine};
 use serde::{Deserialize, Serialize};
 
 const SAMPLE_PX: f64 = 26.0;
@@ -97,12 +97,9 @@ pub fn draw(scene: &mut Drawing, entries: &[Entry]) {
 fn draw_sample(scene: &mut Drawing, sample: Sample, x: f64, y: f64) {
     let ends = [(x, y), (x + SAMPLE_PX, y)];
     let middle = (x + SAMPLE_PX / 2.0, y);
-    let corners = [
-        (x + 5.0, y - 5.0),
-        (x + SAMPLE_PX - 5.0, y - 5.0),
-        (x + SAMPLE_PX - 5.0, y + 5.0),
-        (x + 5.0, y + 5.0),
-    ];
+    let (left, right) = (x + 5.0, x + SAMPLE_PX - 5.0);
+    let (top, bottom) = (y - 5.0, y + 5.0);
+    let corners = Rect { left, top, right, bottom }.corners();
     match sample {
         Sample::Line(pen) => scene.line(&ends, pen),
         Sample::Mark(marker, ink) => marker.draw(scene, middle, 3.2, ink),

@@ -5,8 +5,7 @@ use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::{Point, Rect, clip};
 use crate::markup;
 use crate::scene::Drawing;
-use crate::text::TEXT_PX;
-use crate::text::{Horizontal, TextLine};
+use crate::text::{Horizontal, TEXT_PX, TextLine};
 use serde::{Deserialize, Serialize};
 
 const TICK_PX: f64 = 3.5;

@@ -3,8 +3,7 @@
 use super::heading::Heading;
 use crate::colour::Ink;
 use crate::grid::Grid;
-use crate::legend;
-use crate::legend::Entry;
+use crate::legend::{self, Entry};
 use crate::markup;
 use crate::scene::Drawing;
 use crate::text::Caption;

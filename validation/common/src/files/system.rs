@@ -23,8 +23,7 @@ pub(super) enum Lock {
 }
 
 pub(super) fn create_dir_all(path: &Path) -> io::Result<()> {
-    begin("create_dir_all")?;
-    fs::create_dir_all(path)
+    begin("create_dir_all").and_then(|()| fs::create_dir_all(path))
 }
 
 /// A new file with these bytes, which have reached the disk.
@@ -36,18 +35,15 @@ pub(super) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 
 /// Writes all of it to an open file.
 pub(super) fn add(mut file: &File, content: &[u8]) -> io::Result<()> {
-    begin("write")?;
-    file.write_all(content)
+    begin("write").and_then(|()| file.write_all(content))
 }
 
 pub(super) fn sync(file: &File) -> io::Result<()> {
-    begin("sync")?;
-    file.sync_all()
+    begin("sync").and_then(|()| file.sync_all())
 }
 
 pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
-    begin("rename")?;
-    fs::rename(from, to)
+    begin("rename").and_then(|()| fs::rename(from, to))
 }
 
 /// Removes a file, where there is one.
@@ -60,13 +56,11 @@ pub(super) fn remove_file(path: &Path) -> io::Result<()> {
 
 /// Removes an empty folder.
 pub(super) fn remove_dir(path: &Path) -> io::Result<()> {
-    begin("remove_dir")?;
-    fs::remove_dir(path)
+    begin("remove_dir").and_then(|()| fs::remove_dir(path))
 }
 
 pub(super) fn remove_dir_all(path: &Path) -> io::Result<()> {
-    begin("remove_dir_all")?;
-    fs::remove_dir_all(path)
+    begin("remove_dir_all").and_then(|()| fs::remove_dir_all(path))
 }
 
 /// Names of what is unfinished, and its rights, of which the user's mask
@@ -108,14 +102,12 @@ pub(super) fn persist(
 }
 
 pub(super) fn set_permissions(file: &File, to: Permissions) -> io::Result<()> {
-    begin("chmod")?;
-    file.set_permissions(to)
+    begin("chmod").and_then(|()| file.set_permissions(to))
 }
 
 /// A new file for a lock.
 pub(super) fn create(path: &Path) -> io::Result<File> {
-    begin("create")?;
-    File::create(path)
+    begin("create").and_then(|()| File::create(path))
 }
 
 /// Locks a file, so that other runs leave it alone. Where the file system

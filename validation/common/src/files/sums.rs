@@ -74,10 +74,8 @@ pub fn is_whole(folder: &Path) -> Result<bool, FolderError> {
     };
     for (k, line) in text.lines().enumerate() {
         let Some((expected, name)) = parsed(line) else {
-            return Err(FolderError::Line {
-                line: k + 1,
-                found: line.to_owned(),
-            });
+            let (line, found) = (k + 1, line.to_owned());
+            return Err(FolderError::Line { line, found });
         };
         let found = match fs::read(folder.join(name)) {
             Err(error) => error.to_string(),

@@ -149,17 +149,13 @@ impl PaperSection {
 
 impl fmt::Display for PaperSection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let number = self.number;
+        write!(f, "{}", self.number)?;
         match self.shown {
-            Exhibit::Text => write!(f, "{number}"),
-            Exhibit::Table(n) => write!(f, "{number}, Table {n}"),
-            Exhibit::Figure(n) => write!(f, "{number}, Figure {n}"),
-            Exhibit::Panel(n, panel) => {
-                write!(f, "{number}, Figure {n}{panel}")
-            }
-            Exhibit::Figures(a, b) => {
-                write!(f, "{number}, Figures {a} and {b}")
-            }
+            Exhibit::Text => Ok(()),
+            Exhibit::Table(n) => write!(f, ", Table {n}"),
+            Exhibit::Figure(n) => write!(f, ", Figure {n}"),
+            Exhibit::Panel(n, panel) => write!(f, ", Figure {n}{panel}"),
+            Exhibit::Figures(a, b) => write!(f, ", Figures {a} and {b}"),
         }
     }
 }

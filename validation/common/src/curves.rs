@@ -37,19 +37,11 @@ impl Execution {
             let batch = Batch { isa, progress: done };
             return curves(records, analyses, &batch);
         }
-        analyses
-            .iter()
-            .map(|analysis| {
-                records
-                    .par_iter()
-                    .with_max_len(1)
-                    .map(|record| {
-                        let result = curve(record, analysis);
-                        done();
-                        result
-                    })
-                    .collect()
-            })
-            .collect()
+        let one_by_one = |analysis| {
+            let records = records.par_iter().with_max_len(1);
+            let curves = records.map(|record| curve(record, analysis));
+            curves.inspect(|_| done()).collect()
+        };
+        analyses.iter().map(one_by_one).collect()
     }
 }

@@ -86,15 +86,6 @@ pub enum LevelSteps {
     StepPgaG(f64),
 }
 
-impl LevelSteps {
-    fn grid(self) -> Grid {
-        match self {
-            Self::StepIm(step) => Grid::Im { step },
-            Self::StepPgaG(step_g) => Grid::Pga { step_g },
-        }
-    }
-}
-
 /// A plan with its folder and its hash.
 #[derive(Clone, Debug)]
 pub struct SweepFolder {
@@ -236,8 +227,12 @@ impl SweepPlan {
     pub fn analysis(&self, given: &SweepBlock) -> Result<Analysis, Failure> {
         let block = Block::try_new(given.alpha_rad, given.p_rad_s)?;
         let restitution = Restitution::constant(given.eta)?;
+        let grid = match self.levels {
+            LevelSteps::StepIm(step) => Grid::Im { step },
+            LevelSteps::StepPgaG(step_g) => Grid::Pga { step_g },
+        };
         Ok(Analysis {
-            grid: self.levels.grid(),
+            grid,
             refine: Some(REFINEMENT),
             ..Analysis::paper(block, restitution)
         })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::shared::JsonArg;
 use super::study::REPORT;
-use crate::failure::Failure;
+use crate::failure::{Failure, ensure};
 use crate::terminal::{print, say};
 use rocking_report::diff::{ResultFiles, compare};
 
@@ -47,11 +47,10 @@ pub struct DiffCommand {
 /// [`Failure`] for results that cannot be read or have nothing in common
 /// (status 2), and for a relevant change (status 1).
 pub fn run_diff(args: &DiffCommand) -> Result<(), Failure> {
-    if args.new.as_os_str() == REPORT && !args.new.exists() {
-        return Err(Failure::input(format!(
-            "no folder {REPORT}: expected what `rocking study` writes there"
-        )));
-    }
+    ensure!(
+        args.new.as_os_str() != REPORT || args.new.exists(),
+        "no folder {REPORT}: expected what `rocking study` writes there"
+    );
     let (old, new) =
         (ResultFiles::read(&args.old)?, ResultFiles::read(&args.new)?);
     let comparison = compare(&old, &new)?;

@@ -65,11 +65,8 @@ pub struct FateMap {
 impl FateMap {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(
-            &self.heading,
-            Graphic::Other(scene(self), self.csv()),
-            reading,
-        )
+        let drawn = Graphic::Other(scene(self), self.csv());
+        Figure::new(&self.heading, drawn, reading)
     }
 
     /// `what,frequency_over_p,amplitude_from,amplitude_to`: in each column

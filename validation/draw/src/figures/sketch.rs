@@ -25,11 +25,8 @@ pub struct BlockSketch {
 impl BlockSketch {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(
-            &self.heading,
-            Graphic::Other(scene(self), self.csv()),
-            reading,
-        )
+        let drawn = Graphic::Other(scene(self), self.csv());
+        Figure::new(&self.heading, drawn, reading)
     }
 
     /// `quantity,value,unit`.
@@ -128,18 +125,16 @@ fn measure(scene: &mut Drawing, a: Point, b: Point) {
 fn dimensions(scene: &mut Drawing, block: &[Point; 4]) {
     let [low_left, top_left, top_right, _] = *block;
     let turn = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
-    let away = |p| from(p, 16.0, turn);
-    let (a, b) = (away(top_left), away(top_right));
-    measure(scene, a, b);
-    let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
-    let at = from(middle, 10.0, turn);
-    word(scene, "2*b*", at);
-    let away = |p| from(p, -34.0, turn + FRAC_PI_2);
-    let (a, b) = (away(low_left), away(top_left));
-    measure(scene, a, b);
-    let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
-    let (x, y) = from(middle, -16.0, turn + FRAC_PI_2);
-    word(scene, "2*h*", (x, y + 5.0));
+    for (a, b, angle, [far, beyond, down], name) in [
+        (top_left, top_right, turn, [16.0, 10.0, 0.0], "2*b*"),
+        (low_left, top_left, turn + FRAC_PI_2, [-34.0, -16.0, 5.0], "2*h*"),
+    ] {
+        let (a, b) = (from(a, far, angle), from(b, far, angle));
+        measure(scene, a, b);
+        let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
+        let (x, y) = from(middle, beyond, angle);
+        word(scene, name, (x, y + down));
+    }
 }
 
 /// The half diagonal R to the centre of mass, alpha between it and the

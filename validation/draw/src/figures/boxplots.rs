@@ -12,7 +12,7 @@ use crate::legend::{Entry, Sample};
 use crate::panel::{Marker, Panel};
 use crate::scene::Drawing;
 use rocking_common::paper::Intensity;
-use rocking_common::table::{Table, number, optional};
+use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
 use serde::{Deserialize, Serialize};
 
@@ -92,6 +92,8 @@ impl Boxplots {
                     row("closed_form", number(ratio));
                 }
                 let Some(b) = &stripe.summary else { continue };
+                let interval = b.median_interval.map(|i| i.interval.ends());
+                let (low, high) = interval.unwrap_or((f64::NAN, f64::NAN));
                 for (quantity, value) in [
                     ("whisker_low", b.whisker_low),
                     ("q1", b.q1),
@@ -100,12 +102,11 @@ impl Boxplots {
                     ("notch_high", b.notch_high),
                     ("q3", b.q3),
                     ("whisker_high", b.whisker_high),
+                    ("median_low", low),
+                    ("median_high", high),
                 ] {
                     row(quantity, number(value));
                 }
-                let interval = b.median_interval.map(|i| i.interval.ends());
-                row("median_low", optional(interval.map(|i| i.0)));
-                row("median_high", optional(interval.map(|i| i.1)));
                 for outlier in &b.outliers {
                     row("outlier", number(*outlier));
                 }

@@ -65,8 +65,7 @@ pub fn record_svg(
     let (velocity, displacement) = motion.integrals(gravity_m_s2);
     let spectrum = measures.spectral_acceleration_g.clone();
     let most = spectrum.iter().fold(0.0, |most: f64, s| most.max(*s));
-    let ends = (periods_s.first(), periods_s.last());
-    let ends = ends.0.copied().zip(ends.1.copied());
+    let ends = periods_s.first().copied().zip(periods_s.last().copied());
     let (pgv, pgd) = (measures.pgv_m_s, measures.pgd_m);
     let mut panels: Vec<ChartPanel> = [
         ("Acceleration", "*a* / *g*", samples.into(), measures.pga_g, "*g*"),

@@ -106,11 +106,6 @@ fn entries() -> Vec<CommandEntry> {
     ]
 }
 
-/// What `--version` prints behind the name.
-fn version() -> &'static str {
-    SOFTWARE.strip_prefix("rocking ").unwrap_or(SOFTWARE)
-}
-
 /// The same command, which reads `-1` behind an option as its value, and the
 /// names of choices in upper or lower case.
 fn reading_values(command: Command) -> Command {
@@ -172,7 +167,8 @@ fn command() -> Command {
     let commands = commands.map(|e| (e.with_flags)(Command::new(e.name)));
     reading_values(
         Command::new("rocking")
-            .version(version())
+            // Printed behind the name.
+            .version(SOFTWARE.strip_prefix("rocking ").unwrap_or(SOFTWARE))
             .about(
                 "Rocking of free-standing blocks under earthquakes, and its \
                  statistics",

@@ -161,12 +161,11 @@ impl AssessCommand {
                  computed here",
                 row.place
             );
+            let eta = row.eta.unwrap_or(RESTITUTION);
             Ok(Object {
                 id: row.id.to_string(),
                 block: row.block,
-                restitution: Restitution::constant(
-                    row.eta.unwrap_or(RESTITUTION),
-                )?,
+                restitution: Restitution::constant(eta)?,
                 friction: row.friction,
                 limit_ratio: row.limit_ratio,
                 floor: row.floor.zip(floor).map(|(name, floor)| NamedFloor {

@@ -131,22 +131,6 @@ pub enum Exhibit {
     Figures(u8, u8),
 }
 
-impl PaperSection {
-    /// Section `number`, shown there.
-    pub const fn new(number: u8, shown: Exhibit) -> Self {
-        Self { number, shown }
-    }
-
-    /// Numbers of the figures that show it.
-    pub fn figures(&self) -> Vec<u8> {
-        match self.shown {
-            Exhibit::Text | Exhibit::Table(_) => Vec::new(),
-            Exhibit::Figure(one) | Exhibit::Panel(one, _) => vec![one],
-            Exhibit::Figures(one, other) => vec![one, other],
-        }
-    }
-}
-
 impl fmt::Display for PaperSection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.number)?;

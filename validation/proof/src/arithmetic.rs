@@ -9,4 +9,4 @@ mod wide;
 pub use decimal::decimal;
 pub use rounded::RoundedConstants;
 pub use single::Single;
-pub use wide::Wide;
+pub use wide::wide;

@@ -1,7 +1,7 @@
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::wide::{Wide, forward, functions};
+use super::wide::{forward, functions};
 
 /// Double-double whose coefficients and pi/2 were rounded to one double: the
 /// mistake that caps such an engine at 1e-17 without a word.
@@ -9,12 +9,6 @@ use super::wide::{Wide, forward, functions};
 pub struct RoundedConstants(DoubleDouble);
 
 forward!(RoundedConstants: Add add, Sub sub, Mul mul, Div div);
-
-impl Wide for RoundedConstants {
-    fn wide(self) -> DoubleDouble {
-        self.0
-    }
-}
 
 impl rocking::number::sealed::Sealed for RoundedConstants {}
 

@@ -1,26 +1,19 @@
-use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::wide::{Wide, forward, functions};
+use super::wide::{forward, functions};
 
 /// Single precision: every input and every operation rounded to 24 bits.
 ///
 /// ```
 /// use rocking::number::Number;
-/// use rocking_proof::arithmetic::{Single, Wide};
-/// let third = Single::ratio(1, 3).wide();
+/// use rocking_proof::arithmetic::{Single, wide};
+/// let third = wide(Single::ratio(1, 3));
 /// assert_eq!(third.hi(), f64::from(1.0_f32 / 3.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Single(f32);
 
 forward!(Single: Add add, Sub sub, Mul mul, Div div);
-
-impl Wide for Single {
-    fn wide(self) -> DoubleDouble {
-        DoubleDouble::from_f64(self.to_f64())
-    }
-}
 
 impl rocking::number::sealed::Sealed for Single {}
 

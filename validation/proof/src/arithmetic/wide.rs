@@ -1,34 +1,18 @@
 //! What the kinds of arithmetic share.
 
+use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
-use rocking::number::octuple::Octuple;
-use rocking::number::{Number as _, Real};
 
-/// Arithmetic whose numbers a double-double holds, or nearly so.
-pub trait Wide: Real {
-    /// The number, to the last digit of a double-double.
-    fn wide(self) -> DoubleDouble;
-}
-
-impl Wide for f64 {
-    fn wide(self) -> DoubleDouble {
-        DoubleDouble::from_f64(self)
-    }
-}
-
-impl Wide for DoubleDouble {
-    fn wide(self) -> DoubleDouble {
-        self
-    }
-}
-
-impl Wide for Octuple {
-    /// Rounded: its own digits go further.
-    fn wide(self) -> DoubleDouble {
-        let hi = self.to_f64();
-        let rest = self - Self::from_f64(hi);
-        DoubleDouble::sum(hi, rest.to_f64())
-    }
+/// A number of any arithmetic to the last digit of a double-double; what goes
+/// further is rounded.
+///
+/// ```
+/// use rocking_proof::arithmetic::wide;
+/// assert_eq!((wide(0.5).hi(), wide(0.5).lo()), (0.5, 0.0));
+/// ```
+pub fn wide<N: Real>(x: N) -> DoubleDouble {
+    let hi = x.to_f64();
+    DoubleDouble::sum(hi, (x - N::from_f64(hi)).to_f64())
 }
 
 /// Forwards the four operations and the sign to the number inside.

@@ -1,8 +1,9 @@
 use rocking::integrator::{Assessment, Observe, Outcome, Response};
+use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 
 use super::core::{Quotient, respond, respond_in};
-use crate::arithmetic::{RoundedConstants, Single, Wide};
+use crate::arithmetic::{RoundedConstants, Single, wide};
 use crate::scene::{CaseScene, EngineError};
 
 /// What a run in any arithmetic saw, as double-doubles.
@@ -44,20 +45,20 @@ pub enum Precision {
 }
 
 impl WideTrace {
-    fn of<N: Wide>(response: &Response<N>) -> Self {
+    fn of<N: Real>(response: &Response<N>) -> Self {
         Self {
-            uplift_s: response.uplift_time_s.map(Wide::wide),
+            uplift_s: response.uplift_time_s.map(wide),
             impacts: response
                 .impacts
                 .iter()
-                .map(|i| (i.time_s.wide(), i.speed_before_rad_s.wide()))
+                .map(|i| (wide(i.time_s), wide(i.speed_before_rad_s)))
                 .collect(),
-            peak_ratio: response.peak_ratio.wide(),
+            peak_ratio: wide(response.peak_ratio),
             overturned_s: match response.outcome {
-                Outcome::Overturned { time_s, .. } => Some(time_s.wide()),
+                Outcome::Overturned { time_s, .. } => Some(wide(time_s)),
                 Outcome::Rocked { .. } | Outcome::NoUplift => None,
             },
-            rest_s: response.rest_time_s.map(Wide::wide),
+            rest_s: response.rest_time_s.map(wide),
             error_estimate: response.error_estimate.unwrap_or(f64::INFINITY),
             resolved: response.assessment() == Assessment::Clear,
         }

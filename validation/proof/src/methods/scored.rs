@@ -3,7 +3,7 @@
 //! known.
 
 use anyhow::{Result, anyhow};
-use rocking::number::Real as _;
+use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 use rocking_score::{
     Answers, CodeVerdict, Diagnosis, Item, OwnResponse, Problem,
@@ -12,7 +12,7 @@ use rocking_score::{
 use rocking_statistics::streams::{Streams, standard_normal};
 
 use super::method::{Context, Reply, WrongModel};
-use crate::arithmetic::{RoundedConstants, Wide, decimal};
+use crate::arithmetic::{RoundedConstants, decimal, wide};
 use crate::engine::Core;
 use crate::scene::{CaseScene, Forcing, Trace};
 
@@ -44,7 +44,7 @@ pub fn certified(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-fn errors<N: Wide>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
+fn errors<N: Real>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
     let run = OwnResponse::<N>::precise(scene).map_err(|e| anyhow!(e))?;
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
     let items = reference().items.iter();
@@ -56,7 +56,7 @@ fn errors<N: Wide>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
                 let due = decimal(&item.digits);
                 let found = run.number(scene, &item.quantity);
                 let error = found.zip(due).map_or(f64::INFINITY, |(a, b)| {
-                    (a.wide() - b).abs().to_f64() / size.abs()
+                    (wide(a) - b).abs().to_f64() / size.abs()
                 });
                 worst = worst.max(error / item.condition.max(1.0));
                 true

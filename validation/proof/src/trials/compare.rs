@@ -3,11 +3,11 @@
 use rocking::integrator::{
     Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
 };
-use rocking::number::Real as _;
+use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
-use crate::arithmetic::Wide;
+use crate::arithmetic::wide;
 use crate::cases::WrongModel;
 use crate::engine::{Quotient, respond, respond_in};
 use crate::scene::{CaseScene, EngineError};
@@ -127,7 +127,7 @@ impl Finding {
         if self.seen.overturned {
             return None;
         }
-        let difference = (self.seen.peak_ratio.wide() - peak_ratio).abs();
+        let difference = (wide(self.seen.peak_ratio) - peak_ratio).abs();
         let beyond = difference.to_f64() - error;
         // Not a number stays one.
         Some(if beyond < 0.0 { 0.0 } else { beyond })
@@ -149,7 +149,7 @@ pub fn truth(trial: &Trial) -> Result<WideTruth, EngineError> {
 const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// The truth by one arithmetic.
-fn by<N: Wide>(trial: &Trial) -> Result<WideTruth, EngineError> {
+fn by<N: Real>(trial: &Trial) -> Result<WideTruth, EngineError> {
     let observe = Observe {
         accuracy: true,
         until_s: trial.scene.until_s,
@@ -164,7 +164,7 @@ fn by<N: Wide>(trial: &Trial) -> Result<WideTruth, EngineError> {
     } else if response.outcome.is_overturned() {
         WideTruth::Overturned
     } else {
-        let peak_ratio = response.peak_ratio.wide();
+        let peak_ratio = wide(response.peak_ratio);
         WideTruth::Stands { peak_ratio, error }
     })
 }

@@ -12,34 +12,6 @@ use crate::engine::{Precision, WideTrace};
 use crate::references;
 use crate::scene::{CaseScene, Model, Overturning};
 
-/// What a precision reaches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reach {
-    /// So many significant digits.
-    Digits(f64),
-    /// Not even the fate.
-    WrongFate,
-    /// Nothing to compare.
-    Nothing,
-}
-
-/// Significant digits of one scene in single, double and double-double
-/// precision.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DigitsRow {
-    /// The case.
-    pub id: String,
-    /// 1 or 2.
-    pub equation: u8,
-    /// True where the truth is a reference of 36 digits, false where it is
-    /// the double-double run itself.
-    pub has_reference: bool,
-    /// Peak |theta|/alpha, or the time of overturning.
-    pub end: [Reach; 3],
-    /// The worst of the times and speeds of the first ten impacts.
-    pub impacts: [Reach; 3],
-}
-
 /// Arithmetics in the order of the columns, and the digits of each.
 const PRECISIONS: [(Precision, f64); 3] = [
     (Precision::Single, 7.2),
@@ -50,21 +22,22 @@ const PRECISIONS: [(Precision, f64); 3] = [
 /// Impacts compared.
 const IMPACTS: usize = 10;
 
-/// Every reference trajectory and hard case that moves, hard cases first.
+/// A line of the table for every reference trajectory and hard case that
+/// moves, hard cases first.
 ///
 /// # Errors
 /// An error where a case cannot be read or run.
-pub fn digits() -> Result<Vec<DigitsRow>> {
+pub fn digits() -> Result<Vec<String>> {
     let mut cases = load_all()?;
     let is_hard = |case: &Case| case.family == "hard-cases";
     cases.retain(|case| is_hard(case) || case.method == "trajectory");
     cases.sort_by_key(|case| !is_hard(case));
     let rows = cases.par_iter().map(|case| row(case).context(case.id.clone()));
-    let rows: Vec<Option<DigitsRow>> = rows.collect::<Result<_>>()?;
+    let rows: Vec<Option<String>> = rows.collect::<Result<_>>()?;
     Ok(rows.into_iter().flatten().collect())
 }
 
-fn row(case: &Case) -> Result<Option<DigitsRow>> {
+fn row(case: &Case) -> Result<Option<String>> {
     let (scene, truth) = match case.method.as_str() {
         "trajectory" => {
             let (scene, truth) = reference(case)?;
@@ -85,24 +58,20 @@ fn row(case: &Case) -> Result<Option<DigitsRow>> {
     if truth.uplift_s.is_none() {
         return Ok(None);
     }
-    let (mut end, mut impacts) = ([Reach::Nothing; 3], [Reach::Nothing; 3]);
+    let mut reached = [const { String::new() }; 6];
     for (k, (run, (_, most))) in runs.iter().zip(PRECISIONS).enumerate() {
-        if k == 2 && !has_reference {
-            continue;
+        if k < 2 || has_reference {
+            reached[k] = end_reach(run, &truth, most);
+            reached[3 + k] = impact_reach(run, &truth, most);
         }
-        end[k] = end_reach(run, &truth, most);
-        impacts[k] = impact_reach(run, &truth, most);
     }
-    Ok(Some(DigitsRow {
-        id: case.id.clone(),
-        equation: match scene.model {
-            Model::Nonlinear => 1,
-            Model::Linearized => 2,
-        },
-        has_reference,
-        end,
-        impacts,
-    }))
+    let equation = match scene.model {
+        Model::Nonlinear => 1,
+        Model::Linearized => 2,
+    };
+    let truth = if has_reference { "36 digits" } else { "double-double" };
+    let reached = reached.join(",");
+    Ok(Some(format!("{},{equation},{truth},{reached}\n", case.id)))
 }
 
 /// Scene and truth of a trajectory, under the criterion that it is about.
@@ -130,26 +99,27 @@ fn reference(case: &Case) -> Result<(CaseScene, WideTrace)> {
     Ok((scene, truth))
 }
 
-fn end_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> Reach {
-    match (run.overturned_s, truth.overturned_s) {
-        (None, None) => {
-            Reach::Digits(shared(run.peak_ratio, truth.peak_ratio, most))
-        }
-        (Some(found), Some(due)) => Reach::Digits(shared(found, due, most)),
-        _ => Reach::WrongFate,
-    }
+/// Digits of the end, where the fate is right.
+fn end_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
+    let digits = match (run.overturned_s, truth.overturned_s) {
+        (None, None) => shared(run.peak_ratio, truth.peak_ratio, most),
+        (Some(found), Some(due)) => shared(found, due, most),
+        _ => return "wrong fate".to_owned(),
+    };
+    format!("{digits:.1}")
 }
 
-fn impact_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> Reach {
-    let mut worst = None;
-    for (k, (time, speed)) in truth.impacts.iter().take(IMPACTS).enumerate() {
-        let digits = run.impacts.get(k).map_or(0.0, |found| {
+/// Fewest digits of the impacts, where there are any.
+fn impact_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
+    let impacts = truth.impacts.iter().take(IMPACTS).enumerate();
+    let digits = impacts.map(|(k, (time, speed))| {
+        run.impacts.get(k).map_or(0.0, |found| {
             let time = shared(found.0, *time, most);
             time.min(shared(found.1, *speed, most))
-        });
-        worst = Some(digits.min(worst.unwrap_or(most)));
-    }
-    worst.map_or(Reach::Nothing, Reach::Digits)
+        })
+    });
+    let worst = digits.reduce(f64::min);
+    worst.map_or(String::new(), |digits| format!("{digits:.1}"))
 }
 
 /// Significant digits that two numbers share, to a tenth.
@@ -166,29 +136,15 @@ fn shared(found: DoubleDouble, due: DoubleDouble, most: f64) -> f64 {
     0.1 * (10.0 * digits.min(most)).round()
 }
 
-impl Reach {
-    fn text(self) -> String {
-        match self {
-            Self::Digits(digits) => format!("{digits:.1}"),
-            Self::WrongFate => "wrong fate".to_owned(),
-            Self::Nothing => String::new(),
-        }
-    }
-}
-
 /// First line of the table as CSV.
 pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
     end_double_double,impacts_single,impacts_double,impacts_double_double\n";
 
-/// The table as CSV.
-pub fn digits_csv(rows: &[DigitsRow]) -> String {
-    let line = |row: &DigitsRow| {
-        let truth =
-            if row.has_reference { "36 digits" } else { "double-double" };
-        let reached = row.end.iter().chain(&row.impacts).map(|r| r.text());
-        let reached: Vec<String> = reached.collect();
-        let (id, equation) = (&row.id, row.equation);
-        format!("{id},{equation},{truth},{}\n", reached.join(","))
-    };
-    rows.iter().fold(DIGITS_HEADER.to_owned(), |text, row| text + &line(row))
+/// The table as CSV: of each scene in single, double and double-double
+/// precision the digits of the peak |theta|/alpha, or of the time of
+/// overturning, and the worst of the times and speeds of its first ten
+/// impacts. The truth is a reference of 36 digits, or the double-double run
+/// itself.
+pub fn digits_csv(rows: &[String]) -> String {
+    DIGITS_HEADER.to_owned() + &rows.concat()
 }

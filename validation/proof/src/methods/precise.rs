@@ -10,38 +10,32 @@ use rocking::number::{Number as _, Real as _};
 use super::cells::{Csv, csv};
 use super::method::{Context, Reply, WrongModel};
 use crate::engine::{Precision, WideTrace};
-use crate::references::{
-    self, Decimal, LINEAR_PULSES, RECT_PULSE, TrajectoryResult,
-};
+use crate::references::{self, Decimal, LINEAR_PULSES, RECT_PULSE};
 use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
-/// Largest error of each quantity; infinite where something is missing.
-#[derive(Default)]
-struct LargestErrors(BTreeMap<&'static str, f64>);
-
-impl LargestErrors {
-    fn add(&mut self, name: &'static str, error: f64) {
+/// The largest error of each quantity; infinite where something is missing.
+impl Reply {
+    fn add(&mut self, name: &str, error: f64) {
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        let worst = self.0.entry(name).or_insert(0.0);
-        *worst = worst.max(error);
+        let worst = self.observed.entry(name.to_owned()).or_default();
+        *worst = vec![worst.first().map_or(error, |x| x.max(error))];
+        self.expected.insert(name.to_owned(), vec![0.0]);
     }
 
     /// |found - due| times `unit`; both or neither must be there.
     fn compare(
         &mut self,
-        name: &'static str,
+        name: &str,
         found: Option<DoubleDouble>,
         due: Option<DoubleDouble>,
         unit: f64,
     ) {
-        self.add(
-            name,
-            match (found, due) {
-                (Some(a), Some(b)) => (a - b).abs().to_f64() * unit,
-                (None, None) => 0.0,
-                _ => f64::INFINITY,
-            },
-        );
+        let error = match (found, due) {
+            (Some(a), Some(b)) => (a - b).abs().to_f64() * unit,
+            (None, None) => 0.0,
+            _ => f64::INFINITY,
+        };
+        self.add(name, error);
     }
 
     /// The peak's relative error; the error itself where none is due.
@@ -49,8 +43,7 @@ impl LargestErrors {
         let due = due.map(|peak| peak.wide);
         let size = due.map_or(f64::NAN, DoubleDouble::to_f64);
         let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
-        let name = "relative-error-of-peak";
-        self.compare(name, Some(found), due, unit);
+        self.compare("relative-error-of-peak", Some(found), due, unit);
     }
 
     /// When the criterion of a scene is met.
@@ -71,23 +64,17 @@ impl LargestErrors {
     /// Times times `rate`, and speeds relative, as many as are listed.
     fn impacts(
         &mut self,
-        found: &[(DoubleDouble, DoubleDouble)],
-        listed: &[(DoubleDouble, DoubleDouble)],
+        trace: &WideTrace,
+        listed: impl IntoIterator<Item = (DoubleDouble, DoubleDouble)>,
         rate: f64,
     ) {
-        for (k, (time, speed)) in listed.iter().enumerate() {
-            let hit = found.get(k);
+        for (k, (time, speed)) in listed.into_iter().enumerate() {
+            let hit = trace.impacts.get(k);
             let unit = 1.0 / speed.to_f64();
             let name = "error-of-impact-times-p";
-            self.compare(name, hit.map(|i| i.0), Some(*time), rate);
+            self.compare(name, hit.map(|i| i.0), Some(time), rate);
             let name = "relative-error-of-speeds";
-            self.compare(name, hit.map(|i| i.1), Some(*speed), unit);
-        }
-    }
-
-    fn put(self, answer: &mut Reply) {
-        for (name, error) in self.0 {
-            answer.put(name, [error], [0.0]);
+            self.compare(name, hit.map(|i| i.1), Some(speed), unit);
         }
     }
 }
@@ -106,40 +93,30 @@ fn wide_trace(context: &Context, scene: &CaseScene) -> Result<WideTrace> {
 pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: String);
     let case = references::trajectory(&entry)?;
-    let mut errors = LargestErrors::default();
+    let due = &case.expected;
     for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = case.scene(criterion)?;
         let trace = wide_trace(context, &scene)?;
-        put_trajectory(&mut errors, &case.expected, &scene, &trace);
+        let p = scene.frequency_rad_s;
+        answer.end(&scene, &trace, due.overturned(criterion));
+        let uplift = due.uplifts.first().map(|u| u.t.wide);
+        answer.compare("error-of-uplift-time-p", trace.uplift_s, uplift, p);
+        answer.impacts(&trace, due.impacts_until(criterion), p);
+        if due.overturned(criterion).is_some() {
+            continue;
+        }
+        answer.peak(trace.peak_ratio, due.peak());
+        for (key, level) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9)] {
+            let bound = level * (p * scene.slenderness_rad);
+            let speeds = trace.impacts.iter().map(|i| i.1.to_f64());
+            let above = speeds.filter(|speed| *speed > bound).count();
+            let due = due.faster.get(key).copied().unwrap_or(f64::NAN);
+            answer.add("impacts-miscounted", (above as f64 - due).abs());
+        }
+        let rest = due.rest_times.last().map(|t| t.wide);
+        answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
     }
-    errors.put(answer);
     Ok(())
-}
-
-fn put_trajectory(
-    errors: &mut LargestErrors,
-    due: &TrajectoryResult,
-    scene: &CaseScene,
-    trace: &WideTrace,
-) {
-    let (p, criterion) = (scene.frequency_rad_s, scene.overturning);
-    errors.end(scene, trace, due.overturned(criterion));
-    let uplift = due.uplifts.first().map(|u| u.t.wide);
-    errors.compare("error-of-uplift-time-p", trace.uplift_s, uplift, p);
-    errors.impacts(&trace.impacts, &due.impacts_until(criterion), p);
-    if due.overturned(criterion).is_some() {
-        return;
-    }
-    errors.peak(trace.peak_ratio, due.peak());
-    for (key, level) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9)] {
-        let bound = level * (p * scene.slenderness_rad);
-        let speeds = trace.impacts.iter().map(|i| i.1.to_f64());
-        let above = speeds.filter(|speed| *speed > bound).count();
-        let due = due.faster.get(key).copied().unwrap_or(f64::NAN);
-        errors.add("impacts-miscounted", (above as f64 - due).abs());
-    }
-    let rest = due.rest_times.last().map(|t| t.wide);
-    errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);
 }
 
 /// A pulse in Eq. 2 on blocks that scale exactly.
@@ -147,7 +124,6 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize, blocks: Vec<[f64; 3]>);
     let case = LINEAR_PULSES.entry(entry)?;
     let due = &case.expected;
-    let mut errors = LargestErrors::default();
     for block in blocks {
         let [alpha, p, g] = block;
         if block.iter().any(|x| libm::frexp(*x).0 != 0.5) {
@@ -156,16 +132,14 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
         let trace =
             wide_trace(context, &case.scene(block, Overturning::Alpha)?)?;
         let units = [1.0 / p, p * alpha];
-        let listed: Vec<_> =
-            due.impacts.iter().map(|hit| hit.wide(units)).collect();
-        errors.impacts(&trace.impacts, &listed, p);
+        let listed = due.impacts.iter().map(|hit| hit.wide(units));
+        answer.impacts(&trace, listed, p);
         let time = |t: Decimal| Some(t.wide * DoubleDouble::from_f64(1.0 / p));
         let uplift = time(due.uplift_tau);
-        errors.compare("error-of-uplift-time-p", trace.uplift_s, uplift, p);
+        answer.compare("error-of-uplift-time-p", trace.uplift_s, uplift, p);
         let over = due.overturned.and_then(time);
-        errors.compare("error-of-alpha-time-p", trace.overturned_s, over, p);
+        answer.compare("error-of-alpha-time-p", trace.overturned_s, over, p);
     }
-    errors.put(answer);
     Ok(())
 }
 
@@ -195,18 +169,15 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
         };
         list.push(row.decimal(6)?);
     }
-    let mut errors = LargestErrors::default();
     let unit = DoubleDouble::from_f64(p);
     for (scene, [times, speeds, rest]) in scenes.values() {
         let trace = wide_trace(context, scene)?;
         let pairs = times.iter().zip(speeds);
-        let listed: Vec<_> =
-            pairs.map(|(t, v)| (*t / unit, *v * unit)).collect();
-        errors.impacts(&trace.impacts, &listed, p);
+        let listed = pairs.map(|(t, v)| (*t / unit, *v * unit));
+        answer.impacts(&trace, listed, p);
         let rest = rest.last().map(|t| *t / unit);
-        errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);
+        answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
     }
-    errors.put(answer);
     Ok(())
 }
 
@@ -215,21 +186,18 @@ pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize);
     let case = RECT_PULSE.entry(entry)?;
     let p = case.p.near;
-    let mut errors = LargestErrors::default();
     for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = case.scene(criterion);
         let trace = wide_trace(context, &scene)?;
-        errors.end(&scene, &trace, case.overturned(criterion));
+        answer.end(&scene, &trace, case.overturned(criterion));
         let Some(peak) = case.peak_over_alpha else { continue };
-        let listed: Vec<_> =
-            case.impacts.iter().map(|hit| hit.wide([1.0; 2])).collect();
-        errors.impacts(&trace.impacts, &listed, p);
-        errors.peak(trace.peak_ratio, Some(peak));
+        let listed = case.impacts.iter().map(|hit| hit.wide([1.0; 2]));
+        answer.impacts(&trace, listed, p);
+        answer.peak(trace.peak_ratio, Some(peak));
         if let Some(rest) = case.settling_time {
             let rest = Some(rest.wide);
-            errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);
+            answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
         }
     }
-    errors.put(answer);
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! The end of observation about an overturning or an uplift, and pulses that
 //! rise to the uplift threshold, against times and fates of 40 digits.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Result, bail};
 use rocking::integrator::{
     Assessment, CertifiedFate, Observe, Outcome, Response,
@@ -69,19 +71,9 @@ impl Due {
     }
 }
 
-/// Runs counted.
+/// Runs counted by what is found of them.
 #[derive(Default)]
-struct Counts {
-    runs: usize,
-    unresolved: usize,
-    wrong_and_clear: usize,
-    wrong_and_unresolved: usize,
-    certified_wrong: usize,
-    certified_open: usize,
-    /// Resolved for all inputs that round to the same doubles, which have more
-    /// than one fate.
-    wrong_for_inputs: usize,
-}
+struct Counts(BTreeMap<&'static str, f64>);
 
 impl Counts {
     /// Takes in a scene; `one_fate` where all inputs that round to the same
@@ -104,36 +96,37 @@ impl Counts {
             _ => f64::INFINITY,
         };
         let right = due.is(&response.outcome, error);
-        self.runs += 1;
-        self.unresolved += usize::from(!clear);
-        self.wrong_and_clear += usize::from(clear && !right);
-        self.wrong_and_unresolved += usize::from(!clear && !right);
         let fate: CertifiedFate = certify(scene)?;
-        let error = fate.error.unwrap_or(f64::INFINITY);
-        self.certified_open += usize::from(!fate.resolved);
-        self.certified_wrong +=
-            usize::from(fate.resolved && !due.is(&fate.outcome, error));
-        self.wrong_for_inputs += usize::from(
-            fate.resolved && fate.resolved_for_inputs && !one_fate,
-        );
+        let bound = fate.error.unwrap_or(f64::INFINITY);
+        let surely = fate.resolved && fate.resolved_for_inputs;
+        for (name, is) in [
+            ("runs", true),
+            ("unresolved-share", !clear),
+            ("wrong-and-clear", clear && !right),
+            ("wrong-and-unresolved", !clear && !right),
+            ("certified-open", !fate.resolved),
+            (
+                "certified-wrong",
+                fate.resolved && !due.is(&fate.outcome, bound),
+            ),
+            // Inputs that round to the same doubles have more than one fate.
+            ("wrong-for-all-inputs", surely && !one_fate),
+        ] {
+            *self.0.entry(name).or_default() += f64::from(is);
+        }
         Ok(())
     }
 
-    fn put(&self, answer: &mut Reply) {
-        for (name, count) in [
-            ("wrong-and-clear", self.wrong_and_clear),
-            ("certified-wrong", self.certified_wrong),
-            ("wrong-for-all-inputs", self.wrong_for_inputs),
-        ] {
-            answer.put(name, [count as f64], [0.0]);
-        }
-        for (name, value) in [
-            ("runs", self.runs as f64),
-            ("unresolved-share", self.unresolved as f64 / self.runs as f64),
-            ("wrong-and-unresolved", self.wrong_and_unresolved as f64),
-            ("certified-open", self.certified_open as f64),
-        ] {
-            answer.see(name, [value]);
+    fn put(self, answer: &mut Reply) {
+        let runs = self.0["runs"];
+        for (name, count) in self.0 {
+            match name {
+                "wrong-and-clear"
+                | "certified-wrong"
+                | "wrong-for-all-inputs" => answer.put(name, [count], [0.0]),
+                "unresolved-share" => answer.see(name, [count / runs]),
+                _ => answer.see(name, [count]),
+            }
         }
     }
 }

@@ -130,8 +130,10 @@ pub fn all_methods() -> impl Iterator<Item = &'static Method> {
 /// # Errors
 /// An error when no answer can be given.
 pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Reply> {
-    let changed = wrong.map(|wrong| wrong.engine(&Core));
-    run_on(case, changed.as_deref().unwrap_or(&Core), wrong)
+    match wrong {
+        Some(mistaken) => run_on(case, &mistaken, wrong),
+        None => run_on(case, &Core, None),
+    }
 }
 
 /// Runs a case's method on the naive integrator with its rules right.

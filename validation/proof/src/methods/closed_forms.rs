@@ -33,8 +33,8 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
         let scene = CaseScene::new([alpha, p, 9.81], eta, forcing);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
         let form = oracle(alpha, eta, rotation_rad, impacts);
-        let (seen, units) = (&trace.impacts, [p, p]);
-        answer.put_impacts("impact-speeds-p", seen, units, &form.impacts);
+        let name = "impact-speeds-p";
+        answer.put_impacts(name, &trace, [p, p], &form.impacts);
         let settling = form.settling_p;
         answer.put(
             "rest-time-p",
@@ -65,8 +65,8 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
             let [alpha, p, _] = *block;
             let scene = linear_scene(&pulse, eta, *block);
             let trace = context.engine.respond(&scene)?;
-            let (seen, units) = (&trace.impacts, [p, p * alpha]);
-            answer.put_impacts(SPEEDS, seen, units, &form.impacts);
+            let units = [p, p * alpha];
+            answer.put_impacts(SPEEDS, &trace, units, &form.impacts);
             let time = |t: Option<f64>| t.map(|t| t * p);
             answer.put("uplift-time-p", time(trace.uplift_s), form.uplift);
             let over = time(trace.overturned_s);

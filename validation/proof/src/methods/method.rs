@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::cases::Case;
 use crate::engine;
-use crate::scene::{CaseScene, Engine, Impact};
+use crate::scene::{CaseScene, Engine, Trace};
 
 pub(super) use crate::cases::WrongModel;
 
@@ -69,11 +69,11 @@ impl Reply {
     pub fn put_impacts(
         &mut self,
         speeds: &str,
-        seen: &[Impact],
+        trace: &Trace,
         [rate, unit]: [f64; 2],
         listed: &[(f64, f64)],
     ) {
-        let seen = seen.iter().take(listed.len());
+        let seen = trace.impacts.iter().take(listed.len());
         let (due, due_speeds): (Vec<f64>, Vec<f64>) =
             listed.iter().copied().unzip();
         let times = seen.clone().map(|impact| impact.time_s * rate);
@@ -133,11 +133,8 @@ impl Context<'_> {
     /// for methods that run the core themselves.
     #[must_use]
     pub fn altered(&self, scene: &CaseScene) -> CaseScene {
-        let mut scene = scene.clone();
-        if let Some(wrong) = self.wrong {
-            wrong.alter(&mut scene);
-        }
-        scene
+        let own = |wrong: WrongModel| wrong.altered(scene);
+        self.wrong.map_or_else(|| scene.clone(), own)
     }
 
     /// The state of a scene at an instant, by a history of that interval.

@@ -48,12 +48,7 @@ pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     answer.put("uplifts", [trace.uplifts as f64], [due.n_uplifts]);
     let side = uplift.map_or(0.0, |u| u.side);
     answer.put("side", [trace.first_side], [side]);
-    answer.put_impacts(
-        SPEEDS,
-        &trace.impacts,
-        [p, 1.0],
-        &hits(&due.impacts, p),
-    );
+    answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&due.impacts, p));
     Ok(())
 }
 
@@ -68,8 +63,8 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
         let [alpha, p, _] = block;
         let scene = case.scene(block, Overturning::Alpha)?;
         let trace = context.engine.respond(&scene)?;
-        let (seen, units) = (&trace.impacts, [p, p * alpha]);
-        answer.put_impacts(SPEEDS, seen, units, &hits(&due.impacts, 1.0));
+        let units = [p, p * alpha];
+        answer.put_impacts(SPEEDS, &trace, units, &hits(&due.impacts, 1.0));
         answer.put("side", [trace.first_side], [due.side]);
         let time = |t: Option<f64>| t.map(|t| t * p);
         let uplift = [due.uplift_tau.near];
@@ -96,12 +91,7 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     let release = Forcing::Free { rotation_rad };
     let scene = CaseScene::new([alpha, p, 9.81], case.eta.near, release);
     let trace = context.engine.respond(&scene.in_equation(equation))?;
-    answer.put_impacts(
-        SPEEDS,
-        &trace.impacts,
-        [p, 1.0],
-        &hits(&due.impacts, p),
-    );
+    answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&due.impacts, p));
     answer.put("peak-ratio", [trace.peak_ratio], [rotation_rad / alpha]);
     let settling = Some(due.settling_time);
     put_time(answer, "rest-time-p", trace.rest_s, settling, p);
@@ -132,12 +122,7 @@ pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     if case.settling_time.is_some() {
         put("rest-time-p", trace.rest_s, case.settling_time);
     }
-    answer.put_impacts(
-        SPEEDS,
-        &trace.impacts,
-        [p, 1.0],
-        &hits(&case.impacts, p),
-    );
+    answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&case.impacts, p));
     let peak = case.peak_over_alpha.map(|peak| peak.near);
     answer.put("peak-ratio", [trace.peak_ratio], peak);
     Ok(())

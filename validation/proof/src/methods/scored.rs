@@ -13,8 +13,7 @@ use rocking_statistics::streams::{Streams, standard_normal};
 
 use super::method::{Context, Reply, WrongModel};
 use crate::arithmetic::{RoundedConstants, decimal, wide};
-use crate::engine::Core;
-use crate::scene::{CaseScene, Forcing, Trace};
+use crate::scene::{CaseScene, Engine as _, Forcing, Trace};
 
 /// The scene as a wrong model of the input has it.
 fn mistaken(context: &Context, scene: &Problem) -> Problem {
@@ -122,9 +121,8 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
         for wrong in &altered {
             // A scene that the core refuses has no answers: a release beyond
             // an alpha that is too low.
-            let engine = wrong.engine(&Core);
             let runs = set.scenes.iter();
-            let runs = runs.map(|scene| engine.respond(&scene_of(scene)).ok());
+            let runs = runs.map(|scene| wrong.respond(&scene_of(scene)).ok());
             let runs: Vec<Option<Trace>> = runs.collect();
             let own = noisy(wrong.name(), &|_, item| {
                 seen(&set.scenes[item.scene], runs[item.scene].as_ref()?, item)

@@ -1,6 +1,7 @@
 //! How wrong models go wrong.
 
 use crate::cases::WrongModel;
+use crate::engine::Core;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{CaseScene, Engine, EngineError, Trace, other};
 
@@ -8,23 +9,21 @@ impl WrongModel {
     /// Rules of the naive integrator, where it carries out the mistake.
     fn rules(self) -> Option<Rules> {
         let right = Rules::default();
-        match self {
+        Some(match self {
             Self::SignOnlyEvents => {
-                Some(Rules { events: Events::StepEnds, ..right })
+                Rules { events: Events::StepEnds, ..right }
             }
             Self::RotationKeptAtImpact => {
-                Some(Rules { events: Events::StepEndsRotationKept, ..right })
+                Rules { events: Events::StepEndsRotationKept, ..right }
             }
             Self::MissedImpact
             | Self::CrudeRest
             | Self::SuppressedHop
             | Self::ZeroOrderHold
             | Self::OtherThreshold
-            | Self::StopsWithTheRecord => {
-                Some(Rules { wrong: Some(self), ..right })
-            }
-            _ => None,
-        }
+            | Self::StopsWithTheRecord => Rules { wrong: Some(self), ..right },
+            _ => return None,
+        })
     }
 
     /// Whether it runs on the naive integrator.
@@ -32,8 +31,9 @@ impl WrongModel {
         self.rules().is_some()
     }
 
-    /// Makes the mistake in a scene, where it is one of the input.
-    pub fn alter(self, scene: &mut CaseScene) {
+    /// The scene with the mistake, where it is one of the input.
+    pub fn altered(self, scene: &CaseScene) -> CaseScene {
+        let mut scene = scene.clone();
         match self {
             Self::GroundSign => scene.forcing.scale(-1.0),
             Self::EtaSquared => scene.restitution *= scene.restitution,
@@ -62,26 +62,16 @@ impl WrongModel {
             }
             _ => {}
         }
-    }
-
-    /// The engine that makes the mistake, where the method itself does not.
-    pub fn engine<'a>(self, right: &'a dyn Engine) -> Box<dyn Engine + 'a> {
-        match self.rules() {
-            Some(rules) => Box::new(Naive(rules)),
-            None => Box::new(InputMistake { right, model: self }),
-        }
+        scene
     }
 }
 
-struct InputMistake<'a> {
-    right: &'a dyn Engine,
-    model: WrongModel,
-}
-
-impl Engine for InputMistake<'_> {
+/// The engine that makes the mistake, where the method itself does not.
+impl Engine for WrongModel {
     fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
-        let mut scene = scene.clone();
-        self.model.alter(&mut scene);
-        self.right.respond(&scene)
+        match self.rules() {
+            Some(rules) => Naive(rules).respond(scene),
+            None => Core.respond(&self.altered(scene)),
+        }
     }
 }

@@ -23,30 +23,26 @@ pub(crate) struct ReferenceFile<T> {
     read: OnceLock<T>,
 }
 
-macro_rules! reference {
-    ($name:literal) => {
-        ReferenceFile {
-            file: concat!("fixtures/references/", $name),
-            text: rocking_fixtures::text(concat!("references/", $name)),
-            read: OnceLock::new(),
-        }
-    };
-}
-
 static TRAJECTORIES: ReferenceFile<Cases<Trajectory>> =
-    reference!("trajectories.json");
+    ReferenceFile::new("references/trajectories.json");
 static RECORDS: ReferenceFile<BTreeMap<String, ReferenceRecord>> =
-    reference!("records.json");
+    ReferenceFile::new("references/records.json");
 pub(crate) static LINEAR_PULSES: ReferenceFile<Cases<LinearPulse>> =
-    reference!("linear_pulses.json");
+    ReferenceFile::new("references/linear_pulses.json");
 pub(crate) static FREE_ROCKING: ReferenceFile<Cases<FreeReference>> =
-    reference!("free_rocking.json");
+    ReferenceFile::new("references/free_rocking.json");
 pub(crate) static RECT_PULSE: ReferenceFile<Cases<RectangularPulse>> =
-    reference!("rect_pulse.json");
+    ReferenceFile::new("references/rect_pulse.json");
 pub(crate) static SPECTRUM: ReferenceFile<SpectrumTable> =
-    reference!("linear_overturning_spectrum.json");
+    ReferenceFile::new("references/linear_overturning_spectrum.json");
 
 impl<T: DeserializeOwned> ReferenceFile<T> {
+    /// The file of this path in `fixtures`.
+    const fn new(file: &'static str) -> Self {
+        let text = rocking_fixtures::text(file);
+        Self { file, text, read: OnceLock::new() }
+    }
+
     /// What the file holds.
     pub fn read(&self) -> Result<&T> {
         if let Some(read) = self.read.get() {
@@ -58,7 +54,7 @@ impl<T: DeserializeOwned> ReferenceFile<T> {
     }
 
     pub fn lacks(&self, what: impl std::fmt::Display) -> Error {
-        anyhow!("{}: {what}", self.file)
+        anyhow!("fixtures/{}: {what}", self.file)
     }
 }
 

@@ -10,22 +10,16 @@ use crate::arithmetic::decimal;
 
 /// A CSV of expected values, embedded.
 pub struct Csv {
-    pub file: &'static str,
-    pub text: &'static str,
+    file: &'static str,
+    text: &'static str,
 }
-
-/// The CSV of this path in `fixtures`.
-macro_rules! csv {
-    ($path:literal) => {
-        Csv {
-            file: concat!("fixtures/", $path),
-            text: rocking_fixtures::text($path),
-        }
-    };
-}
-pub(super) use csv;
 
 impl Csv {
+    /// The CSV of this path in `fixtures`.
+    pub const fn new(file: &'static str) -> Self {
+        Self { file, text: rocking_fixtures::text(file) }
+    }
+
     /// Rows by their first field.
     pub fn rows(&self, first: &str) -> Result<Vec<CsvRow>> {
         let file = self.file;
@@ -50,7 +44,7 @@ impl Csv {
     }
 
     pub fn lacks(&self, what: impl std::fmt::Display) -> Error {
-        anyhow!("{}: {what}", self.file)
+        anyhow!("fixtures/{}: {what}", self.file)
     }
 }
 
@@ -102,7 +96,7 @@ impl CsvRow {
     }
 
     fn no(&self, text: &str) -> String {
-        format!("{}: `{text}` is none", self.file)
+        format!("fixtures/{}: `{text}` is none", self.file)
     }
 
     /// The number in a column.

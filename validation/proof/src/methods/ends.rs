@@ -10,13 +10,13 @@ use rocking::integrator::{
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::cells::{Csv, CsvRow, csv};
+use super::cells::{Csv, CsvRow};
 use super::method::{Context, Reply};
 use crate::engine::{certify, respond};
 use crate::scene::{CaseScene, Forcing, Overturning};
 use crate::trials::{CertificateReading, DoubleRun, moved};
 
-const ENDS: Csv = csv!("oracles/ends.csv");
+const ENDS: Csv = Csv::new("oracles/ends.csv");
 
 /// Relative error of a peak that is right to all digits of a double.
 const PRINTED: f64 = 0.5 * f64::EPSILON;

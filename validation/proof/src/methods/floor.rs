@@ -4,10 +4,10 @@ use anyhow::Result;
 use rocking::accelerogram::Accelerogram;
 use rocking_records::floor::Floor;
 
-use super::cells::{Csv, csv};
+use super::cells::Csv;
 use super::method::{Context, Reply, WrongModel};
 
-const EXPECTED: Csv = csv!("oracles/floor.csv");
+const EXPECTED: Csv = Csv::new("oracles/floor.csv");
 
 /// Absolute acceleration of a floor.
 pub fn motion(context: &Context, answer: &mut Reply) -> Result<()> {

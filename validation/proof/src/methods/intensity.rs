@@ -8,10 +8,10 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_records::intensity::{Measures, PairMeasures, Settings};
 use serde::Deserialize;
 
-use super::cells::{Csv, csv};
+use super::cells::Csv;
 use super::method::{Context, Reply, WrongModel};
 
-const EXPECTED: Csv = csv!("oracles/intensity.csv");
+const EXPECTED: Csv = Csv::new("oracles/intensity.csv");
 const PAIR_CSV: &str = rocking_fixtures::text("oracles/intensity-pair.csv");
 
 /// How a component is made.

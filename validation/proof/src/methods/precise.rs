@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::cells::{Csv, csv};
+use super::cells::Csv;
 use super::method::{Context, Reply, WrongModel};
 use crate::engine::{Precision, WideTrace};
 use crate::references::{self, Decimal, LINEAR_PULSES, RECT_PULSE};
@@ -144,7 +144,7 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
 }
 
 /// Free rocking to 40 digits, by the project's own generator.
-const FREE: Csv = csv!("oracles/free.csv");
+const FREE: Csv = Csv::new("oracles/free.csv");
 
 /// Times and speeds of the impacts of a scene, and when it comes to rest.
 type Free = [Vec<DoubleDouble>; 3];

@@ -4,12 +4,12 @@
 use anyhow::Result;
 use rocking::accelerogram::Accelerogram;
 
-use super::cells::{Csv, csv};
+use super::cells::Csv;
 use super::method::{Context, Reply};
 use crate::published::{PublishedLaw, statistics};
 
 /// Statistics of the recorded suites, which are not in the project.
-const RECORDED: Csv = csv!("comparison/published.csv");
+const RECORDED: Csv = Csv::new("comparison/published.csv");
 
 /// The statistics of a law that the case bounds: of the embedded suites,
 /// ordinary and pulse-type, then of the recorded ones.

@@ -10,10 +10,10 @@ use rocking_records::intensity::velocity_pulse::{
 };
 use serde::Deserialize;
 
-use super::cells::{Csv, csv};
+use super::cells::Csv;
 use super::method::{Context, Reply, WrongModel};
 
-const EXPECTED: Csv = csv!("oracles/velocity_pulse.csv");
+const EXPECTED: Csv = Csv::new("oracles/velocity_pulse.csv");
 
 /// Sampling interval in s, and number of samples.
 const SAMPLES: (f64, usize) = (0.01, 3000);

@@ -23,10 +23,10 @@ use rocking_statistics::{
 use serde::Deserialize;
 
 use super::truths::{SuiteShape, percentiles, share};
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const VALUES: Csv = csv!("oracles/earthquakes.csv");
+const VALUES: Csv = Csv::new("oracles/earthquakes.csv");
 
 /// Dispersion of the simulated capacities; their median is 1.
 const DISPERSION: f64 = 0.5;

@@ -4,10 +4,10 @@ use anyhow::Result;
 use libm::{exp, log};
 use rocking_procedures::fragility::{c_max, eq5, eq6, eq7};
 
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const FRAGILITY: Csv = csv!("oracles/fragility.csv");
+const FRAGILITY: Csv = Csv::new("oracles/fragility.csv");
 
 /// Eq. 7 over constants against 50 digits; Eqs. 5 and 6 of the shifted
 /// lognormal that Eq. 7 is about; its limit and its end.

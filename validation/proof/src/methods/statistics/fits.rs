@@ -11,14 +11,14 @@ use rocking_statistics::paired::{
 };
 use rocking_statistics::{ExtendedSample, QuantileType, Sample};
 
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const COUNTS: Csv = csv!("oracles/censored.csv");
-const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
-const NORMALITY: Csv = csv!("oracles/normality.csv");
-const PAIRED: Csv = csv!("oracles/paired.csv");
-const QUANTILES: Csv = csv!("oracles/quantiles.csv");
+const COUNTS: Csv = Csv::new("oracles/censored.csv");
+const LOGNORMAL: Csv = Csv::new("oracles/lognormal.csv");
+const NORMALITY: Csv = Csv::new("oracles/normality.csv");
+const PAIRED: Csv = Csv::new("oracles/paired.csv");
+const QUANTILES: Csv = Csv::new("oracles/quantiles.csv");
 
 /// A fit with and without a shift: parameters, likelihood and distances.
 pub fn fits(context: &Context, answer: &mut Reply) -> Result<()> {

@@ -9,11 +9,11 @@ use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Sample, normal};
 
 use super::truths::StreamRng;
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
-const MEANS: Csv = csv!("oracles/lilliefors_mean.csv");
+const EXACT: Csv = Csv::new("oracles/lilliefors_exact.csv");
+const MEANS: Csv = Csv::new("oracles/lilliefors_mean.csv");
 
 /// Simulated critical values against the exact ones, in units of both
 /// errors together; and the range of D.

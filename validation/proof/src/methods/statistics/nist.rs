@@ -3,10 +3,10 @@
 use anyhow::Result;
 use rocking_statistics::Sample;
 
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const UNIVARIATE: Csv = csv!("nist/univariate.csv");
+const UNIVARIATE: Csv = Csv::new("nist/univariate.csv");
 
 /// Mean and standard deviation of a certified data set.
 pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {

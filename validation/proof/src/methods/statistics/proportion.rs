@@ -4,10 +4,10 @@ use anyhow::{Context as _, Result};
 use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::{Clusters, Interval, Proportion, normal};
 
-use crate::methods::cells::{Csv, CsvRow, csv};
+use crate::methods::cells::{Csv, CsvRow};
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const PROPORTION: Csv = csv!("oracles/proportion.csv");
+const PROPORTION: Csv = Csv::new("oracles/proportion.csv");
 
 const LEVEL: f64 = 0.95;
 

@@ -10,11 +10,11 @@ use rocking_statistics::lognormal::{FitMethod, fit};
 use rocking_statistics::resampling::Resampling;
 use rocking_statistics::{Clusters, ExtendedSample, Lognormal, Range, normal};
 
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const RISK: Csv = csv!("oracles/risk.csv");
-const TOTAL: Csv = csv!("oracles/total.csv");
+const RISK: Csv = Csv::new("oracles/risk.csv");
+const TOTAL: Csv = Csv::new("oracles/total.csv");
 
 /// Annual frequencies under a hazard curve against quadrature over x.
 pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {

@@ -16,10 +16,10 @@ use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Estimate, Interval};
 
 use super::truths::share;
-use crate::methods::cells::{Csv, csv};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
-const VALUES: Csv = csv!("oracles/shaking.csv");
+const VALUES: Csv = Csv::new("oracles/shaking.csv");
 
 /// Slenderness of the block in rad; the onset of rocking is its tangent in g.
 const ALPHA: f64 = 0.1;

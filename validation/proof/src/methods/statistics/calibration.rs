@@ -24,24 +24,26 @@ use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 use super::truths::{Truth, share};
 use crate::methods::method::{Context, Reply, WrongModel};
 
-/// Deviation in standard errors, half a printed unit taken off.
-fn gap(difference: f64, rounding: f64, error: f64) -> f64 {
-    let off = difference.abs() - rounding;
-    if off <= 0.0 { 0.0 } else { difference.signum() * off / error }
-}
-
-/// A rate against one known from other trials (0: exactly).
-fn rate_gap(
-    outcomes: &[bool],
-    rate: f64,
-    reference: u64,
+/// Puts the mean of so many trials beside one from other trials (0: exactly
+/// known), and their deviation in standard errors, half a printed unit taken
+/// off.
+fn put_mean(
+    answer: &mut Reply,
+    (name, [ours, due]): (&str, [f64; 2]),
+    variance: f64,
+    [trials, reference]: [u64; 2],
     rounding: f64,
-) -> (f64, f64) {
-    let trials = outcomes.len() as f64;
-    let ours = share(outcomes);
+) {
     let theirs = if reference == 0 { 0.0 } else { 1.0 / reference as f64 };
-    let error = (rate * (1.0 - rate) * (1.0 / trials + theirs)).sqrt();
-    (ours, gap(ours - rate, rounding, error))
+    let error = (variance * (1.0 / trials as f64 + theirs)).sqrt();
+    let off = (ours - due).abs() - rounding;
+    let gap = (ours - due).signum() * off / error;
+    answer.put(name, [ours], [due]);
+    answer.put(
+        "standardised-gap",
+        [if off <= 0.0 { 0.0 } else { gap }],
+        [0.0],
+    );
 }
 
 /// Rejected shares of four tests.
@@ -73,9 +75,9 @@ pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
     let references = rates.iter().zip(&reference);
     for (k, (rate, reference)) in references.enumerate() {
         let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
-        let (ours, gap) = rate_gap(&outcomes, *rate, *reference, rounding);
-        answer.put("rate", [ours], [*rate]);
-        answer.put("standardised-gap", [gap], [0.0]);
+        let both = ("rate", [share(&outcomes), *rate]);
+        let variance = rate * (1.0 - rate);
+        put_mean(answer, both, variance, [trials, *reference], rounding);
     }
     Ok(())
 }
@@ -96,9 +98,9 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     let outcomes = truth.map(&context.case.id, n, trials, |values| {
         covers(procedure, context.wrong, values)
     })?;
-    let (ours, gap) = rate_gap(&outcomes, rate, reference, rounding);
-    answer.put("rate", [ours], [rate]);
-    answer.put("standardised-gap", [gap], [0.0]);
+    let both = ("rate", [share(&outcomes), rate]);
+    let variance = rate * (1.0 - rate);
+    put_mean(answer, both, variance, [trials, reference], rounding);
     Ok(())
 }
 
@@ -215,16 +217,9 @@ pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
         [("dispersion", ratios, expected), ("log-mean", means, log_mean)]
     {
         let sample = Sample::try_new(&values)?;
-        let trials = values.len() as f64;
-        let variance = sample.sum_of_squares() / (trials - 1.0);
-        let theirs = match reference {
-            0 => 0.0,
-            trials => 1.0 / trials as f64,
-        };
-        let error = (variance * (1.0 / trials + theirs)).sqrt();
-        let gap = gap(sample.mean() - expected, rounding, error);
-        answer.put(name, [sample.mean()], [expected]);
-        answer.put("standardised-gap", [gap], [0.0]);
+        let variance = sample.sum_of_squares() / (trials as f64 - 1.0);
+        let both = (name, [sample.mean(), expected]);
+        put_mean(answer, both, variance, [trials, reference], rounding);
     }
     Ok(())
 }

@@ -66,52 +66,6 @@ pub fn turns(pulse: PulseKind) -> (f64, Vec<f64>) {
     }
 }
 
-/// Acceleration of a pulse at `t_s`, in the unit of its amplitude.
-pub fn acceleration(pulse: PulseKind, piece: usize, t_s: f64) -> f64 {
-    match pulse {
-        PulseKind::OneSine { amplitude, omega_rad_s }
-        | PulseKind::HalfSine { amplitude, omega_rad_s } => {
-            amplitude * libm::sin(omega_rad_s * t_s)
-        }
-        PulseKind::OneCosine { amplitude, omega_rad_s } => {
-            amplitude * libm::cos(omega_rad_s * t_s)
-        }
-        PulseKind::Rectangle { amplitude, .. } => amplitude,
-        PulseKind::Triangle { amplitude, duration_s } => {
-            let half = 0.5 * duration_s;
-            let rise = if piece == 0 { t_s } else { duration_s - t_s };
-            amplitude * rise / half
-        }
-        PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
-            let u = t_s - 0.5 * cycles * period_s;
-            let x = 2.0_f64.sqrt() * PI * u / period_s;
-            amplitude * (1.0 - x * x) * libm::exp(-0.5 * x * x)
-        }
-        PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
-            let u = t_s - 0.5 * cycles * period_s;
-            let x = TAU * u / (3.0_f64.sqrt() * period_s);
-            let bell = libm::exp(-0.5 * x * x);
-            amplitude * (x * x - 3.0) * x * bell / ricker_beta()
-        }
-        PulseKind::MavroeidisPapageorgiou {
-            velocity,
-            frequency_hz,
-            gamma,
-            phase_rad,
-        } => {
-            let w = TAU * frequency_hz;
-            let u = t_s - 0.5 * gamma / frequency_hz;
-            let up = 1.0 + 1.0 / gamma;
-            let down = 1.0 - 1.0 / gamma;
-            let sum = 0.5 * libm::sin(w * u + phase_rad)
-                + 0.25 * up * libm::sin(w * up * u + phase_rad)
-                + 0.25 * down * libm::sin(w * down * u + phase_rad);
-            -velocity * w * sum
-        }
-        _ => f64::NAN,
-    }
-}
-
 /// Acceleration and particular solution P'' - P = -A with its derivative.
 pub struct Particular {
     pub a: f64,

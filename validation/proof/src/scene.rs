@@ -307,7 +307,7 @@ impl Forcing {
     pub fn at(&self, piece: usize, t_s: f64) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => pulse::acceleration(*kind, piece, t_s),
+            Self::Pulse(kind) => pulse::particular(*kind, piece, t_s).a,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 let a = acceleration_m_s2[piece];
                 let b = acceleration_m_s2[piece + 1];

@@ -81,5 +81,5 @@ fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
         (Some(x), Some(y)) if (x - y).abs() > COUNTS => {}
         _ => return Ok(None),
     }
-    Ok(Some(near(draw, NEAR, a, b)))
+    Ok(Some(near(draw, NEAR, [a, b])))
 }

@@ -81,7 +81,7 @@ fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     if !((peak(&a.0)? - peak(&b.0)?).abs() > COUNTS) {
         return Ok(None);
     }
-    Ok(Some(("contact".to_owned(), near(draw, NEAR, a, b))))
+    Ok(Some(("contact".to_owned(), near(draw, NEAR, [a, b]))))
 }
 
 /// An amplitude between two fates.
@@ -97,10 +97,9 @@ fn fate(
     let size = scene.forcing.peak();
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
     let range = (&geometric(0.5 * size, 10.0 * size)[..], usize::MAX);
-    let Some([a, b]) = sides(draw, range, at, overturns, differ)? else {
-        return Ok(None);
-    };
-    Ok(Some((format!("fate {kind}"), near(draw, NEAR_FATE, a, b))))
+    let found = sides(draw, range, at, overturns, bool::ne)?;
+    let name = format!("fate {kind}");
+    Ok(found.map(|ends| (name, near(draw, NEAR_FATE, ends))))
 }
 
 /// A peak or a plateau at the threshold of uplift, then a shock.
@@ -161,12 +160,9 @@ fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     };
     let late = (first.len() + quiet + lifts) as f64 * dt_s;
     let uplifts = |scene: &CaseScene| Ok(run_until(scene, late)?.work.uplifts);
-    let turns = |a: &u64, b: &u64| a != b;
     let range = (&linear(0.8, 1.2)[..], first.len());
-    let Some([a, b]) = sides(draw, range, at, uplifts, turns)? else {
-        return Ok(None);
-    };
-    Ok(Some(("rest".to_owned(), near(draw, NEAR, a, b))))
+    let found = sides(draw, range, at, uplifts, u64::ne)?;
+    Ok(found.map(|ends| ("rest".to_owned(), near(draw, NEAR, ends))))
 }
 
 /// A clear shock that makes the highest peak, then long shaking at the
@@ -192,10 +188,9 @@ fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
         scene.with_samples(first.iter().copied().chain(shaking).collect())
     };
     let range = (&geometric(threshold, 20.0 * threshold)[..], usize::MAX);
-    let Some([a, b]) = sides(draw, range, at, overturns, differ)? else {
-        return Ok(None);
-    };
-    Ok(Some(("late chaos".to_owned(), near(draw, NEAR_FATE, a, b))))
+    let found = sides(draw, range, at, overturns, bool::ne)?;
+    let name = "late chaos".to_owned();
+    Ok(found.map(|ends| (name, near(draw, NEAR_FATE, ends))))
 }
 
 /// A shock after what came before: strong, but in most cases not so strong
@@ -234,10 +229,6 @@ fn run_until(
 
 fn overturns(scene: &CaseScene) -> Result<bool, EngineError> {
     Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
-}
-
-fn differ(a: &bool, b: &bool) -> bool {
-    a != b
 }
 
 /// So many units in the last place, at most, to either side.

@@ -59,16 +59,14 @@ pub(super) fn ordinary(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &ORDINARY);
     scene.restitution = draw.uniform(0.8, 0.97);
     if !draw.chance(0.6) {
-        let kind = pulse(draw, &mut scene, &ORDINARY);
-        return (kind, scene);
+        let which = draw.below(PULSES);
+        return shaped(draw, scene, &ORDINARY, which);
     }
     let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
     let n = draw.count(200, 4000);
     let two = draw.chance(0.15);
     let kind = if two { RecordKind::TwoShocks } else { RecordKind::Filtered };
-    let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
-    record(draw, &mut scene, kind, n, dt_s, intensity);
-    (kind.name().to_owned(), scene)
+    record(draw, scene, kind, (n, dt_s), &ORDINARY)
 }
 
 /// A scene at the ends of what is accepted.
@@ -81,8 +79,8 @@ pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
         _ => draw.uniform(0.3, 1.0),
     };
     if draw.chance(0.4) {
-        let kind = pulse(draw, &mut scene, &EXTREME);
-        return (kind, scene);
+        let which = draw.below(PULSES);
+        return shaped(draw, scene, &EXTREME, which);
     }
     let elastic = scene.restitution > 0.999;
     let n = if elastic {
@@ -94,8 +92,7 @@ pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
     };
     let dt_s = draw.log(1e-4, 0.5) / scene.frequency_rad_s;
     let kind = draw.one_of(&RecordKind::ALL);
-    let intensity = draw.log(EXTREME.intensity[0], EXTREME.intensity[1]);
-    record(draw, &mut scene, kind, n, dt_s, intensity);
+    let (kind, mut scene) = record(draw, scene, kind, (n, dt_s), &EXTREME);
     let threshold = scene.threshold_m_s2();
     if let Some(a) = scene.forcing.samples_mut() {
         if draw.chance(0.1) {
@@ -107,7 +104,7 @@ pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
             a[at] = threshold * draw.sign();
         }
     }
-    (kind.name().to_owned(), scene)
+    (kind, scene)
 }
 
 /// A block at rest, without ground motion; restitution 1.
@@ -124,22 +121,17 @@ fn block(draw: &mut Draw, ranges: &Ranges) -> CaseScene {
 /// Gives a scene a record of a kind with a peak over the threshold.
 fn record(
     draw: &mut Draw,
-    scene: &mut CaseScene,
+    mut scene: CaseScene,
     kind: RecordKind,
-    n: usize,
-    dt_s: f64,
-    intensity: f64,
-) {
+    (n, dt_s): (usize, f64),
+    ranges: &Ranges,
+) -> NamedScene {
+    let intensity = draw.log(ranges.intensity[0], ranges.intensity[1]);
     let mut samples = kind.samples(draw, n, dt_s);
     let peak = intensity * scene.threshold_m_s2();
     samples.iter_mut().for_each(|x| *x *= peak);
     scene.forcing = Forcing::samples(dt_s, samples);
-}
-
-/// Gives a scene a pulse, or a rotation to be released from.
-fn pulse(draw: &mut Draw, scene: &mut CaseScene, ranges: &Ranges) -> String {
-    let which = draw.below(PULSES);
-    shaped(draw, scene, ranges, which)
+    (kind.name().to_owned(), scene)
 }
 
 /// Kinds of pulse, the release among them, which is the last.
@@ -154,8 +146,7 @@ pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> NamedScene {
     };
     let mut scene = block(draw, &ranges);
     scene.restitution = draw.uniform(least, most);
-    let kind = shaped(draw, &mut scene, &ranges, which);
-    (kind, scene)
+    shaped(draw, scene, &ranges, which)
 }
 
 /// An ordinary block under a short ordinary record.
@@ -164,17 +155,16 @@ pub(super) fn ordinary_record(draw: &mut Draw, longest: usize) -> NamedScene {
     scene.restitution = draw.uniform(0.8, 0.97);
     let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
     let n = draw.count(100, longest);
-    let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
-    record(draw, &mut scene, RecordKind::Filtered, n, dt_s, intensity);
-    (RecordKind::Filtered.name().to_owned(), scene)
+    record(draw, scene, RecordKind::Filtered, (n, dt_s), &ORDINARY)
 }
 
+/// Gives a scene a pulse, or a rotation to be released from.
 fn shaped(
     draw: &mut Draw,
-    scene: &mut CaseScene,
+    mut scene: CaseScene,
     ranges: &Ranges,
     which: usize,
-) -> String {
+) -> NamedScene {
     let intensity = draw.log(ranges.intensity[0], ranges.intensity[1]);
     let amplitude = intensity * scene.threshold_m_s2() * draw.sign();
     let in_p = draw.log(ranges.period[0], ranges.period[1]);
@@ -192,7 +182,7 @@ fn shaped(
         let ratio = ratio.min(1.0 - 1e-14);
         let rotation_rad = scene.slenderness_rad * ratio;
         scene.forcing = Forcing::Free { rotation_rad };
-        return "free".to_owned();
+        return ("free".to_owned(), scene);
     };
     let Ok(kind) = pulse.kind(|parameter| {
         Ok::<_, Infallible>(match parameter {
@@ -209,5 +199,5 @@ fn shaped(
         })
     });
     scene.forcing = Forcing::Pulse(kind);
-    pulse.to_string()
+    (pulse.to_string(), scene)
 }

@@ -129,8 +129,7 @@ fn finer<'a, V>(
 pub(super) fn near(
     draw: &mut Draw,
     most: usize,
-    (low, below, at): SearchSide<'_>,
-    (high, above, _): SearchSide<'_>,
+    [(low, below, at), (high, above, _)]: [SearchSide<'_>; 2],
 ) -> CaseScene {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) as i64 };
     match (draw.chance(0.5), ulps) {

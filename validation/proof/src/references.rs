@@ -198,24 +198,11 @@ impl TrajectoryResult {
 struct ReferenceForcing {
     #[serde(alias = "pulse")]
     kind: String,
-    #[serde(alias = "A")]
-    a_p: Option<Decimal>,
-    #[serde(alias = "Omega")]
-    omega: Option<Decimal>,
-    #[serde(alias = "tau_d")]
-    t_d: Option<Decimal>,
-    #[serde(alias = "tau_p", rename = "T_p")]
-    t_p: Option<Decimal>,
-    #[serde(rename = "n_Tp")]
-    cycles: Option<f64>,
-    #[serde(rename = "A_v")]
-    a_v: Option<Decimal>,
-    f_p: Option<Decimal>,
-    gamma: Option<Decimal>,
-    nu: Option<Decimal>,
     dt: Option<Decimal>,
     acc: Option<SampleSource>,
     record: Option<String>,
+    #[serde(flatten)]
+    parameters: BTreeMap<String, Value>,
 }
 
 /// Samples, or where they stand.
@@ -240,20 +227,30 @@ impl ReferenceForcing {
             "mavroeidis" => PulseName::MavroeidisPapageorgiou,
             _ => return Ok(None),
         };
+        let number = |found: &Value| match found {
+            Value::String(digits) => {
+                Decimal::try_from(digits.clone()).ok().map(|x| x.near)
+            }
+            found => found.as_f64(),
+        };
         let kind = name.kind(|parameter| {
-            let found = match parameter {
-                P::Amplitude => self.a_p,
-                P::Omega => self.omega,
-                P::Duration => self.t_d,
-                P::Period => self.t_p,
-                // A Ricker pulse is 4 periods long where nothing is said.
-                P::Cycles => return Ok(self.cycles.unwrap_or(4.0)),
-                P::Velocity => self.a_v,
-                P::Frequency => self.f_p,
-                P::Gamma => self.gamma,
-                P::Phase => self.nu,
+            let keys = match parameter {
+                P::Amplitude => ["a_p", "A"],
+                P::Omega => ["omega", "Omega"],
+                P::Duration => ["t_d", "tau_d"],
+                P::Period => ["T_p", "tau_p"],
+                P::Cycles => ["n_Tp"; 2],
+                P::Velocity => ["A_v"; 2],
+                P::Frequency => ["f_p"; 2],
+                P::Gamma => ["gamma"; 2],
+                P::Phase => ["nu"; 2],
             };
-            found.map(|found| found.near).ok_or_else(|| self.lacks())
+            match keys.iter().find_map(|key| self.parameters.get(*key)) {
+                Some(found) => number(found).ok_or_else(|| self.lacks()),
+                // A Ricker pulse is 4 periods long where nothing is said.
+                None if parameter == P::Cycles => Ok(4.0),
+                None => Err(self.lacks()),
+            }
         });
         kind.map(Some)
     }

@@ -21,10 +21,6 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
         release: Vec<f64>,
         impacts: usize,
     }
-    let oracle = match equation {
-        Model::Nonlinear => free_rocking::nonlinear,
-        Model::Linearized => free_rocking::linearized,
-    };
     let blocks = pairs(&slenderness_rad, &frequency_rad_s);
     let releases = pairs(&restitution, &release);
     for ((alpha, p), (eta, release)) in pairs(&blocks, &releases) {
@@ -32,7 +28,8 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
         let forcing = Forcing::Free { rotation_rad };
         let scene = CaseScene::new([alpha, p, 9.81], eta, forcing);
         let trace = context.engine.respond(&scene.in_equation(equation))?;
-        let form = oracle(alpha, eta, rotation_rad, impacts);
+        let block = [alpha, eta, rotation_rad];
+        let form = free_rocking::free(equation, block, impacts);
         let name = "impact-speeds-p";
         answer.put_impacts(name, &trace, [p, p], &form.impacts);
         let settling = form.settling_p;

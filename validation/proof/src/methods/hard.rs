@@ -80,7 +80,7 @@ pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
         bail!("first impact before the acceleration is steady");
     }
     let form = free_rocking::chatter(
-        equation == Model::Nonlinear,
+        equation,
         alpha,
         restitution,
         steady / 9.81,

@@ -141,7 +141,7 @@ impl NaiveRun<'_> {
         if let Forcing::Free { rotation_rad } = self.scene.forcing {
             let z = rotation_rad.abs();
             hop = Some(NaiveHop { side: rotation_rad.signum(), z, w: 0.0 });
-            self.record_peak(z);
+            self.record_peak(z, self.t);
             self.trace.first_side = rotation_rad.signum();
         }
         let until = self.until();
@@ -260,27 +260,24 @@ impl NaiveRun<'_> {
         high
     }
 
-    fn record_peak(&mut self, z: f64) {
+    fn record_peak(&mut self, z: f64, t: f64) {
         let ratio = z / self.scene.slenderness_rad;
         if ratio > self.trace.peak_ratio {
             self.trace.peak_ratio = ratio;
-            self.trace.peak_time_s = Some(self.t);
+            self.trace.peak_time_s = Some(t);
         }
     }
 
     fn longest_step(&self) -> f64 {
         let start = self.pieces_s.get(self.piece).copied().unwrap_or(0.0);
         let length = self.piece_end() - start;
-        if self.rules.events == Events::Located {
-            (self.rules.step_p / self.scene.frequency_rad_s).min(
-                match self.scene.forcing {
-                    Forcing::Samples { .. } => length,
-                    _ => length / 100.0,
-                },
-            )
-        } else {
-            (10.0 * self.rules.step_p / self.scene.frequency_rad_s).min(length)
-        }
+        let located = self.rules.events == Events::Located;
+        let (times, most) = match self.scene.forcing {
+            _ if !located => (10.0, length),
+            Forcing::Samples { .. } => (1.0, length),
+            _ => (1.0, length / 100.0),
+        };
+        (times * self.rules.step_p / self.scene.frequency_rad_s).min(most)
     }
 
     /// Rocks to the end of the piece, to rest or to overturning.
@@ -310,19 +307,19 @@ impl NaiveRun<'_> {
             let mut stop = h;
             let turns = located && hop.w * next.w < 0.0;
             let turn = turns.then(|| self.root(hop, h, |x| x.w));
-            let turned = turn.map(|s| self.step(hop, s));
-            if next.z >= limit || turned.is_some_and(|x| x.z >= limit) {
-                let high = turn.unwrap_or(h);
+            let turn = turn.map(|s| (s, self.step(hop, s)));
+            let high = turn.map_or(h, |(s, _)| s);
+            if next.z >= limit || turn.is_some_and(|(_, x)| x.z >= limit) {
                 self.t += self.root(hop, high, |x| x.z - limit);
                 self.trace.overturned_s = Some(self.t);
                 self.trace.peak_ratio = f64::INFINITY;
                 self.trace.peak_time_s = None;
                 return Ok(None);
             }
-            let dips = turned.is_some_and(|x| x.z < 0.0);
+            let dips = turn.is_some_and(|(_, x)| x.z < 0.0);
             if next.z < 0.0 || dips {
                 if located {
-                    let high = if dips { turn.unwrap_or(h) } else { h };
+                    let high = if dips { high } else { h };
                     stop = self.root(hop, high, |x| x.z);
                     next = self.step(hop, stop);
                 } else if self.rules.events == Events::Interpolated {
@@ -331,13 +328,8 @@ impl NaiveRun<'_> {
                     next.z = 0.0;
                     next.w = hop.w + share * (next.w - hop.w);
                 }
-                if let (Some(s), Some(x)) = (turn, turned)
-                    && s < stop
-                {
-                    let t = self.t;
-                    self.t = t + s;
-                    self.record_peak(x.z);
-                    self.t = t;
+                if let Some((s, x)) = turn.filter(|(s, _)| *s < stop) {
+                    self.record_peak(x.z, self.t + s);
                 }
                 self.t = if last && stop == h { end } else { self.t + stop };
                 match self.impact(next, threshold) {
@@ -347,13 +339,11 @@ impl NaiveRun<'_> {
                 h = self.first_step(hop, longest);
                 continue;
             }
-            let start = self.t;
-            if let (Some(s), Some(x)) = (turn, turned) {
-                self.t = start + s;
-                self.record_peak(x.z);
+            if let Some((s, x)) = turn {
+                self.record_peak(x.z, self.t + s);
             }
-            self.t = if last { end } else { start + stop };
-            self.record_peak(next.z);
+            self.t = if last { end } else { self.t + stop };
+            self.record_peak(next.z, self.t);
             hop = next;
             h *= 2.0;
         }

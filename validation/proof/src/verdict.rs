@@ -116,13 +116,7 @@ impl CaseOutcome {
 const FLOOR: f64 = 1.01e-13;
 
 fn largest(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::INFINITY
-    } else if a > b {
-        a
-    } else {
-        b
-    }
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
 /// Compares quantities by name, never by position; `floor` widens absolute

@@ -45,8 +45,11 @@ pub enum Precision {
 }
 
 impl WideTrace {
-    fn of<N: Real>(response: &Response<N>) -> Self {
-        Self {
+    fn of<N: Real>(
+        response: Result<Response<N>, EngineError>,
+    ) -> Result<Self, EngineError> {
+        let response = response?;
+        Ok(Self {
             uplift_s: response.uplift_time_s.map(wide),
             impacts: response
                 .impacts
@@ -61,7 +64,7 @@ impl WideTrace {
             rest_s: response.rest_time_s.map(wide),
             error_estimate: response.error_estimate.unwrap_or(f64::INFINITY),
             resolved: response.assessment() == Assessment::Clear,
-        }
+        })
     }
 
     /// Runs a scene, with events and accuracy.
@@ -78,23 +81,20 @@ impl WideTrace {
             until_s: scene.until_s,
             ..Observe::default()
         };
-        let (o, rounded, kept) = (&observe, Quotient::Rounded, Quotient::Kept);
-        Ok(match arithmetic {
+        let (o, kept) = (&observe, Quotient::Kept);
+        let wide = |by| Self::of(respond_in::<DoubleDouble>(scene, o, by));
+        match arithmetic {
             #[cfg(not(target_family = "wasm"))]
             Precision::Single => {
-                Self::of(&respond_in::<Single>(scene, o, kept)?)
+                Self::of(respond_in::<Single>(scene, o, kept))
             }
-            Precision::Double => Self::of(&respond(scene, o)?),
-            Precision::DoubleDouble => {
-                Self::of(&respond_in::<DoubleDouble>(scene, o, kept)?)
-            }
-            Precision::DoubleDoubleOfRounded => {
-                Self::of(&respond_in::<DoubleDouble>(scene, o, rounded)?)
-            }
+            Precision::Double => Self::of(respond(scene, o)),
+            Precision::DoubleDouble => wide(kept),
+            Precision::DoubleDoubleOfRounded => wide(Quotient::Rounded),
             #[cfg(not(target_family = "wasm"))]
             Precision::RoundedConstants => {
-                Self::of(&respond_in::<RoundedConstants>(scene, o, kept)?)
+                Self::of(respond_in::<RoundedConstants>(scene, o, kept))
             }
-        })
+        }
     }
 }

@@ -81,23 +81,19 @@ pub fn chained(context: &Context, answer: &mut Reply) -> Result<()> {
         let due = form.motion();
         let end_p: f64 = form.stretches.iter().map(|s| s.1).sum();
         let count = due.impacts.len();
-        let seen = |of: fn(f64, f64) -> f64| {
-            input.extrapolated(|intervals| {
-                let scene = input.scene(wave, intervals);
-                let trace = context.engine.respond(&scene)?;
-                let impacts = trace.impacts.iter().take(count);
-                Ok(impacts
-                    .map(|i| of(i.time_s, i.speed_before_rad_s))
-                    .collect())
-            })
-        };
-        let times = seen(|t, _| t)?.iter().map(|t| t * p).collect::<Vec<_>>();
-        let speeds = seen(|_, v| v)?;
-        let speeds = speeds.iter().map(|v| v / (p * alpha));
+        let seen = input.extrapolated(|intervals| {
+            let scene = input.scene(wave, intervals);
+            let trace = context.engine.respond(&scene)?;
+            let impacts = trace.impacts.iter().take(count);
+            let times = impacts.clone().map(|i| i.time_s);
+            Ok(times.chain(impacts.map(|i| i.speed_before_rad_s)).collect())
+        })?;
+        let (times, speeds) = seen.split_at(seen.len() / 2);
         let listed = due.impacts.iter();
         let list = listed.clone().map(|i| i.0);
-        answer.put("impact-times-p", times, list);
+        answer.put("impact-times-p", times.iter().map(|t| t * p), list);
         let list = listed.map(|i| i.1 / alpha);
+        let speeds = speeds.iter().map(|v| v / (p * alpha));
         answer.put("impact-speeds", speeds, list);
         let end = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals);
@@ -145,11 +141,9 @@ pub fn exclusions(context: &Context, answer: &mut Reply) -> Result<()> {
             let scene = input.scene(wave, intervals);
             let trace = context.engine.respond(&scene)?;
             let after = trace.impacts.get(before);
-            Ok(after
-                .filter(|impact| impact.time_s > end_s)
-                .map(|impact| impact.speed_before_rad_s / (p * alpha))
-                .into_iter()
-                .collect())
+            let after = after.filter(|impact| impact.time_s > end_s);
+            let speed = after.map(|i| i.speed_before_rad_s / (p * alpha));
+            Ok(Vec::from_iter(speed))
         })?;
         let due = due.impact.map(|v| v / alpha);
         answer.put("impact-speed-after", speed, due);

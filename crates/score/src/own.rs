@@ -47,36 +47,36 @@ impl<N: Real> OwnResponse<N> {
             &Observe,
         ) -> Result<Response<N>, SceneError>,
     ) -> Result<Self, String> {
-        let refused =
-            |e: &dyn std::fmt::Display| format!("{}: {e}", scene.name);
-        let block = Block::try_new(scene.alpha_rad, scene.p_rad_s)
-            .map_err(|e| refused(&e))?;
-        let eta = Restitution::constant(scene.eta).map_err(|e| refused(&e))?;
-        let (g, pulse) = (scene.g_m_s2, &mut None);
-        let excitation = match &scene.excitation {
-            SceneExcitation::Free => Excitation::Free,
-            SceneExcitation::Pulse(kind) => {
-                let made = Pulse::try_new_si(*kind, g);
-                Excitation::Pulse(pulse.insert(made.map_err(|e| refused(&e))?))
-            }
-            SceneExcitation::Samples { dt_s, samples_m_s2 } => {
-                let made = ScaledRecord::try_new_si(samples_m_s2, *dt_s, g);
-                Excitation::Record(made.map_err(|e| refused(&e))?)
-            }
-        };
         let theta = scene.initial_theta_rad;
-        let core = rocking::Scene {
-            model: scene.equation,
-            overturning: scene.overturning,
-            initial_ratio: theta.abs() / scene.alpha_rad,
-            ..rocking::Scene::new(block, eta, excitation)
+        let respond = || -> Result<Response<N>, Box<dyn std::error::Error>> {
+            let block = Block::try_new(scene.alpha_rad, scene.p_rad_s)?;
+            let eta = Restitution::constant(scene.eta)?;
+            let (g, pulse) = (scene.g_m_s2, &mut None);
+            let excitation = match &scene.excitation {
+                SceneExcitation::Free => Excitation::Free,
+                SceneExcitation::Pulse(kind) => {
+                    let made = Pulse::try_new_si(*kind, g)?;
+                    Excitation::Pulse(pulse.insert(made))
+                }
+                SceneExcitation::Samples { dt_s, samples_m_s2: a } => {
+                    Excitation::Record(ScaledRecord::try_new_si(a, *dt_s, g)?)
+                }
+            };
+            let core = rocking::Scene {
+                model: scene.equation,
+                overturning: scene.overturning,
+                initial_ratio: theta.abs() / scene.alpha_rad,
+                ..rocking::Scene::new(block, eta, excitation)
+            };
+            let observe = Observe {
+                events: true,
+                history_interval_s: Some(GRID_S),
+                ..Observe::default()
+            };
+            Ok(by(&core, &observe)?)
         };
-        let observe = Observe {
-            events: true,
-            history_interval_s: Some(GRID_S),
-            ..Observe::default()
-        };
-        let response = by(&core, &observe).map_err(|e| refused(&e))?;
+        let response =
+            respond().map_err(|e| format!("{}: {e}", scene.name))?;
         Ok(Self { response, sign: if theta < 0.0 { -1.0 } else { 1.0 } })
     }
 

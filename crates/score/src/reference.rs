@@ -2,13 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
-use std::str::FromStr;
 use std::sync::LazyLock;
 
 use rocking::excitation::{PulseKind, PulseName};
 use rocking::integrator::{Model, Overturning};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// The scenes and what is asked of each, as JSON.
 pub const SCENES: &str = rocking_fixtures::text("benchmark/scenes.json");
@@ -29,10 +27,8 @@ pub struct Problem {
     /// Its level in words.
     pub kind: String,
     /// Equation of motion.
-    #[serde(deserialize_with = "by_name")]
     pub equation: Model,
     /// What ends the run.
-    #[serde(deserialize_with = "by_name")]
     pub overturning: Overturning,
     /// Slenderness angle, rad.
     pub alpha_rad: f64,
@@ -111,12 +107,6 @@ fn text<T, E: Display>(found: Result<T, E>) -> Result<T, String> {
     found.map_err(|error| error.to_string())
 }
 
-fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err: Display>>(
-    from: D,
-) -> Result<T, D::Error> {
-    String::deserialize(from)?.parse().map_err(D::Error::custom)
-}
-
 /// What a code says of a quantity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -138,24 +128,18 @@ impl Value {
     /// # Errors
     /// What was expected.
     pub fn parse(quantity: &str, text: &str) -> Result<Self, String> {
+        let number = text.parse::<f64>().ok();
         match quantity {
             "fate" if FATES.contains(&text) => Ok(Self::Fate(text.into())),
             "fate" => Err(format!("expected one of {}", FATES.join(", "))),
-            "impacts" => text
-                .parse::<f64>()
-                .ok()
+            "impacts" => number
                 .filter(|n| *n >= 0.0 && n.fract() == 0.0 && *n < 1e15)
                 .map(|n| Self::Count(n as u64))
                 .ok_or_else(|| "expected a count".into()),
-            _ => text
-                .parse::<f64>()
-                .ok()
-                .filter(|x| x.is_finite())
-                .map(Self::Number)
-                .ok_or_else(|| {
-                    "expected a finite number, or nothing where it is missing"
-                        .into()
-                }),
+            _ => number.filter(|x| x.is_finite()).map(Self::Number).ok_or(
+                "expected a finite number, or nothing where it is missing"
+                    .into(),
+            ),
         }
     }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::attainable::Attainable;
+use super::attainable::{entry_of, resolve};
 use super::case::Family;
 use super::error::CaseFault;
 
@@ -57,12 +57,10 @@ fn of_method(method: &str) -> String {
 impl Defaults {
     /// The defaults of a family.
     pub fn new(family: Family) -> Self {
-        let pair = |key: &str, value: Value| (key.to_owned(), value);
-        let status = Table::from_iter([pair("expect", "pass".into())]);
-        let all = Table::from_iter([
-            pair("cost", "quick".into()),
-            pair("status", status.into()),
-        ]);
+        let all = toml::toml! {
+            cost = "quick"
+            status.expect = "pass"
+        };
         let method = family.default.get("method").and_then(Value::as_str);
         let method = method.map(str::to_owned);
         let mut layers = vec![
@@ -86,16 +84,16 @@ impl Defaults {
         let name = format!("case `{}`", named.unwrap_or_default());
         let stated = case.get("method").and_then(Value::as_str);
         let method = stated.or(self.method.as_deref()).map(of_method);
-        let attainable = Attainable::of(&case);
+        let entry = entry_of(&case);
         let mut found = ValueLayers::default();
         for (index, layer) in self.layers.iter().enumerate() {
             if index < 2 || Some(&layer.name) == method.as_ref() {
                 let values = layer.values.clone();
-                self.lay(&mut found, index, values, &layer.name, &attainable)?;
+                self.lay(&mut found, index, values, &layer.name, &entry)?;
             }
         }
         let (own, case) = (self.layers.len(), Layer::new(name, case));
-        self.lay(&mut found, own, case.values, &case.name, &attainable)?;
+        self.lay(&mut found, own, case.values, &case.name, &entry)?;
         let mut table = Table::new();
         for (path, (index, value)) in found {
             insert(&mut table, &path, value);
@@ -113,7 +111,7 @@ impl Defaults {
         index: usize,
         mut values: Flat,
         place: &str,
-        attainable: &Attainable,
+        entry: &Result<String, String>,
     ) -> Result<(), CaseFault> {
         for name in without(&mut values) {
             let path = path(&["tolerance", "bounds", &name]);
@@ -135,7 +133,7 @@ impl Defaults {
             found.remove(&path(&["tolerance", "because"]));
         }
         for (path, value) in &mut values {
-            attainable.resolve(path, value).map_err(|message| {
+            resolve(entry, path, value).map_err(|message| {
                 let key = path.join(".");
                 CaseFault::Form(format!("{place}: {key}: {message}"))
             })?;

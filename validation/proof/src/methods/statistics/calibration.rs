@@ -21,7 +21,7 @@ use rocking_statistics::paired::{
 };
 use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 
-use super::truths::{Truth, share};
+use super::truths::{Truth, divided, share};
 use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Puts the mean of so many trials beside one from other trials (0: exactly
@@ -194,16 +194,7 @@ pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
         reference: u64,
         rounding: f64,
     }
-    let method = match (context.wrong, estimator) {
-        (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
-            FitMethod::MaximumLikelihood
-        }
-        (Some(WrongModel::OtherDivisor), FitMethod::Censored(kind)) => {
-            FitMethod::Trimmed(kind)
-        }
-        (Some(WrongModel::OtherDivisor), _) => FitMethod::Moment,
-        (_, own) => own,
-    };
+    let method = divided(context, estimator);
     let truth = Truth::Lognormal { dispersion };
     let fits = truth.map(&context.case.id, n, trials, |values| {
         let sample = ExtendedSample::try_new(values)?;

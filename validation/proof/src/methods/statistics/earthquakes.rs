@@ -7,7 +7,6 @@
 
 use anyhow::{Result, anyhow};
 use libm::{exp, pow};
-use rayon::prelude::*;
 use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
 use rocking_procedures::fragility::total::TotalFragility;
@@ -22,7 +21,7 @@ use rocking_statistics::{
 };
 use serde::Deserialize;
 
-use super::truths::{SuiteShape, percentiles, share};
+use super::truths::{SuiteShape, percentiles, share, trials};
 use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
@@ -79,8 +78,7 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
             }
         }
     };
-    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
-    let rate = share(&found.collect::<Result<Vec<bool>>>()?);
+    let rate = share(&self::trials(trials, trial)?);
     let nominal =
         if matches!(measure, RateMeasure::Slope) { 0.05 } else { 0.95 };
     answer.put("rate", [rate], [nominal]);
@@ -97,8 +95,7 @@ pub fn coverage_of_fits(context: &Context, answer: &mut Reply) -> Result<()> {
         let suite = Simulated::new(context, suite, intraclass, index);
         suite.fit_holds(context.wrong, index)
     };
-    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
-    let found = found.collect::<Result<Vec<[bool; 5]>>>()?;
+    let found = self::trials(trials, trial)?;
     for (k, name) in NAMES.iter().enumerate() {
         let held: Vec<bool> = found.iter().map(|held| held[k]).collect();
         answer.put(name, [share(&held)], [0.95]);

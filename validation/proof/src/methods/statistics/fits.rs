@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use rocking_statistics::lilliefors::Statistic;
-use rocking_statistics::lognormal::{FitMethod, Stripe, fit, fit_counts};
+use rocking_statistics::lognormal::{Stripe, fit, fit_counts};
 use rocking_statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
@@ -11,6 +11,7 @@ use rocking_statistics::paired::{
 };
 use rocking_statistics::{ExtendedSample, QuantileType, Sample};
 
+use super::truths::divided;
 use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
@@ -31,18 +32,7 @@ pub fn fits(context: &Context, answer: &mut Reply) -> Result<()> {
     let number = context.or(WrongModel::OtherQuantileType, 7, 5);
     let quantile_type = QuantileType::try_new(number)?;
     let unit = context.or(WrongModel::HalfTheShift, 0.5, 1.0);
-    let swapped = match (context.wrong, method.parse()?) {
-        (Some(WrongModel::OtherDivisor), FitMethod::MaximumLikelihood) => {
-            FitMethod::Moment
-        }
-        (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
-            FitMethod::MaximumLikelihood
-        }
-        (Some(WrongModel::OtherDivisor), FitMethod::Censored(t)) => {
-            FitMethod::Trimmed(t)
-        }
-        (_, own) => own,
-    };
+    let swapped = divided(context, method.parse()?);
     let swapped = swapped.with_quantile_type(quantile_type);
     for row in LOGNORMAL.rows(&method)? {
         let shift = unit * row.number(1)?;
@@ -150,8 +140,7 @@ pub fn tests(context: &Context, answer: &mut Reply) -> Result<()> {
         ("shapiro-wilk", s.statistic),
         ("shapiro-wilk-p", s.p_value),
     ];
-    rows[0].put(answer, 2, &quantities)?;
-    Ok(())
+    rows[0].put(answer, 2, &quantities)
 }
 
 /// Equivalence by t and sign tests, the sign test, Hodges and Lehmann.

@@ -3,12 +3,11 @@
 use anyhow::{Context as _, Result, bail};
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution as _, StandardNormal};
-use rayon::prelude::*;
 use rocking_statistics::lilliefors::{LillieforsTable, Statistic};
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Sample, normal};
 
-use super::truths::StreamRng;
+use super::truths::{StreamRng, trials};
 use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
@@ -24,22 +23,19 @@ pub fn null(context: &Context, answer: &mut Reply) -> Result<()> {
         error: f64,
     }
     let streams = Streams::new("case, lilliefors null", 0);
-    let mut statistics: Vec<f64> = (0..replicates)
-        .into_par_iter()
-        .map(|index| {
-            let mut stream = streams.stream(index);
-            let z: Vec<f64> =
-                (0..n).map(|_| standard_normal(&mut stream)).collect();
-            let sample = Sample::try_new(&z)?;
-            let s = Statistic::try_new(&sample)?;
-            Ok(match context.wrong {
-                Some(WrongModel::UpperSideOnly) => s.d_plus,
-                // D of scores that are too long by sqrt(n/(n - 1)).
-                Some(WrongModel::OtherDivisor) => with_divisor_n(&sample),
-                _ => s.d,
-            })
+    let mut statistics = trials(replicates, |index| {
+        let mut stream = streams.stream(index);
+        let z: Vec<f64> =
+            (0..n).map(|_| standard_normal(&mut stream)).collect();
+        let sample = Sample::try_new(&z)?;
+        let s = Statistic::try_new(&sample)?;
+        Ok(match context.wrong {
+            Some(WrongModel::UpperSideOnly) => s.d_plus,
+            // D of scores that are too long by sqrt(n/(n - 1)).
+            Some(WrongModel::OtherDivisor) => with_divisor_n(&sample),
+            _ => s.d,
         })
-        .collect::<Result<_>>()?;
+    })?;
     statistics.sort_by(f64::total_cmp);
     let count = statistics.len() as f64;
     let at = |rank: f64| statistics[rank.clamp(1.0, count) as usize - 1];

@@ -28,6 +28,5 @@ pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
     let deviation = (squares / divisor).sqrt();
     let quantities =
         [("mean", sample.mean()), ("standard-deviation", deviation)];
-    row.put(answer, 1, &quantities)?;
-    Ok(())
+    row.put(answer, 1, &quantities)
 }

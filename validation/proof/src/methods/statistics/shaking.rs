@@ -3,7 +3,6 @@
 
 use anyhow::{Result, bail};
 use libm::{exp, log, tan};
-use rayon::prelude::*;
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking::{Block, Restitution};
@@ -15,8 +14,8 @@ use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::streams::{Streams, standard_normal};
 use rocking_statistics::{Estimate, Interval};
 
-use super::truths::share;
-use crate::methods::cells::Csv;
+use super::truths::{share, trials};
+use crate::methods::cells::{Csv, CsvRow};
 use crate::methods::method::{Context, Reply, WrongModel};
 
 const VALUES: Csv = Csv::new("oracles/shaking.csv");
@@ -87,7 +86,6 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
             answer.put("log-score", [own.log_score.value()], [score]);
         }
         for own in &found.distributions {
-            let row = VALUES.row(&["distribution", set, &own.im])?;
             let seen = [
                 own.measured_median,
                 own.measured_dispersion,
@@ -97,33 +95,28 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
                 own.dispersion_difference.value(),
                 own.missing_dispersion.value(),
             ];
-            answer.put("distribution", seen, row.list(3, ' ')?);
+            put(answer, &["distribution", set, &own.im], &seen)?;
         }
         for (k, own) in found.reliability.iter().enumerate() {
-            let row = VALUES.row(&["reliability", set, &k.to_string()])?;
             let seen = [own.tests as f64, own.predicted, own.observed.value()];
-            answer.put("reliability", seen, row.list(3, ' ')?);
+            put(answer, &["reliability", set, &k.to_string()], &seen)?;
         }
-        let row = VALUES.row(&["repeats", set])?;
         let own = &found.repeatability;
         let counts =
             [own.pairs, own.different, own.mixed_motions, own.not_monotone];
         let counts = counts.map(|count| count as f64);
-        answer.put("repeats", counts, row.list(2, ' ')?);
-        let dispersion = own.dispersion.unwrap_or(f64::NAN);
-        row.put(answer, 3, &[("within-motions", dispersion)])?;
-        let row = VALUES.row(&["resurrected", set])?;
+        let row = put(answer, &["repeats", set], &counts)?;
+        let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
+        row.put(answer, 3, &[("within-motions", or_nan(own.dispersion))])?;
         let own = &found.resurrected;
         let seen = [
             own.tests as f64,
             own.overturned as f64,
-            own.expected.unwrap_or(f64::NAN),
+            or_nan(own.expected),
             own.right_at_level,
         ];
-        answer.put("resurrected", seen, row.list(2, ' ')?);
-        let row = VALUES.row(&["onset", set])?;
+        put(answer, &["resurrected", set], &seen)?;
         let own = &found.onset;
-        let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
         let seen = [
             own.tests as f64,
             own.overturned_below as f64,
@@ -132,10 +125,18 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
             or_nan(own.above),
             or_nan(own.pga_unshifted),
         ];
-        answer.put("onset", seen, row.list(2, ' ')?);
+        let row = put(answer, &["onset", set], &seen)?;
         row.put(answer, 3, &[("shifted", or_nan(own.pga_shifted))])?;
     }
     Ok(())
+}
+
+/// Puts what was seen beside the numbers of the row that begins so.
+fn put(answer: &mut Reply, first: &[&str], seen: &[f64]) -> Result<CsvRow> {
+    let row = VALUES.row(first)?;
+    let due = row.list(first.len(), ' ')?;
+    answer.put(first[0], seen.iter().copied(), due);
+    Ok(row)
 }
 
 /// Median of measured over computed capacity of the simulated tests.
@@ -215,8 +216,7 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
         }
         Ok(all)
     };
-    let found = (0..trials).into_par_iter().panic_fuse().map(trial);
-    let found = found.collect::<Result<Vec<_>>>()?;
+    let found = self::trials(trials, trial)?;
     let quantities = if fragilities { 4 } else { 2 };
     for k in 0..quantities {
         let own = found.iter().filter_map(|one| one.get(k));

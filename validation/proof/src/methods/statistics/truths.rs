@@ -7,9 +7,12 @@ use libm::{exp, log, log1p, tan};
 use rand::TryRng;
 use rand_distr::{Distribution as _, Exp1, Gamma};
 use rayon::prelude::*;
+use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::streams::{Stream, Streams, below, standard_normal};
 use rocking_statistics::{Clusters, Interval, QuantileType, Sample};
 use serde::Deserialize;
+
+use crate::methods::method::{Context, WrongModel};
 
 /// A stream as a generator of `rand_distr`.
 pub(super) struct StreamRng<'a>(pub &'a mut Stream);
@@ -71,10 +74,7 @@ impl Truth {
         f: impl Fn(&[f64]) -> Result<T> + Sync,
     ) -> Result<Vec<T>> {
         let streams = Streams::new(&format!("case, {name}"), 0);
-        (0..trials)
-            .into_par_iter()
-            .map(|index| f(&self.sample(&streams, index, n)?))
-            .collect()
+        self::trials(trials, |index| f(&self.sample(&streams, index, n)?))
     }
 
     fn sample(
@@ -84,12 +84,8 @@ impl Truth {
         n: usize,
     ) -> Result<Vec<f64>> {
         let stream = &mut streams.stream(index);
-        let gamma = match self {
-            Self::Gamma { shape } => Some(Gamma::new(shape, 1.0)?),
-            _ => None,
-        };
-        Ok((0..n)
-            .map(|_| match self {
+        let mut draw = || {
+            Ok(match self {
                 Self::Normal => standard_normal(stream),
                 Self::Unshifted { excess, dispersion } => {
                     log1p(excess * exp(dispersion * standard_normal(stream)))
@@ -109,14 +105,16 @@ impl Truth {
                     let e: f64 = Exp1.sample(&mut StreamRng(stream));
                     log(e)
                 }
-                Self::Gamma { .. } => gamma.map_or(f64::NAN, |g| {
-                    log(g.sample(&mut StreamRng(stream)))
-                }),
+                Self::Gamma { shape } => {
+                    let law = Gamma::new(shape, 1.0)?;
+                    log(law.sample(&mut StreamRng(stream)))
+                }
                 Self::Lognormal { dispersion } => {
                     exp(dispersion * standard_normal(stream))
                 }
             })
-            .collect())
+        };
+        (0..n).map(|_| draw()).collect()
     }
 }
 
@@ -149,6 +147,25 @@ impl SuiteShape {
             .flat_map(|(g, size)| std::iter::repeat_n(g.to_string(), *size));
         Clusters::from_labels(labels)
     }
+}
+
+/// The method of a fit; where this is the mistake, with the other divisor, of
+/// censored values that of the rest, and of quantiles the moments.
+pub(super) fn divided(context: &Context, method: FitMethod) -> FitMethod {
+    match method {
+        own if !context.is(WrongModel::OtherDivisor) => own,
+        FitMethod::Moment => FitMethod::MaximumLikelihood,
+        FitMethod::Censored(kind) => FitMethod::Trimmed(kind),
+        _ => FitMethod::Moment,
+    }
+}
+
+/// What each of so many trials finds, in their order.
+pub(super) fn trials<T: Send>(
+    count: u64,
+    trial: impl Fn(u64) -> Result<T> + Sync + Send,
+) -> Result<Vec<T>> {
+    (0..count).into_par_iter().panic_fuse().map(trial).collect()
 }
 
 /// Share of what is true.

@@ -33,7 +33,7 @@ pub(crate) static FREE_ROCKING: ReferenceFile<Cases<FreeReference>> =
     ReferenceFile::new("references/free_rocking.json");
 pub(crate) static RECT_PULSE: ReferenceFile<Cases<RectangularPulse>> =
     ReferenceFile::new("references/rect_pulse.json");
-pub(crate) static SPECTRUM: ReferenceFile<SpectrumTable> =
+pub(crate) static SPECTRUM: ReferenceFile<Cases<SpectrumRow>> =
     ReferenceFile::new("references/linear_overturning_spectrum.json");
 
 impl<T: DeserializeOwned> ReferenceFile<T> {
@@ -58,10 +58,7 @@ impl<T: DeserializeOwned> ReferenceFile<T> {
     }
 }
 
-impl<T> ReferenceFile<Cases<T>>
-where
-    Cases<T>: DeserializeOwned,
-{
+impl<T: DeserializeOwned> ReferenceFile<Cases<T>> {
     /// The entry of this number among the file's cases.
     pub fn entry(&self, number: usize) -> Result<&T> {
         let found = self.read()?.cases.get(number);
@@ -72,6 +69,7 @@ where
 /// A file of cases.
 #[derive(Deserialize)]
 pub(crate) struct Cases<T> {
+    #[serde(alias = "table")]
     pub cases: Vec<T>,
 }
 
@@ -422,12 +420,6 @@ impl RectangularPulse {
             Overturning::HalfPi => self.t_theta_eq_pi_over_2,
         }
     }
-}
-
-/// Edges of overturning under one-sine pulses in Eq. 2.
-#[derive(Deserialize)]
-pub(crate) struct SpectrumTable {
-    pub table: Vec<SpectrumRow>,
 }
 
 /// The edges at one restitution and frequency.

@@ -146,36 +146,30 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
 /// Free rocking to 40 digits, by the project's own generator.
 const FREE: Csv = Csv::new("oracles/free.csv");
 
-/// Times and speeds of the impacts of a scene, and when it comes to rest.
-type Free = [Vec<DoubleDouble>; 3];
-
 /// Free rocking in one of the equations, every block of the file.
 pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; equation: Model, frequency_rad_s: f64);
     let p = frequency_rad_s;
-    let mut scenes: BTreeMap<[&str; 3], (CaseScene, Free)> = BTreeMap::new();
+    let mut scenes = BTreeMap::new();
     for row in FREE.rows(equation.name())? {
         let [alpha, eta, ratio] = row.numbers(1)?;
         let release = Forcing::Free { rotation_rad: alpha * ratio };
         let scene = CaseScene::new([alpha, p, 9.81], eta, release);
         let name = [1, 2, 3].map(|column| row.text(column));
         let entry = scenes.entry(name);
-        let new = || (scene.in_equation(equation), Free::default());
-        let [times, speeds, rest] = &mut entry.or_insert_with(new).1;
-        let list = match row.text(4) {
-            "time" => times,
-            "speed" => speeds,
-            _ => rest,
-        };
+        let new = || (scene.in_equation(equation), BTreeMap::new());
+        let (_, lists) = entry.or_insert_with(new);
+        let list: &mut Vec<_> = lists.entry(row.text(4)).or_default();
         list.push(row.decimal(6)?);
     }
     let unit = DoubleDouble::from_f64(p);
-    for (scene, [times, speeds, rest]) in scenes.values() {
+    for (scene, lists) in scenes.values() {
         let trace = wide_trace(context, scene)?;
-        let pairs = times.iter().zip(speeds);
+        let pairs = lists["time"].iter().zip(&lists["speed"]);
         let listed = pairs.map(|(t, v)| (*t / unit, *v * unit));
         answer.impacts(&trace, listed, p);
-        let rest = rest.last().map(|t| *t / unit);
+        let rest = lists.get("settling").and_then(|list| list.last());
+        let rest = rest.map(|t| *t / unit);
         answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
     }
     Ok(())

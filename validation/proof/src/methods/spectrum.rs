@@ -19,7 +19,7 @@ pub fn edges(context: &Context, answer: &mut Reply) -> Result<()> {
     let is = |row: &&SpectrumRow| {
         (row.eta.near, row.omega.near) == (eta, omega_over_p)
     };
-    let found = SPECTRUM.read()?.table.iter().rfind(is);
+    let found = SPECTRUM.read()?.cases.iter().rfind(is);
     let row = found.ok_or_else(|| SPECTRUM.lacks("no such row"))?;
     let (equation, omega) = (Model::Linearized, omega_over_p);
     let pulse = OneSine { equation, block, omega, eta };

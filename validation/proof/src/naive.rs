@@ -294,8 +294,9 @@ impl NaiveRun<'_> {
         while self.t < end {
             self.steps += 1;
             if self.steps > MOST_STEPS {
-                let (steps, time_s) = (self.steps, self.t);
-                return Err(EngineError::NoEnd { steps, time_s });
+                let (steps, t) = (self.steps, self.t);
+                let what = format!("no end after {steps} steps, at t = {t} s");
+                return Err(EngineError::Work(what));
             }
             h = h.min(longest);
             // The last step of a piece ends on its end to the bit.

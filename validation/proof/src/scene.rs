@@ -90,14 +90,6 @@ pub enum EngineError {
     /// The run takes more work than is allowed.
     #[error("{0}")]
     Work(String),
-    /// The run came to no end.
-    #[error("no end after {steps} steps, at t = {time_s} s")]
-    NoEnd {
-        /// Steps done.
-        steps: usize,
-        /// Time reached in s.
-        time_s: f64,
-    },
 }
 
 /// Something that answers scenes.

@@ -35,12 +35,6 @@ pub struct PublishedValue {
     pub value: f64,
 }
 
-impl PublishedValue {
-    fn of(quantity: String, p_rad_s: f64, of: &[f64], value: f64) -> Self {
-        Self { quantity, p_rad_s, motions: of.len(), value }
-    }
-}
-
 /// Sizes brought to overturning: each block is four times the next.
 const SIZES_RAD_S: [f64; 3] = [1.5, 3.0, 6.0];
 
@@ -106,9 +100,12 @@ fn displacements(
             for (name, share) in
                 [("low", 0.16), ("median", 0.5), ("high", 0.84)]
             {
-                let name = format!("{name}-at-im-{im}");
-                let value = quantile(&all, share)?;
-                found.push(PublishedValue::of(name, p, &all, value));
+                found.push(PublishedValue {
+                    quantity: format!("{name}-at-im-{im}"),
+                    p_rad_s: p,
+                    motions: all.len(),
+                    value: quantile(&all, share)?,
+                });
             }
         }
     }
@@ -137,13 +134,14 @@ fn velocities(
         let all: Vec<f64> = all.collect();
         let tail = quantile(&all, 0.05)?;
         tails = [tails[0].min(tail), tails[1].max(tail)];
-        for (name, value) in [
+        for (quantity, value) in [
             (format!("least-at-p-{p}"), quantile(&all, 0.0)?),
             (format!("tail-at-p-{p}"), tail),
             (format!("median-at-p-{p}"), quantile(&all, 0.5)?),
             ("tails".to_owned(), tails[1] / tails[0]),
         ] {
-            found.push(PublishedValue::of(name, p, &all, value));
+            let (p_rad_s, motions) = (p, all.len());
+            found.push(PublishedValue { quantity, p_rad_s, motions, value });
         }
     }
     Ok(found)

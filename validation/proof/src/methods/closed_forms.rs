@@ -32,12 +32,8 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
         let form = free_rocking::free(equation, block, impacts);
         let name = "impact-speeds-p";
         answer.put_impacts(name, &trace, [p, p], &form.impacts);
-        let settling = form.settling_p;
-        answer.put(
-            "rest-time-p",
-            trace.rest_s.map(|t| t * p),
-            settling.is_finite().then_some(settling),
-        );
+        let due = Some(form.settling_p).filter(|t| t.is_finite());
+        answer.put("rest-time-p", trace.rest_s.map(|t| t * p), due);
     }
     Ok(())
 }
@@ -162,11 +158,9 @@ pub fn fold(context: &Context, answer: &mut Reply) -> Result<()> {
         answer.put("fold", [found], [omega]);
         let scene = scene(omega);
         let seen = context.state(&scene, scene.forcing.end_s())?;
-        answer.put(
-            "rotation-at-pulse-end",
-            [seen.rotation_rad.abs() / scene.slenderness_rad],
-            [2.0 - 1.0 / (eta * eta)],
-        );
+        let angle = seen.rotation_rad.abs() / scene.slenderness_rad;
+        let due = 2.0 - 1.0 / (eta * eta);
+        answer.put("rotation-at-pulse-end", [angle], [due]);
     }
     Ok(())
 }

@@ -88,7 +88,7 @@ impl Counts {
         let observe =
             Observe { accuracy: true, until_s, ..Observe::default() };
         let response: Response = respond(scene, &observe)?;
-        let seen = DoubleRun::of(&response, response.peak_ratio);
+        let seen = DoubleRun::of(&response);
         let clear = reading.is_clear(&seen);
         let error = match response.assessment() {
             Assessment::Clear => reading.estimate(&seen),

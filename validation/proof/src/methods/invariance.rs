@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::method::{Context, Reply, SPEEDS};
 use crate::engine::Core;
 use crate::references;
-use crate::scene::{CaseScene, Engine, Forcing, Model, PulseName, Trace};
+use crate::scene::{CaseScene, Engine, Forcing, Model, PulseName};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -58,38 +58,21 @@ pub fn invariance(context: &Context, answer: &mut Reply) -> Result<()> {
             SceneChange::Mirror => (0.0, -1.0),
             _ => (0.0, 1.0),
         };
-        let speed_ratio = alpha / twin.slenderness_rad;
-        compare(
-            answer,
-            (&observed, &expected),
-            (p, shift_s, mirror, speed_ratio),
-        );
+        let (seen, due) = (observed.impacts.iter(), expected.impacts.iter());
+        let times = seen.clone().map(|i| (i.time_s - shift_s) * p);
+        let due_times = due.clone().map(|i| i.time_s * p);
+        answer.put("impact-times-p", times, due_times);
+        let ratio = alpha / twin.slenderness_rad;
+        let speeds = seen.map(|i| i.speed_before_rad_s * ratio);
+        answer.put(SPEEDS, speeds, due.map(|i| i.speed_before_rad_s));
+        answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
+        let over = observed.overturned_s.map(|t| (t - shift_s) * p);
+        let due = expected.overturned_s.map(|t| t * p);
+        answer.put("alpha-time-p", over, due);
+        let side = observed.first_side * mirror;
+        answer.put("side", [side], [expected.first_side]);
     }
     Ok(())
-}
-
-fn compare(
-    answer: &mut Reply,
-    (observed, expected): (&Trace, &Trace),
-    (p, shift_s, mirror, speed_ratio): (f64, f64, f64, f64),
-) {
-    let times = |trace: &Trace, back: f64| -> Vec<f64> {
-        trace.impacts.iter().map(|i| (i.time_s - back) * p).collect()
-    };
-    let speeds = |trace: &Trace, ratio: f64| -> Vec<f64> {
-        trace.impacts.iter().map(|i| i.speed_before_rad_s * ratio).collect()
-    };
-    let due = times(expected, 0.0);
-    answer.put("impact-times-p", times(observed, shift_s), due);
-    let due = speeds(expected, 1.0);
-    answer.put(SPEEDS, speeds(observed, speed_ratio), due);
-    answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
-    answer.put(
-        "alpha-time-p",
-        observed.overturned_s.map(|t| (t - shift_s) * p),
-        expected.overturned_s.map(|t| t * p),
-    );
-    answer.put("side", [observed.first_side * mirror], [expected.first_side]);
 }
 
 fn twin(

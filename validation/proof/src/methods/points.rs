@@ -15,16 +15,12 @@ pub fn trajectories(context: &Context, answer: &mut Reply) -> Result<()> {
         let (alpha, p) = (scene.slenderness_rad, scene.frequency_rad_s);
         for point in &case.expected.checkpoints {
             let seen = context.state(&scene, point.t.near)?;
-            answer.put(
-                "checkpoint-rotations",
-                [seen.rotation_rad / alpha],
-                [point.theta.near / alpha],
-            );
-            answer.put(
-                "checkpoint-velocities",
-                [seen.velocity_rad_s / (p * alpha)],
-                [point.theta_dot.near / (p * alpha)],
-            );
+            let due = point.theta.near / alpha;
+            let angle = seen.rotation_rad / alpha;
+            answer.put("checkpoint-rotations", [angle], [due]);
+            let due = point.theta_dot.near / (p * alpha);
+            let speed = seen.velocity_rad_s / (p * alpha);
+            answer.put("checkpoint-velocities", [speed], [due]);
         }
         for hop in &case.expected.hops {
             let seen = context.state(&scene, hop.t.near)?;

@@ -60,15 +60,6 @@ impl LinearHop {
         let down = self.decaying * libm::exp(-x);
         (1.0 + self.side * part.p + up + down, self.side * part.v + up - down)
     }
-
-    fn root(
-        &self,
-        low: f64,
-        high: f64,
-        of: impl Fn((f64, f64)) -> f64,
-    ) -> f64 {
-        super::bisect(low, high, |t| of(self.state(t)))
-    }
 }
 
 fn in_flight(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
@@ -142,18 +133,18 @@ fn next(hop: &LinearHop, end: f64) -> Next {
         let now = if k == POINTS { end } else { at(k) };
         let new = hop.state(now);
         let turn = (old.1 * new.1 < 0.0)
-            .then(|| hop.root(before, now, |state| state.1));
+            .then(|| super::bisect(before, now, |t| hop.state(t).1));
         let stops = [turn, Some(now)];
         let mut low = before;
         for stop in stops.into_iter().flatten() {
             let (z, _) = hop.state(stop);
             if z >= 1.0 {
-                let at = hop.root(low, stop, |state| state.0 - 1.0);
+                let at = super::bisect(low, stop, |t| hop.state(t).0 - 1.0);
                 return Next::Overturned(at);
             }
             clear |= z > ROUNDING;
             if z < 0.0 && clear {
-                let at = hop.root(low, stop, |state| state.0);
+                let at = super::bisect(low, stop, |t| hop.state(t).0);
                 return Next::Impact(at, hop.state(at).1.abs());
             }
             low = stop;

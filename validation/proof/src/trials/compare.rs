@@ -37,11 +37,11 @@ pub struct DoubleRun {
 
 impl DoubleRun {
     /// What a response says, its peak as a double.
-    pub fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
+    pub fn of(response: &Response) -> Self {
         let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
         Self {
             overturned: response.outcome.is_overturned(),
-            peak_ratio,
+            peak_ratio: response.peak_ratio,
             estimate: estimate.max(f64::EPSILON),
             certificate: response.certificate.unwrap_or_default(),
         }
@@ -190,7 +190,7 @@ pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
     let response = respond(&trial.scene, &observe)?;
     Ok(Finding {
         name: trial.name.clone(),
-        seen: DoubleRun::of(&response, response.peak_ratio),
+        seen: DoubleRun::of(&response),
         truth: truth(trial)?,
     })
 }

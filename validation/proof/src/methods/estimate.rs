@@ -12,18 +12,6 @@ use crate::references;
 use crate::scene::{CaseScene, Model, Overturning};
 use crate::trials::Draw;
 
-/// One scene's verdict.
-enum EstimateCheck {
-    /// Error of the peak ratio over its estimate.
-    Ratio(f64),
-    /// The fates differ, and the run says that its fate is not resolved.
-    Open,
-    /// The fates differ, and the run is sure of its own.
-    Wrong,
-    /// Both overturn.
-    NoPeak,
-}
-
 /// Shares of a distribution that are reported.
 const SHARES: [(&str, usize); 3] =
     [("median-ratio", 50), ("upper-decile-ratio", 90), ("largest-ratio", 100)];
@@ -43,6 +31,10 @@ pub fn estimate(context: &Context, answer: &mut Reply) -> Result<()> {
         other => bail!("arithmetic `{other}`"),
     };
     let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
+    let unit = match arithmetic {
+        Precision::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
+        _ => f64::EPSILON,
+    };
     let all = if scenes == 0 {
         against_references(arithmetic)?
     } else {
@@ -53,18 +45,24 @@ pub fn estimate(context: &Context, answer: &mut Reply) -> Result<()> {
                 let scene = drawn(&streams, k);
                 let run = WideTrace::run(&scene, arithmetic)?;
                 let truth = WideTrace::run(&scene, Precision::DoubleDouble)?;
-                Ok(compare(&run, &truth, f64::EPSILON))
+                Ok((run, truth))
             })
             .collect::<Result<Vec<_>>>()?
     };
     let mut ratios = Vec::new();
     let (mut wrong, mut open) = (0.0, 0.0);
-    for one in all {
-        match one {
-            EstimateCheck::Ratio(ratio) => ratios.push(ratio / factor),
-            EstimateCheck::Open => open += 1.0,
-            EstimateCheck::Wrong => wrong += 1.0,
-            EstimateCheck::NoPeak => {}
+    for (run, truth) in all {
+        match (run.overturned_s.is_some(), truth.overturned_s.is_some()) {
+            (false, false) => {
+                let error = (run.peak_ratio - truth.peak_ratio).abs().to_f64();
+                // A run that does not move claims no error at all: it is
+                // held to one unit in the last place.
+                let estimate = run.error_estimate.max(unit);
+                ratios.push(error / estimate / factor);
+            }
+            (true, true) => {}
+            _ if run.resolved => wrong += 1.0,
+            _ => open += 1.0,
         }
     }
     ratios.sort_by(f64::total_cmp);
@@ -81,27 +79,11 @@ pub fn estimate(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> EstimateCheck {
-    match (run.overturned_s.is_some(), truth.overturned_s.is_some()) {
-        (false, false) => {
-            let error = (run.peak_ratio - truth.peak_ratio).abs().to_f64();
-            // A run that does not move claims no error at all: it is held to
-            // one unit in the last place.
-            let estimate = run.error_estimate.max(unit);
-            EstimateCheck::Ratio(error / estimate)
-        }
-        (true, true) => EstimateCheck::NoPeak,
-        _ if run.resolved => EstimateCheck::Wrong,
-        _ => EstimateCheck::Open,
-    }
-}
-
-fn against_references(arithmetic: Precision) -> Result<Vec<EstimateCheck>> {
+/// Runs of the reference trajectories, with what is true of each.
+fn against_references(
+    arithmetic: Precision,
+) -> Result<Vec<(WideTrace, WideTrace)>> {
     let mut found = Vec::new();
-    let unit = match arithmetic {
-        Precision::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
-        _ => f64::EPSILON,
-    };
     for case in references::trajectories()? {
         for criterion in [Overturning::Alpha, Overturning::HalfPi] {
             let run = WideTrace::run(&case.scene(criterion)?, arithmetic)?;
@@ -112,7 +94,7 @@ fn against_references(arithmetic: Precision) -> Result<Vec<EstimateCheck>> {
                 peak_ratio: peak.map_or(run.peak_ratio, |peak| peak.wide),
                 ..run.clone()
             };
-            found.push(compare(&run, &truth, unit));
+            found.push((run, truth));
         }
     }
     Ok(found)

@@ -8,19 +8,19 @@ use serde::Deserialize;
 use super::method::{Context, Reply, pairs};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
-use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseName};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseName, Trace};
 
-/// What flips at an edge.
-#[derive(Clone, Copy)]
-pub(super) enum Flip {
-    /// Above, the block overturns without an impact; below, it does not, or
-    /// does so after an impact.
-    WithoutImpact,
-    /// Above, the block overturns; below, it stands.
-    Overturns,
-    /// Above, the block stands; below, it overturns.
-    Stands,
-}
+/// What a run above an edge does, and one below it does not.
+pub(super) type Flip = fn(&Trace) -> bool;
+
+/// The block overturns without an impact; below, it does not, or does so
+/// after an impact.
+pub(super) const WITHOUT_IMPACT: Flip =
+    |trace| trace.overturned_s.is_some() && trace.impacts.is_empty();
+/// The block overturns.
+pub(super) const OVERTURNS: Flip = |trace| trace.overturned_s.is_some();
+/// The block stands.
+pub(super) const STANDS: Flip = |trace| trace.overturned_s.is_none();
 
 /// An edge of Eq. 2 as cases name it.
 #[derive(Clone, Copy, Deserialize)]
@@ -34,9 +34,9 @@ enum Edge {
 impl Edge {
     fn flip(self) -> (Overturning, Flip) {
         match self {
-            Self::Mode1 => (Overturning::HalfPi, Flip::Overturns),
-            Self::Mode2 => (Overturning::HalfPi, Flip::WithoutImpact),
-            Self::Mode2Alpha => (Overturning::Alpha, Flip::WithoutImpact),
+            Self::Mode1 => (Overturning::HalfPi, OVERTURNS),
+            Self::Mode2 => (Overturning::HalfPi, WITHOUT_IMPACT),
+            Self::Mode2Alpha => (Overturning::Alpha, WITHOUT_IMPACT),
         }
     }
 }
@@ -72,13 +72,7 @@ impl OneSine {
                 let (a, omega) = (amplitude * threshold, self.omega * p);
                 Forcing::pulse(PulseName::OneSine, a, omega)
             });
-            let trace = context.engine.respond(&scene)?;
-            let over = trace.overturned_s.is_some();
-            Ok(match flip {
-                Flip::WithoutImpact => over && trace.impacts.is_empty(),
-                Flip::Overturns => over,
-                Flip::Stands => !over,
-            })
+            Ok(flip(&context.engine.respond(&scene)?))
         })
     }
 }
@@ -120,7 +114,7 @@ pub fn bay(context: &Context, answer: &mut Reply) -> Result<()> {
     let upper =
         overturning::mode_1_upper(omega_over_p, eta).context("no mode 1")?;
     for (name, flip) in [
-        ("mode-1-upper", (Overturning::HalfPi, Flip::Stands)),
+        ("mode-1-upper", (Overturning::HalfPi, STANDS)),
         ("mode-2-by-alpha", Edge::Mode2Alpha.flip()),
     ] {
         let found = pulse.edge(context, flip, around(upper, 1e-5))?;

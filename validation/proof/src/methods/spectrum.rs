@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use super::edges::{Flip, OneSine};
+use super::edges::{Flip, OVERTURNS, OneSine, STANDS, WITHOUT_IMPACT};
 use super::method::{Context, Reply, WrongModel};
 use crate::edge::around;
 use crate::references::{Decimal, ImpactBand, SPECTRUM, SpectrumRow};
@@ -46,23 +46,23 @@ fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
         edges.push((name.to_owned(), amplitude.near, (criterion, flip)));
     };
     let divergence = Overturning::HalfPi;
-    add("mode-2", row.mode2_lower, divergence, Flip::WithoutImpact);
+    add("mode-2", row.mode2_lower, divergence, WITHOUT_IMPACT);
     let first_sign = row.mode2_lower_alpha_criterion;
-    add("mode-2-alpha", first_sign, Overturning::Alpha, Flip::WithoutImpact);
+    add("mode-2-alpha", first_sign, Overturning::Alpha, WITHOUT_IMPACT);
     if let Some(lower) = row.mode1_lower {
-        add("mode-1-lower", lower, divergence, Flip::Overturns);
+        add("mode-1-lower", lower, divergence, OVERTURNS);
     }
     // Without loss, mode 1 goes over into mode 2: no fate flips there.
     if let Some(upper) = row.mode1_upper
         && row.eta.near < 1.0
     {
-        add("mode-1-upper", upper, divergence, Flip::Stands);
+        add("mode-1-upper", upper, divergence, STANDS);
     }
     for ImpactBand { n_impacts: n, lower, upper } in &row.multi_impact_bands {
         let name = format!("{n}-impacts-lower");
-        add(&name, *lower, divergence, Flip::Overturns);
+        add(&name, *lower, divergence, OVERTURNS);
         let name = format!("{n}-impacts-upper");
-        add(&name, *upper, divergence, Flip::Stands);
+        add(&name, *upper, divergence, STANDS);
     }
     edges
 }

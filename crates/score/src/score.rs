@@ -133,19 +133,16 @@ fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
 #[must_use]
 pub fn score(answers: &Answers) -> Score {
     let set = reference();
-    let answered = |level: u8| {
-        let items = set.items.iter().enumerate();
-        items.filter(move |(_, item)| set.scene(item).level == level).map(
-            |(place, item)| {
-                let value = answers.get(place);
-                (item, value.map(|value| quantity_score(item, value)))
-            },
-        )
-    };
     let mut levels = Vec::new();
     let mut quantities = Vec::new();
     for level in 1..=5 {
-        let rows: Vec<_> = answered(level).collect();
+        let items = set.items.iter().enumerate();
+        let items = items.filter(|(_, item)| set.scene(item).level == level);
+        let rows = items.map(|(place, item)| {
+            let value = answers.get(place);
+            (item, value.map(|value| quantity_score(item, value)))
+        });
+        let rows: Vec<_> = rows.collect();
         levels.push(level_score(level, &rows));
         quantities.extend(rows.into_iter().filter_map(|(_, row)| row));
     }

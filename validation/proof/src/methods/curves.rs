@@ -114,8 +114,7 @@ fn level(index: u64) -> Result<Option<LevelResult>> {
     };
     let record = Accelerogram::try_new(trial.name, dt_s, acceleration_m_s2);
     let record = NormalisedRecord::new(&record?);
-    let block = Block::try_new(of.slenderness_rad, of.frequency_rad_s);
-    let block = block?;
+    let block = Block::try_new(of.slenderness_rad, of.frequency_rad_s)?;
     let restitution = Restitution::constant(of.restitution)?;
     let pga_g = record.pga_g();
     let analysis = Analysis {
@@ -134,18 +133,14 @@ fn level(index: u64) -> Result<Option<LevelResult>> {
     let certifying = Analysis { certify: true, ..analysis };
     let batch = Batch::default();
     let records = std::slice::from_ref(&record);
-    let both = curves(records, &[analysis, certifying], &batch);
-    let both = both?;
+    let both = curves(records, &[analysis, certifying], &batch)?;
     let lanes = point(&both[0][0].points)?;
     let certified = point(&both[1][0].points)?;
+    let record_at = ScaledRecord::to_pga(&record, pga_g);
     let scene = Scene {
         model: of.model,
         overturning: of.overturning,
-        ..Scene::new(
-            block,
-            restitution,
-            Excitation::Record(ScaledRecord::to_pga(&record, pga_g)),
-        )
+        ..Scene::new(block, restitution, Excitation::Record(record_at))
     };
     let truth = match truth::<DoubleDouble>(&scene)? {
         None => truth::<Octuple>(&scene)?,

@@ -150,11 +150,8 @@ impl Context<'_> {
         };
         let response = engine::respond(&self.altered(scene), &observe)?;
         // A run that has ended before says so by what cannot be compared.
-        let missing = HistoryPoint {
-            time_s,
-            rotation_rad: f64::NAN,
-            velocity_rad_s: f64::NAN,
-        };
+        let (rotation_rad, velocity_rad_s) = (f64::NAN, f64::NAN);
+        let missing = HistoryPoint { time_s, rotation_rad, velocity_rad_s };
         Ok(response.history.get(1).copied().unwrap_or(missing))
     }
 }

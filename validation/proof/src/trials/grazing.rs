@@ -95,7 +95,13 @@ fn fate(
         k => under_pulse(draw, k),
     };
     let size = scene.forcing.peak();
-    let at = |amplitude: f64| scaled(&scene, size, amplitude);
+    let at = |amplitude: f64| {
+        let mut scene = scene.clone();
+        // A pulse's quotient is 1 or -1: its amplitude takes every double.
+        let change = |a: &mut f64| *a = *a / size * amplitude;
+        scene.forcing.amplitudes_mut().iter_mut().for_each(change);
+        scene
+    };
     let range = (&geometric(0.5 * size, 10.0 * size)[..], usize::MAX);
     let found = sides(draw, range, at, overturns, bool::ne)?;
     let name = format!("fate {kind}");
@@ -235,13 +241,4 @@ fn overturns(scene: &CaseScene) -> Result<bool, EngineError> {
 pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
     if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }
-}
-
-/// The scene with another amplitude than its own.
-fn scaled(scene: &CaseScene, own: f64, amplitude: f64) -> CaseScene {
-    let mut scene = scene.clone();
-    // A pulse's quotient is 1 or -1: its amplitude takes every double.
-    let change = |a: &mut f64| *a = *a / own * amplitude;
-    scene.forcing.amplitudes_mut().iter_mut().for_each(change);
-    scene
 }

@@ -67,20 +67,21 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: RateMeasure, suite: SuiteShape, intraclass: f64, trials: u64,
     }
-    let trial = |index: u64| -> Result<bool> {
-        let suite = Simulated::new(context, suite, intraclass, index);
-        match measure {
-            RateMeasure::Counts => suite.counts_hold(index),
-            RateMeasure::Slope => {
-                let found =
-                    mixed(&suite.attribute, &suite.logs, &suite.drawn)?;
+    let suite = |index| Simulated::new(context, suite, intraclass, index);
+    let (found, nominal) = match measure {
+        RateMeasure::Counts => {
+            (self::trials(trials, |k| suite(k).counts_hold(k)), 0.95)
+        }
+        RateMeasure::Slope => {
+            let trial = |k| {
+                let own = suite(k);
+                let found = mixed(&own.attribute, &own.logs, &own.drawn)?;
                 Ok(found.p_value < 0.05)
-            }
+            };
+            (self::trials(trials, trial), 0.05)
         }
     };
-    let rate = share(&self::trials(trials, trial)?);
-    let nominal =
-        if matches!(measure, RateMeasure::Slope) { 0.05 } else { 0.95 };
+    let rate = share(&found?);
     answer.put("rate", [rate], [nominal]);
     Ok(())
 }

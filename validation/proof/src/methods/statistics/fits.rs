@@ -165,10 +165,8 @@ pub fn paired(context: &Context, answer: &mut Reply) -> Result<()> {
         ("hl_low", centre.ratio.ends().0),
         ("hl_high", centre.ratio.ends().1),
     ];
-    let rows = PAIRED.rows(&letter)?;
     for (name, own) in own {
-        let row = rows.iter().find(|row| row.text(1) == name);
-        let row = row.ok_or_else(|| PAIRED.lacks(format!("no `{name}`")))?;
+        let row = PAIRED.row(&[&letter, name])?;
         row.put(answer, 2, &[(&name.replace('_', "-"), own)])?;
     }
     Ok(())

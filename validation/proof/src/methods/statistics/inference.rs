@@ -9,7 +9,6 @@
 
 use anyhow::Result;
 use libm::{exp, log, sqrt};
-use rayon::prelude::*;
 use rocking_common::findings::LEVEL;
 use rocking_statistics::acceptance::distances;
 use rocking_statistics::bootstrap::Bootstrap;
@@ -22,7 +21,7 @@ use rocking_statistics::{
 };
 use serde::Deserialize;
 
-use super::truths::{SuiteShape, percentiles, share};
+use super::truths::{SuiteShape, percentiles, share, trials};
 use crate::methods::method::{Context, Reply, WrongModel};
 
 /// Replicates of an interval: they know a standard error to 5 %.
@@ -85,18 +84,17 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
         drawn,
         wrong: context.wrong,
     };
-    let all = (0..trials).into_par_iter().panic_fuse();
     let held: Vec<bool> = match measure {
         IntervalMeasure::Distance => {
-            let found = all
-                .map(|trial| suites.distance(trial))
-                .collect::<Result<Vec<_>, _>>()?;
+            let found = self::trials(trials, |trial| suites.distance(trial))?;
             // The truth is the mean over the simulated suites.
             let sum = found.iter().fold(0.0, |sum, (x, _)| sum + x);
             let truth = sum / found.len() as f64;
             found.into_iter().map(|(_, ends)| hold(ends, truth)).collect()
         }
-        measure => all.map(|trial| suites.holds(trial, measure)).collect(),
+        measure => {
+            self::trials(trials, |trial| Ok(suites.holds(trial, measure)))?
+        }
     };
     answer.put("rate", [share(&held)], [nominal]);
     Ok(())

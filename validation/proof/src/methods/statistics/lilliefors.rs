@@ -72,16 +72,15 @@ pub fn largest(context: &Context, answer: &mut Reply) -> Result<()> {
     for n in n {
         formula.push(Statistic::largest(n));
         // k values at one place, the others at another, for the best k.
-        let attained = (1..n).fold(0.0, |best: f64, k| {
+        let mut attained: f64 = 0.0;
+        for k in 1..n {
             let values: Vec<f64> =
                 (0..n).map(|i| f64::from(u8::from(i >= k))).collect();
-            let s = Sample::try_new(&values).ok();
-            let s = s.and_then(|s| Statistic::try_new(&s).ok());
-            let smaller = s.as_ref().map(|s| s.d_minus.min(s.d_plus));
-            let d = s.map(|s| s.d);
-            let d = context.or(WrongModel::UpperSideOnly, smaller, d);
-            best.max(d.unwrap_or(f64::NAN))
-        });
+            let s = Statistic::try_new(&Sample::try_new(&values)?)?;
+            let smaller = s.d_minus.min(s.d_plus);
+            let d = context.or(WrongModel::UpperSideOnly, smaller, s.d);
+            attained = attained.max(d);
+        }
         let expected = Statistic::largest(n);
         answer.put("attained", [attained], [expected]);
     }

@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result};
 use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::{Clusters, Interval, Proportion, normal};
 
-use crate::methods::cells::{Csv, CsvRow};
+use crate::methods::cells::Csv;
 use crate::methods::method::{Context, Reply, WrongModel};
 
 const PROPORTION: Csv = Csv::new("oracles/proportion.csv");
@@ -43,11 +43,7 @@ pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
             interval = wilson(one.share(), trials, level)?;
         }
         let words = [successes, trials, together].map(|k| k.to_string());
-        let rows = PROPORTION.rows(&words[0])?;
-        let is = |row: &&CsvRow| [row.text(1), row.text(2)] == words[1..];
-        let row = rows.iter().find(is).ok_or_else(|| {
-            PROPORTION.lacks(format!("no row `{}`", words.join(",")))
-        })?;
+        let row = PROPORTION.row(&words.each_ref().map(String::as_str))?;
         let ends = [("low", interval.low()), ("high", interval.high())];
         row.put(answer, 3, &ends)?;
     }

@@ -1,6 +1,6 @@
 //! Intensity measures against closed forms and other packages.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, PI};
 
 use anyhow::{Context as _, Result, bail};
 use rocking::accelerogram::Accelerogram;
@@ -92,16 +92,11 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     let stretch = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
     let damping = context.or(WrongModel::NoDamping, 0.0, 0.05);
-    let settings = Settings::try_new(
-        STANDARD_GRAVITY_M_S2,
-        damping,
-        periods.iter().map(|t| stretch * t).collect(),
-    )?;
+    let stretched = periods.iter().map(|t| stretch * t).collect();
+    let settings =
+        Settings::try_new(STANDARD_GRAVITY_M_S2, damping, stretched)?;
     let mut first = first.record(None)?;
-    let mut second = match &second {
-        Some(motion) => Some(motion.record(Some(&first))?),
-        None => None,
-    };
+    let mut second = second.map(|m| m.record(Some(&first))).transpose()?;
     if context.is(WrongModel::VelocityForAcceleration) {
         first = velocity(&first).unwrap_or(first);
         second = second.as_ref().and_then(velocity);
@@ -128,10 +123,7 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
             found.extend([("geometric_mean", mean), ("rotd50", rotd50)]);
             found.push(("rotd100", rotd100));
         }
-        None => {
-            let one = Measures::of(&first, &settings)?;
-            found.push(("first", one));
-        }
+        None => found.push(("first", Measures::of(&first, &settings)?)),
     }
     for of in &of {
         let measures = found.iter().find(|(name, _)| name == of);
@@ -142,9 +134,18 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
             let name = row.text(2);
             let place = |t| periods.iter().position(|own| *own == t);
             let place = period(name).and_then(place);
-            let own = value(measures, name, place, context.wrong);
+            let own = match place {
+                Some(k) => measures.spectral_acceleration_g.get(k).copied(),
+                None if name == "mean_period_s" => measures.mean_period_s,
+                None => measures.scalar(name),
+            };
+            // The integral of a^2 over g.
+            let arias =
+                if name == "arias_intensity_m_s" { FRAC_2_PI } else { 1.0 };
+            let factor =
+                context.or(WrongModel::AriasWithoutItsFactor, arias, 1.0);
             let none = || EXPECTED.lacks(format!("`{name}` is no measure"));
-            let own = [own.ok_or_else(none)?];
+            let own = [factor * own.ok_or_else(none)?];
             let name = match place {
                 Some(_) => "spectral-acceleration-g".to_owned(),
                 None => name.replace('_', "-"),
@@ -153,25 +154,6 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn value(
-    m: &Measures,
-    name: &str,
-    period: Option<usize>,
-    wrong: Option<WrongModel>,
-) -> Option<f64> {
-    Some(match name {
-        // The integral of a^2 over g.
-        "arias_intensity_m_s"
-            if wrong == Some(WrongModel::AriasWithoutItsFactor) =>
-        {
-            m.arias_intensity_m_s * std::f64::consts::FRAC_2_PI
-        }
-        "mean_period_s" => m.mean_period_s?,
-        scalar if m.scalar(scalar).is_some() => m.scalar(scalar)?,
-        _ => *m.spectral_acceleration_g.get(period?)?,
-    })
 }
 
 /// The period of a spectral acceleration, s.

@@ -169,18 +169,7 @@ fn measure(
     wanted: &[f64],
     floor: Option<f64>,
 ) -> (f64, f64) {
-    if matches!(bound, Bound::Waived(_)) {
-        return (0.0, 0.0);
-    }
     let never = (f64::INFINITY, f64::INFINITY);
-    if let Bound::Interval(low, high) = bound {
-        let inside = |x: &f64| *x >= *low && *x <= *high;
-        let held = !seen.is_empty() && seen.iter().all(inside);
-        return if held { (0.0, 0.0) } else { never };
-    }
-    if seen.len() != wanted.len() {
-        return never;
-    }
     let pairs = || seen.iter().zip(wanted);
     let widened = |x: f64| floor.map_or(x, |f| if f > x { f } else { x });
     let over = |error: f64, limit: f64| {
@@ -194,6 +183,13 @@ fn measure(
         })
     };
     match bound {
+        Bound::Waived(_) => (0.0, 0.0),
+        Bound::Interval(low, high) => {
+            let inside = |x: &f64| *x >= *low && *x <= *high;
+            let held = !seen.is_empty() && seen.iter().all(inside);
+            if held { (0.0, 0.0) } else { never }
+        }
+        _ if seen.len() != wanted.len() => never,
         Bound::Exact => {
             let error = worst(|_, _| f64::INFINITY);
             (error, error)
@@ -216,7 +212,6 @@ fn measure(
                 (largest(e, error), largest(m, error / limit))
             })
         }
-        Bound::Interval(..) | Bound::Waived(_) => never,
     }
 }
 

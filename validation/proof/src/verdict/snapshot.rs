@@ -132,10 +132,8 @@ fn quantity(check: &Check) -> QuantityResult {
 
 /// Significant digits that the bound supports.
 fn digits(check: &Check) -> usize {
-    let largest = check
-        .observed
-        .iter()
-        .fold(0.0, |a: f64, x| if x.abs() > a { x.abs() } else { a });
+    let observed = check.observed.iter();
+    let largest = observed.fold(0.0, |a: f64, x| a.max(x.abs()));
     let relative = match check.bound {
         Bound::Relative(x) => x,
         Bound::Absolute(x) if largest > 0.0 => x / largest,

@@ -86,7 +86,6 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
         linear: f64,
         slenderness_rad: Vec<f64>,
     }
-    let mut changes = Vec::new();
     for &alpha in &slenderness_rad {
         let pulse = OneSine {
             equation: Model::Nonlinear,
@@ -95,9 +94,8 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
             eta: 0.92,
         };
         let found = pulse.edge(context, edge.flip(), around(linear, 0.03))?;
-        changes.push(found / linear - 1.0);
+        answer.see("change", [found / linear - 1.0]);
     }
-    answer.see("change", changes);
     Ok(())
 }
 

@@ -26,7 +26,6 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
         other(equation),
         equation,
     );
-    let mut worst = Vec::new();
     for (alpha, p) in pairs(&slenderness_rad, &frequency_rad_s) {
         // A record of a rectangle and then of zeros: the block flies
         // through intervals of silence, step by step.
@@ -69,10 +68,8 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
         if start.is_none() {
             deviation = f64::NAN;
         }
-        worst.push(deviation);
+        answer.put("energy-drift-over-saddle", [deviation], [0.0]);
     }
-    let zeros = vec![0.0; worst.len()];
-    answer.put("energy-drift-over-saddle", worst, zeros);
     Ok(())
 }
 

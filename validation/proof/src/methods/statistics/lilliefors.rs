@@ -68,9 +68,9 @@ fn with_divisor_n(sample: &Sample) -> f64 {
 /// The largest possible D, by its formula and by the sample that attains it.
 pub fn largest(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; n: Vec<usize>);
-    let mut formula = Vec::new();
     for n in n {
-        formula.push(Statistic::largest(n));
+        let expected = Statistic::largest(n);
+        answer.see("largest", [expected]);
         // k values at one place, the others at another, for the best k.
         let mut attained: f64 = 0.0;
         for k in 1..n {
@@ -81,10 +81,8 @@ pub fn largest(context: &Context, answer: &mut Reply) -> Result<()> {
             let d = context.or(WrongModel::UpperSideOnly, smaller, s.d);
             attained = attained.max(d);
         }
-        let expected = Statistic::largest(n);
         answer.put("attained", [attained], [expected]);
     }
-    answer.see("largest", formula);
     Ok(())
 }
 
@@ -168,21 +166,17 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
     if sources.len() != values.len() {
         bail!("sources and values");
     }
-    let mut levels = Vec::new();
-    let mut by_interpolation = Vec::new();
     for (n, value) in n.iter().zip(&values) {
         let p = LillieforsTable::embedded().p_value(*n, *value)?;
         let known = 2.0 * libm::exp(-2.0 * *n as f64 * value * value);
         let p = context.or(WrongModel::PlainKolmogorov, known, p.value());
-        levels.push(p);
+        answer.see("true-level", [p]);
     }
     for level in [0.1, 0.05, 0.01, 0.001] {
         let own = linear_in_n(86, level)?;
         let own = context.or(WrongModel::PlainKolmogorov, 0.0, own);
-        by_interpolation.push(own);
+        answer.see("interpolated-in-n-at-86", [own]);
     }
-    answer.see("true-level", levels);
-    answer.see("interpolated-in-n-at-86", by_interpolation);
     Ok(())
 }
 
@@ -196,8 +190,6 @@ pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
         .filter(|n| *n >= least_n)
         .collect();
     let terms = context.or(WrongModel::TwoTerms, 2, 3);
-    let mut constants = Vec::new();
-    let mut misfits = Vec::new();
     for level in levels {
         let known: Vec<(f64, f64)> = sizes
             .iter()
@@ -224,11 +216,9 @@ pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
             .context("singular")?;
         let misfit = (matrix * &coefficients - right).norm_squared()
             / (sizes.len() - terms) as f64;
-        constants.push(coefficients[0]);
-        misfits.push(misfit);
+        answer.see("c0", [coefficients[0]]);
+        answer.see("mean-square-misfit", [misfit]);
     }
-    answer.see("c0", constants);
-    answer.see("mean-square-misfit", misfits);
     Ok(())
 }
 

@@ -44,28 +44,21 @@ pub(super) fn ending(
             Err(EngineError::Work(_)) => continue,
             response => response?,
         };
-        let event = match (index % 3, response.outcome) {
-            (0, Outcome::Overturned { time_s, .. }) => {
-                Some(("end at overturning", time_s))
+        let uplift_s = response.uplift_time_s.filter(|t| *t > 0.0);
+        let mut about = |event_s| moved(event_s, few(draw, NEAR_EVENT));
+        let (name, until_s) = match (index % 3, response.outcome, uplift_s) {
+            (0, Outcome::Overturned { time_s, .. }, _) => {
+                ("end at overturning", about(time_s))
             }
-            (1, _) => {
-                let later = response.uplift_time_s.filter(|t| *t > 0.0);
-                later.map(|time_s| ("end at uplift", time_s))
-            }
-            _ => None,
-        };
-        let (name, until_s) = match event {
-            Some((name, time_s)) => {
-                (name, moved(time_s, few(draw, NEAR_EVENT)))
-            }
-            None if index % 3 == 2 => {
+            (1, _, Some(time_s)) => ("end at uplift", about(time_s)),
+            (2, ..) => {
                 let after_s = AFTER / scene.frequency_rad_s;
                 let end_s = scene.forcing.end_s();
                 let whole = draw.chance(0.3);
                 let from_s = if whole { 0.0 } else { end_s };
                 ("end anywhere", draw.uniform(from_s, end_s + after_s))
             }
-            None => continue,
+            _ => continue,
         };
         if until_s > 0.0 {
             scene.until_s = Some(until_s);

@@ -42,15 +42,6 @@ const HAZARD_ABOVE: &str = "intensity,annual_frequency\n\
 /// by SciPy's quad.
 const ABOVE_SHIFT: f64 = 1.952_210_448_109_6e-5;
 
-/// Names of the rates of a fit.
-const NAMES: [&str; 5] = [
-    "median",
-    "dispersion",
-    "probability",
-    "frequency",
-    "frequency-above-shift",
-];
-
 /// What is judged.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -97,9 +88,9 @@ pub fn coverage_of_fits(context: &Context, answer: &mut Reply) -> Result<()> {
         suite.fit_holds(context.wrong, index)
     };
     let found = self::trials(trials, trial)?;
-    for (k, name) in NAMES.iter().enumerate() {
-        let held: Vec<bool> = found.iter().map(|held| held[k]).collect();
-        answer.put(name, [share(&held)], [0.95]);
+    for k in 0..5 {
+        let held: Vec<bool> = found.iter().map(|held| held[k].1).collect();
+        answer.put(found[0][k].0, [share(&held)], [0.95]);
     }
     Ok(())
 }
@@ -165,13 +156,12 @@ impl Simulated {
         Ok(found.median.interval().is_some_and(|ends| ends.holds(1.0)))
     }
 
-    /// Whether the intervals of a fit hold the truths, in the order of
-    /// [`NAMES`].
+    /// Whether the intervals of a fit hold the truths, by name.
     fn fit_holds(
         &self,
         wrong: Option<WrongModel>,
         seed: u64,
-    ) -> Result<[bool; 5]> {
+    ) -> Result<[(&'static str, bool); 5]> {
         const AT: f64 = 0.7;
         let sample = CensoredSample::try_new(&self.values(), &[])?;
         let options = FitOptions {
@@ -236,11 +226,11 @@ impl Simulated {
             Ok(holds(Some(own.annual_frequency), &drawn, truth))
         };
         Ok([
-            of_law(Lognormal::median, 1.0),
-            of_law(Lognormal::dispersion, DISPERSION),
-            holds(Some(band), &drawn, truth),
-            frequency(0.0, cornell)?,
-            frequency(1.0, ABOVE_SHIFT)?,
+            ("median", of_law(Lognormal::median, 1.0)),
+            ("dispersion", of_law(Lognormal::dispersion, DISPERSION)),
+            ("probability", holds(Some(band), &drawn, truth)),
+            ("frequency", frequency(0.0, cornell)?),
+            ("frequency-above-shift", frequency(1.0, ABOVE_SHIFT)?),
         ])
     }
 }

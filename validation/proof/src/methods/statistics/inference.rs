@@ -92,9 +92,7 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
             let truth = sum / found.len() as f64;
             found.into_iter().map(|(_, ends)| hold(ends, truth)).collect()
         }
-        measure => {
-            self::trials(trials, |trial| Ok(suites.holds(trial, measure)))?
-        }
+        measure => self::trials(trials, |trial| suites.holds(trial, measure))?,
     };
     answer.put("rate", [share(&held)], [nominal]);
     Ok(())
@@ -178,9 +176,9 @@ impl Trials {
         found.and_then(|found| found.estimate.interval())
     }
 
-    fn holds(&self, trial: u64, measure: IntervalMeasure) -> bool {
+    fn holds(&self, trial: u64, measure: IntervalMeasure) -> Result<bool> {
         let scores = self.scores(trial);
-        match measure {
+        Ok(match measure {
             IntervalMeasure::CellShare => self.share(trial, &scores),
             IntervalMeasure::FewSurvivors => {
                 // Some of each large earthquake.
@@ -188,9 +186,7 @@ impl Trials {
                 let values: Vec<f64> =
                     scores[0].iter().copied().step_by(step).collect();
                 let values = &values[..SURVIVORS];
-                let Ok(sample) = ExtendedSample::try_new(values) else {
-                    return false;
-                };
+                let sample = ExtendedSample::try_new(values)?;
                 let narrow = self.wrong == Some(WrongModel::OtherInterval);
                 let level = if narrow { 0.75 } else { LEVEL };
                 let found = median_interval(&sample, level);
@@ -210,7 +206,7 @@ impl Trials {
                 let of = |counts: &[u32]| cell.median(counts);
                 hold(self.by_bootstrap(trial, Range::NotNegative, of), 1.0)
             }
-        }
+        })
     }
 
     /// Whether the interval of the share of cells within 5 % holds it.

@@ -73,9 +73,8 @@ fn load(family: &str, text: &str) -> Result<Vec<Case>, CaseFault> {
             let mut case = defaults.complete(case)?;
             for (key, value) in [("family", family), ("kind", kind)] {
                 if case.insert(key.into(), value.into()).is_some() {
-                    return Err(CaseFault::Form(format!(
-                        "unknown field `{key}`"
-                    )));
+                    let message = format!("unknown field `{key}`");
+                    return Err(CaseFault::Form(message));
                 }
             }
             let mut case = typed_case(case).map_err(CaseFault::Form)?;

@@ -174,12 +174,10 @@ fn with_core_scene<R>(
         }
     };
     let scene = integrator::Scene {
-        block,
-        restitution,
         model: scene.model,
         overturning: scene.overturning,
-        excitation,
         initial_ratio,
+        ..integrator::Scene::new(block, restitution, excitation)
     };
     run(&scene).map_err(|error| match error {
         SceneError::Work { .. } => EngineError::Work(error.to_string()),

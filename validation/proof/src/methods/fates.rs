@@ -93,10 +93,9 @@ impl SceneInput {
             scene.forcing.scale(*factor);
             scene
         };
-        Ok(match self.factors.as_slice() {
-            [] => vec![scene],
-            factors => factors.iter().map(scaled).collect(),
-        })
+        let none = self.factors.is_empty();
+        let factors = if none { &[1.0] } else { &self.factors[..] };
+        Ok(factors.iter().map(scaled).collect())
     }
 }
 
@@ -170,8 +169,7 @@ pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
         "ordinary" => rocking_synthesis::ordinary(),
         "pulse" => rocking_synthesis::pulse(),
         other => bail!("suite `{other}`"),
-    };
-    let suite = suite?;
+    }?;
     let mut differences = Vec::new();
     for pair in &suite {
         let record = &pair.components[0];

@@ -30,18 +30,17 @@ pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     let trace = context.engine.respond(&scene)?;
     let first = context.engine.respond(&scene.to(Overturning::Alpha))?;
 
-    let mut put = |name: &str, found, due| {
-        put_time(answer, name, found, due, p);
-    };
     let uplift = due.uplifts.first();
-    put("uplift-time-p", trace.uplift_s, uplift.map(|u| u.t));
-    put("rest-time-p", trace.rest_s, due.rest_times.last().copied());
+    let at = uplift.map(|u| u.t);
+    put_time(answer, "uplift-time-p", trace.uplift_s, at, p);
+    let rest = due.rest_times.last().copied();
+    put_time(answer, "rest-time-p", trace.rest_s, rest, p);
     let half_pi = due.overturned(Overturning::HalfPi);
-    put("half-pi-time-p", trace.overturned_s, half_pi);
+    put_time(answer, "half-pi-time-p", trace.overturned_s, half_pi, p);
     let alpha = due.overturned(Overturning::Alpha);
-    put("alpha-time-p", first.overturned_s, alpha);
+    put_time(answer, "alpha-time-p", first.overturned_s, alpha, p);
     if half_pi.is_none() {
-        put("peak-time-p", trace.peak_time_s, due.t_peak);
+        put_time(answer, "peak-time-p", trace.peak_time_s, due.t_peak, p);
         let peak = due.peak().map(|peak| peak.near);
         answer.put("peak-ratio", [trace.peak_ratio], peak);
     }
@@ -107,20 +106,18 @@ pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     let trace = run(Overturning::HalfPi)?;
     answer.put("side", [trace.first_side], [-1.0]);
     answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [0.0]);
-    let mut put = |name: &str, found, due| {
-        put_time(answer, name, found, due, p);
-    };
     let half_pi = case.overturned(Overturning::HalfPi);
     if half_pi.is_some() {
-        put("half-pi-time-p", trace.overturned_s, half_pi);
+        put_time(answer, "half-pi-time-p", trace.overturned_s, half_pi, p);
         let alpha = case.overturned(Overturning::Alpha);
         let first = run(Overturning::Alpha)?;
-        put("alpha-time-p", first.overturned_s, alpha);
+        put_time(answer, "alpha-time-p", first.overturned_s, alpha, p);
         return Ok(());
     }
-    put("peak-time-p", trace.peak_time_s, case.t_peak);
+    put_time(answer, "peak-time-p", trace.peak_time_s, case.t_peak, p);
     if case.settling_time.is_some() {
-        put("rest-time-p", trace.rest_s, case.settling_time);
+        let due = case.settling_time;
+        put_time(answer, "rest-time-p", trace.rest_s, due, p);
     }
     answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&case.impacts, p));
     let peak = case.peak_over_alpha.map(|peak| peak.near);

@@ -61,7 +61,7 @@ fn errors<N: Real>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
                 true
             }
         };
-        wrong += f64::from(u8::from(!right));
+        wrong += f64::from(!right);
     }
     Ok((worst, wrong))
 }
@@ -88,30 +88,28 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
                 let mut stream = streams.stream(0);
                 let mut answers = Answers::none();
                 for (place, item) in set.items.iter().enumerate() {
-                    let value = right(place, item).map(|value| match value {
-                        Value::Number(x) => Value::Number(
-                            x * (1.0 + scatter * standard_normal(&mut stream)),
-                        ),
-                        other => other,
-                    });
+                    let mut value = right(place, item);
+                    if let Some(Value::Number(x)) = &mut value {
+                        *x *= 1.0 + scatter * standard_normal(&mut stream);
+                    }
                     answers.set(place, value);
                 }
                 answers
             };
         let own = noisy("right", &|place, _| right.get(place).cloned());
         let none = diagnose(&own, &[]).verdict == CodeVerdict::None;
-        answer.see("right-code-told-none", [f64::from(u8::from(none))]);
+        answer.see("right-code-told-none", [f64::from(none)]);
         let (mut named, mut guessed, mut singles) = (0.0, 0.0, 0.0);
         for (model, name) in set.models.iter().enumerate() {
             let own = noisy(name, &|_, item| item.wrong[model].clone());
             let found = diagnose(&own, &[]);
             let good = names(&found) == [name.clone()];
-            named += f64::from(u8::from(good));
+            named += f64::from(good);
             if !name.contains('+') {
                 let found = diagnose(&own, &[name.as_str()]);
                 let other =
                     found.explanations.iter().any(|one| one.factor.is_none());
-                guessed += f64::from(u8::from(other));
+                guessed += f64::from(other);
                 singles += 1.0;
             }
         }
@@ -128,7 +126,7 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
                 seen(&set.scenes[item.scene], runs[item.scene].as_ref()?, item)
             });
             let found = names(&diagnose(&own, &[]));
-            good += f64::from(u8::from(found == [wrong.name()]));
+            good += f64::from(found == [wrong.name()]);
         }
         answer
             .see("models-of-the-harness-named", [good / altered.len() as f64]);

@@ -110,13 +110,9 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
         let expected = row.numbers::<5>(2)?;
         answer.put(&name.replace('_', "-"), found.iter().map(value), expected);
     }
-    let late = context.is(WrongModel::LatePulsesKept);
-    let chosen = if late {
-        found.iter().find(|c| c.indicator > 0.0)
-    } else {
-        pulse(&found)
-    };
-    let is = f64::from(u8::from(chosen.is_some()));
+    let late = found.iter().find(|c| c.indicator > 0.0);
+    let chosen = context.or(WrongModel::LatePulsesKept, late, pulse(&found));
+    let is = f64::from(chosen.is_some());
     answer.see("pulse-like", [is]);
     if let Some(shown) = chosen.or(found.first()) {
         let known = shown.period_s * input.frequency_hz;

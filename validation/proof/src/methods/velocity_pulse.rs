@@ -82,19 +82,13 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     let input: PulseInput = context.input()?;
     let (sin, cos) = libm::sincos(input.angle_deg.to_radians());
     let first = input.component(cos, 1.0)?;
-    let second = match context.wrong {
-        Some(WrongModel::OneComponent) => {
-            Accelerogram::try_new("case", SAMPLES.0, vec![0.0; SAMPLES.1])?
-        }
-        _ => input.component(sin, 2.0)?,
-    };
+    let silent =
+        Accelerogram::try_new("case", SAMPLES.0, vec![0.0; SAMPLES.1])?;
+    let second = input.component(sin, 2.0)?;
+    let second = context.or(WrongModel::OneComponent, silent, second);
     // PGV enters in cm/s.
-    let gravity_m_s2 = context.or(
-        WrongModel::VelocityInMS,
-        0.01 * STANDARD_GRAVITY_M_S2,
-        STANDARD_GRAVITY_M_S2,
-    );
-    let found = candidates(&first, &second, gravity_m_s2)?;
+    let unit = context.or(WrongModel::VelocityInMS, 0.01, 1.0);
+    let found = candidates(&first, &second, unit * STANDARD_GRAVITY_M_S2)?;
     let quantities: [(&str, PulseQuantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),

@@ -15,15 +15,12 @@ pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
     let values = row.list(4, ' ')?;
     let sample = Sample::try_new(&values)?;
     let n = values.len() as f64;
-    let squares = match context.wrong {
-        // One pass, sum x^2 - (sum x)^2/n.
-        Some(WrongModel::SumOfSquares) => {
-            let (sum, square) =
-                values.iter().fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
-            square - sum * sum / n
-        }
-        _ => sample.sum_of_squares(),
-    };
+    // One pass, sum x^2 - (sum x)^2/n.
+    let (sum, square) =
+        values.iter().fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
+    let pass = square - sum * sum / n;
+    let right = sample.sum_of_squares();
+    let squares = context.or(WrongModel::SumOfSquares, pass, right);
     let divisor = context.or(WrongModel::OtherDivisor, n, n - 1.0);
     let deviation = (squares / divisor).sqrt();
     let quantities =

@@ -28,12 +28,8 @@ pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
     for row in RISK.rows(&curve)? {
         let [shift, mu, beta, covered, low, high] = row.numbers(1)?;
         let right = Lognormal::try_new(shift, mu, beta)?;
-        let fragility = match context.wrong {
-            Some(WrongModel::WithoutShift) => {
-                Lognormal::try_new(0.0, log(right.median()), beta)?
-            }
-            _ => right,
-        };
+        let unshifted = Lognormal::try_new(0.0, log(right.median()), beta)?;
+        let fragility = context.or(WrongModel::WithoutShift, unshifted, right);
         let found = hazard.annual_frequency(fragility);
         let least = context.or(
             WrongModel::NothingBeyond,
@@ -61,14 +57,11 @@ pub fn total(context: &Context, answer: &mut Reply) -> Result<()> {
             let [shift, mu, beta, bias, s, x, value] = row.numbers(1)?;
             let records = Lognormal::try_new(shift, mu, beta)?;
             let right = TotalFragility::try_new(records, bias, s)?;
-            let model = match context.wrong {
-                // The part above the onset alone has the larger dispersion.
-                Some(WrongModel::ErrorAboveTheShift) => {
-                    let both = libm::hypot(beta, s);
-                    Lognormal::try_new(shift, mu, both)?.scaled(bias)?.into()
-                }
-                _ => right,
-            };
+            // The part above the onset alone has the larger dispersion.
+            let above = Lognormal::try_new(shift, mu, libm::hypot(beta, s))?;
+            let above = above.scaled(bias)?.into();
+            let model =
+                context.or(WrongModel::ErrorAboveTheShift, above, right);
             let found = match what {
                 "cdf" => model.cdf(x),
                 "quantile" => model.quantile(x),
@@ -97,10 +90,9 @@ pub fn cornell(context: &Context, answer: &mut Reply) -> Result<()> {
             [at(-k * beta - 12.0), median, at(12.0)].map(|x| (x, hazard(x)));
         let curve = HazardCurve::try_new(&points)?;
         let fragility = Lognormal::try_new(0.0, log(median), beta)?;
-        let found = match context.wrong {
-            Some(WrongModel::HazardAtTheMedian) => hazard(median),
-            _ => curve.annual_frequency(fragility).truncation_lower,
-        };
+        let right = curve.annual_frequency(fragility).truncation_lower;
+        let wrong = WrongModel::HazardAtTheMedian;
+        let found = context.or(wrong, hazard(median), right);
         let closed = hazard(median) * exp(0.5 * k * k * beta * beta);
         answer.put("annual-frequency", [found], [closed]);
     }
@@ -144,17 +136,12 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
         let drawn =
             records.estimate(whole.score(x), &column, how, range, LEVEL);
         let (low, high) = drawn.context("no interval")?.estimate.ends();
-        let found = match context.wrong {
-            Some(WrongModel::KnownDispersion) => {
-                let wide = normal::quantile(0.5 * (1.0 + LEVEL));
-                2.0 * wide / (n as f64).sqrt()
-            }
-            _ => {
-                let delta = whole.estimate_of_cdf(n, x, LEVEL);
-                let (low, high) = delta.map(normal::quantile).ends();
-                high - low
-            }
-        };
+        let wide = normal::quantile(0.5 * (1.0 + LEVEL));
+        let known = 2.0 * wide / (n as f64).sqrt();
+        let delta = whole.estimate_of_cdf(n, x, LEVEL);
+        let ends = delta.map(normal::quantile).ends();
+        let found =
+            context.or(WrongModel::KnownDispersion, known, ends.1 - ends.0);
         answer.put("width", [found], [high - low]);
     }
     Ok(())

@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use rocking_statistics::streams::Streams;
 
 use crate::scene::EngineError;
+pub(crate) use compare::WORK;
 pub(crate) use draw::Draw;
 use rocking::names::named;
 pub(crate) use search::moved;

@@ -9,7 +9,7 @@ use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
 use rocking::integrator::{
     self, Assessment, Certify, Impact, Observe, Outcome, Scene, Solver,
-    WorkLimit, certify, respond_precise, uplift_threshold,
+    certify, respond_precise, uplift_threshold,
 };
 use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
@@ -18,16 +18,13 @@ use rocking::number::octuple::Octuple;
 use super::memo::Memo;
 use super::method::{Context, Reply, WrongModel};
 use crate::scene::Forcing;
-use crate::trials::{Stratum, trial};
+use crate::trials::{Stratum, WORK, trial};
 
 /// Difference of a peak ratio that counts as another peak.
 const ANOTHER: f64 = 1e-6;
 
 /// Rough estimate from which on an analysis is flagged.
 const FLAGGED: f64 = 2.5e-3;
-
-/// Work of a run in wider arithmetic.
-const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// A level in every way in which it is analysed.
 #[derive(Clone)]

@@ -98,6 +98,7 @@ impl Counts {
         let right = due.is(&response.outcome, error);
         let fate: CertifiedFate = certify(scene)?;
         let bound = fate.error.unwrap_or(f64::INFINITY);
+        let certified = due.is(&fate.outcome, bound);
         let surely = fate.resolved && fate.resolved_for_inputs;
         for (name, is) in [
             ("runs", true),
@@ -105,10 +106,7 @@ impl Counts {
             ("wrong-and-clear", clear && !right),
             ("wrong-and-unresolved", !clear && !right),
             ("certified-open", !fate.resolved),
-            (
-                "certified-wrong",
-                fate.resolved && !due.is(&fate.outcome, bound),
-            ),
+            ("certified-wrong", fate.resolved && !certified),
             // Inputs that round to the same doubles have more than one fate.
             ("wrong-for-all-inputs", surely && !one_fate),
         ] {

@@ -128,14 +128,12 @@ pub fn exclusions(context: &Context, answer: &mut Reply) -> Result<()> {
         let odd = (trace.impacts.len() % 2) as f64;
         let side = trace.first_side * (1.0 - 2.0 * odd);
         let over = trace.overturned_s.is_some();
-        let fate = match context.wrong {
-            Some(WrongModel::EnergyWhicheverWay) if due.passes => end.side,
-            Some(WrongModel::EnergyWhicheverWay) => 0.0,
-            Some(WrongModel::AngleAlone) if end.y > alpha => end.side,
-            Some(WrongModel::AngleAlone) => 0.0,
-            _ if over => side,
-            _ => 0.0,
+        let (falls, side) = match context.wrong {
+            Some(WrongModel::EnergyWhicheverWay) => (due.passes, end.side),
+            Some(WrongModel::AngleAlone) => (end.y > alpha, end.side),
+            _ => (over, side),
         };
+        let fate = if falls { side } else { 0.0 };
         answer.put("overturned-side", [fate], [due.overturned]);
         let speed = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals);

@@ -146,7 +146,8 @@ pub fn truth(trial: &Trial) -> Result<WideTruth, EngineError> {
 }
 
 /// Work of a run in wider arithmetic: a step there takes up to a millisecond.
-const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
+pub(crate) const WORK: WorkLimit =
+    WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// The truth by one arithmetic.
 fn by<N: Real>(trial: &Trial) -> Result<WideTruth, EngineError> {

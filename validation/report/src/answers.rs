@@ -274,13 +274,12 @@ pub(super) fn rows(
     };
     let (fast, rate) = timings.speed();
     let (one, spread) = LawCells::kept()?.answer()?;
+    let is_drawn = figures.iter().any(|f| f.heading.name == "law");
+    let drawn = is_drawn.then_some(("law", "figure")).into_iter();
+    let drawn: Vec<(&str, &str)> =
+        drawn.chain([("law-of-avgsa", "annex")]).collect();
     let others = [
-        row(
-            "Is there one curve for all blocks?",
-            one,
-            spread,
-            &[("law", "figure"), ("law-of-avgsa", "annex")],
-        ),
+        row("Is there one curve for all blocks?", one, spread, &drawn),
         row(
             "How sure are integrator and model?",
             format!("{} The model: {}.", sure(proof, lead), tests.right()),

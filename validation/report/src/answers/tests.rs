@@ -148,7 +148,7 @@ fn a_clause_that_is_not_true_is_left_out() {
         results.iter_mut().for_each(|result| result.seen = seen);
         asked.answer(&claims).0
     };
-    assert!(said(Seen::No).contains("notch rejects 1"));
+    assert!(said(Seen::No).contains("notch rejects"));
     assert!(!said(Seen::Yes).contains("notch"));
 }
 

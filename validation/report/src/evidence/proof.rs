@@ -235,9 +235,8 @@ impl fmt::Display for Proof {
             f,
             "By the results handed in ({}): {} of {} declared cases pass \
              against closed forms, trajectories with 36 digits and other \
-             oracles, found by `rocking verify`, not by this study; of the \
-             {} numbers compared half use less than {:.0e} of their \
-             tolerance.",
+             oracles, not by this study; of the {} numbers compared half use \
+             less than {:.0e} of their tolerance.",
             self.place,
             self.passed(),
             self.results.len(),

@@ -259,9 +259,8 @@ impl LawCells {
              and a single cosine, against the frequency of the pulse over p.",
         );
         let heading = Heading { place: Place::Answers, ..heading };
-        let reading = "Lognormals of 15 blocks under seven suites, five of \
-                       them recorded. (c) Why: AvgSA at overturning by one \
-                       pulse.";
+        let reading = "Lognormals of 15 blocks under seven suites, five \
+                       recorded. (c) AvgSA at overturning by one pulse.";
         Ok(Chart { heading, panels, columns: 3 }.figure(reading))
     }
 

@@ -103,7 +103,7 @@ impl Theme {
             }
             Self::Beyond => {
                 "Beyond the paper: the rest of the slenderness, and the \
-                 paper's sentences on average spectral acceleration"
+                 paper's sentences on AvgSA"
             }
         }
     }

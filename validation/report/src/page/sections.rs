@@ -148,12 +148,6 @@ fn limits(page: &Page<'_>) -> Markup {
     let credibility = credibility::assessment(results, *proof, basis, words);
     html! {
         @for words in limits_of(results) { p { (words) } }
-        @if study.answers.iter().any(|q| q.id == "suites") {
-            p {
-                "How the embedded suites differ from recorded ones: "
-                a href="#suites-by-block" { "annex" } "."
-            }
-        }
         p {
             "The model leaves out " (answers::LEFT_OUT) "."
         }

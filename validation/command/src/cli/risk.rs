@@ -31,7 +31,8 @@ use rocking_draw::figures::of_suite::risk_svg;
 /// intensity between its points. Lower and upper are bounds of its truncation
 /// at the last point. The 95 % interval holds the choice of the records, by a
 /// bootstrap that draws earthquakes where they are known, and the error of the
-/// model; a fragility of --median has that only if it is given.
+/// model; a fragility of --median has that only if it is given. Several curves
+/// in SA make one in AvgSA.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "law", "blocks"]))]
@@ -42,16 +43,12 @@ use rocking_draw::figures::of_suite::risk_svg;
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
     rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
-    --alpha 0.15 --p 3\n  \
-    rocking risk --hazard avgsa.csv --law --alpha 0.15 --p 3")]
+    --alpha 0.15 --p 3")]
 pub struct RiskCommand {
-    /// Hazard curve, CSV; `-` is standard input. Several in SA make one in
-    /// AvgSA, with --correlation.
+    /// Hazard curve, CSV; `-` is standard input; again for SA(T) of others.
     #[arg(long, value_name = "HAZARD.csv", required = true)]
     hazard: Vec<PathBuf>,
-    /// Of several --hazard in SA: mean correlation of ln SA over all pairs of
-    /// periods, and dispersion of SA given the earthquake; 1, perfect
-    /// correlation, is the upper bound.
+    /// Of --hazard in SA: mean correlation, dispersion; 1: upper bound.
     #[arg(long, value_name = "R,S")]
     correlation: Option<SpectralCorrelation>,
     #[command(flatten)]

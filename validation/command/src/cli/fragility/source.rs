@@ -46,8 +46,7 @@ pub struct SourceArgs {
         conflicts_with_all = ["sample", "ida"]
     )]
     counts: Vec<PathBuf>,
-    /// By the law of AvgSA, without an analysis, at these EDP levels; inf:
-    /// overturning.
+    /// By the law of AvgSA at these EDP levels; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",

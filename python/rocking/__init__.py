@@ -22,7 +22,7 @@ capacities                `fit_fragility`, `test_normality`, `summarise`,
                           `compare`, `contrast`
 counts of stripes         `fit_stripes`
 a record                  `response_spectrum`, `intensity_measures`,
-                          `rotd`, `velocity_pulse`
+                          `average_sa`, `rotd`, `velocity_pulse`
 an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
                           `pivot_forces`; `rank_ims`
 a table of `rocking ida`  `read_ida`
@@ -50,8 +50,8 @@ from ._assess import AssessedObject, Assessment, Floor, Object, assess
 from ._fragility import (
     BlockFragility,
     Hazard,
+    LawFragility,
     Risk,
-    SurfaceFragility,
     export,
     law_fragility,
     read_hazard,
@@ -70,6 +70,7 @@ from ._inputs import (
     recorded_suite,
 )
 from ._measures import (
+    average_sa,
     intensity_measures,
     response_spectrum,
     rotd,
@@ -133,6 +134,7 @@ __all__ = [
     "Ida",
     "IdaSummary",
     "ImCurves",
+    "LawFragility",
     "LevelCapacities",
     "LevelCrossings",
     "LevelFit",
@@ -153,11 +155,11 @@ __all__ = [
     "StripeResponses",
     "Suite",
     "Summary",
-    "SurfaceFragility",
     "TestComparison",
     "VelocityPulse",
     "__version__",
     "assess",
+    "average_sa",
     "cloud",
     "compare",
     "compare_with_tests",

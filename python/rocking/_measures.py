@@ -80,6 +80,25 @@ def response_spectrum(
     return np.reshape(found.spectral_acceleration_g, times.shape)
 
 
+def average_sa(record: Record, p: float) -> float:
+    """Average spectral acceleration over the periods of a block, in g.
+
+    The geometric mean of SA(T, 5 %) over twelve periods T in equal ratios from
+    0.15 to 1.0 times 2 pi/p: the measure "avgsa:rocking" of `Ida.against`.
+
+    Parameters
+    ----------
+    record : Record
+    p : float
+        Frequency parameter of the block in rad/s.
+
+    >>> step = Record([0.1] * 9, 0.5, units="g")
+    >>> round(average_sa(step, 3.0), 3)
+    0.176
+    """
+    return _rocking.average_sa(given(record), number(p, "p"))
+
+
 def rotd(
     first: Record,
     second: Record,

@@ -207,6 +207,7 @@ def cloud(
     replicates: int,
     seed: int,
 ) -> str: ...
+def average_sa(record: Given, p: float) -> float: ...
 def intensity_measures(
     record: Given,
     second: tuple[Given, float] | None,

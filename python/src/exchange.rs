@@ -12,8 +12,8 @@ use rocking_procedures::fragility::hazard::{
 use rocking_procedures::model_error::ModelErrorFault;
 use rocking_procedures::{
     BootstrapFits, DispersionRule, Draws, FitOptions,
-    FragilityInput as ProcedureInput, ModelError, Shift,
-    law_fragility, risk as procedure,
+    FragilityInput as ProcedureInput, ModelError, Shift, law_fragility,
+    risk as procedure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;

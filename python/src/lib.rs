@@ -47,7 +47,9 @@ mod _rocking {
     #[pymodule_export]
     use crate::ida::{IdaCurves, PyIdaTable, ida, ida_of_csv, read_ida};
     #[pymodule_export]
-    use crate::measures::{cloud, intensity_measures, velocity_pulse};
+    use crate::measures::{
+        average_sa, cloud, intensity_measures, velocity_pulse,
+    };
     #[pymodule_export]
     use crate::mechanics::respond;
     #[pymodule_export]

@@ -19,6 +19,18 @@ use crate::given::{ExcitationInput, block_of, record_of, suite_of};
 use crate::procedures::answer;
 use crate::work::{self, refuse};
 
+/// AvgSA of a record over the periods of a block, in g.
+#[pyfunction]
+pub fn average_sa(record: ExcitationInput<'_>, p_rad_s: f64) -> PyResult<f64> {
+    let record = record_of(record)?;
+    let im = IntensityMeasure::RockingSa(None).of_block(p_rad_s);
+    let gravity_m_s2 = Settings::default().gravity_m_s2();
+    let settings = Settings::of(gravity_m_s2, [&im]).map_err(refuse)?;
+    let found = Measures::of(&record, &settings).map_err(refuse)?;
+    let value = im.value(&found, settings.periods_s());
+    value.ok_or_else(|| refuse(format!("p {p_rad_s}: expected 0.001 to 1000")))
+}
+
 /// The measures of one component, or a percentile of those of two over all
 /// directions.
 #[pyfunction]

@@ -94,7 +94,7 @@ def average_sa(record: Record, p: float) -> float:
 
     >>> step = Record([0.1] * 9, 0.5, units="g")
     >>> round(average_sa(step, 3.0), 3)
-    0.176
+    0.185
     """
     return _rocking.average_sa(given(record), number(p, "p"))
 

@@ -261,6 +261,16 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 "model_bias": "fitted",
             },
         ),
+        "law_fragility": (
+            rk.law_fragility,
+            {"block": BLOCK},
+            {
+                "eta": "housner",
+                "edp": 0.5,
+                "model_dispersion": 0.1,
+                "model_bias": "fitted",
+            },
+        ),
         "export": (
             rk.export,
             {"blocks": [VELOCITY], "format": "csv"},

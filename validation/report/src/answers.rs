@@ -283,12 +283,7 @@ pub(super) fn rows(
         row(
             "How sure are integrator and model?",
             format!("{} The model: {}.", sure(proof, lead), tests.right()),
-            format!(
-                "{}; {}; {}",
-                timings.error(),
-                basis.open(),
-                tests.right_each()
-            ),
+            format!("{}; {}", timings.error(), tests.right_each()),
             &[("evidence", "proof"), SHAKING],
         ),
         row("Is it fast?", fast, rate, &[("speed", "speed")]),

@@ -82,9 +82,13 @@ impl RockTests {
         PlainTable::new(
             "test-choices",
             "Other choices of the block and the motions",
-            "Bias: median of measured over computed \
-             capacity, 1 where alpha is fitted. Fitted anew in each row \
-             unless alpha is rounded.",
+            format!(
+                "Bias: median of measured over computed capacity, 1 where \
+                 alpha is fitted. Fitted anew in each row unless alpha is \
+                 rounded. In {} tests the stated PGA, a target, is more than \
+                 10 % off the measured one.",
+                self.targets
+            ),
             &header,
             known.map(|(c, r)| row(c, r)).into_iter().chain(varied).collect(),
         )

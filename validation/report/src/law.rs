@@ -180,9 +180,8 @@ impl LawCells {
             "dispersion {s_low:.2} to {s_high:.2}; p {p_low} to {p_high} \
              rad/s, alpha {alpha_low} to {alpha_high}, eta {eta_low} to \
              {eta_high}; six other suites: {} of {all} cells within 15 %, {} \
-             open, {} off; tests over the law {}",
+             off; tests over law {}",
             cells.holds,
-            cells.open,
             cells.fails,
             rocks.join(" and ")
         );

@@ -53,8 +53,8 @@ impl Coverage {
         let own = self.rows.iter().filter(|row| row.1 == LEVEL);
         let (low, high) = range(own.map(|row| row.2));
         format!(
-            "Coverage. In simulated suites, whose truth is known, intervals \
-             of 90 % hold it in {} to {}: the annex says which.",
+            "Coverage. Intervals of 90 % hold the known truth of {} to {} of \
+             simulated suites (annex).",
             percent(low, 1),
             percent(high, 1)
         )

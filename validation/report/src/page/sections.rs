@@ -164,14 +164,12 @@ fn limits(page: &Page<'_>) -> Markup {
 /// Limits that the records set.
 pub(crate) fn limits_of(results: &StudyResults) -> Vec<&'static str> {
     let mut out = vec![
-        "The paper does not list its records; these suites are like its \
-         suites, not the same.",
+        "The paper does not list its records: these suites are not its suites.",
     ];
     if results.embedded() {
         out.push(
-            "The embedded suites are synthetic, from published relations; \
-             they can show how the procedure works, not what recorded \
-             motions do.",
+            "The embedded suites are synthetic: they show how the procedure \
+             works, not what recorded motions do.",
         );
     }
     out

@@ -1,5 +1,7 @@
 //! The law of average spectral acceleration beside the analyses that are kept.
 
+use std::collections::BTreeMap;
+
 use anyhow::Context as _;
 use rocking::block::Block;
 use rocking_common::table::PlainTable;
@@ -75,6 +77,8 @@ struct PulseCell {
 /// How cells were judged, and the tests on the shaking table.
 #[derive(Deserialize)]
 struct LawJudgement {
+    ln_median: BTreeMap<String, f64>,
+    ln_dispersion: BTreeMap<String, f64>,
     cells: LawCounts,
     rocks: Vec<RockRatio>,
 }
@@ -161,7 +165,7 @@ impl LawCells {
         let (pga_low, pga_high) =
             range(self.in_range().filter_map(|c| c.pga_median));
         let (s_low, s_high) = range(laws.iter().map(|l| l.record_dispersion));
-        let LawJudgement { cells, rocks } = &self.judged;
+        let LawJudgement { cells, rocks, .. } = &self.judged;
         let all = cells.holds + cells.open + cells.fails;
         let (alpha_low, alpha_high) = SLENDERNESS_RANGE_RAD;
         let (eta_low, eta_high) = RESTITUTION_RANGE;
@@ -170,22 +174,43 @@ impl LawCells {
             .map(|r| format!("{:.2}", r.measured_over_law))
             .collect();
         let answer = format!(
-            "Yes, in AvgSA, the mean spectral acceleration over 0.15 to 1.0 \
-             times 2π/p: half of the motions overturn a block at {low:.1} to \
-             {high:.1} g tan α (±{:.0} %); in PGA at {pga_low:.1} to \
+            "Yes, in AvgSA, the geometric mean of SA over 0.15 to 1.0 times \
+             2π/p: half of the motions overturn a block at {low:.1} to \
+             {high:.1} g tan α (error {:.0} %); in PGA at {pga_low:.1} to \
              {pga_high:.0} g tan α.",
             100.0 * error
         );
         let numbers = format!(
-            "dispersion {s_low:.2} to {s_high:.2}; p {p_low} to {p_high} \
-             rad/s, alpha {alpha_low} to {alpha_high}, eta {eta_low} to \
-             {eta_high}; six other suites: {} of {all} cells within 15 %, {} \
-             off; tests over law {}",
+            "p {p_low} to {p_high} rad/s, alpha {alpha_low} to \
+             {alpha_high}, eta {eta_low} to {eta_high}; of {all} cells of six \
+             other suites {} shown within 15 %, {} beyond; dispersion \
+             {s_high:.2} to {s_low:.2}, falling with p; tests of two \
+             rocks {} times the law",
             cells.holds,
             cells.fails,
             rocks.join(" and ")
         );
         Ok((answer, numbers))
+    }
+
+    /// The law as a formula, in a sentence.
+    #[must_use]
+    pub fn formula(&self) -> String {
+        let sum = |terms: &BTreeMap<String, f64>| {
+            let term = |(name, c): (&String, &f64)| match name.as_str() {
+                "1" => c.to_string(),
+                name => format!("{c} {name}"),
+            };
+            terms.iter().map(term).collect::<Vec<_>>().join(" + ")
+        };
+        format!(
+            "The law: ln of median AvgSA/(g tan alpha) = {}; ln of dispersion \
+             = {}; l = ln(p/sqrt 6), d = |theta|/alpha, 1 for overturning. \
+             The error of the median is the root mean square of its \
+             logarithm. The error of the model is not in it.",
+            sum(&self.judged.ln_median),
+            sum(&self.judged.ln_dispersion)
+        )
     }
 
     /// Fragilities of the paper's blocks under all suites.

@@ -76,6 +76,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
     let others =
         others.into_iter().flat_map(|question| answered(question, basis));
     let compared = compared.into_iter().flat_map(|q| q.tables.clone());
+    let law = LawCells::kept()?;
     let requirements =
         ledger::table(proof.map(Proof::results), claims, page.figures)?;
     let mut all = vec![
@@ -108,12 +109,15 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
             compared.collect(),
         )
         .with(page.placed(Place::SuitesByBlock)),
-        Annex::new(
-            "law-of-avgsa",
-            "One curve: the law of AvgSA by suite",
-            vec![LawCells::kept()?.table()?],
-        )
-        .filed(),
+        Annex {
+            text: vec![law.formula()],
+            ..Annex::new(
+                "law-of-avgsa",
+                "One curve: the law of AvgSA by suite",
+                vec![law.table()?],
+            )
+            .filed()
+        },
         Annex::new(
             "others",
             "How do others do?",

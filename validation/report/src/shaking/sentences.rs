@@ -204,8 +204,7 @@ impl RockTests {
              tests, of {} motions, are at hand. The model of each rock is a \
              block with p = {} rad/s, from the scanned volume, and an assumed \
              eta of {}. One angle of each is fitted to these fates: alpha = \
-             {} rad. Intervals here (90 %) draw motions with all their tests; \
-             elsewhere on this page they draw earthquakes.",
+             {} rad. Intervals here (90 %) draw motions with all their tests, not earthquakes.",
             self.motions,
             self.levels,
             first.tests,

@@ -451,11 +451,12 @@ impl FragilitySource {
         let is_own = im.dimensionless().is_none() && self.rows.is_empty();
         let own = self.samples.values().chain(&self.levels);
         let p_rad_s = self.rows.first().map(|r| r.block.frequency_rad_s());
+        let of_row = |of: &IntensityMeasure| {
+            p_rad_s.map_or_else(|| of.clone(), |p| of.of_block(p))
+        };
         for level in own {
-            let of = level.im()?;
-            let of = p_rad_s.map_or_else(|| of.clone(), |p| of.of_block(p));
             if let Some(im_name) = im.name()
-                && !im.is_of(&of)
+                && !im.is_of(&of_row(level.im()?))
             {
                 bail!(
                     "{}: a sample of {}, a hazard curve of {im_name}: \

@@ -56,6 +56,10 @@ fn renewed(
                 )
             }
             "law" => law()?,
+            "law-parts" => {
+                let table = LawCells::kept()?.parts();
+                format!("\n{}\n{}\n", markdown(&table), table.reading)
+            }
             // `.ci/accept` runs `rocking assess` for it.
             "assessment" => old.to_owned(),
             _ => bail!("{page}: results {name:?}"),

@@ -23,6 +23,7 @@ use rocking_common::paper::{
 };
 
 const CELLS: &str = rocking_fixtures::text("law/cells.csv");
+const PARTS: &str = rocking_fixtures::text("law/parts.csv");
 const PULSES: &str = rocking_fixtures::text("law/pulses.csv");
 const LAW: &str = rocking_fixtures::text("law/law.json");
 
@@ -74,6 +75,17 @@ struct PulseCell {
     avgsa: f64,
 }
 
+/// Overturning by a part of the motions of a suite, over the whole.
+#[derive(Deserialize)]
+struct PartCell {
+    suite: String,
+    part: String,
+    p_rad_s: f64,
+    factor_16: f64,
+    factor: f64,
+    factor_84: f64,
+}
+
 /// How cells were judged, and the tests on the shaking table.
 #[derive(Deserialize)]
 struct LawJudgement {
@@ -98,6 +110,7 @@ struct RockRatio {
 /// The kept analyses.
 pub struct LawCells {
     cells: Vec<LawCell>,
+    parts: Vec<PartCell>,
     pulses: Vec<PulseCell>,
     judged: LawJudgement,
 }
@@ -132,6 +145,7 @@ impl LawCells {
     pub fn kept() -> anyhow::Result<Self> {
         Ok(Self {
             cells: parse(CELLS).context("fixtures/law/cells.csv")?,
+            parts: parse(PARTS).context("fixtures/law/parts.csv")?,
             pulses: parse(PULSES).context("fixtures/law/pulses.csv")?,
             judged: serde_json::from_str(LAW).context("law.json")?,
         })
@@ -342,5 +356,42 @@ impl LawCells {
             &header,
             rows,
         ))
+    }
+
+    /// By how much a part of the motions must be scaled further.
+    #[must_use]
+    pub fn parts(&self) -> PlainTable {
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        let mut header = vec!["suite".to_owned(), "part".to_owned()];
+        for cell in &self.parts {
+            let column = format!("p = {}", cell.p_rad_s);
+            if !header.contains(&column) {
+                header.push(column);
+            }
+            let names = [&cell.suite, &cell.part];
+            let own = rows.iter_mut().find(|row| names == [&row[0], &row[1]]);
+            let value = format!(
+                "{:.2} ({:.2} to {:.2})",
+                cell.factor, cell.factor_16, cell.factor_84
+            );
+            match own {
+                Some(row) => row.push(value),
+                None => {
+                    rows.push(vec![names[0].clone(), names[1].clone(), value])
+                }
+            }
+        }
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        PlainTable::new(
+            "law-parts",
+            "The part of a motion that overturns a block",
+            format!(
+                "Factor on the record at the first overturning by this part, \
+                 over that by the whole record: median, and 16 to 84 % of the \
+                 records. alpha = {SHOWN_RAD}, eta = {RESTITUTION}."
+            ),
+            &header,
+            rows,
+        )
     }
 }

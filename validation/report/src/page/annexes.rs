@@ -114,7 +114,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
             ..Annex::new(
                 "law-of-avgsa",
                 "One curve: the law of AvgSA by suite",
-                vec![law.table()?],
+                vec![law.table()?, law.parts()],
             )
             .filed()
         },

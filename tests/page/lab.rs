@@ -135,6 +135,18 @@ fn a_dropped_record_has_the_bits_of_the_program() {
          row.cells[0].textContent === 'Bits').cells[1].textContent",
     );
     assert_eq!(shown, ask("response"));
+    let rows = "document.querySelectorAll('#fragility tbody tr').length";
+    browser.evaluate(&until(&format!("{rows} === 4")));
+    let mut question = scene.clone();
+    question["ask"] = json!("fragility");
+    let law = native(&question);
+    let probability = law["probability"].as_f64().expect("a number");
+    assert!((0.001..0.999).contains(&probability), "{probability}");
+    let percent = format!("{:.1} %", 100.0 * probability);
+    let cell = "[...document.querySelectorAll('#fragility tr')].find((row) \
+                => row.cells[0]?.textContent === 'Probability of \
+                overturning').cells[1].textContent";
+    assert_eq!(browser.evaluate(cell), percent);
     let words = "document.getElementById('ida-words').textContent";
     browser.evaluate("document.getElementById('ida').click()");
     browser.evaluate(&until(&format!("{words}.includes('Bits')")));

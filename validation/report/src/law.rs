@@ -348,10 +348,10 @@ impl LawCells {
             "AvgSA/(g tan alpha) at overturning, by suite and p",
             format!(
                 "Median with its 95 % interval by earthquake, dispersion, and \
-                 whether the median over that of the law lies within 0.87 to \
-                 1.15 (holds), outside (fails), or neither (open). alpha = \
-                 {SHOWN_RAD}, eta = {RESTITUTION}. The law was fitted to the \
-                 first suite."
+                 the verdict: the interval over the median by the law lies \
+                 within 0.87 to 1.15 (holds), outside (fails), or neither \
+                 (open). alpha = {SHOWN_RAD}, eta = {RESTITUTION}. The law was \
+                 fitted to the first suite."
             ),
             &header,
             rows,

@@ -324,6 +324,20 @@ fn risk_by_the_law_under_curves_in_sa_needs_a_stated_correlation() {
     // Perfect correlation is the upper bound.
     assert!(found("1") > 1.1 * found("0.5,0.6"));
     assert!((found("1") / found("0.5,0") - 1.0).abs() < 1e-12);
+    // The coefficient of restitution of each block enters.
+    let table = "id,alpha,p,eta\nshelf,0.1,3,0.85\ncase,0.1,3,\n";
+    fs::write(place.join("blocks.csv"), table).unwrap();
+    let export = "fragility export --law --blocks blocks.csv --format csv \
+                  --out law.csv --json";
+    let found: Value = serde_json::from_str(&answer(&place, export)).unwrap();
+    for (row, eta) in [(0, "0.85"), (1, "0.92")] {
+        let own =
+            format!("fragility law --alpha 0.1 --p 3 --eta {eta} --json");
+        let own: Value = serde_json::from_str(&answer(&place, &own)).unwrap();
+        let own = own["fitted"]["median"].as_f64().unwrap();
+        let median = found["blocks"][row]["median"].as_f64().unwrap();
+        assert!((median / own - 1.0).abs() < 1e-12, "{eta}");
+    }
     refused(&place, risk, "--correlation");
     let short = risk.replace("--hazard long.csv", "--correlation 1");
     refused(&place, &short, "span 0.3142 to 2.094 s");

@@ -3,15 +3,19 @@
 
 use std::collections::BTreeMap;
 
-use rocking::Block;
 use rocking::block::Restitution;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, REFINEMENT, curve};
+use rocking::{Block, accelerogram::Accelerogram};
+use rocking_procedures::assess::{Assumption, Object};
 use rocking_procedures::law::{
     DEMAND_RANGE, FREQUENCY_RANGE_RAD_S, SLENDERNESS_RANGE_RAD,
 };
-use rocking_procedures::{LawFragility, ModelError, law_fragility};
+use rocking_procedures::{
+    AssessOptions, Draws, LawFragility, ModelError, assess, law_fragility,
+};
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
+use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::fit_intervals;
 use serde::Deserialize;
 
@@ -181,4 +185,57 @@ fn a_cell_of_an_embedded_suite_is_found_again() {
     let cell = all.iter().find(is_own).unwrap();
     assert!((fitted.median() / cell.median - 1.0).abs() < 1e-4);
     assert!((fitted.dispersion() / cell.dispersion - 1.0).abs() < 1e-3);
+}
+
+/// `assess` turns the law into PGA by the spectra of the records.
+#[test]
+fn an_assessment_has_the_law_beside_its_answer() {
+    let suite = rocking_synthesis::pulse().unwrap();
+    let records: Vec<Accelerogram> =
+        suite.iter().map(|pair| pair.components[0].clone()).collect();
+    let object = |p_rad_s| Object {
+        id: format!("p{p_rad_s}"),
+        block: Block::try_new(0.2, p_rad_s).unwrap(),
+        restitution: Restitution::constant(0.9).unwrap(),
+        friction: None,
+        limit_ratio: None,
+        floor: None,
+    };
+    let options = AssessOptions {
+        gravity_m_s2: 9.81,
+        hazard: None,
+        years: 50.0,
+        draws: Draws { replicates: 20, seed: 0 },
+        certify: false,
+        model_error: ModelError::none(),
+        recorded_ratios: &[],
+    };
+    let clusters = Clusters::singletons(records.len());
+    let objects = [object(4.0), object(9.0)];
+    let found = assess(&objects, &records, &clusters, &options).unwrap();
+    let row = |k: usize| {
+        let all = &found.objects.iter().find(|o| o.id == objects[k].id);
+        let all = all.unwrap().alternatives.iter();
+        all.filter(|own| own.assumption == Assumption::Law).collect::<Vec<_>>()
+    };
+    // Beyond the range there is no such row.
+    assert!(row(1).is_empty());
+    let [own] = row(0)[..] else { panic!("one row of the law") };
+    let law = law(0.2, 4.0, 0.9, f64::INFINITY);
+    let settings = Settings::of(9.81, [&law.im]).unwrap();
+    let ratio = |record: &Accelerogram| {
+        let measures = Measures::of(record, &settings).unwrap();
+        let average = law.im.value(&measures, settings.periods_s()).unwrap();
+        libm::log(record.pga_g() / average)
+    };
+    let logs: Vec<f64> = records.iter().map(ratio).collect();
+    let n = logs.len() as f64;
+    let mean = logs.iter().sum::<f64>() / n;
+    let squares = logs.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
+    let spread = (squares / (n - 1.0)).sqrt();
+    let fitted = own.answer.fitted.records();
+    let median = law.fitted.median() * libm::exp(mean);
+    assert!((fitted.median() / median - 1.0).abs() < 1e-9);
+    let both = libm::hypot(law.fitted.dispersion(), spread);
+    assert!((fitted.dispersion() / both - 1.0).abs() < 1e-9);
 }

@@ -88,6 +88,7 @@ fn measures_and_pulses_of_a_pair_are_listed() {
     let folder = pair("measures");
     let listed = "records suite.csv --intensity --rotd 50,100 --periods 0.5,1 \
                   --pulses";
+    let own = json(&folder, "records suite.csv --intensity --p 3");
     let json = json(&folder, listed);
     let first = &json["intensity"][0];
     assert!((first["pga_g"].as_f64().unwrap() - 0.2).abs() < 1e-6);
@@ -104,6 +105,13 @@ fn measures_and_pulses_of_a_pair_are_listed() {
     assert_eq!(largest["component"], "RotD100");
     let largest = largest["pga_g"].as_f64().unwrap();
     assert!((largest / 0.2 - f64::sqrt(1.25)).abs() < 1e-4, "{largest}");
+    let sa = own["intensity"][0]["spectral_acceleration_g"].as_array();
+    let logs = sa.unwrap().iter().map(|g| libm::log(g.as_f64().unwrap()));
+    let mean = libm::exp(logs.sum::<f64>() / 12.0);
+    let average = own["intensity"][0]["average_sa_g"].as_f64().unwrap();
+    assert!((average / mean - 1.0).abs() < 1e-12, "{average} {mean}");
+    assert_eq!(own["periods_s"][0], 0.3142);
+    assert!(first["average_sa_g"].is_null());
     let pulses = json["velocity_pulses"].as_array().unwrap();
     let pulse = pulses.iter().find(|row| row["pulse"] == true).unwrap();
     let period = pulse["period_s"].as_f64().unwrap();
@@ -139,6 +147,8 @@ fn what_cannot_be_asked_for_is_refused() {
     for (own, word) in [
         ("--pulses", "two components"),
         ("--periods 1", "--intensity"),
+        ("--intensity --p 0", "--p 0: expected 0.001 to 1000"),
+        ("--intensity --p 3 --periods 1", "cannot be used"),
         ("--intensity --periods -1", "period -1"),
         ("--intensity --periods 0", "period 0"),
     ] {

@@ -216,8 +216,7 @@ fn the_law_of_a_block_needs_no_analysis_and_refuses_what_it_does_not_know() {
     let ratio = number(&found["median_ratio"]) * libm::tan(0.15);
     let fitted = &found["fitted"];
     assert!((number(&fitted["median"]) / ratio - 1.0).abs() < 1e-12);
-    // Both dispersions are in the fragility, and that of the model is in the
-    // total.
+    // The fragility holds both dispersions, the total also the model's.
     let both = libm::hypot(
         number(&found["record_dispersion"]),
         number(&found["law_error"]),

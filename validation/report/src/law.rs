@@ -176,6 +176,7 @@ impl LawCells {
         let laws = laws.collect::<anyhow::Result<Vec<_>>>()?;
         let (low, high) = range(laws.iter().map(|l| l.median_ratio));
         let error = laws.first().map_or(f64::NAN, |l| l.law_error);
+        let (least, most) = range(self.in_range().map(|c| c.median));
         let (pga_low, pga_high) =
             range(self.in_range().filter_map(|c| c.pga_median));
         let (s_low, s_high) = range(laws.iter().map(|l| l.record_dispersion));
@@ -189,9 +190,9 @@ impl LawCells {
             .collect();
         let answer = format!(
             "Yes, in AvgSA, the geometric mean of SA over 0.15 to 1.0 times \
-             2π/p: half of the motions overturn a block at {low:.1} to \
-             {high:.1} g tan α (error {:.0} %); in PGA at {pga_low:.1} to \
-             {pga_high:.0} g tan α.",
+             2π/p: half of the motions overturn a block at {least:.1} to \
+             {most:.1} g tan α (law: {low:.1} to {high:.1}, error {:.0} %); in \
+             PGA at {pga_low:.1} to {pga_high:.0}.",
             100.0 * error
         );
         let numbers = format!(

@@ -18,7 +18,7 @@ use rocking_common::words::rounded_text;
 use rocking_draw::figures::Figure;
 
 /// The questions that claims answer; the file says what its fields are.
-const ASKED: &str = include_str!("../answers.toml");
+const QUESTIONS: &str = include_str!("../answers.toml");
 
 /// A question of a reader that claims answer.
 #[derive(Deserialize)]
@@ -26,32 +26,35 @@ const ASKED: &str = include_str!("../answers.toml");
 struct ReaderQuestion {
     question: String,
     by: Vec<String>,
-    leads: [String; 4],
-    facts: Vec<AnswerFact>,
+    answer: AnswerTexts,
+    #[serde(rename = "number")]
+    numbers: Vec<AnswerNumber>,
     figures: Vec<u32>,
     /// Whether shaking-table tests answer as well.
     #[serde(default)]
     tested: bool,
 }
 
-/// A clause of an answer, with numbers where it has braces.
+/// The sentences of each answer.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct AnswerFact {
-    words: String,
-    /// A claim, and whether it is seen, if that makes it true.
-    when: Option<(String, Seen)>,
-    numbers: Vec<FactNumber>,
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct AnswerTexts {
+    yes: Vec<String>,
+    in_part: Vec<String>,
+    no: Vec<String>,
+    not_testable: Vec<String>,
 }
 
 /// A number of a claim.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FactNumber {
+struct AnswerNumber {
+    /// Its place in the sentences.
+    key: String,
     claim: String,
     /// What is measured, in a few words.
     name: String,
-    /// Which of the yardsticks it is of; the effect where none is named.
+    /// The yardstick that it belongs to; the effect if no yardstick is named.
     count: Option<usize>,
     /// Names of details, of which the largest is shown.
     #[serde(default)]
@@ -62,27 +65,28 @@ struct FactNumber {
     /// Whether a detail is of the paper's own grid.
     #[serde(default)]
     paper: bool,
-    /// Whether the smallest of the suites' numbers stands in the sentence; the
-    /// largest otherwise.
+    /// Whether a sentence has the smallest of the suites' numbers; the largest
+    /// if not.
     #[serde(default)]
     least: bool,
 }
 
-fn asked() -> anyhow::Result<Vec<ReaderQuestion>> {
+fn reader_questions() -> anyhow::Result<Vec<ReaderQuestion>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct QuestionFile {
-        asked: Vec<ReaderQuestion>,
+        question: Vec<ReaderQuestion>,
     }
-    let file: QuestionFile = toml::from_str(ASKED).context("answers.toml")?;
-    Ok(file.asked)
+    let file: QuestionFile =
+        toml::from_str(QUESTIONS).context("answers.toml")?;
+    Ok(file.question)
 }
 
 fn claim<'a>(claims: &'a [Claim], id: &str) -> Option<&'a Claim> {
     claims.iter().find(|claim| claim.id == id)
 }
 
-impl FactNumber {
+impl AnswerNumber {
     /// The number on a suite: its distance from no effect, and its text.
     fn on(
         &self,
@@ -142,23 +146,6 @@ impl FactNumber {
     }
 }
 
-impl AnswerFact {
-    /// The clause, and its numbers; none where it is not true, or lacks data.
-    fn text(&self, claims: &[Claim]) -> Option<(String, Vec<String>)> {
-        if let Some((id, word)) = &self.when {
-            seen(claim(claims, id)?).filter(|found| found == word)?;
-        }
-        let mut words = self.words.clone();
-        let mut listed = Vec::new();
-        for number in &self.numbers {
-            let (value, all) = number.text(claims)?;
-            words = words.replacen("{}", &value, 1);
-            listed.push(all);
-        }
-        Some((words, listed))
-    }
-}
-
 impl ReaderQuestion {
     /// Whether its claims are seen; none without data.
     fn lead(&self, claims: &[Claim]) -> Option<Seen> {
@@ -166,27 +153,33 @@ impl ReaderQuestion {
         own.reduce(Seen::and)
     }
 
-    /// The first words of an answer.
-    fn first(&self, seen: Seen) -> &str {
-        let at = Seen::ALL.iter().position(|own| *own == seen);
-        at.map_or("", |at| &self.leads[at])
+    /// The sentences of an answer.
+    fn sentences(&self, lead: Seen) -> &[String] {
+        match lead {
+            Seen::Yes => &self.answer.yes,
+            Seen::InPart => &self.answer.in_part,
+            Seen::No => &self.answer.no,
+            Seen::NotTestable => &self.answer.not_testable,
+        }
     }
 
-    /// The answer, and its numbers with the blocks that they are of.
+    /// The answer, and its numbers with interval and suite.
     fn answer(&self, claims: &[Claim]) -> (String, String) {
         let Some(lead) = self.lead(claims) else {
             return ("There are no data.".into(), String::new());
         };
-        let (mut facts, mut numbers) = (Vec::new(), Vec::new());
-        for (words, listed) in self.facts.iter().filter_map(|f| f.text(claims))
-        {
-            facts.push(words);
-            numbers.extend(listed);
+        let mut sentences = self.sentences(lead).to_vec();
+        let mut listed = Vec::new();
+        for number in &self.numbers {
+            let Some((value, all)) = number.text(claims) else { continue };
+            for sentence in &mut sentences {
+                *sentence =
+                    sentence.replace(&format!("{{{}}}", number.key), &value);
+            }
+            listed.push(all);
         }
-        let facts = facts.join("; ");
-        let joint = if facts.is_empty() { "" } else { ": " };
-        let lead = self.first(lead);
-        (format!("{lead}{joint}{facts}."), numbers.join("; "))
+        sentences.retain(|sentence| !sentence.contains('{'));
+        (sentences.join(" "), listed.join("; "))
     }
 }
 
@@ -207,9 +200,7 @@ pub(super) struct QuestionAnswer {
     pub question: String,
     /// Whether the claims behind it are seen; none without data.
     pub lead: Option<Seen>,
-    /// The words for that.
-    pub first: String,
-    /// The sentence.
+    /// The sentences.
     pub answer: String,
     numbers: String,
     figures: Vec<u32>,
@@ -219,24 +210,22 @@ pub(super) struct QuestionAnswer {
 /// The questions that claims answer, with their answers.
 ///
 /// # Errors
-/// Where the questions have been damaged.
+/// If the questions have been damaged.
 pub(super) fn answers(
     findings: &Findings,
 ) -> anyhow::Result<Vec<QuestionAnswer>> {
-    let answered = |asked: ReaderQuestion| {
-        let lead = asked.lead(&findings.claims);
-        let (answer, numbers) = asked.answer(&findings.claims);
+    let answered = |own: ReaderQuestion| {
+        let (answer, numbers) = own.answer(&findings.claims);
         QuestionAnswer {
-            lead,
-            first: lead.map_or("No data", |seen| asked.first(seen)).into(),
+            lead: own.lead(&findings.claims),
             answer,
             numbers,
-            question: asked.question,
-            figures: asked.figures,
-            tested: asked.tested,
+            question: own.question,
+            figures: own.figures,
+            tested: own.tested,
         }
     };
-    Ok(asked()?.into_iter().map(answered).collect())
+    Ok(reader_questions()?.into_iter().map(answered).collect())
 }
 
 /// The rows of the first table.
@@ -252,8 +241,11 @@ pub(super) fn rows(
     let (lead, tests) = (basis.lead(), RockTests::kept()?);
     let claimed = answers(lead)?.into_iter().map(|mut own| {
         if own.tested {
-            own.answer += &format!(" {}.", tests.on_fragility());
-            own.numbers += &format!("; {}", tests.below_uplift());
+            own.numbers += &format!(
+                "; {} ({})",
+                tests.on_fragility(),
+                tests.below_uplift()
+            );
         }
         let shown = own.figures.iter().filter_map(|number| {
             let is = |f: &&&Figure| f.heading.number == Some(*number);
@@ -281,39 +273,30 @@ pub(super) fn rows(
     let others = [
         row("Is there one curve for all blocks?", one, spread, &drawn),
         row(
-            "How sure are integrator and model?",
-            format!("{} The model: {}.", sure(proof, lead), tests.right()),
-            format!("{}; {}", timings.error(), tests.right_each()),
-            &[("evidence", "proof"), SHAKING],
+            "How exact and how fast is the computation?",
+            format!("{} {fast}", exact(timings, proof, lead)),
+            format!("{}; {}; {rate}", backed(proof), timings.error()),
+            &[("evidence", "proof"), ("speed", "speed")],
         ),
-        row("Is it fast?", fast, rate, &[("speed", "speed")]),
         row(
             "What was not checked?",
             format!(
-                "What the model leaves out: {LEFT_OUT}; other objects than \
-                 two rocks."
+                "Any object but two granite rocks: with one angle fitted to \
+                 each, the model gives {}. It leaves out {LEFT_OUT}.",
+                tests.right()
             ),
-            not_run(basis),
-            &[("limits", "limits")],
+            format!("{}. {}", tests.right_each(), not_run(basis)),
+            &[SHAKING, ("limits", "limits")],
         ),
         row(
-            "May I sign?",
-            signed(proof, basis.has_recorded(), &tests),
-            format!(
-                "{}; {} are compared{}",
-                backed(proof),
-                tests.counted(),
-                if basis.has_recorded() { REPEATED } else { "" }
-            ),
+            "What may I sign?",
+            signed(proof).into(),
+            repeatable(basis).into(),
             &[("provenance", "sign-off")],
         ),
     ];
     Ok(claimed.chain(others).collect())
 }
-
-/// What of the kept results is open to everyone.
-const REPEATED: &str =
-    "; anyone can repeat the results on FEMA P-695's motions";
 
 /// Anchor and name of the chapter on shaking-table tests.
 const SHAKING: (&str, &str) = ("shaking", "tests");
@@ -329,52 +312,55 @@ pub(super) const LEFT_OUT: &str =
 /// What else was not run.
 pub(super) fn not_run(basis: &FindingSets<'_>) -> String {
     let records = match (basis.embedded, basis.has_recorded()) {
-        (true, true) => {
-            "recorded motions anew (their results are kept; python -m \
-             rocking.recorded gets those of FEMA P-695), "
-        }
+        (true, true) => "recorded motions (their results are stored), ",
         (true, false) => "recorded motions, ",
         (false, _) => "",
     };
-    format!("Not run: {records}other machines than x86-64 Linux")
+    format!("Not run here: {records}machines other than x86-64 Linux")
 }
 
-fn sure(proof: Option<&Proof>, lead: &Findings) -> String {
+fn exact(timings: &Timings, proof: Option<&Proof>, lead: &Findings) -> String {
     let shifts = lead.suites.iter().map(|s| s.largest_shift_if_flipped);
     match proof.map(|proof| (proof.failed(), proof.results().len())) {
-        None => "Open: the cases with known answers were not run here.".into(),
-        Some((0, all)) => format!(
-            "The integrator, very: all {all} cases with known answers pass, \
-             and rounding moves percentiles of overturning by {} at most.",
+        None => "Not known: the reference cases were not run here.".into(),
+        Some((0, _)) => format!(
+            "{}, and rounding moves no percentile of overturning by more than \
+             {}.",
+            timings.precision(),
             rounded_text(shifts.fold(0.0, f64::max))
         ),
-        Some((failed, all)) => format!(
-            "Not sure: {failed} of {all} cases with known answers fail."
-        ),
+        Some((failed, all)) => {
+            format!("Not known: {failed} of {all} reference cases fail.")
+        }
     }
 }
 
-fn signed(proof: Option<&Proof>, kept: bool, tests: &RockTests) -> String {
-    let kept = match kept {
-        true => "; recorded results are kept, not run here",
-        false => "",
-    };
+/// Which results the run at hand did not compute.
+fn repeatable(basis: &FindingSets<'_>) -> &'static str {
+    match basis.has_recorded() {
+        true => {
+            "Recorded results: computed earlier; anyone can repeat those on \
+             the motions of FEMA P-695 (python -m rocking.recorded)"
+        }
+        false => "All results were computed by this run",
+    }
+}
+
+fn signed(proof: Option<&Proof>) -> &'static str {
     match proof.map(Proof::failed) {
-        None => "Not yet: the cases with known answers were not run.".into(),
-        Some(0) => format!(
-            "For the computation, yes{kept}. For a real object only with the \
-             error of the model, which rests on {}, with one fitted angle \
-             each.",
-            tests.counted()
-        ),
-        Some(_) => "Not before every case with a known answer passes.".into(),
+        None => "Nothing yet: the reference cases were not run.",
+        Some(0) => {
+            "That the equations are solved and the statistics computed as \
+             stated. Not that a real object behaves like the model."
+        }
+        Some(_) => "Nothing before every reference case passes.",
     }
 }
 
 fn backed(proof: Option<&Proof>) -> String {
-    proof.map_or("No declared case was run".into(), |proof| {
+    proof.map_or("No reference case was run".into(), |proof| {
         let (failed, all) = (proof.failed(), proof.results().len());
-        format!("{} of {all} declared cases pass", all - failed)
+        format!("{} of {all} reference cases pass", all - failed)
     })
 }
 
@@ -388,26 +374,71 @@ pub(super) fn suites_of(findings: &Findings) -> Vec<String> {
     findings.suites.iter().map(words).collect()
 }
 
-/// What was done, in a few sentences.
-pub(super) fn done(basis: &FindingSets<'_>) -> String {
-    let lead = basis.lead();
-    let source = match (basis.embedded, basis.has_recorded()) {
-        (true, true) => "recorded ",
-        (true, false) => "synthetic ",
-        (false, _) => "",
-    };
-    format!(
-        "Fifteen blocks rocked under {source}motions, {}, to check a paper by \
-         Lachanas, Vamvatsikos and Dimitrakopoulos [1]; and two tested rocks \
-         were computed, to check the model. {}",
-        suites_of(lead).join(" and "),
-        SentenceCounts::of(lead).words()
-    )
+/// A count with commas between thousands.
+fn grouped(n: u64) -> String {
+    match n / 1000 {
+        0 => n.to_string(),
+        more => format!("{},{:03}", grouped(more), n % 1000),
+    }
 }
 
-/// How the answers of the embedded motions differ from those of each kind of
-/// recorded ones, and on which claims, or that recorded results were left out;
-/// to be less certain is not to answer differently.
+/// What was done, the result, and how far it is checked: paragraphs, each with
+/// its first word.
+///
+/// # Errors
+/// For kept results that cannot be read.
+pub(super) fn summary(
+    basis: &FindingSets<'_>,
+    proof: Option<&Proof>,
+) -> anyhow::Result<[(&'static str, String); 3]> {
+    let lead = basis.lead();
+    let (motions, records) = match (basis.embedded, basis.has_recorded()) {
+        (true, true) => (
+            "recorded motions",
+            "Records: most may not be redistributed; results on them were \
+             computed earlier and are stored here.",
+        ),
+        (true, false) => {
+            ("synthetic motions", "Records: none; the motions are synthetic.")
+        }
+        (false, _) => ("the motions of your suites", "Records: your own."),
+    };
+    let analyses: u64 = lead.suites.iter().map(|s| s.analyses).sum();
+    let counts = SentenceCounts::of(lead);
+    let tests = RockTests::kept()?;
+    Ok([
+        (
+            "",
+            format!(
+                "This report repeats and checks a study by Lachanas, Vamvatsikos \
+             and Dimitrakopoulos, “Statistical property parameterization of \
+             simple rocking block response” (Earthquake Engineering and \
+             Structural Dynamics) [1]: which properties of a free-standing \
+             object (a statue, a cabinet, a column) decide whether it \
+             overturns in an earthquake, and which probability distribution \
+             describes that. Our own program computed 15 blocks under \
+             {motions}, {}: {} analyses.",
+                suites_of(lead).join(" and "),
+                grouped(analyses),
+            ),
+        ),
+        ("Result.", format!("{} {}", counts.words(), counts.effects())),
+        (
+            "Status.",
+            format!(
+                "Equations and statistics: {}. Model: compared with {} only. \
+             {records} Nothing on this page by itself justifies leaving a \
+             real object unrestrained.",
+                backed(proof),
+                tests.counted(),
+            ),
+        ),
+    ])
+}
+
+/// How many results the embedded motions and each kind of recorded ones have
+/// in common, and which answers differ; or that recorded results were left
+/// out.
 ///
 /// # Errors
 /// As [`answers`].
@@ -418,32 +449,36 @@ pub(super) fn differing(
         return basis.left_out();
     }
     let own = answers(basis.here)?;
-    let mut words = Vec::new();
+    let mut words = vec![
+        "The synthetic motions that come with the program are judged as well."
+            .to_owned(),
+    ];
     for (name, recorded) in basis.recorded() {
         let counted = |claim: &Claim| claim.theme != Theme::Beyond;
-        let (mut turned, all) = turned(basis.here, recorded, counted);
-        let count = turned.len();
-        turned.dedup();
-        let mut other = String::new();
-        for (own, kept) in own.iter().zip(answers(recorded)?) {
-            if own.lead != kept.lead {
-                let QuestionAnswer { question, first, .. } = own;
-                other += &format!(" {question} {first} ({}).", kept.first);
-            }
-        }
-        words.push(match other.as_str() {
-            "" => {
-                format!("Embedded motions give the answers of “{name}”.")
-            }
-            _ => format!(
-                "Embedded motions answer differently from “{name}” (in \
-                 brackets):{other}"
-            ),
-        });
-        words.push(match turned.join("; ").as_str() {
-            "" => format!("None of {all} results differs."),
-            names => format!("Of {all} results {count} differ: {names}."),
-        });
+        let (turned, all) = turned(basis.here, recorded, counted);
+        let kept = answers(recorded)?;
+        let other = own.iter().zip(&kept).filter(|(a, b)| a.lead != b.lead);
+        let other: Vec<String> = other
+            .map(|(own, kept)| {
+                let word =
+                    |lead: Option<Seen>| lead.map_or("no data", Seen::name);
+                format!(
+                    "“{}” ({} there, {} here)",
+                    own.question,
+                    word(kept.lead),
+                    word(own.lead)
+                )
+            })
+            .collect();
+        let answers = match other.as_slice() {
+            [] => "no answer differs".into(),
+            other => format!("these answers differ: {}", other.join(", ")),
+        };
+        words.push(format!(
+            "Beside the motions “{name}”, {} of {all} results differ, and \
+             {answers}.",
+            turned.len()
+        ));
     }
     Ok(Some(words.join(" ")))
 }

@@ -21,7 +21,7 @@ const LAST: u32 = 18;
 /// Name of the recorded suites whose findings anyone can find again.
 pub(crate) const REPEATABLE: &str = "recorded, repeatable";
 
-/// Findings under the name of their suites, such as "recorded, kept".
+/// Findings under the name of their suites, such as "recorded, stored".
 pub(crate) type FindingColumn<'a> = (&'static str, &'a Findings);
 
 /// The findings of a run and, if it has their settings, the kept ones.
@@ -40,7 +40,7 @@ impl<'a> FindingSets<'a> {
     /// For kept results that cannot be read.
     pub fn of(embedded: bool, here: &'a Findings) -> anyhow::Result<Self> {
         let mut kept = vec![
-            ("recorded, kept", kept::findings()?),
+            ("recorded, stored", kept::findings()?),
             (REPEATABLE, kept::repeatable()?),
         ];
         kept.retain(|(_, own)| embedded && own.settings == here.settings);
@@ -87,8 +87,8 @@ impl<'a> FindingSets<'a> {
             })
             .collect();
         Ok(Some(format!(
-            "Results of recorded motions are kept for other settings only \
-             ({}): they are left out.",
+            "Results on recorded motions are stored only for other settings \
+             ({}); they are left out.",
             other.join("; ")
         )))
     }
@@ -111,7 +111,7 @@ impl<'a> FindingSets<'a> {
             let share = percent(open as f64 / all as f64, 1);
             format!("{share} of {all} analyses")
         });
-        format!("rounding may have changed {open}")
+        format!("rounding may have changed the outcome or peak in {open}")
     }
 
     /// What rounding may have changed, and what it had changed among the first
@@ -125,8 +125,8 @@ impl<'a> FindingSets<'a> {
             format!("{wrong} of {all}")
         });
         format!(
-            "{}; of the first overturnings among these, resolved in wider \
-             arithmetic, {wrong} had been wrong",
+            "{}. The first overturnings among these were computed again in \
+             higher precision: {wrong} had been wrong",
             self.open()
         )
     }
@@ -164,10 +164,9 @@ impl<'a> FindingSets<'a> {
             }
             if own.heading.number.is_some_and(|n| HISTORIES.contains(&n)) {
                 own = of_motions(own, Motions::Embedded);
-                own.reading += " These motions are synthetic: from a history \
-                                the acceleration of its record could be \
-                                computed, and recorded motions may not be \
-                                passed on.";
+                own.reading += " These motions are synthetic: the acceleration \
+                                of a record could be computed from a history, \
+                                and recorded motions may not be redistributed.";
             }
             all.push(own);
         }
@@ -181,16 +180,16 @@ fn work_on(name: &str, suite: &SuiteSummary) -> String {
         suite.records, suite.kind, suite.analyses
     );
     if suite.unresolved == 0 {
-        return format!("{work}; double precision tells every one.");
+        return format!("{work}; double precision resolves every one.");
     }
     let ends = suite.first_overturnings_reevaluated;
     format!(
         "{work}. In {} of them the motion is chaotic, and rounding in double \
-         precision may have changed the peak or the fate. First overturnings \
-         among these, on which capacities rest: {}. Assessed double precision \
-         resolves {}, double-double {}, octuple precision {}, none {}. Wrong \
-         in double precision: {}; the 16, 50 and 84 % overturning intensities \
-         would move by {} at most.",
+         precision may have changed the peak or the outcome. {} of these are \
+         first overturnings, on which capacities depend. Of them, double \
+         precision with error bounds resolves {}, double-double {}, octuple \
+         precision {}, none {}. Wrong in double precision: {}; the 16, 50 and \
+         84 % overturning intensities would move by {} at most.",
         suite.unresolved,
         ends.all,
         ends.resolved_by_double,

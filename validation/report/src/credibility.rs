@@ -42,16 +42,16 @@ fn synthetic(basis: &FindingSets<'_>) -> (String, String) {
     };
     (
         format!(
-            "{own}; beside them results of {} and of {} recorded motions, \
-             whose names and hashes are kept.",
+            "{own}; beside them stored results on {} and on {} recorded \
+             motions, with their names and hashes.",
             suites(owned),
             suites(free)
         ),
         format!(
             "The recorded motions are not part of this run. Results on the \
-             latter, those of FEMA P-695, can be repeated ({REPEAT}); {} of \
-             their pairs are among the former, which may not be passed on, \
-             and {} of their ordinary pairs are pulse-type there.",
+             latter, those of FEMA P-695, can be repeated ({REPEAT}). {} of \
+             their pairs are also among the former, which may not be \
+             redistributed; {} of their ordinary pairs are pulse-type there.",
             both(&owned.suites, &free.suites),
             both(&owned.suites[1..], &free.suites[..1])
         ),
@@ -80,7 +80,7 @@ pub fn assessment(
             Some(proof) if proof.failed() == 0 => words.verified.clone(),
             Some(proof) => verification(
                 format!(
-                    "{} of {} declared cases fail.",
+                    "{} of {} reference cases fail.",
                     proof.failed(),
                     proof.results().len()
                 ),
@@ -109,9 +109,9 @@ impl Credibility {
         PlainTable::new(
             "credibility-assessment",
             "Credibility, after NASA-STD-7009B",
-            "Levels from 0, insufficient evidence, to 4, by the \
-             project's own judgement; no one has certified them. The \
-             least of them bounds what the whole can be trusted for.",
+            "Levels from 0 (insufficient evidence) to 4, by the project's \
+             own judgement; no one has certified them. The lowest level \
+             limits how far the whole can be trusted.",
             &["factor", "level", "evidence", "gaps"],
             self.0.iter().map(row).collect(),
         )
@@ -126,7 +126,7 @@ mod tests {
         let mut here = crate::basis::recorded();
         let (evidence, gap) =
             synthetic(&FindingSets::of(true, &here).expect("kept"));
-        let words = "86 ordinary and 44 pulse-type and of 36 ordinary and 14 \
+        let words = "86 ordinary and 44 pulse-type and on 36 ordinary and 14 \
                      pulse-type recorded";
         assert!(evidence.contains(words), "{evidence}");
         assert!(gap.contains("49 of their pairs"), "{gap}");

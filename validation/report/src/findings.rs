@@ -20,10 +20,9 @@ pub fn identities(here: &Findings) -> PlainTable {
         "identities",
         "Identities and descriptions",
         format!(
-            "{} of these statements are true by definition or arithmetic: \
-             they cannot come out either way. {} describe what could come \
-             out either way, but name no measure: they are quoted and not \
-             judged. None is counted among the results.",
+            "{} of these statements are true by definition or arithmetic. {} \
+             could be true or false, but name no measure: they are quoted and \
+             not judged. None is counted among the results.",
             count(Kind::Identity),
             count(Kind::Description),
         ),

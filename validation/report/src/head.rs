@@ -70,7 +70,7 @@ fn program(
     let commit = match signatures.issued {
         Some(_) => signatures.commit,
         None => {
-            "that which holds this page; a copy made with --issued names it"
+            "the commit that contains this page; a copy made with --issued names it"
         }
     };
     let program = format!(
@@ -100,8 +100,8 @@ fn kept(
     (name, found): FindingColumn<'_>,
 ) -> impl Iterator<Item = (String, String)> {
     let how = match name {
-        REPEATABLE => format!("kept results, repeated by `{REPEAT}`"),
-        _ => "kept results, not run here".to_owned(),
+        REPEATABLE => format!("stored results; `{REPEAT}` repeats them"),
+        _ => "stored results, not run here".to_owned(),
     };
     let row = move |suite: &SuiteSummary| {
         let SuiteSummary { records, sha256, kind, .. } = suite;
@@ -127,7 +127,7 @@ fn provenance(results: &StudyResults) -> Vec<(String, String)> {
         ("Restitution".into(), restitution),
         ("Overturning".into(), overturning.into()),
         ("Refinement".into(), refinement),
-        ("Arms of the grid".into(), arms.join("; ")),
+        ("Grids".into(), arms.join("; ")),
     ];
     for suite in results.suites() {
         let (records, rule) = (suite.records.len(), &suite.component_rule);

@@ -76,12 +76,17 @@ pub fn foreign(folder: &Path) -> Option<String> {
     all.into_iter().next()
 }
 
+/// Title of the page in former versions.
+const FORMER: &str = "The statistics of rocking";
+
 /// Whether it is the page of a study, of whatever version.
 fn is_page(text: &[u8]) -> bool {
     let head = &text[..text.len().min(1 << 12)];
-    let title = format!("<title>{}</title>", TITLE);
+    let head = String::from_utf8_lossy(head);
+    let is_titled =
+        |own: &str| head.contains(&format!("<title>{own}</title>"));
     text.starts_with(b"<!DOCTYPE html>")
-        && String::from_utf8_lossy(head).contains(&title)
+        && [TITLE, FORMER].into_iter().any(is_titled)
 }
 
 /// Puts what a person compares into `data/`, drawings into `figures/`; the
@@ -198,9 +203,9 @@ fn list(
     PlainTable::new(
         "list-of-files",
         "Annexes: data files and their hashes",
-        "Each annex is a file beside this page. Its SHA-256 tells whether it \
-         is the one that this report rests on.",
-        &["file", "what it holds", "SHA-256"],
+        "Each annex is a file beside this page. Its SHA-256 identifies the \
+         version that this report is based on.",
+        &["file", "content", "SHA-256"],
         all.iter().map(row).collect(),
     )
 }
@@ -224,7 +229,7 @@ fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
         ("precision", "Digits that three precisions reach"),
         ("shaking-table", "Tests on a shaking table, and the model's"),
         ("single-records", "Records one by one: Figures 2 to 5 for all"),
-        ("verification", "Every declared case with its result"),
+        ("verification", "Every reference case with its result"),
     ];
     let known = known.map(|(name, words)| (name.to_owned(), words.to_owned()));
     figures.chain(questions).chain(known).collect()
@@ -285,14 +290,16 @@ pub fn answers_text(
     proof: Option<&Proof>,
 ) -> anyhow::Result<String> {
     let (embedded, findings) = (study.results.embedded(), &study.findings);
+    let basis = FindingSets::of(embedded, findings)?;
     let (rows, otherwise) = first_table(embedded, findings, proof)?;
-    let done = answers::done(&FindingSets::of(embedded, findings)?);
     let text = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;
         format!("{question}\n  {answer}\n  {effect}.\n")
     };
     let rows = rows.iter().map(text).chain(otherwise.map(|w| w + "\n"));
-    Ok([done + "\n"].into_iter().chain(rows).collect())
+    let summary = answers::summary(&basis, proof)?;
+    let summary = summary.into_iter().map(|(_, words)| words + "\n");
+    Ok(summary.chain(rows).collect())
 }
 
 /// The findings among the claims as a table for people: whether each is seen

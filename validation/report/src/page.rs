@@ -30,6 +30,7 @@ pub(crate) fn html(
     annexes: &[Annex<'_>],
     files: &PlainTable,
 ) -> anyhow::Result<String> {
+    let header = sections::head(page)?;
     let sections = sections::page_sections(page, annexes, files)?;
     let markup = html! {
         (DOCTYPE)
@@ -37,7 +38,7 @@ pub(crate) fn html(
             (head(TITLE))
             body {
                 a.skip href="#main" { "Skip to the content" }
-                header { (sections::head(page)) }
+                header { (header) }
                 nav aria-label="Contents" {
                     ul {
                         @for (id, title, _) in &sections {

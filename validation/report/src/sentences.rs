@@ -123,9 +123,9 @@ impl SentenceCounts {
     pub fn words(&self) -> String {
         let Self { all, seen: [yes, no, part, not], .. } = self;
         format!(
-            "Of the paper's {all} testable sentences {yes} are seen again by \
-             the authors' own criteria, {no} are not, {part} in part; {not} \
-             cannot be tested with these records."
+            "Of the paper's {all} testable statements, {yes} are seen again \
+             by the authors' own criteria, {no} are not, and {part} in part; \
+             {not} cannot be tested with these records."
         )
     }
 
@@ -133,9 +133,9 @@ impl SentenceCounts {
     pub fn effects(&self) -> String {
         let Self { shown, opposite, denied, .. } = self;
         format!(
-            "Beyond these records, the effect that a sentence names is shown \
-             for {shown}, the opposite for {opposite}; {denied} deny one that \
-             exists, however small."
+            "Beyond these records, the effect that a statement names is shown \
+             for {shown}, and its opposite for {opposite}; {denied} deny an \
+             effect that exists, however small."
         )
     }
 }
@@ -146,14 +146,14 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let own = |claim: &Claim| claim.theme == theme;
     let all = sentences(lead, own);
     let yes = all.iter().filter(|own| own.seen == Seen::Yes).count();
-    let words = format!("{yes} of {} sentences are seen.", all.len());
+    let words = format!("{yes} of {} statements are seen here.", all.len());
     let others = basis.columns().into_iter().skip(1).map(|(name, found)| {
         let (turned, all) = turned(found, lead, own);
-        format!("{} of {all} ({name})", turned.len())
+        format!("{} of {all} on the motions “{name}”", turned.len())
     });
     match others.collect::<Vec<_>>().join(", ").as_str() {
         "" => words,
-        others => format!("{words} Results that differ: {others}."),
+        others => format!("{words} Seen differently: {others}."),
     }
 }
 

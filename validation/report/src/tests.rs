@@ -221,7 +221,7 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
         "{embedded}"
     );
     assert!(embedded.contains("The embedded suites are synthetic"));
-    assert!(embedded.contains("recorded motions anew"));
+    assert!(embedded.contains("their results are stored"));
 }
 
 #[test]
@@ -272,7 +272,7 @@ fn identities_and_descriptions_are_counted_apart() {
     let said = &table.reading;
     assert!(said.starts_with(&format!("{identities} of these statements")));
     // A description could come out either way.
-    let other = format!("{descriptions} describe what could come out either");
+    let other = format!("{descriptions} could be true or false");
     assert!(said.contains(&other), "{said}");
 }
 
@@ -449,13 +449,13 @@ fn a_run_of_other_settings_shows_no_kept_number_and_leads_with_its_own() {
     let page = String::from_utf8_lossy(&files["index.html"]).into_owned();
     answer_alike(&page, &said);
     let shown = text(&page);
-    let left_out = "Results of recorded motions are kept for other settings \
-                    only (arms A, B, C, not A; eta 0.92, not 0.9): they are \
-                    left out.";
+    let left_out = "Results on recorded motions are stored only for other \
+                    settings (arms A, B, C, not A; eta 0.92, not 0.9); they \
+                    are left out.";
     assert_eq!(shown.matches(left_out).count(), 1, "said once");
     assert!(said.contains(left_out), "{said}");
     for words in
-        ["ecorded, kept", "ecorded, repeatable", "recorded motions, 86"]
+        ["ecorded, stored", "ecorded, repeatable", "recorded motions, 86"]
     {
         assert!(!shown.contains(words), "{words}");
     }

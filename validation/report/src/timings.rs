@@ -215,27 +215,40 @@ impl Timings {
         )
     }
 
-    /// Whether it is faster than the compiled peer at its best, at no larger
-    /// error, and how fast.
+    /// Correct digits of the peak, in a clause.
+    pub fn precision(&self) -> String {
+        let digits = |error: f64| libm::floor(-libm::log10(error));
+        format!(
+            "The peak rotation is right to {} digits in the median of {} \
+             analyses and to {} at worst",
+            digits(self.own.peak_error),
+            self.own.cases,
+            digits(self.own.peak_error_worst)
+        )
+    }
+
+    /// How fast it is beside the compiled peer at its best, in a sentence, and
+    /// the rates behind that.
     pub fn speed(&self) -> (String, String) {
         let ratio =
             |ours: &Throughput| ours.rate_per_s() / self.peer.rate_per_s();
         let (lanes, one) = (ratio(&self.paper), ratio(&self.one_by_one));
-        let answer = if lanes > 1.0 && self.no_worse().contains(&BASE[2]) {
-            format!(
-                "Yes: {} times as fast as {PEER_NAME}; one by one, {} times.",
-                digits(lanes),
-                digits(one)
-            )
-        } else {
-            format!("No: {} times as fast as {PEER_NAME}.", digits(lanes))
+        let error = match self.no_worse().contains(&BASE[2]) {
+            true => "at no larger error",
+            false => "at a larger error",
         };
+        let answer = format!(
+            "Many analyses run {} times as fast as with {PEER_NAME}, {error}, and \
+             {} times one at a time.",
+            digits(lanes),
+            digits(one)
+        );
         let equal = self.equal().map_or(String::new(), |(setting, times)| {
             format!("; {} times at {setting}", digits(times))
         });
         let rate = self.paper.rate_per_s();
         let effect =
-            format!("{rate:.0} analyses a second and core as shipped{equal}");
+            format!("{} analyses a second and core{equal}", digits(rate));
         (answer, effect)
     }
 

@@ -6,13 +6,19 @@ use rocking_common::paper::Arm;
 use rocking_statistics::Estimate;
 use rocking_study::claims::declared;
 
-/// The answers that claims give, with these claims and their first words.
+/// The answers that claims give, with these claims and the first words of
+/// each possible answer.
 pub fn leads(findings: &Findings) -> Vec<(String, Vec<String>, [String; 4])> {
-    let one = |asked: ReaderQuestion| {
-        let answer = asked.answer(&findings.claims).0;
-        (answer, asked.by, asked.leads)
+    let one = |own: ReaderQuestion| {
+        let answer = own.answer(&findings.claims).0;
+        let first = |seen: &Seen| {
+            let words = own.sentences(*seen)[0].split('{').next();
+            words.unwrap_or_default().to_owned()
+        };
+        let firsts = Seen::ALL.each_ref().map(first);
+        (answer, own.by, firsts)
     };
-    asked().unwrap().into_iter().map(one).collect()
+    reader_questions().unwrap().into_iter().map(one).collect()
 }
 
 /// Words with a letter or a digit.
@@ -23,37 +29,36 @@ fn words(text: &str) -> usize {
 
 /// No word of the trade stands on the first screen.
 fn is_plain(text: &str) -> bool {
-    let trade = ["arm", "arms", "cell", "cells", "judged", "worst", "verdict"];
+    let trade = ["arm", "arms", "cell", "cells", "judged", "verdict"];
     !text.split(|c: char| !c.is_alphanumeric()).any(|w| trade.contains(&w))
+}
+
+/// Sentences of a text: each ends with a full stop and a blank, or the text.
+fn sentences(text: &str) -> usize {
+    text.split(". ").count()
 }
 
 #[test]
 fn every_answer_names_claims_and_numbers_that_exist() {
     let found = recorded();
-    for ReaderQuestion { by, facts, .. } in asked().unwrap() {
-        assert!(!by.is_empty() && !facts.is_empty());
-        for id in &by {
+    for own in reader_questions().unwrap() {
+        assert!(!own.by.is_empty() && !own.numbers.is_empty());
+        for id in &own.by {
             assert!(claim(&found.claims, id).is_some(), "{id}");
         }
-        for AnswerFact { words, numbers, when } in facts {
-            if let Some((id, _)) = when {
-                assert!(claim(&found.claims, &id).is_some(), "{id}");
-            }
-            assert_eq!(words.matches("{}").count(), numbers.len(), "{words}");
-            for number in numbers {
-                let id = &number.claim;
-                let mut all = declared().iter().map(|d| &d.claim);
-                let own = all.find(|claim| claim.id == *id).expect(id);
-                let k = number.count.unwrap_or_default();
-                assert!(k < own.yardsticks.len(), "{id}: yardstick {k}");
-                let found = claim(&found.claims, id).expect(id);
-                for result in &found.results {
-                    let here = |name: &&String| {
-                        result.details.iter().any(|d| d.name == **name)
-                    };
-                    let missing = number.details.iter().find(|n| !here(n));
-                    assert_eq!(missing, None, "{id}, {}", result.place());
-                }
+        for number in &own.numbers {
+            let id = &number.claim;
+            let mut all = declared().iter().map(|d| &d.claim);
+            let claimed = all.find(|claim| claim.id == *id).expect(id);
+            let k = number.count.unwrap_or_default();
+            assert!(k < claimed.yardsticks.len(), "{id}: yardstick {k}");
+            let found = claim(&found.claims, id).expect(id);
+            for result in &found.results {
+                let here = |name: &&String| {
+                    result.details.iter().any(|d| d.name == **name)
+                };
+                let missing = number.details.iter().find(|n| !here(n));
+                assert_eq!(missing, None, "{id}, {}", result.place());
             }
         }
     }
@@ -62,52 +67,59 @@ fn every_answer_names_claims_and_numbers_that_exist() {
 /// A number without its measure is compared with the one before it.
 #[test]
 fn numbers_of_an_answer_have_names_of_their_own() {
-    for ReaderQuestion { question, facts, .. } in asked().unwrap() {
-        let mut names: Vec<String> = facts
-            .into_iter()
-            .flat_map(|fact| fact.numbers)
-            .map(|number| number.name)
-            .collect();
-        let all = names.len();
-        assert!(names.iter().all(|name| words(name) > 0), "{question}");
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), all, "{question}");
+    for ReaderQuestion { question, numbers, .. } in reader_questions().unwrap()
+    {
+        let names = numbers.iter().map(|n| &n.name).collect();
+        let keys = numbers.iter().map(|n| &n.key).collect();
+        for mut names in [names, keys] as [Vec<&String>; 2] {
+            assert!(names.iter().all(|name| words(name) > 0), "{question}");
+            names.sort();
+            names.dedup();
+            assert_eq!(names.len(), numbers.len(), "{question}");
+        }
     }
 }
 
+/// Each state of its claims has its own text, of two sentences at most, and
+/// every place in a sentence has its number.
 #[test]
-fn every_combination_of_words_gives_a_true_and_readable_sentence() {
+fn every_combination_of_words_gives_a_true_and_readable_answer() {
     let recorded = recorded();
-    for asked in &asked().unwrap() {
-        let n = asked.by.len();
+    for own in &reader_questions().unwrap() {
+        let texts = Seen::ALL.map(|seen| own.sentences(seen).concat());
+        for (k, text) in texts.iter().enumerate() {
+            assert!(!texts[..k].contains(text), "{text}");
+        }
+        let n = own.by.len();
         for code in 0..Seen::ALL.len().pow(u32::try_from(n).unwrap()) {
             let state = |k: usize| {
                 Seen::ALL
                     [code / Seen::ALL.len().pow(k as u32) % Seen::ALL.len()]
             };
             let mut claims = recorded.claims.clone();
-            for (k, id) in asked.by.iter().enumerate() {
+            for (k, id) in own.by.iter().enumerate() {
                 let own = claims.iter_mut().find(|c| c.id == *id).unwrap();
                 own.results.iter_mut().for_each(|r| r.seen = state(k));
             }
-            let (found, numbers) = asked.answer(&claims);
+            let (found, numbers) = own.answer(&claims);
             // Apart from the rule: what is not testable does not count.
             let known: Vec<Seen> = (0..n)
                 .map(state)
                 .filter(|seen| *seen != Seen::NotTestable)
                 .collect();
-            let lead = if known.is_empty() {
-                &asked.leads[3]
+            let texts = if known.is_empty() {
+                &own.answer.not_testable
             } else if known.iter().all(|seen| *seen == Seen::Yes) {
-                &asked.leads[0]
+                &own.answer.yes
             } else if known.iter().all(|seen| *seen == Seen::No) {
-                &asked.leads[2]
+                &own.answer.no
             } else {
-                &asked.leads[1]
+                &own.answer.in_part
             };
-            assert!(found.starts_with(&format!("{lead}: ")), "{found}");
-            assert!(words(&found) <= 55, "{}: {found}", words(&found));
+            assert_eq!(sentences(&found), texts.len(), "{found}");
+            assert!(texts.len() <= 2 && words(&found) <= 70, "{found}");
+            let first = texts[0].split('{').next().unwrap();
+            assert!(found.starts_with(first), "{found}");
             for text in [&found, &numbers] {
                 assert!(is_plain(text), "{text}");
                 for broken in ["{", "  ", ": ,", ": ;", ": .", "..", "NaN"] {
@@ -116,40 +128,36 @@ fn every_combination_of_words_gives_a_true_and_readable_sentence() {
             }
             assert!(found.ends_with('.'), "{found}");
         }
-        let (found, numbers) = asked.answer(&[]);
+        let (found, numbers) = own.answer(&[]);
         assert_eq!(found, "There are no data.");
         assert!(numbers.is_empty());
     }
 }
 
 #[test]
-fn a_fact_has_the_number_of_the_suite_that_is_furthest_off() {
+fn a_sentence_has_the_number_of_the_suite_that_is_furthest_off() {
     let mut claims = recorded().claims;
-    let asked = &asked().unwrap()[3];
+    let question = &reader_questions().unwrap()[3];
     let own = claims.iter_mut().find(|c| c.id == "eq7-trimmed-pga").unwrap();
     for result in &mut own.results {
         let x = if result.suite == SuiteSet::Ordinary { 0.06 } else { 0.03 };
         result.details[0].estimate = Estimate::exact(x);
     }
-    let (found, numbers) = asked.answer(&claims);
-    assert!(found.ends_with("trimmed 0.06."), "{found}");
-    let listed = "PGA trimmed 0.06 ordinary, 0.03 pulse-type";
+    let (found, numbers) = question.answer(&claims);
+    assert!(found.contains("0.06 in PGA without the upper 5 %"), "{found}");
+    let listed = "PGA, trimmed: 0.06 ordinary, 0.03 pulse-type";
     assert!(numbers.ends_with(listed), "{numbers}");
 }
 
-/// What the paper's notch says is said only where it says so.
 #[test]
-fn a_clause_that_is_not_true_is_left_out() {
-    let asked = &asked().unwrap()[0];
-    let said = |seen: Seen| {
-        let mut claims = recorded().claims;
-        let own = claims.iter_mut().find(|claim| claim.id == "ratios-p1");
-        let results = &mut own.expect("a claim").results;
-        results.iter_mut().for_each(|result| result.seen = seen);
-        asked.answer(&claims).0
-    };
-    assert!(said(Seen::No).contains("notch rejects"));
-    assert!(!said(Seen::Yes).contains("notch"));
+fn a_sentence_without_its_number_is_left_out() {
+    let question = &reader_questions().unwrap()[0];
+    let mut claims = recorded().claims;
+    let whole = question.answer(&claims).0;
+    assert!(whole.contains("Housner"));
+    claims.retain(|claim| claim.id != "housner-breaks");
+    let cut = question.answer(&claims).0;
+    assert!(whole.starts_with(&cut) && !cut.contains("Housner"), "{cut}");
 }
 
 /// The answers to the questions that start so, with proof and basis.
@@ -171,61 +179,62 @@ fn other_answers_follow_from_the_cases_that_passed() {
     // One case fails, or all of them.
     let reds = [1, all].map(Proof::committed);
     let here = recorded();
-    let mut elsewhere = here.clone();
-    elsewhere.settings.eta = 0.90;
     let kept = FindingSets::of(true, &here).unwrap();
-    let left_out = FindingSets::of(true, &elsewhere).unwrap();
-    let own = FindingSets::of(false, &here).unwrap();
-    for (basis, are_kept) in [(&kept, true), (&left_out, false), (&own, false)]
-    {
-        let sure = |proof| answered(basis, proof, "How sure");
-        let signed = |proof| answered(basis, proof, "May I sign");
-        assert!(sure(None).starts_with("Open: "));
-        assert!(signed(None).starts_with("Not yet: "));
-        let known = "cases with known answers";
-        let very = format!("The integrator, very: all {all} {known} pass, ");
-        assert!(sure(Some(&green)).starts_with(&very));
-        let found = signed(Some(&green));
-        assert!(found.starts_with("For the computation, yes"), "{found}");
-        assert_eq!(found.contains("kept, not run here"), are_kept, "{found}");
-        for red in &reds {
-            let failed = red.failed();
-            let words = format!("Not sure: {failed} of {all} {known} fail.");
-            assert!(sure(Some(red)).starts_with(&words));
-            let found = signed(Some(red));
-            assert!(found.starts_with("Not before every case"), "{found}");
-            assert!(!found.contains("yes"), "{found}");
-        }
-        for proof in [None, Some(&green), Some(&reds[0])] {
-            for text in [sure(proof), signed(proof)] {
-                assert!(words(&text) <= 55 && is_plain(&text), "{text}");
-            }
+    let exact = |proof| answered(&kept, proof, "How exact");
+    let signed = |proof| answered(&kept, proof, "What may I sign");
+    let status = |proof| summary(&kept, proof).unwrap()[2].1.clone();
+    assert!(exact(None).starts_with("Not known: "));
+    assert!(signed(None).starts_with("Nothing yet: "));
+    assert!(status(None).contains("No reference case was run"));
+    assert!(exact(Some(&green)).contains("digits in the median"));
+    assert!(signed(Some(&green)).starts_with("That the equations"));
+    let passed = format!("{all} of {all} reference cases pass");
+    assert!(status(Some(&green)).contains(&passed));
+    for red in &reds {
+        let failed = red.failed();
+        let words = format!("Not known: {failed} of {all} reference cases");
+        assert!(exact(Some(red)).starts_with(&words));
+        assert!(signed(Some(red)).starts_with("Nothing before every"));
+        assert!(!status(Some(red)).contains(&passed));
+    }
+    for proof in [None, Some(&green), Some(&reds[0])] {
+        for text in [exact(proof), signed(proof)] {
+            assert!(words(&text) <= 70 && is_plain(&text), "{text}");
+            assert!(sentences(&text) <= 2, "{text}");
         }
     }
 }
 
-/// No more is claimed than two rocks, their tests and one fitted angle, and
-/// the answer turns with what the tests say.
+/// No more is claimed than two rocks, their tests and one fitted angle.
 #[test]
 fn tests_of_two_rocks_stand_in_the_answers() {
     let here = recorded();
     let basis = FindingSets::of(true, &here).unwrap();
     let green = Proof::committed(0);
     let said = |start: &str| answered(&basis, Some(&green), start);
+    let own = said("What was not checked");
+    assert!(own.contains("two granite rocks"), "{own}");
+    assert!(own.contains("one angle fitted to each"), "{own}");
+    assert!(own.contains("490 tests") && own.contains(LEFT_OUT), "{own}");
+    assert!(
+        summary(&basis, None).unwrap()[2]
+            .1
+            .contains("490 shaking-table tests")
+    );
+    let timings = Timings::kept().unwrap();
+    let rows = rows(&basis, &timings, None, &[]).unwrap();
+    let own = rows.iter().find(|row| row.question.starts_with("Which frag"));
     let tests = RockTests::kept().unwrap();
-    let fragility = said("Which fragility");
-    let words = format!(" {}.", tests.on_fragility());
-    assert!(fragility.ends_with(&words), "{fragility}");
-    assert_eq!(fragility.matches("rocks").count(), 1);
-    assert!(!said("May I shift").contains("rocks"));
-    let angle = "one angle fitted to each of two rocks";
-    let asked = [("How sure", angle), ("May I sign", "one fitted angle each")];
-    for (start, angle) in asked {
-        let own = said(start);
-        assert!(own.contains("490") && own.contains("two rocks"), "{own}");
-        assert!(own.contains(angle), "{own}");
-    }
-    assert!(said("What was not checked").contains("other objects"));
+    let numbers = &own.unwrap().effect;
+    assert!(numbers.contains(tests.on_fragility()), "{numbers}");
+}
+
+#[test]
+fn the_first_screen_has_eight_answers() {
+    let here = recorded();
+    let basis = FindingSets::of(true, &here).unwrap();
+    let timings = Timings::kept().unwrap();
+    assert_eq!(rows(&basis, &timings, None, &[]).unwrap().len(), 8);
 }
 
 #[test]
@@ -234,7 +243,10 @@ fn results_of_other_settings_are_left_out_and_named() {
     let basis = FindingSets::of(true, &here).unwrap();
     assert_eq!(basis.recorded().count(), 2);
     assert!(basis.left_out().unwrap().is_none());
-    assert!(done(&basis).contains("under recorded motions, 86 "));
+    let done = |basis: &FindingSets<'_>| {
+        summary(basis, None).unwrap().map(|(_, words)| words)
+    };
+    assert!(done(&basis)[0].contains("under recorded motions, 86 "));
     // Suites of files have no kept results beside them.
     let own = FindingSets::of(false, &here).unwrap();
     assert!(!own.has_recorded() && differing(&own).unwrap().is_none());
@@ -244,67 +256,31 @@ fn results_of_other_settings_are_left_out_and_named() {
     assert!(!basis.has_recorded());
     let words = differing(&basis).unwrap().unwrap();
     assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
-    assert!(done(&basis).contains("under synthetic motions, 86 "));
-    assert!(!done(&basis).contains("recorded"));
+    assert!(done(&basis)[0].contains("under synthetic motions, 86 "));
+    assert!(!done(&basis).concat().contains("recorded"));
 }
 
-/// Each kind of recorded motions has its sentence, with the claims that are
-/// seen differently.
+/// Each kind of recorded motions has its sentence, with the answers that
+/// differ.
 #[test]
-fn claims_that_embedded_motions_turn_are_named() {
+fn results_that_embedded_motions_turn_are_counted() {
     let mut here = recorded();
     let said = |here: &Findings| {
         let basis = FindingSets::of(true, here).unwrap();
         differing(&basis).unwrap().unwrap()
     };
-    let same = "Embedded motions give the answers of “recorded, kept”. None of \
-                82 results differs.";
+    let same = "Beside the motions “recorded, stored”, 0 of 82 results \
+                differ, and no answer differs.";
     let found = said(&here);
-    assert!(found.starts_with(same), "{found}");
+    assert!(found.contains(same), "{found}");
     assert!(found.contains("“recorded, repeatable”"), "{found}");
     for id in ["criterion", "quantiles-coincide"] {
         let own = here.claims.iter_mut().find(|own| own.id == id).unwrap();
         own.results.iter_mut().for_each(|result| result.seen = Seen::No);
     }
     let found = said(&here);
-    let turned = "Of 82 results 3 differ: both overturning criteria agree; \
-                  the quantiles coincide.";
+    let turned = "“recorded, stored”, 3 of 82 results differ, and these \
+                  answers differ: “Does shape matter once size is known?” \
+                  (yes there, no here).";
     assert!(found.contains(turned), "{found}");
-    let other = "answer differently from “recorded, kept” (in brackets): Does \
-                 shape matter once size is known? Yes (Hardly, if every";
-    assert!(found.contains(other), "{found}");
-}
-
-#[test]
-fn what_rounding_changed_is_said_of_both_suites() {
-    let mut here = recorded();
-    let counts = |findings: &mut Findings, k: usize, wrong, all| {
-        let ends = &mut findings.suites[k].first_overturnings_reevaluated;
-        (ends.wrong_in_double, ends.all) = (wrong, all);
-    };
-    counts(&mut here, 0, 4, 90);
-    counts(&mut here, 1, 3, 8);
-    here.suites[0].largest_shift_if_flipped = 0.0421;
-    let basis = FindingSets::of(true, &here).unwrap();
-    let said = basis.rounding();
-    let kept = recorded();
-    let ends = kept.suites.iter().map(|s| s.first_overturnings_reevaluated);
-    let (wrong, all) = ends.fold((0, 0), |(wrong, all), end| {
-        (wrong + end.wrong_in_double, all + end.all)
-    });
-    assert!(wrong > 0, "the kept results have some");
-    let recorded = format!("{wrong} of {all} (recorded, kept)");
-    assert!(said.contains(&recorded), "{said}");
-    assert!(said.contains("7 of 98 (embedded)"), "{said}");
-    let annex = basis.work();
-    let of = |start: &str| {
-        let own = annex.iter().find(|words| words.starts_with(start));
-        own.expect(start).clone()
-    };
-    let said = of("Embedded: 86 ordinary");
-    assert!(said.contains("Wrong in double precision: 4;"), "{said}");
-    assert!(said.contains("move by 0.0421 at most"), "{said}");
-    let shift = format!("{:.4}", kept.suites[0].largest_shift_if_flipped);
-    let said = of("Recorded, kept: 86 ordinary");
-    assert!(said.contains(&format!("move by {shift} at most")), "{said}");
 }

@@ -97,7 +97,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
         ),
         Annex::new(
             "paper-s-grid",
-            "Figures on the paper's grid (arm A)",
+            "Figures on the paper's grid (grid A)",
             Vec::new(),
         )
         .with(on_grid.collect()),
@@ -120,7 +120,7 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
         },
         Annex::new(
             "others",
-            "How do others do?",
+            "How do other codes do?",
             vec![scored::codes_table(&scored::SETTINGS)?],
         )
         .with(page.placed(Place::Others))

@@ -11,7 +11,8 @@ use rocking_draw::figures::{Figure, Place};
 use rocking_study::Study;
 
 /// Title of the page.
-pub(crate) const TITLE: &str = "The statistics of rocking";
+pub(crate) const TITLE: &str =
+    "Rocking blocks: a published study repeated and checked";
 
 /// Results from which every section takes its own.
 pub(crate) struct Page<'a> {

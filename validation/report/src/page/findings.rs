@@ -49,14 +49,22 @@ pub fn section(page: &Page<'_>) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "Seen here: yes where the sample, on the paper's own grid (arm A) \
-         where run, meets every criterion of the paper; no where it meets \
-         none; in part otherwise; not testable where a number is missing. A \
-         sentence is seen as its claims are on both suites. Exists: whether, \
-         beyond these records, the 90 % interval of the effect by resampled \
-         earthquakes leaves no effect out (yes; ●: one that the sentence \
-         denies, whose size says whether it matters). How large: the effect \
-         on the finer grid (arm C) where run. All suites and grids: "
+        "The tables answer three questions on each statement of the paper. "
+        strong { "Seen here?" }
+        " Yes if the numbers of this sample, on the paper's own grid (grid A, \
+         steps of 0.01 g), meet every criterion of the paper; no if they meet \
+         none; in part if they meet some; not testable if a number is \
+         missing. "
+        strong { "Beyond these records?" }
+        " Yes if the 90 % interval of the effect, by resampled earthquakes, \
+         excludes no effect in the direction of the statement; the opposite \
+         if it does so in the other direction; no sign if it does not exclude \
+         it. ● marks an effect that the statement denies: its size says \
+         whether it matters. "
+        strong { "How large?" }
+        " The estimate and that interval, on grid C (equal dimensionless \
+         steps). If a grid was not run, the other one takes its place. All \
+         suites and grids: "
         a href="#all-results" { "every result" } "."
     }
 }
@@ -138,11 +146,11 @@ fn findings(page: &Page<'_>, theme: Theme) -> Markup {
     let columns = page.basis.columns();
     html! {
         table.cards.findings {
-            caption { span.unseen { "The paper by its own criteria." } }
+            caption { span.unseen { "Statements of the paper, by its own criteria." } }
             thead {
                 tr {
                     th scope="col" rowspan="2" {
-                        "The paper says; its criterion"
+                        "The paper says; criterion"
                     }
                     th scope="col" rowspan="2" { "Suite" }
                     @for (k, (name, _)) in columns.iter().enumerate() {
@@ -154,8 +162,8 @@ fn findings(page: &Page<'_>, theme: Theme) -> Markup {
                     @for k in 0..columns.len() {
                         th scope="col" { "Seen here?" }
                         @if k == 0 {
-                            th scope="col" { "Exists?" }
-                            th scope="col" { "How large" }
+                            th scope="col" { "Beyond these records?" }
+                            th scope="col" { "How large?" }
                         }
                     }
                 }
@@ -216,7 +224,7 @@ fn cells(
             }
         }
         @if leads {
-            td data-label={ "Exists, " (column.0) } {
+            td data-label={ "Beyond these records, " (column.0) } {
                 (existing(own, one.effect))
             }
             td data-label="How large" {
@@ -264,7 +272,7 @@ fn counted(claim: &Claim, result: &ClaimResult) -> String {
 /// Every result on every claim.
 pub fn every_result(page: &Page<'_>) -> Markup {
     let columns = page.basis.columns();
-    let mut head = vec!["Claim and effect"];
+    let mut head = vec!["Statement and effect"];
     head.extend(columns.iter().map(|(name, _)| name));
     html! {
         @for (theme, _) in THEMES {
@@ -308,7 +316,7 @@ fn result(claim: &Claim, one: &ClaimResult) -> Markup {
         div.outcome {
             span.source { (one.place()) ": " }
             (mark(one.seen.name())) ", " (joined(&counted(claim, one)))
-            "; exists: " (existing(claim, one)) ", "
+            "; beyond these records: " (existing(claim, one)) ", "
             (joined(&effect_text(claim, one).whole()))
             @if !one.at.is_empty() { span.source { " (" (one.at) ")" } }
             @if !details.is_empty() {

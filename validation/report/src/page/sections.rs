@@ -25,18 +25,26 @@ const EQUATIONS: &str = include_str!("equations.html");
 /// Anchor, title and body of a section.
 type PageSection = (&'static str, &'static str, Markup);
 
-/// What the page is about.
-pub fn head(page: &Page<'_>) -> Markup {
-    html! {
+/// What the page is about: what was done, the result, the status, a block.
+///
+/// # Errors
+/// For kept results that cannot be read.
+pub fn head(page: &Page<'_>) -> anyhow::Result<Markup> {
+    let Page { basis, proof, .. } = page;
+    Ok(html! {
         div.about {
             div {
                 h1 { (TITLE) }
-                p { (page.words.intro) }
-                p { (answers::done(page.basis)) }
+                @for (first, words) in answers::summary(basis, *proof)? {
+                    p { strong { (first) } " " (joined(&words)) }
+                }
             }
-            (PreEscaped(SKETCH))
+            figure {
+                (PreEscaped(SKETCH))
+                figcaption { (page.words.intro) }
+            }
         }
-    }
+    })
 }
 
 /// The sections.
@@ -65,20 +73,20 @@ pub fn page_sections(
 fn answers(page: &Page<'_>) -> anyhow::Result<Markup> {
     let Page { basis, timings, proof, .. } = page;
     let rows = answers::rows(basis, timings, *proof, &page.shown())?;
-    let head = ["Question", "Answer", "Numbers (90 % interval)", "Shown in"];
+    let head = ["Question", "Answer", "How much (90 % interval)", "See"];
     let table = html! {
         table.cards.answers {
             caption {
-                span.unseen { "Questions, and what the findings answer." }
+                span.unseen { "Eight questions and their answers." }
             }
             (table::head(&head))
             tbody {
                 @for AnswerRow { question, answer, effect, shown } in &rows {
                     tr {
                         th scope="row" { (question) }
-                        td data-label="Answer" { strong { (joined(answer)) } }
-                        td data-label="Numbers" { (joined(effect)) }
-                        td data-label="Shown in" { (links(shown)) }
+                        td data-label="Answer" { (joined(answer)) }
+                        td data-label="How much" { (joined(effect)) }
+                        td data-label="See" { (links(shown)) }
                     }
                 }
             }
@@ -164,12 +172,12 @@ fn limits(page: &Page<'_>) -> Markup {
 /// Limits that the records set.
 pub(crate) fn limits_of(results: &StudyResults) -> Vec<&'static str> {
     let mut out = vec![
-        "The paper does not list its records: these suites are not its suites.",
+        "The paper does not list its records, so these suites are not its suites.",
     ];
     if results.embedded() {
         out.push(
             "The embedded suites are synthetic: they show how the procedure \
-             works, not what recorded motions do.",
+             works, not how blocks respond to recorded motions.",
         );
     }
     out
@@ -210,7 +218,7 @@ fn folded_annexes(
         (folded("files", &files.title, &table::untitled(files)))
         (folded("all-results", "Every result", &findings::every_result(page)))
         @if let Some(proof) = page.proof {
-            (folded("cases", "Every declared case", &cases::every_case(proof)))
+            (folded("cases", "Every reference case", &cases::every_case(proof)))
         }
         @for one in annexes { (folded(one.id, one.title, &one.body())) }
     }

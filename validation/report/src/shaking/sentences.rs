@@ -337,9 +337,9 @@ impl RockTests {
     pub fn on_fragility(&self) -> &'static str {
         let both = [self.shift_at_uplift(), self.no_shift_in_pgv()];
         match both.map(|own| own.seen) {
-            [Seen::Yes, Seen::Yes] => "Tests of two rocks agree on uplift",
-            [Seen::No, Seen::No] => "Tests of two rocks disagree on uplift",
-            _ => "Tests of two rocks agree in part on uplift",
+            [Seen::Yes, Seen::Yes] => "tests of two rocks agree",
+            [Seen::No, Seen::No] => "tests of two rocks disagree",
+            _ => "tests of two rocks agree in part",
         }
     }
 
@@ -349,7 +349,7 @@ impl RockTests {
             let own = &self.measured[k];
             format!("{} of {}", own.overturned_below, own.below)
         });
-        format!("overturned below uplift in tests: {}", both(of))
+        format!("overturned below uplift: {}", both(of))
     }
 
     /// How many fates are right, in a sentence.
@@ -357,8 +357,7 @@ impl RockTests {
         let of =
             self.each(|k| percent(self.fitted[k].computed.right.value(), 0));
         format!(
-            "with one angle fitted to each of two rocks, {} of {} fates are \
-             right",
+            "the right outcome in {} of their {} tests",
             both(of),
             self.compared()
         )
@@ -367,11 +366,11 @@ impl RockTests {
     /// The share of right fates of each rock.
     pub fn right_each(&self) -> String {
         let of = self.fitted_each(|own| share(&own.computed.right));
-        format!("fates right: {of}")
+        format!("Right outcomes: {of}")
     }
 
     /// What was compared, in a few words.
     pub fn counted(&self) -> String {
-        format!("{} tests of two rocks", self.compared())
+        format!("{} shaking-table tests of two rocks", self.compared())
     }
 }

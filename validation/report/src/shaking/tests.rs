@@ -112,17 +112,14 @@ fn words_on_sentences_follow_from_the_numbers() {
     });
     let other = other.unwrap();
     assert_eq!(seen(&other), [0; 5].map(|_| name(Seen::No)));
-    assert_eq!(other.on_fragility(), "Tests of two rocks disagree on uplift");
+    assert_eq!(other.on_fragility(), "tests of two rocks disagree");
     // On one rock alone it is in part.
     let part = changed(|all| {
         all["measured"][0]["expected_below"] = json!(0.0);
     });
     let part = part.unwrap();
     assert_eq!(seen(&part)[0], name(Seen::InPart));
-    assert_eq!(
-        part.on_fragility(),
-        "Tests of two rocks agree in part on uplift"
-    );
+    assert_eq!(part.on_fragility(), "tests of two rocks agree in part");
     assert_eq!(now.len(), 5);
     assert_eq!(now[0], name(Seen::Yes));
     assert_eq!(now[2], name(Seen::Yes));

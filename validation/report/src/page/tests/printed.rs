@@ -214,7 +214,7 @@ fn checked(html: &str) -> BTreeMap<String, PrintedClaim> {
             let said =
                 own.said.as_deref().filter(|_| found != Seen::NotTestable);
             let found_effect = exists(said, effect.as_ref());
-            let (word, _) = marked(cell("Exists"));
+            let (word, _) = marked(cell("Beyond"));
             assert_eq!(word, found_effect, "{id}: {}", cell("How large"));
             own.seen.push(found);
             own.exists.push(found_effect);
@@ -233,7 +233,8 @@ fn checked(html: &str) -> BTreeMap<String, PrintedClaim> {
 /// A result among all results: its words follow, too.
 fn result(own: &PrintedClaim, outcome: &str) {
     let (_, sample) = outcome.split_once(": ").unwrap();
-    let (sample, effect) = sample.split_once("; exists: ").unwrap();
+    let (sample, effect) =
+        sample.split_once("; beyond these records: ").unwrap();
     let (word, counts) = marked(sample);
     let found = seen(&own.rules, counts.trim_start_matches(", "));
     assert_eq!(word, found.name(), "{outcome}");
@@ -285,8 +286,8 @@ fn every_word_and_the_score_follow_from_the_numbers_beside_them() {
             sentences.values().filter(of).count()
         };
         let score = format!(
-            "Of the paper's {} testable sentences {} are seen again by the \
-             authors' own criteria, {} are not, {} in part; {} cannot be \
+            "Of the paper's {} testable statements, {} are seen again by the \
+             authors' own criteria, {} are not, and {} in part; {} cannot be \
              tested with these records.",
             words.len(),
             count(Seen::Yes),
@@ -295,9 +296,9 @@ fn every_word_and_the_score_follow_from_the_numbers_beside_them() {
             count(Seen::NotTestable),
         );
         let found = format!(
-            "Beyond these records, the effect that a sentence names is shown \
-             for {}, the opposite for {}; {} deny one that exists, however \
-             small.",
+            "Beyond these records, the effect that a statement names is shown \
+             for {}, and its opposite for {}; {} deny an effect that exists, \
+             however small.",
             effects(true, &|all| {
                 !all.is_empty() && all.iter().all(|e| *e == "yes")
             }),
@@ -347,7 +348,8 @@ fn printed_intervals_are_possible_and_settled() {
         let mut found = 0;
         for outcome in parts(&html, "<div class=\"outcome\">", "</div>") {
             let outcome = text(outcome);
-            let (place, rest) = outcome.split_once("; exists: ").unwrap();
+            let (place, rest) =
+                outcome.split_once("; beyond these records: ").unwrap();
             let (_, effect) = rest.split_once(", ").unwrap();
             let Some(effect) = estimate(effect) else { continue };
             let Some((low, high)) = effect.ends else { continue };

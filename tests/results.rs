@@ -9,7 +9,6 @@ use rocking_common::table::PlainTable;
 use rocking_report::evidence::Proof;
 use rocking_report::law::LawCells;
 use rocking_report::output::{AnswerRow, first_table};
-use rocking_report::scored::codes_table;
 use rocking_report::timings::Timings;
 use rocking_study::kept::findings_of;
 
@@ -72,22 +71,13 @@ fn renewed(
 }
 
 fn answers(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
-    let (rows, other) = first_table(true, findings, Some(proof))?;
+    let (rows, _) = first_table(true, findings, Some(proof))?;
     let line = |row: &AnswerRow| {
-        let AnswerRow { question, answer, effect, .. } = row;
-        let effect = effect.replace('|', "\\|");
-        format!("| {question} | {answer} | {effect} |\n")
+        let AnswerRow { question, answer, .. } = row;
+        format!("| {question} | {} |\n", answer.replace('|', "\\|"))
     };
     let lines: String = rows.iter().map(line).collect();
-    let codes = codes_table(&["best"])?;
-    Ok(format!(
-        "\n| question | answer | numbers (90 % interval) |\n|---|---|---|\n\
-         {lines}\n{}\n\n**{}** {}\n\n{}",
-        other.unwrap_or_default(),
-        codes.title,
-        codes.reading,
-        markdown(&codes)
-    ))
+    Ok(format!("\n| Question | Answer |\n|---|---|\n{lines}"))
 }
 
 /// The law of AvgSA: its answer, and its table.

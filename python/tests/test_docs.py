@@ -42,7 +42,7 @@ def run_python(folder: Path, *arguments: object) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("readme", ["README.md", "../README.md"])
+@pytest.mark.parametrize("readme", ["README.md"])
 def test_the_python_of_the_readme_runs(readme: str, tmp_path: Path) -> None:
     text = (PACKAGE / readme).read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)

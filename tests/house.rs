@@ -14,6 +14,8 @@ mod fixtures;
 mod layers;
 #[path = "house/links.rs"]
 mod links;
+#[path = "house/prose.rs"]
+mod prose;
 
 use layers::tokens;
 

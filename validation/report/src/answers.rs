@@ -357,6 +357,22 @@ fn signed(proof: Option<&Proof>) -> &'static str {
     }
 }
 
+/// What the signatures at the end of the page confirm.
+pub(super) fn confirmed(proof: Option<&Proof>) -> &'static str {
+    match proof.map(Proof::failed) {
+        Some(0) => {
+            "By signing I confirm that every reference case passes, that the \
+             files of this report have the hashes listed in the annexes, and \
+             that the answers agree with the numbers in this report. I do not \
+             confirm that a real object behaves like the model."
+        }
+        _ => {
+            "Not every reference case has passed in this report: it cannot be \
+             signed yet."
+        }
+    }
+}
+
 fn backed(proof: Option<&Proof>) -> String {
     proof.map_or("No reference case was run".into(), |proof| {
         let (failed, all) = (proof.failed(), proof.results().len());

@@ -189,14 +189,15 @@ impl LawCells {
             .map(|r| format!("{:.2}", r.measured_over_law))
             .collect();
         let answer = format!(
-            "Yes, in AvgSA, the geometric mean of SA over 0.15 to 1.0 times \
-             2π/p: half of the motions overturn a block at {least:.1} to \
-             {most:.1} g tan α (law: {low:.1} to {high:.1}, error {:.0} %); in \
-             PGA at {pga_low:.1} to {pga_high:.0}.",
+            "Yes, in AvgSA, the geometric mean of SA over periods from 0.15 \
+             to 1.0 times 2π/p, which scale with the block: half of the \
+             motions overturn any block at {least:.1} to {most:.1} g tan α, \
+             in PGA at {pga_low:.1} to {pga_high:.0} g tan α. The law gives \
+             {low:.1} to {high:.1}, with an error of {:.0} %.",
             100.0 * error
         );
         let numbers = format!(
-            "p {p_low} to {p_high} rad/s, alpha {alpha_low} to \
+            "Blocks: p {p_low} to {p_high} rad/s, alpha {alpha_low} to \
              {alpha_high}, eta {eta_low} to {eta_high}; of {all} cells of six \
              other suites {} shown within 15 %, {} beyond; dispersion \
              {s_high:.2} to {s_low:.2}, falling with p; tests of two \
@@ -298,8 +299,9 @@ impl LawCells {
              and a single cosine, against the frequency of the pulse over p.",
         );
         let heading = Heading { place: Place::Answers, ..heading };
-        let reading = "Lognormals of 15 blocks under seven suites, five \
-                       recorded. (c) AvgSA at overturning by one pulse.";
+        let reading = "(a), (b) Lognormal fragilities of 15 blocks under \
+                       seven suites of motions, five of them recorded. (c) \
+                       AvgSA at overturning by a single pulse.";
         Ok(Chart { heading, panels, columns: 3 }.figure(reading))
     }
 

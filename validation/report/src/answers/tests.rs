@@ -190,6 +190,10 @@ fn other_answers_follow_from_the_cases_that_passed() {
     assert!(signed(Some(&green)).starts_with("That the equations"));
     let passed = format!("{all} of {all} reference cases pass");
     assert!(status(Some(&green)).contains(&passed));
+    assert!(confirmed(Some(&green)).starts_with("By signing"));
+    for unsigned in [None, Some(&reds[0])] {
+        assert!(confirmed(unsigned).ends_with("cannot be signed yet."));
+    }
     for red in &reds {
         let failed = red.failed();
         let words = format!("Not known: {failed} of {all} reference cases");

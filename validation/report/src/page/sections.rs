@@ -194,6 +194,8 @@ fn provenance(page: &Page<'_>) -> Markup {
     inputs.extend(page.tests.origin());
     html! {
         (folded("inputs", "Program, suites, command", &list(&inputs)))
+        div.sign {
+        p { (answers::confirmed(page.proof)) }
         ul.signatures {
             @for (what, words) in page.signatures.lines() {
                 li {
@@ -205,6 +207,7 @@ fn provenance(page: &Page<'_>) -> Markup {
                     }
                 }
             }
+        }
         }
     }
 }

@@ -88,6 +88,33 @@ fn a_browser_gives_the_bits_of_the_program() {
     assert_eq!(browser.evaluate(rows), count);
 }
 
+/// No number of the last block is left beside the message.
+#[test]
+fn a_wrong_input_clears_the_result() {
+    let Some(mut browser) = started("wrong") else { return };
+    browser.open(&root().join("reports").join(LAB), 1400, "light");
+    browser.evaluate(&until("document.body.dataset.ready"));
+    let shown = "[document.getElementById('verdict').textContent, \
+                 document.querySelectorAll('#numbers td, #fragility td, \
+                 #scene svg, #history svg').length]";
+    let whole = browser.evaluate(shown);
+    assert!(whole[1].as_u64().expect("a count") > 10, "{whole}");
+    for (field, value) in [("width", "0"), ("width", "45"), ("eta", "1.4")] {
+        let before = browser.evaluate("document.body.dataset.changed");
+        browser.evaluate(&format!(
+            "{{ const own = document.getElementById('{field}'); \
+             own.value = '{value}'; own.dispatchEvent(new Event('input', \
+             {{ bubbles: true }})); }}"
+        ));
+        let changed = format!("document.body.dataset.changed !== {before}");
+        browser.evaluate(&until(&changed));
+        let found = browser.evaluate(shown);
+        let words = found[0].as_str().expect("words");
+        assert!(words.contains("expected a number"), "{value}: {words}");
+        assert_eq!(found[1], 0, "{value}");
+    }
+}
+
 /// A second of shaking, as a column of time and acceleration.
 fn record() -> String {
     let sample = |k: u32| {

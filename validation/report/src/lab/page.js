@@ -96,11 +96,14 @@ const make = (tag, content = "", attributes = {}) => {
 };
 const digits = (x, n = 6) =>
   typeof x === "number" ? String(Number(x.toPrecision(n))) : "none";
+// The digits of a number that lie above the bound on its error.
+const sure = (x, bound) => digits(x, bound > 0
+  ? Math.min(12, Math.max(1, Math.floor(Math.log10(Math.abs(x) / bound)))) : 6);
 const rows = (table, pairs) => $(table).tBodies[0].replaceChildren(
   ...pairs.map((cells) => make("tr", cells.map((text, k) => k
     ? make("td", text) : make("th", text, { scope: "row" })))));
 
-// ---- Recompute ----
+// ---- Reference cases ----
 const listed = await many.ask({ ask: "cases" });
 $("state").textContent = `The engine is ready, on ${cores} ` +
   `${cores > 1 ? "cores" : "core"}.`;
@@ -167,10 +170,10 @@ for (const [family, cases] of Object.entries(
   $("cases").append(make("details", [make("summary", title), button, box]));
 }
 $("left-why").textContent = `${native.left.length} of ` +
-  `${runs.length + native.left.length} declared cases take longer than about a ` +
-  "second in a browser, or rest on quantiles of Student's and the beta " +
-  "distribution by the library statrs. That library uses the logarithm of " +
-  "the platform, so that last digits differ there.";
+  `${runs.length + native.left.length} reference cases take longer than about ` +
+  "a second in a browser, or use quantiles of Student's t and of the beta " +
+  "distribution from the library statrs, which uses the logarithm of the " +
+  "platform: last digits differ there.";
 $("left-list").append(...native.left.map((id) => make("li", id)));
 $("all").onclick = () => runAll(runs);
 $("stop").onclick = () => many.stop();
@@ -210,7 +213,7 @@ function plot(title, across, up, series, x, y, limits = []) {
 
 // ---- Your block ----
 const number = (id) => Number($(id).value);
-let components = [], motions = [], shown = null, changed = 0;
+let components = [], motions = [], shown = null, changed = 0, playing = false;
 const isPulse = () => !["motion", "file"].includes($("kind").value);
 const recorded = () => $("kind").value === "file"
   ? components[number("component")] : motions[number("motion")];
@@ -231,33 +234,53 @@ function ground() {
 const scene = () => ({ block: shape(), eta: number("eta"), ground: ground(),
   intensity: number("intensity") });
 
-const fates = {
+const outcomes = {
   "no-uplift": () => "The block does not lift.",
-  rocked: (c) => "The block rocks and stands. Its peak rotation is " +
-    `${digits(c.edp)} alpha.`,
+  rocked: (c) => "The block rocks but stays up. Its peak rotation is " +
+    `${digits(c.edp, 3)} alpha.`,
   overturned: (c) =>
-    `The block overturns after ${digits(c.overturning_time_s)} s.`,
+    `The block overturns after ${digits(c.overturning_time_s, 3)} s.`,
 };
+const settled = (c) => !c.resolved
+  ? " Even the highest precision does not decide the outcome."
+  : c.by === "double" ? " Double precision is enough here."
+  : ` The outcome was decided in ${c.by} precision.`;
+// Without a result nothing of the last one is left.
+function clear(words) {
+  shown = null;
+  playing = false;
+  $("verdict").textContent = words;
+  ["numbers", "fragility"].forEach((table) => rows(table, []));
+  ["history", "scene", "ida-drawing", "ida-words", "fragility-words"]
+    .forEach((id) => $(id).replaceChildren());
+}
+// The first field on show that has no number in its range.
+function wrong() {
+  const field = [...$("form").querySelectorAll("input[type=number]")]
+    .find((own) => !own.closest("[hidden]") && !own.validity.valid ||
+      own.min && !own.closest("[hidden]") && own.id !== "dt" && !own.value);
+  return field && `${field.closest("label").textContent.trim()}: expected a ` +
+    `number of at least ${field.min}` + (field.max ? ` and at most ${field.max}.` : ".");
+}
 function show(found, took_ms) {
   shown = found;
   const { response: r, certified: c } = found;
-  $("verdict").textContent = fates[c.counts_as](c) + (c.resolved ? ` The fate is sure, by ${c.by} arithmetic.`
-    : " The fate is unresolved even in the widest arithmetic.");
+  $("verdict").textContent = outcomes[c.counts_as](c) + settled(c);
   const least = r.certificate?.least;
   rows("numbers", [
-    ["Slenderness alpha", `${found.alpha_rad} rad`],
-    ["Frequency parameter p", `${found.p_rad_s} rad/s`],
-    ["Width and height", `${digits(found.width_m)} m, ${digits(found.height_m)} m`],
-    ["Peak ground acceleration", `${found.pga_g} g`],
+    ["Slenderness alpha", `${digits(found.alpha_rad, 4)} rad`],
+    ["Frequency parameter p", `${digits(found.p_rad_s, 4)} rad/s`],
+    ["Width and height", `${digits(found.width_m, 4)} m, ${digits(found.height_m, 4)} m`],
+    ["Peak ground acceleration", `${digits(found.pga_g, 4)} g`],
     ["Peak rotation over alpha", c.counts_as === "overturned"
-      ? "none: the block overturns" : `${r.peak_ratio}`],
+      ? "none: the block overturns" : sure(r.peak_ratio, r.error_estimate)],
     ["Bound on its error", digits(r.error_estimate, 2)],
-    ["Time of the peak in s", digits(r.peak_time_s)],
+    ["Time of the peak", `${digits(r.peak_time_s, 4)} s`],
     ["Impacts", `${r.impacts.length}`],
-    ["Distance from the other fate, over alpha", digits(r.fate_margin)],
-    ["Certificate", least ? `least clear decision: ${least.decision}, margin ` +
-      `over error ${digits(least.ratio, 3)} (clear from ` +
-      `${r.certificate.clear_from_ratio})` : "none"],
+    ["Distance from the other outcome, over alpha", digits(r.fate_margin, 3)],
+    ["Least clear decision: margin over its error", least
+      ? `${least.ratio.toExponential(1)} (enough from ` +
+        `${r.certificate.clear_from_ratio})` : "none"],
     ["Condition number", digits(r.condition_number, 3)],
     ["Bits", found.bits],
     ["Computed in", `${took_ms.toFixed(0)} ms`],
@@ -292,7 +315,6 @@ function draw() {
     `<path class="limit" d="M160 20V230"/>` +
     `<text x="10" y="247">ground ${digits(shown.ground_g[k] ?? 0, 2)} g</text></svg>`;
 }
-let playing = false;
 function frame(last, now) {
   if (last) $("time").value = number("time") + (now - last) / 1000;
   draw();
@@ -324,28 +346,30 @@ async function fragility() {
 }
 let busy = false, again = false;
 async function answer() {
+  if (wrong()) return clear(wrong());
   if (!isPulse() && !recorded()) {
-    $("verdict").textContent = "Open a record file, or drop one on this page.";
-    return;
+    return clear("Open a record file, or drop one on this page.");
   }
   const begin = performance.now();
-  const found = await own.ask({ ask: "response", ...scene() });
+  const slow = setTimeout(() => {
+    $("verdict").textContent = "Computing.";
+  }, 200);
+  const found = await own.ask({ ask: "response", ...scene() })
+    .finally(() => clearTimeout(slow));
   show(found, performance.now() - begin);
   await fragility().catch((error) => {
     rows("fragility", []);
     $("fragility-words").textContent = error.message;
   });
 }
-// Of the changes that come during an answer the last alone is answered.
+// If inputs change during an answer, only the last change is answered.
 async function update() {
   again = true;
   if (busy) return;
   busy = true;
   while (again) {
     again = false;
-    await answer().catch((error) => {
-      $("verdict").textContent = error.message;
-    });
+    await answer().catch((error) => clear(error.message));
   }
   busy = false;
   changed += 1;
@@ -385,7 +409,7 @@ async function read(file) {
   } catch (error) { refused = error.message; }
   options("component", components);
   await chosen();
-  if (refused) $("verdict").textContent = refused;
+  if (refused) clear(refused);
 }
 let dropped = null;
 const reread = () => read(dropped ?? $("file").files[0]);
@@ -424,7 +448,7 @@ $("ida").onclick = async () => {
     const { points, overturning } = found;
     $("ida-words").textContent = `${found.analyses} analyses in ` +
       `${(performance.now() - begin).toFixed(0)} ms. ` + (overturning
-        ? `First overturning at PGA/(g tan alpha) = ${overturning}.`
+        ? `First overturning at PGA/(g tan alpha) = ${digits(overturning)}.`
         : "The block does not overturn.") + ` Bits ${found.bits}.`;
     const right = Math.max(overturning ?? 0, ...points.map(([im]) => im)) * 1.05;
     $("ida-drawing").innerHTML = plot("IDA curve of this record",
@@ -435,7 +459,7 @@ $("ida").onclick = async () => {
   } catch (error) { $("ida-words").textContent = error.message; }
 };
 
-// ---- Map of fates ----
+// ---- Map of outcomes ----
 const SIDE = 25, MIDDLE = SIDE >> 1;
 function cell(canvas, i, j, fate, peak) {
   const pen = canvas.getContext("2d");
@@ -498,11 +522,11 @@ $("map").onclick = async () => {
       pen.fillRect(340 - size / 2, 195 - 8, size, 16);
     }
     const text = `${count.overturned} of ${SIDE * SIDE} blocks overturn, ` +
-      `${count.rocked} rock and stand, ${count["no-uplift"]} do not lift, ` +
+      `${count.rocked} rock but stay up, ${count["no-uplift"]} do not lift, ` +
       `${count.unresolved} are unresolved in double precision.`;
     $("map-words").textContent = `${text} Computed in ` +
       `${((performance.now() - begin) / 1000).toFixed(1)} s.`;
-    canvas.setAttribute("aria-label", `Map of fates: ${text}`);
+    canvas.setAttribute("aria-label", `Map of outcomes: ${text}`);
   } catch (error) { $("map-words").textContent = error.message; }
   running(false);
 };

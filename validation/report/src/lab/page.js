@@ -499,6 +499,7 @@ $("map").onclick = async () => {
   const intensities = around(number("intensity"));
   const sizes = around(shown.p_rad_s);
   const [canvas, base, begin] = [$("map-drawing"), scene(), performance.now()];
+  $("map-box").hidden = false;
   axes(canvas, intensities, sizes);
   const running = (is) => {
     $("map").disabled = is;

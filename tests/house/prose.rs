@@ -77,12 +77,18 @@ fn figures(line: &str) -> Vec<String> {
 /// Figures that are no results of the program: levels of quantiles and
 /// intervals, limits that the program has as constants, and the measurements
 /// of one campaign that the page describes.
-const FIXED: [(&str, &str, &str); 9] = [
+const FIXED: [(&str, &str, &str); 15] = [
     ("", "% interval", "level of an interval"),
     ("", "% intervals", "level of an interval"),
     ("", "% quantile", "level of a quantile"),
     ("", "SA(T, 5 %)", "damping of a spectrum"),
     ("docs/tables.md", "", "written by a test from the columns"),
+    ("docs/commands.md", "1.5 times uplift", "input of an example"),
+    ("docs/formats.md", "1e-150", "range of an input"),
+    ("docs/report.md", "90 %", "level of an interval"),
+    ("docs/report.md", "(5 % of a response ratio", "limit of `rocking diff`"),
+    ("docs/report.md", "are its 95 %", "level of an interval"),
+    ("docs/theory.md", "off by more than 15 %", "rule set before the law"),
     ("docs/theory.md", "0.15 to 1.0 times 2 pi/p", "definition of a measure"),
     ("docs/tour.md", "0.15 to 1.0 times 2 pi/p", "definition of a measure"),
     ("src/certainty.md", "", "limits in the code, and one campaign"),

@@ -1,6 +1,5 @@
-//! What the report shows of the proof: the declared cases with their
-//! results, the digits that each precision reaches, and figures of closed
-//! forms.
+//! The proof in the report: the reference cases with their results, the
+//! digits that each precision reaches, and figures of closed forms.
 
 mod defect;
 mod fates;
@@ -13,8 +12,8 @@ pub use proof::{NOT_RUN, Proof};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 
-/// The tables of the proof: digits and pulses against closed forms, if
-/// results were handed in.
+/// The tables of the proof, if its results were given: digits, and pulses
+/// against closed forms.
 pub fn checks(proof: Option<&Proof>) -> Vec<PlainTable> {
     proof.map_or_else(Vec::new, |proof| {
         vec![proof.digits_table(), tables::similarity(proof)]
@@ -24,9 +23,20 @@ pub fn checks(proof: Option<&Proof>) -> Vec<PlainTable> {
 /// The figures of the proof.
 ///
 /// # Errors
-/// Where a scene is refused.
+/// If a scene is refused.
 pub fn charts() -> anyhow::Result<Vec<Figure>> {
     Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
+}
+
+/// Ends of `count` intervals of equal ratio.
+fn spaced((low, high): (f64, f64), count: usize) -> Vec<f64> {
+    let step = libm::log(high / low) / count as f64;
+    (0..=count).map(|k| low * libm::exp(step * k as f64)).collect()
+}
+
+/// Geometric middles of such intervals.
+fn middles(ends: &[f64]) -> Vec<f64> {
+    ends.windows(2).map(|pair| (pair[0] * pair[1]).sqrt()).collect()
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! The ledger of evidence: what was required, and what proves it.
+//! The ledger of evidence: each requirement, and what proves it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context as _, bail};
 use serde::Deserialize;
 
-use rocking_common::findings::{Claim, Seen};
+use rocking_common::findings::{Claim, ClaimResult, Seen};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot;
@@ -16,11 +16,11 @@ const REQUIREMENTS: &str = include_str!("../requirements.toml");
 /// Their file.
 const PLACE: &str = "requirements.toml";
 
-/// Who requires something.
+/// The source of a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
-    /// Who asked for the implementation.
+    /// The customer of the implementation.
     User,
     /// The paper.
     Paper,
@@ -28,19 +28,19 @@ pub enum Origin {
     Ours,
 }
 
-/// One requirement and where its evidence is.
+/// A requirement and the places of its evidence.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
     /// Unique name.
     pub id: String,
-    /// Who requires it.
+    /// Its source.
     pub source: Origin,
-    /// Where it stands.
+    /// The place in the source.
     pub place: String,
     /// What is required.
     pub text: String,
-    /// Ids of declared cases; one `*` stands for anything.
+    /// Ids of reference cases; one `*` matches any text.
     #[serde(default)]
     pub cases: Vec<String>,
     /// Names of claims.
@@ -49,10 +49,10 @@ pub struct Requirement {
     /// Functions of the gate: `file::function`.
     #[serde(default)]
     pub tests: Vec<String>,
-    /// Numbers of the first and the last of the figures that the run draws
-    /// and writes with their numbers.
+    /// Numbers of the first and the last figure that the run draws and whose
+    /// data it writes.
     pub figures: Option<(u32, u32)>,
-    /// What the evidence leaves open; may be empty.
+    /// What the evidence does not cover; may be empty.
     #[serde(default)]
     pub gap: String,
 }
@@ -83,41 +83,40 @@ fn parse(text: &str) -> anyhow::Result<Vec<Requirement>> {
     Ok(file.requirement)
 }
 
-/// How a requirement stands.
+/// The evidence for a requirement, as executed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Standing {
     /// Number of cases that passed.
     pub passed: usize,
-    /// Cases that did not.
+    /// Cases that did not pass.
     pub failed: Vec<String>,
-    /// Whether cases are named whose results are not there.
+    /// Whether cases are named but there are no results of cases.
     pub not_run: bool,
-    /// Patterns and names that no executed evidence fits.
+    /// Patterns and names without executed evidence.
     pub missing: Vec<String>,
-    /// Whether anything at all is named as evidence.
-    pub named: bool,
 }
 
 impl Standing {
-    /// Whether all evidence named was executed, and the cases passed.
+    /// Whether all evidence was executed and every case passed.
     pub fn is_met(&self) -> bool {
-        self.named
-            && !self.not_run
-            && self.failed.is_empty()
-            && self.missing.is_empty()
+        !self.not_run && self.failed.is_empty() && self.missing.is_empty()
     }
 }
 
 impl Requirement {
-    /// Whether only tests prove it, whose results are in no file.
-    pub fn is_tests_alone(&self) -> bool {
-        self.cases.is_empty()
-            && self.findings.is_empty()
-            && self.figures.is_none()
-            && !self.tests.is_empty()
+    /// Whether any evidence is named.
+    pub fn is_named(&self) -> bool {
+        self.is_beyond_tests() || !self.tests.is_empty()
     }
 
-    /// How it stands, given the results of the declared cases, if there are
+    /// Whether evidence other than tests is named; the results of tests are in
+    /// no file.
+    fn is_beyond_tests(&self) -> bool {
+        let lists = [&self.cases, &self.findings];
+        self.figures.is_some() || lists.iter().any(|list| !list.is_empty())
+    }
+
+    /// The evidence, given the results of the reference cases, if there are
     /// any, and whether a claim was measured, a test is part of the gate, a
     /// figure was drawn.
     pub fn standing(
@@ -127,42 +126,31 @@ impl Requirement {
         is_test: &dyn Fn(&str) -> bool,
         drawn: &dyn Fn(u32) -> bool,
     ) -> Standing {
-        let named = [&self.cases, &self.findings, &self.tests];
-        let mut out = Standing {
-            named: named.iter().any(|list| !list.is_empty())
-                || self.figures.is_some(),
-            not_run: results.is_none() && !self.cases.is_empty(),
-            ..Standing::default()
-        };
-        let mut met = BTreeSet::new();
-        for pattern in &self.cases {
-            let Some(results) = results else { break };
-            let mut fits = false;
-            for (id, result) in results.iter().filter(|r| fit(pattern, r.0)) {
-                fits = true;
-                if !met.insert(id) {
-                    continue;
-                }
-                if result.passed() {
-                    out.passed += 1;
-                } else {
-                    out.failed.push(id.clone());
-                }
+        let mut missing = Vec::new();
+        let mut met = BTreeMap::new();
+        for pattern in results.iter().flat_map(|_| &self.cases) {
+            let all = results.into_iter().flatten();
+            let own: Vec<_> = all.filter(|(id, _)| fit(pattern, id)).collect();
+            if own.is_empty() {
+                missing.push(pattern.clone());
             }
-            if !fits {
-                out.missing.push(pattern.clone());
-            }
+            met.extend(own);
         }
-        let missing = |list: &[String], there: &dyn Fn(&str) -> bool| {
-            let gone = list.iter().filter(|name| !there(name));
-            gone.cloned().collect::<Vec<String>>()
-        };
-        out.missing.extend(missing(&self.findings, measured));
-        out.missing.extend(missing(&self.tests, is_test));
+        let findings = self.findings.iter().filter(|name| !measured(name));
+        let tests = self.tests.iter().filter(|name| !is_test(name));
+        missing.extend(findings.chain(tests).cloned());
         let figures = self.figures.into_iter().flat_map(|(a, b)| a..=b);
         let gone = figures.filter(|number| !drawn(*number));
-        out.missing.extend(gone.map(|number| format!("Figure {number}")));
-        out
+        missing.extend(gone.map(|number| format!("Figure {number}")));
+        let failed = met.iter().filter(|(_, result)| !result.passed());
+        let failed: Vec<String> =
+            failed.map(|(id, _)| (*id).clone()).collect();
+        Standing {
+            passed: met.len() - failed.len(),
+            failed,
+            not_run: results.is_none() && !self.cases.is_empty(),
+            missing,
+        }
     }
 }
 
@@ -178,11 +166,10 @@ fn fit(pattern: &str, id: &str) -> bool {
     }
 }
 
-/// The ledger for the page: what was required, and what proves it; `figures`
-/// are those that the run drew.
+/// The ledger for the page; `figures` are those that the run drew.
 ///
 /// # Errors
-/// Where the requirements cannot be read.
+/// If the requirements cannot be read.
 pub fn table(
     results: Option<&snapshot::Results>,
     claims: &[Claim],
@@ -193,27 +180,27 @@ pub fn table(
         let is = |f: &Figure| f.heading.number == Some(number);
         figures.iter().any(|f| is(f) && !f.csv().is_empty())
     };
-    let requirements = requirements()?;
-    let mut rows = Vec::with_capacity(requirements.len());
     let (mut met, mut by_tests) = (0, 0);
-    for r in &requirements {
+    let row = |r: &Requirement| {
         let standing = r.standing(results, &measured, &|_| true, &drawn);
-        let tests_alone = r.is_tests_alone();
-        met += usize::from(standing.is_met() && !tests_alone);
-        by_tests += usize::from(tests_alone);
+        match r.is_beyond_tests() {
+            true => met += usize::from(standing.is_met()),
+            false => by_tests += usize::from(r.is_named()),
+        }
         let source = match r.source {
-            Origin::User => "asked for",
+            Origin::User => "requested",
             Origin::Paper => "paper",
             Origin::Ours => "our own",
         };
-        rows.push(vec![
+        vec![
             r.text.clone(),
             format!("{source}, {}", r.place),
             evidence(r, &standing, claims),
             state(r, &standing, claims),
             r.gap.clone(),
-        ]);
-    }
+        ]
+    };
+    let rows: Vec<_> = requirements()?.iter().map(row).collect();
     let header =
         ["requirement", "source", "evidence", "state", "what it leaves open"];
     Ok(PlainTable::new(
@@ -221,9 +208,9 @@ pub fn table(
         "What was required, and what proves it",
         format!(
             "{met} of {} requirements have executed evidence and no failed \
-             case; {by_tests} more rest on tests of the gate alone, whose \
+             case. {by_tests} more rest only on tests of the gate, whose \
              results are not in these files. A finding is evidence that the \
-             claim was measured, seen or not.",
+             claim was measured, whether or not it is seen.",
             rows.len()
         ),
         &header,
@@ -231,63 +218,64 @@ pub fn table(
     ))
 }
 
+/// The results on the claims of a requirement.
+fn found<'a>(
+    r: &'a Requirement,
+    claims: &'a [Claim],
+) -> impl Iterator<Item = (&'a str, &'a ClaimResult)> {
+    let own = claims.iter().filter(|claim| r.findings.contains(&claim.id));
+    own.flat_map(|claim| claim.results.iter().map(|one| (&*claim.id, one)))
+}
+
 fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     let mut parts = Vec::new();
+    let cases = r.cases.join(", ");
     if standing.not_run {
-        parts.push(format!("cases, not run here ({})", r.cases.join(", ")));
+        parts.push(format!("cases, not run here ({cases})"));
     } else if !r.cases.is_empty() {
         let n = standing.passed;
-        let cases = if n == 1 { "case" } else { "cases" };
-        parts.push(format!("{n} {cases} passed ({})", r.cases.join(", ")));
+        let noun = if n == 1 { "case" } else { "cases" };
+        parts.push(format!("{n} {noun} passed ({cases})"));
     }
-    let found: Vec<String> = claims
-        .iter()
-        .filter(|claim| r.findings.contains(&claim.id))
-        .flat_map(|claim| {
-            claim.results.iter().map(|result| {
-                let (id, place) = (&claim.id, result.place());
-                format!("{id} ({place}) seen: {}", result.seen)
-            })
-        })
+    let found: Vec<String> = found(r, claims)
+        .map(|(id, one)| format!("{id} ({}) seen: {}", one.place(), one.seen))
         .collect();
     if !found.is_empty() {
         parts.push(format!("findings: {}", found.join(", ")));
     }
-    if let Some((first, last)) = r.figures {
-        parts.push(format!(
-            "figures {first} to {last}, drawn in this run from its numbers, \
-             which stand beside each"
-        ));
-    }
-    if !r.tests.is_empty() {
-        // Names of tests are sentences; words wrap, paths don't.
-        let words = |test: &String| {
-            let (file, name) = test.split_once("::").unwrap_or(("", test));
-            format!("{} ({file})", name.replace('_', " "))
-        };
-        let tests: Vec<String> = r.tests.iter().map(words).collect();
+    parts.extend(r.figures.map(|(first, last)| {
+        format!(
+            "figures {first} to {last}, drawn in this run from numbers that \
+             are listed beside each"
+        )
+    }));
+    // Names of tests are sentences; words wrap, paths don't.
+    let words = |test: &String| {
+        let (file, name) = test.split_once("::").unwrap_or(("", test));
+        format!("{} ({file})", name.replace('_', " "))
+    };
+    let tests: Vec<String> = r.tests.iter().map(words).collect();
+    if !tests.is_empty() {
         parts.push(format!("tests: {}", tests.join(", ")));
     }
     parts.join("; ")
 }
 
-/// How a requirement stands, in words. A claim that was measured is not one
-/// that is seen: its words are counted.
+/// The state of a requirement in words. A claim that was measured need not be
+/// seen: its words are counted.
 fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
-    if !standing.failed.is_empty() {
-        return format!("✗ failed: {}", standing.failed.join(", "));
+    for (names, words) in
+        [(&standing.failed, "failed"), (&standing.missing, "no evidence")]
+    {
+        if !names.is_empty() {
+            return format!("✗ {words}: {}", names.join(", "));
+        }
     }
-    if !standing.missing.is_empty() {
-        return format!("✗ no evidence: {}", standing.missing.join(", "));
-    }
-    if standing.not_run {
-        return "not run here".into();
-    }
-    if !standing.named {
-        return "✗ no evidence named".into();
-    }
-    if r.is_tests_alone() {
-        return "in the gate alone".into();
+    match (standing.not_run, r.is_beyond_tests(), r.is_named()) {
+        (true, ..) => return "not run here".into(),
+        (_, true, _) => {}
+        (_, _, true) => return "only in the gate".into(),
+        _ => return "✗ no evidence named".into(),
     }
     let mut parts = Vec::new();
     if standing.passed > 0 {
@@ -297,13 +285,9 @@ fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
         parts.push("✓ drawn".into());
     }
     if !r.findings.is_empty() {
-        let own = claims.iter().filter(|c| r.findings.contains(&c.id));
-        let words: Vec<Seen> = own
-            .flat_map(|claim| &claim.results)
-            .map(|result| result.seen)
-            .collect();
         let counted = Seen::ALL.into_iter().filter_map(|word| {
-            let n = words.iter().filter(|own| **own == word).count();
+            let own = found(r, claims).filter(|(_, one)| one.seen == word);
+            let n = own.count();
             (n > 0).then(|| format!("{n} {word}"))
         });
         let counted: Vec<String> = counted.collect();

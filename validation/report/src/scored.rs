@@ -1,10 +1,18 @@
-//! The page of a score, answers of a code beside certified ones, and the
+//! The page of a score (the answers of a code against certified ones), and the
 //! scores of known codes.
+
+use std::collections::BTreeMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking_common::table::PlainTable;
-use rocking_draw::figures::of_result::{codes_chart, score_svg};
-use rocking_draw::figures::{Chart, Figure, Heading, Place};
+use rocking_common::words::range;
+use rocking_draw::colour::{Ink, Pen};
+use rocking_draw::figures::of_result::score_svg;
+use rocking_draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Layout, Mark, Of, Place,
+    Series,
+};
+use rocking_draw::grid::Grid;
 use rocking_draw::page::{head, table};
 use rocking_score::{
     Code, CodeVerdict, Explanation, LevelScore, QuantityScore, Score, Value,
@@ -60,127 +68,210 @@ pub fn page(scored: &Score) -> String {
         + "\n"
 }
 
-/// Settings of the known codes.
+/// Settings of the known codes: as shipped, and the finest that was tried.
 pub const SETTINGS: [&str; 2] = ["default", "best"];
 
-/// Medians of each level of this program, and of known codes in these
-/// settings.
-///
-/// # Errors
-/// Where our own answers are refused.
-pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
+/// A code in one setting, this program among them.
+struct ScoredCode {
+    code: String,
+    version: String,
+    setting: String,
+    /// Median digits of each level, and the numbers of wrong and of all
+    /// outcomes.
+    medians: Vec<Option<f64>>,
+    wrong: usize,
+    outcomes: usize,
+}
+
+impl ScoredCode {
+    /// The fewest median digits of any level.
+    fn least(&self) -> f64 {
+        let known = self.medians.iter().map(|m| m.unwrap_or(f64::NAN));
+        range(known).0
+    }
+}
+
+/// This program, then each known code in each setting; and the levels.
+fn scored_codes() -> anyhow::Result<(Vec<ScoredCode>, Vec<String>)> {
     let own = score(&own_answers().map_err(anyhow::Error::msg)?);
-    let [wrong, right] = [
-        own.levels.iter().map(|level| level.fates_wrong).sum::<usize>(),
-        own.levels.iter().map(|level| level.fates_right).sum(),
-    ];
-    let medians = own.levels.iter().map(|level| digits(level.median_digits));
-    let name = format!("rocking {}", env!("CARGO_PKG_VERSION"));
-    let first = [name, "as shipped".into()].into_iter().chain(medians);
-    let first: Vec<String> =
-        first.chain([format!("{wrong} of {}", wrong + right)]).collect();
-    let mut codes = codes();
-    codes.retain(|code| settings.contains(&code.setting.as_str()));
+    let levels = own.levels.iter();
+    let wrong = levels.clone().map(|level| level.fates_wrong).sum();
+    let right: usize = levels.clone().map(|level| level.fates_right).sum();
+    let first = ScoredCode {
+        code: "rocking".into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        setting: "as shipped".into(),
+        medians: levels.clone().map(|level| level.median_digits).collect(),
+        wrong,
+        outcomes: wrong + right,
+    };
+    let all = codes();
     let same =
         |a: &Code, b: &Code| (&a.code, &a.setting) == (&b.code, &b.setting);
-    let row = |levels: &[Code]| {
-        let Code { code, setting, version, .. } = &levels[0];
-        let median = |level| levels.iter().find(|c| c.level == level);
-        let sum = |f: fn(&Code) -> usize| levels.iter().map(f).sum::<usize>();
-        let (wrong, of) = (sum(|c| c.fates_wrong), sum(|c| c.fates_answered));
-        let name = format!("{code} {version}").trim_end().to_owned();
-        let mut cells = vec![name, setting.clone()];
-        cells.extend(
-            (1..=5)
-                .map(|level| digits(median(level).map(|c| c.median_digits))),
-        );
-        cells.push(format!("{wrong} of {of}"));
+    let others = all.chunk_by(same).map(|rows| ScoredCode {
+        code: rows[0].code.clone(),
+        version: rows[0].version.clone(),
+        setting: rows[0].setting.clone(),
+        medians: levels
+            .clone()
+            .map(|own| rows.iter().find(|row| row.level == own.level))
+            .map(|row| Some(row?.median_digits))
+            .collect(),
+        wrong: rows.iter().map(|row| row.fates_wrong).sum(),
+        outcomes: rows.iter().map(|row| row.fates_answered).sum(),
+    });
+    let kinds = levels.clone().map(|level| level.kind.clone()).collect();
+    Ok(([first].into_iter().chain(others).collect(), kinds))
+}
+
+/// Median digits of this program, and of known codes in these settings, level
+/// by level.
+///
+/// # Errors
+/// If our own answers are refused.
+pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
+    let (codes, levels) = scored_codes()?;
+    let is_shown = |code: &&ScoredCode| {
+        code.setting == codes[0].setting
+            || settings.contains(&code.setting.as_str())
+    };
+    let row = |code: &ScoredCode| {
+        let name = format!("{} {}", code.code, code.version);
+        let mut cells = vec![name.trim_end().into(), code.setting.clone()];
+        cells.extend(code.medians.iter().map(|median| digits(*median)));
+        cells.push(format!("{} of {}", code.wrong, code.outcomes));
         cells
     };
-    let others = codes.chunk_by(same).map(row);
+    let names = ["code", "setting"].into_iter();
+    let names = names.chain(levels.iter().map(String::as_str));
+    let header: Vec<&str> = names.chain(["wrong outcomes"]).collect();
     Ok(PlainTable::new(
         "other-codes",
         "How do others do?",
         format!(
             "Median digits of the answers of this program and of other codes \
-             to the reference data set (fixtures/benchmark), level by level. {} Double \
-             precision gives 14 to 15 digits where a scene is well \
-             conditioned. validation/peers lists the codes that could not be \
-             made to rock, and why.",
-            meant(settings)
+             to the reference data set (fixtures/benchmark), by level of \
+             difficulty. {}Double precision can give 14 to 15 digits if a \
+             scene is well conditioned. Physics engines, OpenSees and the \
+             penalty model (a block on springs and dampers) have no \
+             linearized equation, so they answer 54 outcomes of 65. \
+             validation/peers lists the codes that could not be made to \
+             rock, and why.",
+            explained(settings, &codes)
         ),
-        &[
-            "code",
-            "setting",
-            "free rocking",
-            "pulse without impact",
-            "pulse with impacts",
-            "record",
-            "hard",
-            "wrong fates",
-        ],
-        [first].into_iter().chain(others).collect(),
+        &header,
+        codes.iter().filter(is_shown).map(row).collect(),
     ))
 }
 
-/// What the shown settings are, and which codes the finest do not serve.
-fn meant(settings: &[&str]) -> String {
-    let mut out = Vec::new();
-    if settings.contains(&SETTINGS[0]) {
-        out.push("`default`: a code as it is shipped.".to_owned());
-    }
-    if settings.contains(&SETTINGS[1]) {
-        out.push(
-            "`best`: a code with the smallest steps and tightest tolerances \
-             that were tried."
-                .into(),
-        );
-    }
-    let wrong = |name: &str, setting: &str| -> usize {
-        let of = |c: &Code| c.code == name && c.setting == setting;
-        let own = codes().into_iter().filter(of);
-        own.map(|c| c.fates_wrong).sum()
-    };
-    let all = codes();
-    let names = all.chunk_by(|a, b| a.code == b.code).map(|c| &c[0].code);
-    for name in names {
-        let [shipped, finest] = SETTINGS.map(|setting| wrong(name, setting));
-        if finest > shipped {
-            out.push(format!(
-                "With these {name} has {finest} wrong fates, as shipped \
-                 {shipped}."
-            ));
+/// The meaning of each setting shown, and the codes with more wrong outcomes
+/// in the finest setting than as shipped.
+fn explained(settings: &[&str], codes: &[ScoredCode]) -> String {
+    let mut out = String::new();
+    for (setting, words) in [
+        (SETTINGS[0], "as the code is shipped"),
+        (SETTINGS[1], "the smallest steps and tightest tolerances tried"),
+    ] {
+        if settings.contains(&setting) {
+            out += &format!("`{setting}`: {words}. ");
         }
     }
-    out.join(" ")
+    for finest in codes.iter().filter(|code| code.setting == SETTINGS[1]) {
+        let is_shipped = |other: &&ScoredCode| {
+            (&*other.code, &*other.setting) == (&finest.code, SETTINGS[0])
+        };
+        let shipped = codes.iter().find(is_shipped);
+        let shipped = shipped.map_or(0, |shipped| shipped.wrong);
+        if finest.wrong > shipped {
+            out += &format!(
+                "With `best`, {} has {} wrong outcomes; as shipped, it has \
+                 {shipped}. ",
+                finest.code, finest.wrong
+            );
+        }
+    }
+    out
 }
 
-/// The figure of that table.
+/// The figure of that table: a row for each code and setting, a mark for each
+/// level.
 ///
 /// # Errors
-/// Where our own answers are refused.
+/// If our own answers are refused.
 pub fn codes_figure() -> anyhow::Result<Figure> {
-    let own = score(&own_answers().map_err(anyhow::Error::msg)?);
-    let codes = codes();
-    let chart = codes_chart(&own, &codes);
-    let heading = Heading { place: Place::Others, ..chart.heading };
-    let best: Vec<&Code> =
-        codes.iter().filter(|code| code.setting == SETTINGS[1]).collect();
-    let by_code = best.chunk_by(|a, b| a.code == b.code);
-    let right = |code: &&[&Code]| code.iter().all(|c| c.median_digits >= MANY);
-    let (many, few): (Vec<_>, Vec<_>) = by_code.partition(right);
-    let few = few.into_iter().flatten().map(|code| code.median_digits);
-    let most = few.fold(0.0, f64::max);
-    Ok(Chart { heading, ..chart }.figure(format!(
-        "With the finest settings tried, {} of {} codes have a median of {MANY} digits \
-         or more on every level; the others have at most {most:.1} on any.",
+    let (mut codes, levels) = scored_codes()?;
+    // This program first, then each code by its finest setting.
+    let finest = |code: &str| {
+        let of = codes.iter().filter(|other| other.code == code);
+        range(of.map(ScoredCode::least)).1
+    };
+    let ranks: BTreeMap<String, f64> =
+        codes.iter().map(|c| (c.code.clone(), finest(&c.code))).collect();
+    codes[1..].sort_by(|a, b| {
+        let by_rank = ranks[&b.code].total_cmp(&ranks[&a.code]);
+        by_rank.then_with(|| (&a.code, &a.setting).cmp(&(&b.code, &b.setting)))
+    });
+    let is_finest = |code: &&ScoredCode| code.setting == SETTINGS[1];
+    let (many, few): (Vec<_>, Vec<_>) =
+        codes.iter().filter(is_finest).partition(|c| c.least() >= MANY);
+    let medians = few.iter().flat_map(|code| &code.medians);
+    let most = range(medians.filter_map(|median| *median)).1;
+    let reading = format!(
+        "Each mark is the median number of correct digits over the scenes of \
+         one level of difficulty. With the finest settings tried (`best`), \
+         {} of {} other codes reach {MANY} digits or more on every level; \
+         the rest reach at most {most:.1} on any. `default`: as shipped.",
         many.len(),
-        best.chunk_by(|a, b| a.code == b.code).count()
-    )))
+        many.len() + few.len()
+    );
+    // The first row is the highest.
+    let row = |k: usize| (codes.len() - k) as f64;
+    let line = Pen::new(Ink::Grid, 0.8);
+    let lines = (0..codes.len())
+        .map(|k| Series::note(Mark::Across(line), "", (f64::NAN, row(k))));
+    let marks = codes.iter().enumerate().flat_map(|(k, code)| {
+        let medians = code.medians.iter().enumerate();
+        medians.zip(&levels).map(move |((level, median), name)| {
+            // Beside each other, not on each other.
+            let y = row(k) + APART * (1.0 - level as f64 / 2.0);
+            let x = median.unwrap_or(f64::NAN);
+            let keys = [&code.code, &code.setting, name].map(String::clone);
+            Series::new(name, Mark::Points, vec![x], vec![y]).keyed(keys)
+        })
+    });
+    let name = |code: &ScoredCode| format!("{}, {}", code.code, code.setting);
+    let panel = ChartPanel::new(
+        "",
+        ChartAxis::linear("median of correct digits", (0.0, 15.5)),
+        ChartAxis::named(codes.iter().rev().map(name).collect()),
+        lines.chain(marks).collect(),
+    );
+    let heading = Heading {
+        place: Place::Others,
+        ..Heading::new(
+            "codes",
+            "Digits by level of difficulty, this program and other codes",
+            "Rows of marks, a row for each code and setting: median number \
+             of correct digits on each of five levels of scenes, from free \
+             rocking to hard cases.",
+        )
+    };
+    let grid = Grid::new(1, 1).plot(560.0, ROW_PX * codes.len() as f64);
+    let grid = Some(Grid { left: NAMES_PX, ..grid });
+    let keys = ["code", "setting", "level"];
+    let layout = Layout::of(&keys, &[("median_digits", Of::X)]);
+    let layout = Layout { grid, ..layout };
+    let chart = Chart { heading, panels: vec![panel], columns: 1 };
+    Ok(chart.laid_out(&layout, reading))
 }
 
 /// Digits that only a code without a model error has.
 const MANY: f64 = 10.0;
+/// Distance of the first and the third level within a row.
+const APART: f64 = 0.3;
+/// Height of a row, and room for the names of rows, in px.
+const ROW_PX: f64 = 22.0;
+const NAMES_PX: f64 = 124.0;
 
 fn diagnosis(score: &Score) -> Markup {
     let found = &score.diagnosis;
@@ -318,7 +409,22 @@ fn lacking(score: &Score) -> Markup {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+
+    /// Writes the figure where `ROCKING_FIGURES` says, to be looked at.
+    #[test]
+    fn every_median_of_the_table_is_drawn() {
+        let figure = codes_figure().unwrap();
+        let svg = figure.svg();
+        if let Ok(folder) = std::env::var("ROCKING_FIGURES") {
+            fs::write(format!("{folder}/codes.svg"), svg).unwrap();
+        }
+        let rows = codes_table(&SETTINGS).unwrap().rows.len();
+        assert_eq!(figure.csv().lines().count(), 1 + 5 * rows);
+        assert!(!figure.reading.contains("inf"), "{}", figure.reading);
+    }
 
     #[test]
     fn a_code_that_fine_settings_do_not_serve_is_named() {
@@ -338,7 +444,7 @@ mod tests {
             };
             let shipped = wrong(table.rows.iter().find(is).expect("both"));
             let code = row[0].split(' ').next().unwrap();
-            let words = format!("With these {code} has");
+            let words = format!("With `best`, {code} has");
             let worse = wrong(row) > shipped;
             assert_eq!(table.reading.contains(&words), worse, "{code}");
             named += usize::from(worse);

@@ -1,14 +1,14 @@
-//! Speed against error on the page: drawn from the timings kept in
-//! `fixtures/speed`, never timed again.
-
-mod tables;
+//! Speed against error on the page, from the timings kept in
+//! `fixtures/speed`. The report never measures them again.
 
 use anyhow::Context as _;
 
+use crate::speed::many::{PAPER, WAYS};
 use crate::speed::measured::{Total, totals};
 use crate::speed::parse;
 use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
+use rocking_common::table::PlainTable;
 use rocking_common::words::{range, rounded};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
@@ -18,47 +18,39 @@ const SINGLES: &str = rocking_fixtures::text("speed/singles.csv");
 const MANY: &str = rocking_fixtures::text("speed/throughput.csv");
 const CONDITIONS: &str = rocking_fixtures::text("speed/conditions.csv");
 
-/// The work that the paper's study is made of.
-const PAPER: &str = "15 blocks, Eq. 1, in lanes";
-const ONE_BY_ONE: &str = "15 blocks, Eq. 1, one by one";
-
-/// The fastest compiled tool that did the same work at the tolerance of 1e-9:
-/// tool, method and setting. It stops at every sample, where the record has a
-/// kink.
-const PEER: [&str; 3] =
-    ["Boost.odeint", "dopri5 sample by sample", "rtol 1e-09"];
+/// Tool, method and setting of the fastest compiled peer that did the same
+/// work at a tolerance of 1e-9. It stops at every sample, because the record
+/// has a kink there.
+const PEER: [&str; 3] = [BOOST, "dopri5 sample by sample", "rtol 1e-09"];
 const PEER_NAME: &str = "Boost.odeint stopped at samples";
-const PEER_WORK: &str =
-    "15 blocks, Eq. 1, Boost.odeint dopri5 sample by sample, rtol 1e-09";
+const BOOST: &str = "Boost.odeint";
+/// Method of heyoka, which also stops at every sample.
+const HEYOKA: &str = "Taylor sample by sample";
 
-/// Lines of the figure: legend, tool, method, and settings left out.
-const LINES: [(&str, &str, &str, &[&str]); 7] = [
-    (
-        "this project, compiled: orders 4, 6, 8, as shipped",
-        "rocking",
-        "Taylor",
-        &["order 10"],
-    ),
-    (
-        "heyoka, called from Python once a sample",
-        "heyoka",
-        "Taylor sample by sample",
-        &[],
-    ),
-    (
-        "Boost.odeint, compiled, stopped at samples",
-        "Boost.odeint",
-        "dopri5 sample by sample",
-        &[],
-    ),
-    ("Boost.odeint, compiled", "Boost.odeint", "dopri5", &[]),
-    ("SUNDIALS CVODE, compiled", "SUNDIALS CVODE", "Adams with roots", &[]),
-    ("SciPy DOP853, interpreted", "SciPy", "solve_ivp DOP853", &[]),
-    ("GNU Octave ode45, interpreted", "GNU Octave", "ode45", &[]),
+/// Lines of the figure: legend, tool and method, and whether an interpreter
+/// evaluates the equation.
+const LINES: [(&str, [&str; 2], bool); 7] = [
+    ("this program", [BASE[0], BASE[1]], false),
+    ("heyoka, called from Python", ["heyoka", HEYOKA], false),
+    ("Boost.odeint, stopped at samples", [PEER[0], PEER[1]], false),
+    ("Boost.odeint", [BOOST, "dopri5"], false),
+    ("SUNDIALS CVODE", ["SUNDIALS CVODE", "Adams with roots"], false),
+    ("SciPy DOP853, interpreted", ["SciPy", "solve_ivp DOP853"], true),
+    ("GNU Octave ode45, interpreted", ["GNU Octave", "ode45"], true),
 ];
 
-/// Tools whose right-hand side an interpreter evaluates.
-const INTERPRETED: [&str; 2] = ["SciPy", "GNU Octave"];
+/// Our settings, and the use of each.
+const USES: [(&str, &str); 6] = [
+    ("order 4", "a first look; not for results"),
+    ("order 6", "exploring large numbers of analyses"),
+    ("order 8", "statistics of many analyses"),
+    ("order 10", "a fixed order, one higher than the default's"),
+    ("as shipped", "everything; adds terms if a step needs them"),
+    (
+        "order 27",
+        "single outcomes that double precision cannot decide (--certify)",
+    ),
+];
 
 /// The kept timings.
 pub struct Timings {
@@ -67,8 +59,8 @@ pub struct Timings {
     own: Total,
     theirs: Total,
     singles: Vec<Total>,
-    /// Many analyses: the paper's in lanes, one by one and by the peer, each
-    /// on one thread, and all.
+    /// The paper's analyses on one thread: in lanes, one by one, and by the
+    /// peer; and all work.
     paper: Throughput,
     one_by_one: Throughput,
     peer: Throughput,
@@ -80,7 +72,7 @@ impl Timings {
     /// The timings that come with the program.
     ///
     /// # Errors
-    /// Where a table has been damaged.
+    /// If a table has been damaged.
     pub fn kept() -> anyhow::Result<Self> {
         let singles = totals(&parse(SINGLES)?, BASE);
         let total = |key: [&str; 3]| {
@@ -88,23 +80,24 @@ impl Timings {
             found.cloned().with_context(|| key.join(", "))
         };
         let many = parse(MANY)?;
-        let work = |name: &str| {
+        let work = |name: &[&str]| {
             let found = on_one_thread(&many, name);
-            found.cloned().with_context(|| name.to_owned())
+            found.cloned().with_context(|| name.join(", "))
         };
+        let [tool, method, setting] = PEER;
         Ok(Self {
             own: total(BASE)?,
             theirs: total(PEER)?,
-            paper: work(PAPER)?,
-            one_by_one: work(ONE_BY_ONE)?,
-            peer: work(PEER_WORK)?,
+            paper: work(&[PAPER, WAYS[0].0])?,
+            one_by_one: work(&[PAPER, WAYS[1].0])?,
+            peer: work(&[PAPER, &format!("{tool} {method}"), setting])?,
             singles,
             many,
             conditions: parse(CONDITIONS)?,
         })
     }
 
-    /// `2026-11-21 on AMD EPYC, AVX-512 ..`.
+    /// `Measured on 2026-11-21 on one core of AMD EPYC, AVX-512 ..`.
     fn measured_on(&self) -> String {
         let value = |what: &str| {
             let found = self.conditions.iter().find(|(name, _)| name == what);
@@ -121,87 +114,65 @@ impl Timings {
         )
     }
 
-    fn totals_of(
-        &self,
-        tool: &str,
-        method: &str,
-        without: &[&str],
-    ) -> Vec<&Total> {
-        let own = |t: &&Total| {
-            let [name, how, setting] = t.key();
-            [name, how] == [tool, method] && !without.contains(&setting)
-        };
-        self.singles.iter().filter(own).collect()
+    /// The settings of a tool and method.
+    fn totals_of<'a>(
+        &'a self,
+        [tool, method]: [&'a str; 2],
+    ) -> impl Iterator<Item = &'a Total> {
+        let own = move |t: &&Total| t.key()[..2] == [tool, method];
+        self.singles.iter().filter(own)
     }
 
     /// Error against time.
     pub fn figure(&self) -> Figure {
-        let series = |x: fn(&Total) -> f64, y: fn(&Total) -> f64| {
-            let line = |(label, tool, method, without)| {
-                let of = self.totals_of(tool, method, without);
-                let mark = match INTERPRETED.contains(&tool) {
+        let own_ms = 1e3 * self.own.cpu_s;
+        let panel = |title, mut y: ChartAxis, of: fn(&Total) -> f64| {
+            let line = |(label, key, is_interpreted)| {
+                let mark = match is_interpreted {
                     true => Mark::DashedAndPoints,
                     false => Mark::LineAndPoints,
                 };
-                let (x, y) = of.iter().map(|t| (x(t), y(t))).unzip();
+                let totals = self.totals_of(key);
+                let (x, y) = totals.map(|t| (t.ratio, of(t))).unzip();
                 Series::new(label, mark, x, y)
             };
-            LINES.map(line).into_iter().filter(|s| !s.x.is_empty()).collect()
+            let series = LINES.map(line);
+            let x = around(series.iter().flat_map(|s| &s.x), 1.6);
+            let x = ChartAxis::logarithmic("CPU time over ours as shipped", x);
+            let x = x.with_second(own_ms, "CPU time (ms)");
+            let ys = around(series.iter().flat_map(|s| &s.y), 8.0);
+            y.range = y.range.or(Some(ys));
+            ChartPanel::new(title, x, y, series.into())
         };
-        let own_ms = 1e3 * self.own.cpu_s;
-        let time = || {
-            let words = "processor time, multiples of ours as shipped";
-            let label = format!(
-                "processor time (ms), ours in the median {}",
-                digits(own_ms)
-            );
-            logarithmic(words).with_second(own_ms, label)
-        };
-        let error = "median error of peak |*θ*|/*α*";
-        let share =
-            |t: &Total| 100.0 * t.other_impacts as f64 / t.cases as f64;
-        let mut panels = vec![
-            ChartPanel::new(
-                "peak, by time",
-                time(),
-                logarithmic(error),
-                series(|t| t.ratio, |t| t.peak_error),
+        let error = |label| ChartAxis::logarithmic(label, None);
+        let share = "analyses with a wrong number of impacts (%)";
+        let panels = vec![
+            panel("peak", error("median error of peak |*θ*|/*α*"), |t| {
+                t.peak_error
+            }),
+            panel(
+                "times of the first ten impacts",
+                error("median error of impact times (s)"),
+                |t| t.impact_error_s,
             ),
-            ChartPanel::new(
-                "first ten impacts, by time",
-                time(),
-                logarithmic("median error of their times (s)"),
-                series(|t| t.ratio, |t| t.impact_error_s),
-            ),
-            ChartPanel::new(
-                "all impacts, by time",
-                time(),
-                ChartAxis::linear(
-                    "cases with another number of them (%)",
-                    (-4.0, 104.0),
-                ),
-                series(|t| t.ratio, share),
+            panel(
+                "number of impacts",
+                ChartAxis::linear(share, (-4.0, 104.0)),
+                |t| 100.0 * t.other_impacts as f64 / t.cases as f64,
             ),
         ];
-        panels.iter_mut().for_each(widen);
-        let drawing = Chart {
-            heading: Heading {
-                place: Place::Speed,
-                ..Heading::new(
-                    "speed-and-error",
-                    "Speed and error, this project and other tools",
-                    format!(
-                        "Error of the peak and of impact times, and share of \
-                         analyses with another number of impacts, against \
-                         processor time. {}",
-                        self.measured_on()
-                    ),
-                )
-            },
-            panels,
-            columns: 3,
-        };
-        drawing.figure(self.reading())
+        let words = format!(
+            "Error of the peak and of impact times, and share of analyses \
+             with a wrong number of impacts, against CPU time. {}",
+            self.measured_on()
+        );
+        let heading = Heading::new(
+            "speed-and-error",
+            "Speed and error, this program and other tools",
+            words,
+        );
+        let heading = Heading { place: Place::Speed, ..heading };
+        Chart { heading, panels, columns: 3 }.figure(self.reading())
     }
 
     /// The error of the peak, in a few words.
@@ -227,54 +198,51 @@ impl Timings {
         )
     }
 
+    /// How many times as fast as the peer some work of ours is.
+    fn times(&self, ours: &Throughput) -> String {
+        digits(ours.rate_per_s() / self.peer.rate_per_s())
+    }
+
     /// How fast it is beside the compiled peer at its best, in a sentence, and
     /// the rates behind that.
     pub fn speed(&self) -> (String, String) {
-        let ratio =
-            |ours: &Throughput| ours.rate_per_s() / self.peer.rate_per_s();
-        let (lanes, one) = (ratio(&self.paper), ratio(&self.one_by_one));
+        let (lanes, one) =
+            (self.times(&self.paper), self.times(&self.one_by_one));
         let error = match self.no_worse().contains(&BASE[2]) {
             true => "at no larger error",
             false => "at a larger error",
         };
         let answer = format!(
-            "Many analyses run {} times as fast as with {PEER_NAME}, {error}, and \
-             {} times one at a time.",
-            digits(lanes),
-            digits(one)
+            "Many analyses run {lanes} times as fast as with {PEER_NAME}, \
+             {error}, and {one} times one at a time."
         );
-        let equal = self.equal().map_or(String::new(), |(setting, times)| {
-            format!("; {} times at {setting}", digits(times))
+        let equal = self.fastest().map(|(setting, ours)| {
+            format!("; {} times at {setting}", self.times(ours))
         });
+        let equal = equal.unwrap_or_default();
         let rate = self.paper.rate_per_s();
         let effect =
             format!("{} analyses a second and core{equal}", digits(rate));
         (answer, effect)
     }
 
-    /// The fastest of our settings whose errors are no larger than the peer's,
-    /// and how many times as fast it is.
-    fn equal(&self) -> Option<(&str, f64)> {
-        let (setting, ours) = self.fastest()?;
-        Some((setting, ours.rate_per_s() / self.peer.rate_per_s()))
-    }
-
     /// How fast, in a sentence.
     pub fn plain(&self) -> String {
-        let rate = self.paper.rate_per_s();
-        let equal = self.equal().map_or(String::new(), |(setting, times)| {
+        let equal = self.fastest().map(|(setting, ours)| {
             format!(
                 " At {setting}, our fastest setting with no larger error, it \
                  is {} times.",
-                digits(times)
+                self.times(ours)
             )
         });
         format!(
             "A single analysis takes {} ms of one core. The paper's 15 blocks \
-             run at {rate:.0} analyses a second and core, {} times as many as \
-             {PEER_NAME} at 1e-9.{equal} {}",
+             run at {:.0} analyses a second and core, {} times as many as \
+             {PEER_NAME} at 1e-9.{} {}",
             digits(1e3 * self.own.cpu_s),
-            digits(rate / self.peer.rate_per_s()),
+            self.paper.rate_per_s(),
+            self.times(&self.paper),
+            equal.unwrap_or_default(),
             self.measured_on()
         )
     }
@@ -283,12 +251,11 @@ impl Timings {
     fn in_lanes(&self, setting: &str) -> Option<&Throughput> {
         match setting == BASE[2] {
             true => Some(&self.paper),
-            false => on_one_thread(&self.many, &format!("{PAPER}, {setting}")),
+            false => on_one_thread(&self.many, &[PAPER, WAYS[0].0, setting]),
         }
     }
 
-    /// Our settings that are no worse than the peer in any error, the
-    /// largest ones too.
+    /// Our settings of which no error, median or largest, exceeds the peer's.
     fn no_worse(&self) -> Vec<&str> {
         let errors = |t: &Total| {
             [
@@ -302,16 +269,14 @@ impl Timings {
             ]
         };
         let limits = errors(&self.theirs);
-        let [tool, method, _] = BASE;
-        self.totals_of(tool, method, &[])
-            .into_iter()
+        self.totals_of([BASE[0], BASE[1]])
             .filter(|t| errors(t).iter().zip(limits).all(|(e, max)| *e <= max))
             .map(|t| t.key()[2])
             .collect()
     }
 
     /// The fastest of those settings that move no more first overturnings
-    /// than the peer, and the same work by it.
+    /// than the peer, and the paper's work at it.
     fn fastest(&self) -> Option<(&str, &Throughput)> {
         self.no_worse()
             .into_iter()
@@ -322,84 +287,114 @@ impl Timings {
             .max_by(|a, b| a.1.rate_per_s().total_cmp(&b.1.rate_per_s()))
     }
 
-    /// The most accurate setting of every other tool.
-    fn most_accurate(&self) -> Vec<&Total> {
-        LINES[1..]
-            .iter()
-            .filter_map(|(_, tool, method, without)| {
-                self.totals_of(tool, method, without)
-                    .into_iter()
-                    .min_by(|a, b| a.peak_error.total_cmp(&b.peak_error))
-            })
-            .collect()
+    /// The most accurate setting of every other tool, and whether the tool is
+    /// interpreted.
+    fn most_accurate(&self) -> Vec<(&Total, bool)> {
+        let best =
+            |(_, key, is_interpreted): &(&str, [&'static str; 2], _)| {
+                let own = self.totals_of(*key);
+                let best =
+                    own.min_by(|a, b| a.peak_error.total_cmp(&b.peak_error));
+                Some((best?, *is_interpreted))
+            };
+        LINES[1..].iter().filter_map(best).collect()
     }
 
     fn reading(&self) -> String {
-        let own = &self.own;
-        let best = self.most_accurate();
+        let all = self.most_accurate();
         let by = |interpreted: bool| {
-            let is =
-                |t: &&&Total| INTERPRETED.contains(&t.key()[0]) == interpreted;
-            let (fast, slow) = range(best.iter().filter(is).map(|t| t.ratio));
+            let own = all.iter().filter(|(_, is)| *is == interpreted);
+            let (fast, slow) = range(own.map(|(t, _)| t.ratio));
             format!("{} to {} times", digits(fast), digits(slow))
         };
-        let (good, bad) = range(best.iter().map(|t| t.peak_error));
+        let (good, bad) = range(all.iter().map(|(t, _)| t.peak_error));
+        let cases = self.own.cases;
+        let fewer: Vec<String> = all
+            .iter()
+            .filter(|(t, _)| t.cases < cases)
+            .map(|(t, _)| format!("{} {} of them", t.key()[0], t.cases))
+            .collect();
+        let fewer = match fewer.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", fewer.join(", ")),
+        };
         format!(
-            "As shipped the median error is {}. The most accurate setting of \
-             each compiled tool takes {} as long, of each interpreted one {}. \
-             Their errors are {} to {}. A line joins the settings of a tool, dashed where an interpreter \
-             evaluates the equation. All ran the same {} cases{} under one \
-             rest rule, against double-double.",
-            digits(own.peak_error),
+            "As shipped, the median error of the peak is {}. At its most \
+             accurate setting a compiled tool takes {} as long, an \
+             interpreted one {}; their errors are {} to {}. A line joins the \
+             settings of a tool (ours: orders 4 to 10, as shipped); it is \
+             dashed if an interpreter evaluates the equation. Each tool ran \
+             the same {cases} analyses{fewer} with the same rule for rest. \
+             Errors are relative to a double-double computation.",
+            digits(self.own.peak_error),
             by(false),
             by(true),
             digits(good),
             digits(bad),
-            own.cases,
-            self.fewer(),
         )
     }
 
-    /// The tools that ran only some of the cases, in brackets.
-    fn fewer(&self) -> String {
-        let best = self.most_accurate().into_iter();
-        let fewer = best.filter(|t| t.cases < self.own.cases);
-        let some: Vec<String> = fewer
-            .map(|t| format!("{} {} of them", t.key()[0], t.cases))
-            .collect();
-        match some.as_slice() {
-            [] => String::new(),
-            some => format!(" ({})", some.join(", ")),
-        }
+    /// Which of our settings to use when.
+    pub fn settings(&self) -> PlainTable {
+        let shipped = self.paper.rate_per_s();
+        let row = |(setting, purpose): &(&str, &str)| {
+            let is =
+                |t: &&Total| [t.key()[0], t.key()[2]] == [BASE[0], *setting];
+            let own = self.singles.iter().find(is)?;
+            // The errors of the others are measured against double-double.
+            let is_reference = own.key()[1] != BASE[1];
+            let error = |x: f64| match is_reference {
+                true => "reference".into(),
+                false => digits(x),
+            };
+            let name = if is_reference { "double-double" } else { setting };
+            let lanes = self.in_lanes(setting);
+            let ratio = lanes.map(|own| digits(shipped / own.rate_per_s()));
+            let moved = lanes.and_then(|own| own.moved);
+            Some(vec![
+                name.into(),
+                digits(own.ratio),
+                ratio.unwrap_or_default(),
+                error(own.peak_error),
+                error(own.peak_error_90),
+                moved.map(|n| n.to_string()).unwrap_or_default(),
+                (*purpose).into(),
+            ])
+        };
+        PlainTable::new(
+            "speed-settings",
+            "Which of our settings when",
+            "Chains moved: of 15 blocks under all embedded records, the \
+             number whose first overturning is at another level than as \
+             shipped.",
+            &[
+                "setting",
+                "single analyses: time / as shipped",
+                "many, in lanes: time / as shipped",
+                "peak error",
+                "90 % below",
+                "chains moved",
+                "for",
+            ],
+            USES.iter().filter_map(row).collect(),
+        )
     }
 }
 
-/// A piece of work on one thread.
+/// The work with these names, on one thread.
 fn on_one_thread<'a>(
     many: &'a [Throughput],
-    work: &str,
+    names: &[&str],
 ) -> Option<&'a Throughput> {
+    let work = names.join(", ");
     many.iter().find(|t| t.threads == 1 && t.work == work)
 }
 
-fn logarithmic(label: &str) -> ChartAxis {
-    ChartAxis::logarithmic(label, None::<(f64, f64)>)
-}
-
-/// Room for the marks within the axes.
-fn widen(panel: &mut ChartPanel) {
-    let all = |of: fn(&Series) -> &[f64]| -> Vec<f64> {
-        panel.series.iter().flat_map(of).copied().collect()
-    };
-    let (xs, ys) = (all(|s| &s.x), all(|s| &s.y));
-    for (axis, values, by) in
-        [(&mut panel.x, xs, 1.6), (&mut panel.y, ys, 8.0)]
-    {
-        if axis.range.is_none() {
-            let (low, high) = range(values.into_iter().filter(|v| *v > 0.0));
-            axis.range = Some((low / by, high * by));
-        }
-    }
+/// The ends of a logarithmic axis with room for marks: the positive values,
+/// and a factor more either way.
+fn around<'a>(values: impl Iterator<Item = &'a f64>, room: f64) -> (f64, f64) {
+    let (low, high) = range(values.copied().filter(|x| *x > 0.0));
+    (low / room, high * room)
 }
 
 /// Two significant digits, as people write them.

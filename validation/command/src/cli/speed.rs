@@ -17,7 +17,7 @@ use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 use rocking_common::suites::inputs::read_suite;
 use rocking_report::speed::answers::ToolAnswer;
-use rocking_report::speed::cases;
+use rocking_report::speed::cases::{SpeedCase, speed_cases};
 use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
@@ -68,9 +68,13 @@ pub struct SpeedCommand {
 /// [`Failure`] for a suite or an answer that is refused, or a file that
 /// cannot be written.
 pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
-    let cases = cases::speed_cases()?;
+    let cases = speed_cases()?;
     if let Some(folder) = &args.export {
-        export::singles(&folder.join("singles"), &cases)?;
+        for SpeedCase { name, analysis, record, pga_g } in &cases {
+            let level = [*pga_g].into_iter();
+            let folder = folder.join("singles");
+            export::write(&folder, name, (analysis, record), level)?;
+        }
         let (records, _) = records(args)?;
         let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
@@ -83,7 +87,11 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
             let (p, alpha) =
                 (block.frequency_rad_s(), block.slenderness_rad());
             let folder = folder.join(format!("chains/p{p}-a{alpha:.2}"));
-            export::chains(&folder, analysis, &records, found)?;
+            for (record, curve) in records.iter().zip(found) {
+                let levels = curve.points.iter().map(|point| point.pga_g);
+                let name = record.name();
+                export::write(&folder, name, (analysis, record), levels)?;
+            }
         }
         return Ok(());
     }

@@ -228,21 +228,6 @@ fn by_level(
     ChartPanel::new(title, x, digits_axis(), series)
 }
 
-/// Medians of each level of known codes, in both settings, beside those of
-/// this program.
-pub fn codes_chart(own: &Score, codes: &[Code]) -> Chart {
-    let own = ("this program", own);
-    let title = "Digits against difficulty, this project and other codes";
-    let words = "Median digits of the answers of each code, level by level: \
-                 free rocking, pulses without and with impacts, records, hard \
-                 cases; as shipped and with the finest settings tried.";
-    let panels = vec![
-        by_level("as shipped", codes, own, "default"),
-        by_level("finest settings tried", codes, own, "best"),
-    ];
-    Chart::of(["codes", title, words], panels)
-}
-
 /// A few letters, for the tick of an axis.
 fn short(measure: &IntensityMeasure) -> String {
     use IntensityMeasure as M;

@@ -1,3 +1,6 @@
+//! Figure 19: the departure of Eq. 1 from similarity.
+
+use rocking_common::words::range;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
@@ -11,7 +14,7 @@ use rocking_proof::scene::{
 const PULSES: [(f64, f64); 4] =
     [(2.0, 1.15), (4.0, 1.6), (6.0, 3.5), (8.0, 6.0)];
 
-/// Slendernesses, each the one before times the square root of 2.
+/// Number of slendernesses; each is the one before times the square root of 2.
 const SLENDERNESSES: i32 = 11;
 
 fn slenderness_rad(k: i32) -> f64 {
@@ -19,68 +22,48 @@ fn slenderness_rad(k: i32) -> f64 {
     if k % 2 == 0 { even } else { even * 2.0_f64.sqrt() }
 }
 
-/// Order of the departure of Eq. 1 from similarity as alpha grows.
+/// The departure of Eq. 1 from similarity as alpha grows, and its order.
 pub(super) fn chart() -> anyhow::Result<Figure> {
-    let mut panels = Vec::new();
+    let alphas: Vec<f64> = (0..SLENDERNESSES).map(slenderness_rad).collect();
     let mut slopes = Vec::new();
-    for (tangent, title) in [
-        (true, "amplitude over *g* tan *α*"),
-        (false, "amplitude over *g* *α*"),
-    ] {
+    let mut panel = |title, is_tangent| -> anyhow::Result<ChartPanel> {
         let mut series = Vec::new();
         for (omega, amplitude) in PULSES {
-            let x: Vec<f64> =
-                (0..SLENDERNESSES).map(slenderness_rad).collect();
-            let y = x
-                .iter()
-                .map(|alpha| departure(omega, amplitude, *alpha, tangent))
-                .collect::<Result<Vec<f64>, EngineError>>()?;
+            let own = |alpha| departure(omega, amplitude, alpha, is_tangent);
+            let y = alphas.iter().copied().map(own);
+            let y = y.collect::<Result<Vec<f64>, EngineError>>()?;
             // Slope over the first octave.
             slopes.push(libm::log2(y[2] / y[0]));
-            series.push(Series::new(
-                format!("*ω*/*p* = {omega}, *A* = {amplitude}"),
-                Mark::LineAndPoints,
-                x,
-                y,
-            ));
+            let label = format!("*ω*/*p* = {omega}, *A* = {amplitude}");
+            let mark = Mark::LineAndPoints;
+            series.push(Series::new(label, mark, alphas.clone(), y));
         }
         let ends = [0.0125, 0.4];
-        series.push(Series::new(
-            "slope 2",
-            Mark::Dashed,
-            ends.into(),
-            ends.map(|alpha| 0.02 * alpha * alpha).into(),
-        ));
-        panels.push(ChartPanel {
-            title: title.into(),
-            x: ChartAxis::logarithmic("slenderness *α* (rad)", (0.01, 0.5)),
-            y: ChartAxis::logarithmic(
-                "|change of the first impact speed|",
-                (1e-6, 2.0),
-            ),
-            series,
-        });
-    }
-    let (low, high) = rocking_common::words::range(slopes.into_iter());
-    Ok(Chart {
-        heading: Heading::numbered(
-            19,
-            "Departure of Eq. 1 from similarity as the \
-                        slenderness grows",
-            "Relative change of the first impact speed \
-                              over p alpha under four one-sine pulses, \
-                              against the slenderness, on logarithmic axes, \
-                              for two normalizations of the amplitude; a \
-                              dashed line has slope 2.",
-            None,
-        ),
-        panels,
-        columns: 2,
-    }
-    .figure(format!(
-        "In Eq. 2 the response over alpha does not depend on alpha; in \
-             Eq. 1 it departs from that with the square of alpha: slopes of \
-             {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
+        let square = ends.map(|alpha| 0.02 * alpha * alpha);
+        let square = (ends.into(), square.into());
+        series.push(Series::new("slope 2", Mark::Dashed, square.0, square.1));
+        let x = ChartAxis::logarithmic("slenderness *α* (rad)", (0.01, 0.5));
+        let label = "|change of the first impact speed|";
+        let y = ChartAxis::logarithmic(label, (1e-6, 2.0));
+        Ok(ChartPanel::new(title, x, y, series))
+    };
+    let panels = vec![
+        panel("amplitude over *g* tan *α*", true)?,
+        panel("amplitude over *g* *α*", false)?,
+    ];
+    let heading = Heading::numbered(
+        19,
+        "Departure of Eq. 1 from similarity as the slenderness grows",
+        "Relative change of the first impact speed over p alpha under four \
+         one-sine pulses, against the slenderness, on logarithmic axes, for \
+         two normalizations of the amplitude; a dashed line has slope 2.",
+        None,
+    );
+    let (low, high) = range(slopes.into_iter());
+    Ok(Chart { heading, panels, columns: 2 }.figure(format!(
+        "In Eq. 2 the response over alpha does not depend on alpha. In Eq. 1 \
+         it departs from similarity with the square of alpha: slopes of \
+         {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
     )))
 }
 
@@ -89,26 +72,23 @@ fn departure(
     omega: f64,
     amplitude: f64,
     alpha: f64,
-    tangent: bool,
+    is_tangent: bool,
 ) -> Result<f64, EngineError> {
     let p = 2.0;
-    let speed = |equation| -> Result<f64, EngineError> {
-        let unit = match equation {
-            Model::Nonlinear if tangent => libm::tan(alpha),
+    let speed = |model| -> Result<f64, EngineError> {
+        let unit = match model {
+            Model::Nonlinear if is_tangent => libm::tan(alpha),
             _ => alpha,
         };
+        let pulse = PulseKind::OneSine {
+            amplitude: amplitude * unit,
+            omega_rad_s: omega * p,
+        };
         let trace = Core.respond(&CaseScene {
-            model: equation,
+            model,
             overturning: Overturning::HalfPi,
             until_s: Some(20.0),
-            ..CaseScene::new(
-                [alpha, p, 1.0],
-                0.92,
-                Forcing::Pulse(PulseKind::OneSine {
-                    amplitude: amplitude * unit,
-                    omega_rad_s: omega * p,
-                }),
-            )
+            ..CaseScene::new([alpha, p, 1.0], 0.92, Forcing::Pulse(pulse))
         })?;
         Ok(trace.impacts.first().map_or(f64::NAN, |i| i.speed_before_rad_s))
     };

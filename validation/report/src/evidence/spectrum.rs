@@ -1,5 +1,8 @@
+//! Figure 20: the overturning spectrum of one-sine pulses.
+
 use rayon::prelude::*;
 
+use super::spaced;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
@@ -17,8 +20,8 @@ pub(super) const ETA: f64 = 0.92;
 pub(super) const STOCKY_RAD: f64 = 0.25;
 /// Top of the panels.
 const TOP: f64 = 30.0;
-/// Frequencies up to the fold.
-const POINTS: u32 = 88;
+/// Intervals between frequencies up to the fold.
+const INTERVALS: usize = 87;
 /// Lowest frequency over p of the whole spectrum, and of the bands.
 const LOWEST: f64 = 0.4;
 
@@ -43,46 +46,43 @@ pub(super) fn fate(
     Ok(trace.overturned_s.map(|_| trace.impacts.len()))
 }
 
-/// Edges at one frequency.
-#[derive(Clone, Copy)]
+/// Amplitudes over the threshold at which the outcome changes, at one
+/// frequency.
 struct Edges {
     omega: f64,
-    lower: f64,
-    upper: f64,
-    without: f64,
-    without_by_alpha: f64,
-    /// Eq. 1: mode 1, mode 2, mode 2 by alpha.
+    /// Ends of mode 1 (after one impact) in Eq. 2.
+    mode_1: (f64, f64),
+    /// Lower end of mode 2 (without impact) in Eq. 2, by each criterion.
+    mode_2: [f64; 2],
+    /// The lower ends in Eq. 1: mode 1, mode 2 by each criterion.
     stocky: [f64; 3],
 }
 
-fn edges(omega: f64) -> Result<Edges, EngineError> {
+fn edges(omega: &f64) -> Result<Edges, EngineError> {
+    let omega = *omega;
     let (two, one) = (Model::Linearized, Model::Nonlinear);
     let (far, near) = (Overturning::HalfPi, Overturning::Alpha);
-    let after_one =
-        |equation| move |a| Ok(fate(equation, far, omega, a)? == Some(1));
-    let without_impact = |equation, criterion| {
-        move |a| Ok(fate(equation, criterion, omega, a)? == Some(0))
+    let after = |impacts, model, criterion| {
+        move |a| Ok(fate(model, criterion, omega, a)? == Some(impacts))
     };
     let without = overturning::sine_without_impact(2, omega);
     let upper = overturning::mode_1_upper(omega, ETA).unwrap_or(f64::NAN);
     let inside = upper * (1.0 - 1e-7);
-    let lower = edge([1.0, inside], 1e-6, after_one(two))?;
-    let without_by_alpha =
-        edge([1.0, without], 1e-6, without_impact(two, near))?;
+    let lower = edge([1.0, inside], 1e-6, after(1, two, far))?;
+    let by_alpha = edge([1.0, without], 1e-6, after(0, two, near))?;
     // In Eq. 1 the edges are a few percent off.
-    let around = |x: f64, above: &dyn Fn(f64) -> Result<bool, EngineError>| {
-        edge([1.0 + 0.9 * (x - 1.0), 1.0 + 1.2 * (x - 1.0)], 1e-6, above)
+    let around = |x: f64, impacts, criterion| {
+        let range = [1.0 + 0.9 * (x - 1.0), 1.0 + 1.2 * (x - 1.0)];
+        edge(range, 1e-6, after(impacts, one, criterion))
     };
     Ok(Edges {
         omega,
-        lower,
-        upper,
-        without,
-        without_by_alpha,
+        mode_1: (lower, upper),
+        mode_2: [without, by_alpha],
         stocky: [
-            around(lower, &after_one(one))?,
-            around(without, &without_impact(one, far))?,
-            around(without_by_alpha, &without_impact(one, near))?,
+            around(lower, 1, far)?,
+            around(without, 0, far)?,
+            around(by_alpha, 0, near)?,
         ],
     })
 }
@@ -92,42 +92,35 @@ fn edges(omega: f64) -> Result<Edges, EngineError> {
 fn bands(omega: f64, top: f64) -> Result<Vec<(usize, f64, f64)>, EngineError> {
     let count =
         |a: f64| fate(Model::Linearized, Overturning::HalfPi, omega, a);
-    let step = 4e-4;
-    let (mut found, mut open) = (Vec::new(), None);
-    let mut before: Option<usize> = None;
+    let mut found = Vec::new();
+    // Impacts and lower edge of the band that is not closed yet.
+    let mut open: Option<(usize, f64)> = None;
     let mut a = 1.0;
     while a < top {
-        let next = a + step;
+        let next = a + 4e-4;
         let now = count(next)?.filter(|n| *n >= 3);
-        if now != before {
-            if let (Some(n), Some(low)) = (before, open) {
-                let high =
-                    edge([a, next], 1e-6, |x| Ok(count(x)? != Some(n)))?;
-                found.push((n, low, high));
+        if now != open.map(|(n, _)| n) {
+            let flips = |n, is_in| {
+                edge([a, next], 1e-6, |x| Ok((count(x)? == Some(n)) == is_in))
+            };
+            if let Some((n, low)) = open {
+                found.push((n, low, flips(n, false)?));
             }
             open = match now {
-                Some(n) => {
-                    Some(edge([a, next], 1e-6, |x| Ok(count(x)? == Some(n)))?)
-                }
+                Some(n) => Some((n, flips(n, true)?)),
                 None => None,
             };
-            before = now;
         }
         a = next;
     }
     Ok(found)
 }
 
-fn band(label: &str, rows: &[(f64, f64, f64)]) -> Series {
-    let x = rows.iter().map(|r| r.0).collect();
-    let y = rows.iter().map(|r| r.1).collect();
-    let ends = rows.iter().map(|r| (r.1, r.2)).collect();
+/// A region between amplitudes, by frequency.
+fn band(label: &str, rows: &[(f64, (f64, f64))]) -> Series {
+    let (x, ends): (Vec<f64>, Vec<(f64, f64)>) = rows.iter().copied().unzip();
+    let y = ends.iter().map(|(low, _)| *low).collect();
     Series::new(label, Mark::Line, x, y).with(ends)
-}
-
-/// An edge of Eq. 1: grey and without legend, explained in the reading.
-fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
-    Series::new("", Mark::Dashed, x.into(), y.collect())
 }
 
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
@@ -135,118 +128,97 @@ fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
 pub(super) fn chart() -> anyhow::Result<Figure> {
     let (fold, at_fold) = overturning::fold(ETA);
     // Up to the fold, which is one of the frequencies, and beyond.
-    let mut omegas: Vec<f64> = (0..POINTS)
-        .map(|k| {
-            LOWEST
-                * libm::exp(
-                    f64::from(k) / f64::from(POINTS - 1)
-                        * libm::log(fold / LOWEST),
-                )
-        })
-        .collect();
-    omegas.extend((1..=8).map(|k| {
-        fold * libm::exp(f64::from(k) / 8.0 * libm::log(10.0 / fold))
-    }));
-    let all = omegas
-        .par_iter()
-        .map(|omega| edges(*omega))
-        .collect::<Result<Vec<_>, EngineError>>()?;
-    let x: Vec<f64> = all.iter().map(|e| e.omega).collect();
-    let mut with_impact: Vec<(f64, f64, f64)> = all
+    let mut omegas = spaced((LOWEST, fold), INTERVALS);
+    omegas.extend(&spaced((fold, 10.0), 8)[1..]);
+    let all: Result<Vec<_>, _> =
+        omegas.par_iter().panic_fuse().map(edges).collect();
+    let all = all?;
+    let mut mode_1: Vec<_> = all
         .iter()
-        .filter(|e| e.lower.is_finite() && e.omega < fold)
-        .map(|e| (e.omega, e.lower, e.upper))
+        .filter(|e| e.mode_1.0.is_finite() && e.omega < fold)
+        .map(|e| (e.omega, e.mode_1))
         .collect();
-    with_impact.push((fold, at_fold, at_fold));
-    let mut panels = Vec::new();
-    for (title, criterion) in [
-        ("|*θ*| > *π*/2", Overturning::HalfPi),
-        ("|*θ*| ≥ *α*", Overturning::Alpha),
-    ] {
-        let (without, stocky): (fn(&Edges) -> f64, usize) = match criterion {
-            Overturning::HalfPi => (|e| e.without, 1),
-            Overturning::Alpha => (|e| e.without_by_alpha, 2),
-        };
-        let rows: Vec<_> =
-            all.iter().map(|e| (e.omega, without(e), TOP)).collect();
-        panels.push(ChartPanel {
-            title: title.into(),
-            x: ChartAxis::logarithmic("*ω*/*p*", (LOWEST, 10.0)),
-            y: ChartAxis::logarithmic("amplitude over threshold", (1.0, TOP)),
-            series: vec![
-                band("after one impact (mode 1)", &with_impact),
-                band("without impact (mode 2)", &rows),
-                stocky_edge(&x, all.iter().map(|e| e.stocky[0])),
-                stocky_edge(&x, all.iter().map(|e| e.stocky[stocky])),
+    mode_1.push((fold, (at_fold, at_fold)));
+    // Grey and without a legend: the reading explains it.
+    let stocky = |k: usize| {
+        let y = all.iter().map(|e| e.stocky[k]).collect();
+        Series::new("", Mark::Dashed, omegas.clone(), y)
+    };
+    let titles = ["|*θ*| > *π*/2", "|*θ*| ≥ *α*"];
+    let spectrum = |(k, title): (usize, &str)| {
+        let mode_2 = all.iter().map(|e| (e.omega, (e.mode_2[k], TOP)));
+        let mode_2: Vec<_> = mode_2.collect();
+        ChartPanel::new(
+            title,
+            ChartAxis::logarithmic("*ω*/*p*", (LOWEST, 10.0)),
+            ChartAxis::logarithmic("amplitude over threshold", (1.0, TOP)),
+            vec![
+                band("after one impact (mode 1)", &mode_1),
+                band("without impact (mode 2)", &mode_2),
+                stocky(0),
+                stocky(1 + k),
             ],
-        });
-    }
-    let (panel, lowest) = low_frequencies(&with_impact)?;
-    panels.push(panel);
-    Ok(Chart {
-        heading: Heading::numbered(
-            20,
-            "Overturning spectrum of one-sine pulses",
-            "Amplitude over the uplift threshold against \
-                              frequency over p at which a block overturns, \
-                              restitution 0.92: after one impact, without \
-                              impact, and in narrow bands after three and \
-                              more; by two criteria, in Eq. 2 (regions) and \
-                              in Eq. 1 (dashed).",
-            None,
-        ),
-        panels,
-        columns: 3,
-    }
-    .figure(format!(
-        "Mode 1 folds back at omega/p = {fold:.3} and leaves a safe bay \
-             below mode 2; by |theta| >= alpha the bay opens at 6.999 only. \
-             At omega/p = 0.5 a pulse {:.1} % above the threshold overturns \
-             after {} impacts, less than mode 1 needs. Regions are of Eq. 2; \
-             dashed, the lower edges of Eq. 1 at alpha = 0.25.",
-        100.0 * (lowest.1 - 1.0),
-        lowest.0
+        )
+    };
+    let panels = titles.into_iter().enumerate().map(spectrum);
+    let (panel, (impacts, lowest)) = low_frequencies(&mode_1)?;
+    let heading = Heading::numbered(
+        20,
+        "Overturning spectrum of one-sine pulses",
+        "Amplitude over the uplift threshold against frequency over p at \
+         which a block overturns, restitution 0.92: after one impact, without \
+         impact, and in narrow bands after three and more; by two criteria, \
+         in Eq. 2 (regions) and in Eq. 1 (dashed).",
+        None,
+    );
+    let panels = panels.chain([panel]).collect();
+    Ok(Chart { heading, panels, columns: 3 }.figure(format!(
+        "Mode 1 ends at omega/p = {fold:.3}; above it a safe zone opens below \
+         mode 2. By |theta| >= alpha the zone opens only at 6.999. At omega/p \
+         = 0.5 a pulse {:.1} % above the threshold overturns the block after \
+         {impacts} impacts; mode 1 needs a stronger pulse. Shaded: Eq. 2. \
+         Dashed grey: the lower edges of Eq. 1 at alpha = 0.25.",
+        100.0 * (lowest - 1.0)
     )))
 }
 
-/// The bands of three impacts and more, and the lowest of them at 0.5.
+/// The bands of three impacts and more; number of impacts and amplitude of
+/// the lowest at 0.5.
 fn low_frequencies(
-    with_impact: &[(f64, f64, f64)],
+    mode_1: &[(f64, (f64, f64))],
 ) -> anyhow::Result<(ChartPanel, (usize, f64))> {
     let highest = 1.2;
     let omegas: Vec<f64> =
         (0..=32).map(|k| LOWEST + 0.025 * f64::from(k)).collect();
-    let found = omegas
+    let found: Result<Vec<_>, _> = omegas
         .par_iter()
+        .panic_fuse()
         .map(|omega| bands(*omega, 1.13))
-        .collect::<Result<Vec<_>, EngineError>>()?;
-    let mut series = Vec::new();
-    let mode_1: Vec<_> = with_impact
+        .collect();
+    let found = found?;
+    let mode_1: Vec<_> = mode_1
         .iter()
         .filter(|row| row.0 < highest + 0.1)
-        .map(|row| (row.0, row.1, row.2.min(1.2)))
+        .map(|(omega, (low, high))| (*omega, (*low, high.min(1.2))))
         .collect();
-    series.push(band("after one impact (mode 1)", &mode_1));
+    let mut series = vec![band("after one impact (mode 1)", &mode_1)];
     for n in [3, 5, 7, 9] {
-        let rows: Vec<(f64, f64, f64)> = omegas
-            .iter()
-            .zip(&found)
-            .filter_map(|(omega, bands)| {
-                let band = bands.iter().find(|band| band.0 == n)?;
-                Some((*omega, band.1, band.2))
-            })
-            .collect();
+        let rows = omegas.iter().zip(&found).filter_map(|(omega, bands)| {
+            let (_, low, high) = bands.iter().find(|band| band.0 == n)?;
+            Some((*omega, (*low, *high)))
+        });
+        let rows: Vec<_> = rows.collect();
         series.push(band(&format!("after {n} impacts"), &rows));
     }
     let at_half = omegas.iter().position(|x| (x - 0.5).abs() < 1e-9);
     let lowest = at_half
         .and_then(|k| found[k].first())
         .map_or((0, f64::NAN), |band| (band.0, band.1));
-    let panel = ChartPanel {
-        title: "low frequencies, |*θ*| > *π*/2".into(),
-        x: ChartAxis::linear("*ω*/*p*", (LOWEST, highest)),
-        y: ChartAxis::linear("amplitude over threshold", (1.0, 1.2)),
+    let panel = ChartPanel::new(
+        "low frequencies, |*θ*| > *π*/2",
+        ChartAxis::linear("*ω*/*p*", (LOWEST, highest)),
+        ChartAxis::linear("amplitude over threshold", (1.0, 1.2)),
         series,
-    };
+    );
     Ok((panel, lowest))
 }

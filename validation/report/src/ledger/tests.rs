@@ -28,7 +28,7 @@ fn every_requirement_has_executed_evidence() {
         // A study that is run holds the names of claims: study::tests.
         let results = Some(proof.results());
         let standing = r.standing(results, &|_| true, &in_the_gate, &|_| true);
-        if !standing.is_met() {
+        if !standing.is_met() || !r.is_named() {
             problems.push(format!("{}: {}", r.id, state(&r, &standing, &[])));
         }
         for text in [&r.id, &r.text, &r.place] {
@@ -132,7 +132,9 @@ fn a_failed_or_missing_case_is_red() {
         figures: None,
         ..requirement
     };
-    assert!(!nothing.standing(all, &yes, &yes, &drawn).is_met());
+    assert!(!nothing.is_named());
+    let none = nothing.standing(all, &yes, &yes, &drawn);
+    assert_eq!(state(&nothing, &none, &[]), "✗ no evidence named");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What a tool answers to a case, and how wrong it is.
+//! The answer of a tool to a case, and its errors.
 
 use rocking::integrator::{
     Observe, Outcome, Response, SceneError, respond_precise,
@@ -23,27 +23,10 @@ pub struct ToolAnswer {
     pub first_impacts_s: Vec<f64>,
 }
 
-/// How far an answer is from the reference.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToolError {
-    /// Absolute error of peak |theta|/alpha; NaN where one overturned.
-    pub peak: f64,
-    /// Largest error of the times of the first impacts in s; infinite where
-    /// one is missing.
-    pub impact_s: f64,
-    /// Whether it stands where it should.
-    pub right_fate: bool,
-    /// Whether it has as many impacts.
-    pub same_impacts: bool,
-}
-
 impl ToolAnswer {
     /// The answer in a response that was observed with events.
     pub fn of(case: &SpeedCase, response: &Response) -> Self {
-        let seen = response.impacts.iter();
-        let all: Vec<(f64, f64)> =
-            seen.map(|i| (i.time_s, i.speed_before_rad_s)).collect();
-        Self::new(case, response.outcome.edp(), &all)
+        Self::rounded(case, response, |x| x)
     }
 
     /// The answer in double-double, rounded.
@@ -54,50 +37,47 @@ impl ToolAnswer {
         let observe = Observe { events: true, ..Observe::default() };
         let response =
             respond_precise::<DoubleDouble>(&case.scene(), &observe)?;
+        Ok(Self::rounded(case, &response, DoubleDouble::hi))
+    }
+
+    fn rounded<N: Copy>(
+        case: &SpeedCase,
+        response: &Response<N>,
+        double: fn(N) -> f64,
+    ) -> Self {
         let peak_ratio = match response.outcome {
             Outcome::NoUplift => 0.0,
-            Outcome::Rocked { peak_ratio } => peak_ratio.hi(),
+            Outcome::Rocked { peak_ratio } => double(peak_ratio),
             Outcome::Overturned { .. } => f64::INFINITY,
         };
         let seen = response.impacts.iter();
-        let all: Vec<(f64, f64)> =
-            seen.map(|i| (i.time_s.hi(), i.speed_before_rad_s.hi())).collect();
-        Ok(Self::new(case, peak_ratio, &all))
-    }
-
-    fn new(case: &SpeedCase, peak_ratio: f64, all: &[(f64, f64)]) -> Self {
+        let seen = seen
+            .map(|i| (double(i.time_s), double(i.speed_before_rad_s)))
+            .collect::<Vec<_>>();
         let samples_g = case.samples_g();
         let dt_s = case.record.dt_s();
         let ground = GroundRecord { samples_g: &samples_g, dt_s };
-        let mut times = without_chatter(&case.block, ETA, &ground, all);
+        let mut times =
+            without_chatter(&case.analysis.block, ETA, &ground, &seen);
         let impacts = times.len();
         times.truncate(COMPARED);
         Self { peak_ratio, impacts, first_impacts_s: times }
     }
 
-    /// Its error against the reference.
-    pub fn error(&self, reference: &Self) -> ToolError {
-        let overturned = |a: &Self| a.peak_ratio == f64::INFINITY;
-        let right_fate = !self.peak_ratio.is_nan()
-            && overturned(self) == overturned(reference);
-        let stands = right_fate && !overturned(self);
-        let (own, true_s) =
-            (&self.first_impacts_s, &reference.first_impacts_s);
-        let apart = own.iter().zip(true_s).map(|(a, b)| (a - b).abs());
-        let impact_s = if own.len() < true_s.len() {
-            f64::INFINITY
-        } else {
-            apart.fold(0.0, f64::max)
-        };
-        ToolError {
-            peak: if stands {
-                (self.peak_ratio - reference.peak_ratio).abs()
-            } else {
-                f64::NAN
-            },
-            impact_s,
-            right_fate,
-            same_impacts: self.impacts == reference.impacts,
+    /// Whether the block overturned; none without an answer.
+    pub fn is_overturned(&self) -> Option<bool> {
+        let peak = self.peak_ratio;
+        (!peak.is_nan()).then_some(peak == f64::INFINITY)
+    }
+
+    /// Largest error of the times of the first impacts, in s; infinite if one
+    /// is missing.
+    pub fn impact_error_s(&self, reference: &Self) -> f64 {
+        let (own, known) = (&self.first_impacts_s, &reference.first_impacts_s);
+        if own.len() < known.len() {
+            return f64::INFINITY;
         }
+        let errors = own.iter().zip(known).map(|(a, b)| (a - b).abs());
+        errors.fold(0.0, f64::max)
     }
 }

@@ -1,11 +1,11 @@
-//! Thirty single analyses: every block once under a record of either
-//! embedded suite.
+//! Thirty single analyses: each block once under a record of each embedded
+//! suite.
 
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, curve};
-use rocking::integrator::{Model, Overturning, Scene};
+use rocking::integrator::Scene;
 
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
@@ -13,18 +13,16 @@ use rocking_common::suites::StudySuite;
 /// Coefficient of restitution of all of them.
 pub const ETA: f64 = 0.92;
 
-/// Levels as shares of the first overturning PGA, one after the other; at 1
-/// the block overturns.
+/// Levels as shares of the first overturning PGA, used in turn; at 1 the block
+/// overturns.
 const SHARES: [f64; 5] = [0.80, 0.85, 0.90, 0.95, 1.0];
 
 /// One analysis.
 pub struct SpeedCase {
     /// `ordinary-01-a-p1-a0.05`.
     pub name: String,
-    /// The block.
-    pub block: Block,
-    /// Its restitution.
-    pub restitution: Restitution,
+    /// The block and its restitution.
+    pub analysis: Analysis,
     /// The record.
     pub record: NormalisedRecord,
     /// Peak ground acceleration applied, multiples of gravity.
@@ -32,17 +30,9 @@ pub struct SpeedCase {
 }
 
 impl SpeedCase {
-    /// What is integrated.
+    /// The scene to integrate.
     pub fn scene(&self) -> Scene<'_> {
-        let record = ScaledRecord::to_pga(&self.record, self.pga_g);
-        Scene {
-            block: self.block,
-            restitution: self.restitution,
-            model: Model::Nonlinear,
-            overturning: Overturning::Alpha,
-            excitation: Excitation::Record(record),
-            initial_ratio: 0.0,
-        }
+        scene(&self.analysis, &self.record, self.pga_g)
     }
 
     /// Samples as applied, multiples of gravity.
@@ -51,9 +41,25 @@ impl SpeedCase {
     }
 }
 
-/// The thirty analyses, always the same: block k takes the record at k/15 of
-/// the suite, at the multiple of 0.01 g next below a share of its first
-/// overturning.
+/// A block under a record scaled to `pga_g`.
+pub fn scene<'a>(
+    analysis: &Analysis,
+    record: &'a NormalisedRecord,
+    pga_g: f64,
+) -> Scene<'a> {
+    Scene {
+        block: analysis.block,
+        restitution: analysis.restitution,
+        model: analysis.model,
+        overturning: analysis.overturning,
+        excitation: Excitation::Record(ScaledRecord::to_pga(record, pga_g)),
+        initial_ratio: 0.0,
+    }
+}
+
+/// The thirty analyses, always the same. Block k takes the record at k/15 of
+/// the suite, at the largest multiple of 0.01 g that does not exceed a share
+/// of its first overturning PGA.
 ///
 /// # Errors
 /// None in practice: records and blocks are in range.
@@ -76,13 +82,13 @@ fn case(
     share: f64,
 ) -> anyhow::Result<SpeedCase> {
     let record = NormalisedRecord::new(record);
-    let restitution = Restitution::constant(ETA)?;
-    let curve = curve(&record, &Analysis::paper(block, restitution))?;
+    let analysis = Analysis::paper(block, Restitution::constant(ETA)?);
+    let curve = curve(&record, &analysis)?;
     let pgas = || curve.points.iter().map(|point| point.pga_g);
     let last = pgas().next_back().unwrap_or(1.0);
-    // The lowest level that moves the block, where the share lies below it.
+    // The lowest level that moves the block, if the share lies below it.
     let least = pgas().next().unwrap_or(last);
-    // A sliver above: 0.9 of 0.50 is 0.45, not 0.44.
+    // A little more: 0.9 of 0.50 is 0.45, not 0.44.
     let wanted = share * last * (1.0 + 1e-12);
     let pga_g = pgas().rfind(|pga| *pga <= wanted).unwrap_or(least);
     Ok(SpeedCase {
@@ -92,8 +98,7 @@ fn case(
             block.frequency_rad_s(),
             block.slenderness_rad()
         ),
-        block,
-        restitution,
+        analysis,
         record,
         pga_g,
     })

@@ -4,86 +4,39 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, IdaCurve};
+use rocking::ida::Analysis;
 
-use super::cases::SpeedCase;
 use rocking_common::files::{WriteError, write_atomically};
 
-/// One block under one record at some levels.
-struct ToolFile<'a> {
-    name: &'a str,
-    analysis: &'a Analysis,
-    record: &'a NormalisedRecord,
-    levels_g: Vec<f64>,
-}
-
-/// Writes each case to `NAME.txt` in a folder: lines `key value`, then one
-/// sample a line, to be multiplied by the level. Numbers read back to the
-/// same doubles.
+/// Writes a block under a record at some levels (in g) to `NAME.txt` in a
+/// folder: lines `key value`, then one sample a line, which a level
+/// multiplies. Numbers read back to the same doubles.
 ///
 /// # Errors
 /// [`WriteError`] naming the file or folder.
-pub fn singles(folder: &Path, cases: &[SpeedCase]) -> Result<(), WriteError> {
-    create(folder)?;
-    cases.iter().try_for_each(|case| {
-        let (name, record) = (case.name.as_str(), &case.record);
-        let analysis = Analysis::paper(case.block, case.restitution);
-        let levels_g = vec![case.pga_g];
-        let shown = ToolFile { name, analysis: &analysis, record, levels_g };
-        shown.write(folder)
-    })
-}
-
-/// Writes each chain of one analysis in the same way, with all its levels.
-///
-/// # Errors
-/// [`WriteError`] naming the file or folder.
-pub fn chains(
+pub fn write(
     folder: &Path,
-    analysis: &Analysis,
-    records: &[NormalisedRecord],
-    found: &[IdaCurve],
+    name: &str,
+    (analysis, record): (&Analysis, &NormalisedRecord),
+    levels_g: impl Iterator<Item = f64>,
 ) -> Result<(), WriteError> {
-    create(folder)?;
-    records.iter().zip(found).try_for_each(|(record, curve)| {
-        let levels_g = curve.points.iter().map(|p| p.pga_g).collect();
-        let name = record.name();
-        ToolFile { name, analysis, record, levels_g }.write(folder)
-    })
-}
-
-fn create(folder: &Path) -> Result<(), WriteError> {
     std::fs::create_dir_all(folder)
-        .map_err(|source| WriteError { path: folder.to_owned(), source })
-}
-
-impl ToolFile<'_> {
-    fn write(&self, folder: &Path) -> Result<(), WriteError> {
-        let path = folder.join(format!("{}.txt", self.name));
-        write_atomically(&path, self.text())
-    }
-
-    fn text(&self) -> String {
-        let samples = self.record.samples();
-        let levels: Vec<String> =
-            self.levels_g.iter().map(f64::to_string).collect();
-        let mut out = String::new();
+        .map_err(|source| WriteError { path: folder.to_owned(), source })?;
+    let levels: Vec<String> =
+        levels_g.map(|level| level.to_string()).collect();
+    let mut text = format!(
+        "name {name}\nalpha_rad {}\np_rad_s {}\neta {}\ndt_s {}\n\
+         levels_g {}\nsamples {}\n",
+        analysis.block.slenderness_rad(),
+        analysis.block.frequency_rad_s(),
+        analysis.restitution.velocity_ratio(),
+        record.dt_s(),
+        levels.join(","),
+        record.samples().len()
+    );
+    for sample in record.samples() {
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "name {}\nalpha_rad {}\np_rad_s {}\neta {}\ndt_s {}\n\
-             levels_g {}\nsamples {}",
-            self.name,
-            self.analysis.block.slenderness_rad(),
-            self.analysis.block.frequency_rad_s(),
-            self.analysis.restitution.velocity_ratio(),
-            self.record.dt_s(),
-            levels.join(","),
-            samples.len()
-        );
-        for a in samples {
-            let _ = writeln!(out, "{a}");
-        }
-        out
+        let _ = writeln!(text, "{sample}");
     }
+    write_atomically(&folder.join(format!("{name}.txt")), text)
 }

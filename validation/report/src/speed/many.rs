@@ -1,8 +1,7 @@
-//! The list of work of many analyses that is measured.
+//! The work of many analyses that is measured.
 
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, IdaCurve};
 use rocking::integrator::{Model, Order};
 
 use super::singles::ORDERS;
@@ -12,10 +11,14 @@ use super::throughput::{
 use rocking_common::curves::Execution;
 use rocking_common::paper::BLOCKS;
 
-/// Names of both ways of making curves.
-const WAYS: [&str; 2] = ["in lanes", "one by one"];
+/// Name of the paper's analysis.
+pub const PAPER: &str = "15 blocks, Eq. 1";
 
-/// How often `done` is called.
+/// Both ways of making curves, by name.
+pub const WAYS: [(&str, fn() -> Execution); 2] =
+    [("in lanes", Execution::default), ("one by one", || Execution::OneByOne)];
+
+/// Number of calls of `done`.
 pub const STEPS: u64 = 22;
 
 /// Kernels, the middle block, all blocks at every order, and replicates.
@@ -39,72 +42,62 @@ pub fn measure(
         all.push(kernel(&work, model, order, step)?);
         done();
     }
-    // Few chains: what a single block under a suite takes.
+    // Few chains: the work for a single block under a suite.
     let middle = Block::try_new(0.15, 3.0)?;
     let analyses = analyses(&[middle], one, None)?;
-    for how in WAYS {
-        let work = format!("p = 3, alpha = 0.15, {how}");
-        all.push(make(&work, &analyses, records, how)?.0);
+    for (how, way) in WAYS {
+        let job = CurveWork::on_one_thread(&analyses, records, way());
+        all.push(job.measure_thrice(&["p = 3, alpha = 0.15", how])?.0);
         done();
     }
-    all.extend(whole(records, one, "Eq. 1", done)?);
-    all.extend(whole(records, two, "Eq. 2", done)?);
+    all.extend(whole(records, one, PAPER, done)?);
+    all.extend(whole(records, two, "15 blocks, Eq. 2", done)?);
     all.push(lilliefors()?);
     done();
     Ok(all)
 }
 
-/// The paper's whole analysis in one equation, at every order that it has.
+/// The paper's whole analysis in one equation, at every order of Eq. 1.
 fn whole(
     records: &[NormalisedRecord],
     model: Model,
-    words: &str,
+    work: &str,
     done: &dyn Fn(),
 ) -> anyhow::Result<Vec<Throughput>> {
     let shipped = analyses(&BLOCKS, model, None)?;
     let mut all = Vec::new();
     let mut base = Vec::new();
-    for how in WAYS {
-        let work = format!("15 blocks, {words}, {how}");
-        let (measured, found) = make(&work, &shipped, records, how)?;
+    for (how, way) in WAYS {
+        let job = CurveWork::on_one_thread(&shipped, records, way());
+        let (measured, found) = job.measure_thrice(&[work, how])?;
         all.push(measured);
         base = found;
         done();
     }
     let threads = rayon::current_num_threads();
     if threads > 1 {
-        let work = format!("15 blocks, {words}, in lanes");
-        let way = Execution::default();
-        let job = CurveWork { analyses: &shipped, records, way, threads };
-        all.push(job.measure_thrice(&work)?.0);
+        let (how, way) = WAYS[0];
+        let job = CurveWork::on_one_thread(&shipped, records, way());
+        let job = CurveWork { threads, ..job };
+        all.push(job.measure_thrice(&[work, how])?.0);
     }
     let samples = samples_of(records, &shipped, &base)?;
     for measured in &mut all {
         measured.samples = Some(samples);
     }
-    let fixed = ORDERS.iter().filter_map(|(name, order)| {
-        order.filter(|_| model == Model::Nonlinear).map(|o| (name, o))
-    });
-    for (setting, order) in fixed {
-        let analyses = analyses(&BLOCKS, model, Some(order))?;
-        for how in WAYS {
-            let work = format!("15 blocks, {words}, {how}, {setting}");
-            let (mut measured, found) = make(&work, &analyses, records, how)?;
-            measured.moved = Some(moved(&found, &base));
-            all.push(measured);
+    if model == Model::Linearized {
+        return Ok(all);
+    }
+    for (setting, order) in ORDERS.into_iter().filter(|own| own.1.is_some()) {
+        let analyses = analyses(&BLOCKS, model, order)?;
+        for (how, way) in WAYS {
+            let job = CurveWork::on_one_thread(&analyses, records, way());
+            let (measured, found) =
+                job.measure_thrice(&[work, how, setting])?;
+            let moved = Some(moved(&found, &base));
+            all.push(Throughput { moved, ..measured });
             done();
         }
     }
     Ok(all)
-}
-
-fn make(
-    work: &str,
-    analyses: &[Analysis],
-    records: &[NormalisedRecord],
-    how: &str,
-) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
-    let lanes = how == WAYS[0];
-    let way = if lanes { Execution::default() } else { Execution::OneByOne };
-    CurveWork { analyses, records, way, threads: 1 }.measure_thrice(work)
 }

@@ -1,5 +1,6 @@
 //! Measurements of single analyses as rows, in memory and as CSV.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
@@ -28,18 +29,18 @@ pub struct TimingRow {
     pub cpu_s: f64,
     /// Derivatives evaluated, or Taylor polynomials expanded.
     pub work: u64,
-    /// Absolute error of peak |theta|/alpha; empty where one overturned.
+    /// Absolute error of peak |theta|/alpha; empty if one overturned.
     pub peak_error: Option<f64>,
-    /// Largest error of the first ten impact times, s; `inf` where one is
+    /// Largest error of the first ten impact times, in s; `inf` if one is
     /// missing.
     pub impact_error_s: f64,
-    /// Whether the block stands where it should.
+    /// Whether the outcome is right.
     pub right_fate: bool,
-    /// Whether it has as many impacts.
+    /// Whether the number of impacts is right.
     pub same_impacts: bool,
 }
 
-/// What a tool other than ours answered: one line of its driver's output.
+/// The answer of another tool: one line of its driver's output.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ToolRow {
@@ -57,26 +58,28 @@ struct ToolRow {
     first_impacts_s: String,
 }
 
-/// A row from an answer and what it took.
+/// A row from an answer, its CPU time in s and its work.
 pub fn row(
-    [tool, version, method, setting]: [&str; 4],
+    label: [&str; 4],
     (case, reference): (&SpeedCase, &ToolAnswer),
     (cpu_s, work): (f64, u64),
     answer: &ToolAnswer,
 ) -> TimingRow {
-    let error = answer.error(reference);
+    let [tool, version, method, setting] = label.map(str::to_owned);
+    let outcomes = [answer, reference].map(ToolAnswer::is_overturned);
+    let peak_error = (answer.peak_ratio - reference.peak_ratio).abs();
     TimingRow {
-        tool: tool.into(),
-        version: version.into(),
-        method: method.into(),
-        setting: setting.into(),
+        tool,
+        version,
+        method,
+        setting,
         case: case.name.clone(),
         cpu_s,
         work,
-        peak_error: Some(error.peak).filter(|e| !e.is_nan()),
-        impact_error_s: error.impact_s,
-        right_fate: error.right_fate,
-        same_impacts: error.same_impacts,
+        peak_error: (outcomes == [Some(false); 2]).then_some(peak_error),
+        impact_error_s: answer.impact_error_s(reference),
+        right_fate: outcomes[0].is_some() && outcomes[0] == outcomes[1],
+        same_impacts: answer.impacts == reference.impacts,
     }
 }
 
@@ -99,20 +102,14 @@ pub fn read_answers(
             bail!("{shown}: no such case: {}", given.case);
         };
         let times = given.first_impacts_s.split_whitespace();
-        let Ok(mut times) =
-            times.map(str::parse).collect::<Result<Vec<_>, _>>()
-        else {
-            bail!(
-                "{shown}: impact times {:?}: expected numbers",
-                given.first_impacts_s
-            );
-        };
-        times.truncate(COMPARED);
-        let answer = ToolAnswer {
-            peak_ratio: given.peak_ratio,
-            impacts: given.impacts,
-            first_impacts_s: times,
-        };
+        let times = times.map(str::parse).collect::<Result<_, _>>();
+        let mut first_impacts_s: Vec<f64> = times.with_context(|| {
+            let found = &given.first_impacts_s;
+            format!("{shown}: impact times {found:?}: expected numbers")
+        })?;
+        first_impacts_s.truncate(COMPARED);
+        let (peak_ratio, impacts) = (given.peak_ratio, given.impacts);
+        let answer = ToolAnswer { peak_ratio, impacts, first_impacts_s };
         let ToolRow { tool, version, method, setting, .. } = &given;
         rows.push(row(
             [tool, version, method, setting],
@@ -137,7 +134,7 @@ pub fn text(rows: &[TimingRow]) -> Result<Vec<u8>, csv::Error> {
     }))
 }
 
-/// What a tool with its setting came to over the cases.
+/// Summary of a tool in one setting over the cases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Total {
     /// Tool, version, method, setting.
@@ -150,9 +147,9 @@ pub struct Total {
     pub mean_cpu_s: f64,
     /// Median work.
     pub work: f64,
-    /// Median error of the peak, of those that stand.
+    /// Median error of the peak over the blocks that stand.
     pub peak_error: f64,
-    /// The error of the peak that nine in ten stay below.
+    /// The error of the peak that nine in ten do not exceed.
     pub peak_error_90: f64,
     /// The largest.
     pub peak_error_worst: f64,
@@ -160,12 +157,12 @@ pub struct Total {
     pub impact_error_s: f64,
     /// The largest.
     pub impact_error_worst_s: f64,
-    /// Wrong fates.
+    /// Wrong outcomes.
     pub wrong_fates: usize,
-    /// Cases with another number of impacts.
+    /// Cases with a wrong number of impacts.
     pub other_impacts: usize,
-    /// Median ratio of the time to that of the reference tool's on the same
-    /// case; NaN where it has none.
+    /// Median ratio of the time to the time of the base tool on the same case;
+    /// NaN if that has none.
     pub ratio: f64,
 }
 
@@ -177,60 +174,57 @@ impl Total {
     }
 }
 
-/// Totals by tool and setting, in the order of the rows; ratios to the times
-/// of `base` (tool, method, setting).
+/// Totals by tool and setting, in the order of the rows; ratios are to the
+/// times of `base` (tool, method, setting).
 pub fn totals(rows: &[TimingRow], base: [&str; 3]) -> Vec<Total> {
     let label = |row: &TimingRow| {
         [&row.tool, &row.version, &row.method, &row.setting].map(String::clone)
     };
-    let mut labels: Vec<[String; 4]> = Vec::new();
+    let mut groups: Vec<([String; 4], Vec<&TimingRow>)> = Vec::new();
     for row in rows {
         let own = label(row);
-        if !labels.contains(&own) {
-            labels.push(own);
+        match groups.iter_mut().find(|(other, _)| *other == own) {
+            Some((_, group)) => group.push(row),
+            None => groups.push((own, vec![row])),
         }
     }
-    let base_s = |case: &str| {
-        let is = |row: &&TimingRow| {
-            row.case == case
-                && [row.tool.as_str(), &row.method, &row.setting] == base
-        };
-        rows.iter().find(is).map_or(f64::NAN, |row| row.cpu_s)
+    let is_base = |row: &&TimingRow| {
+        [row.tool.as_str(), &row.method, &row.setting] == base
     };
-    labels
-        .into_iter()
-        .map(|own| {
-            let of: Vec<&TimingRow> =
-                rows.iter().filter(|row| label(row) == own).collect();
-            let each = |value: &dyn Fn(&TimingRow) -> f64| {
-                of.iter().map(|row| value(row)).collect::<Vec<f64>>()
-            };
-            let peaks: Vec<f64> =
-                of.iter().filter_map(|row| row.peak_error).collect();
-            let impacts = each(&|row| row.impact_error_s);
-            let times = each(&|row| row.cpu_s);
-            let mean =
-                times.iter().fold(0.0, |sum, t| sum + t) / times.len() as f64;
-            Total {
-                label: own.clone(),
-                cases: of.len(),
-                cpu_s: ranked(times, 0.5),
-                mean_cpu_s: mean,
-                work: ranked(each(&|row| row.work as f64), 0.5),
-                peak_error: ranked(peaks.clone(), 0.5),
-                peak_error_90: ranked(peaks.clone(), 0.9),
-                peak_error_worst: ranked(peaks, 1.0),
-                impact_error_s: ranked(impacts.clone(), 0.5),
-                impact_error_worst_s: ranked(impacts, 1.0),
-                wrong_fates: of.iter().filter(|r| !r.right_fate).count(),
-                other_impacts: of.iter().filter(|r| !r.same_impacts).count(),
-                ratio: ranked(each(&|row| row.cpu_s / base_s(&row.case)), 0.5),
-            }
-        })
-        .collect()
+    let base_s: BTreeMap<&str, f64> = rows
+        .iter()
+        .filter(is_base)
+        .map(|row| (row.case.as_str(), row.cpu_s))
+        .collect();
+    let total = |(label, of): ([String; 4], Vec<&TimingRow>)| {
+        let at = |value: &dyn Fn(&TimingRow) -> f64, share| {
+            ranked(of.iter().map(|row| value(row)).collect(), share)
+        };
+        let peak = |share| {
+            ranked(of.iter().filter_map(|row| row.peak_error).collect(), share)
+        };
+        let sum = of.iter().fold(0.0, |sum, row| sum + row.cpu_s);
+        let base_s = |row: &TimingRow| base_s.get(&*row.case).copied();
+        Total {
+            cases: of.len(),
+            cpu_s: at(&|row| row.cpu_s, 0.5),
+            mean_cpu_s: sum / of.len() as f64,
+            work: at(&|row| row.work as f64, 0.5),
+            peak_error: peak(0.5),
+            peak_error_90: peak(0.9),
+            peak_error_worst: peak(1.0),
+            impact_error_s: at(&|row| row.impact_error_s, 0.5),
+            impact_error_worst_s: at(&|row| row.impact_error_s, 1.0),
+            wrong_fates: of.iter().filter(|row| !row.right_fate).count(),
+            other_impacts: of.iter().filter(|row| !row.same_impacts).count(),
+            ratio: at(&|r| r.cpu_s / base_s(r).unwrap_or(f64::NAN), 0.5),
+            label,
+        }
+    };
+    groups.into_iter().map(total).collect()
 }
 
-/// The value that a share of the values does not exceed, in steps of one.
+/// The smallest value that at least a share of the values do not exceed.
 fn ranked(mut values: Vec<f64>, share: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let n = values.len();

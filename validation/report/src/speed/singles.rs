@@ -1,7 +1,7 @@
 //! Our own methods on the single analyses.
 
 use rocking::integrator::{
-    Observe, Order, Response, Scene, SceneError, Solver, respond_precise,
+    Observe, Order, SceneError, Solver, respond_precise,
 };
 use rocking::number::double::DoubleDouble;
 
@@ -13,7 +13,7 @@ use super::measured::{TimingRow, row};
 /// The tool, method and setting that ratios refer to.
 pub const BASE: [&str; 3] = ["rocking", "Taylor", "as shipped"];
 
-/// Batches of a measurement, and how long each is, in s.
+/// Batches of a measurement, and the duration of each in s.
 const BATCHES: (u32, f64) = (5, 4e-3);
 
 /// The orders, as settings.
@@ -25,22 +25,6 @@ pub const ORDERS: [(&str, Option<Order>); 5] = [
     ("as shipped", None),
 ];
 
-/// [`respond_precise`] in double-double.
-fn double_double(
-    scene: &Scene<'_>,
-    observe: &Observe,
-) -> Result<Response<DoubleDouble>, SceneError> {
-    respond_precise(scene, observe)
-}
-
-fn respond_at_order(
-    scene: &Scene<'_>,
-    observe: &Observe,
-    order: Option<Order>,
-) -> Result<Response, SceneError> {
-    Solver { order, ..Solver::default() }.respond(scene, observe)
-}
-
 /// Measures every order on every case, and double-double once.
 ///
 /// # Errors
@@ -50,19 +34,17 @@ pub fn measure(
     done: impl Fn(),
 ) -> Result<Vec<TimingRow>, SceneError> {
     let version = env!("CARGO_PKG_VERSION");
+    let (bare, (batches, batch_s)) = (Observe::default(), BATCHES);
+    let seen = Observe { events: true, ..Observe::default() };
     let mut rows = Vec::new();
     for (setting, order) in ORDERS {
         let label = ["rocking", version, "Taylor", setting];
+        let solver = Solver { order, ..Solver::default() };
         for (case, reference) in cases {
             let scene = case.scene();
-            let bare = Observe::default();
-            let (batches, batch_s) = BATCHES;
-            let (cpu_s, plain) = least_s(batches, batch_s, || {
-                respond_at_order(&scene, &bare, order)
-            });
-            let seen = Observe { events: true, ..bare };
-            let answer =
-                ToolAnswer::of(case, &respond_at_order(&scene, &seen, order)?);
+            let run = || solver.respond(&scene, &bare);
+            let (cpu_s, plain) = least_s(batches, batch_s, run);
+            let answer = ToolAnswer::of(case, &solver.respond(&scene, &seen)?);
             let took = (cpu_s, plain?.work.steps);
             rows.push(row(label, (case, reference), took, &answer));
             done();
@@ -71,8 +53,8 @@ pub fn measure(
     let label = ["rocking", version, "Taylor, double-double", "order 27"];
     for (case, reference) in cases {
         let scene = case.scene();
-        let (cpu_s, plain) =
-            least_s(1, 0.0, || double_double(&scene, &Observe::default()));
+        let run = || respond_precise::<DoubleDouble>(&scene, &bare);
+        let (cpu_s, plain) = least_s(1, 0.0, run);
         let took = (cpu_s, plain?.work.steps);
         rows.push(row(label, (case, reference), took, reference));
         done();

@@ -27,9 +27,9 @@ fn cases_have_names_of_their_own_and_our_answers_are_right() {
         };
         let own = rocking::integrator::respond(&case.scene(), &seen);
         let own = ToolAnswer::of(case, &own.expect("response"));
-        let error = own.error(&reference);
-        assert!(error.right_fate, "{}", case.name);
-        assert!(error.impact_s < 1e-9, "{}: {error:?}", case.name);
+        let row = row([""; 4], (case, &reference), (1.0, 1), &own);
+        assert!(row.right_fate, "{}", case.name);
+        assert!(row.impact_error_s < 1e-9, "{row:?}");
         overturned += usize::from(own.peak_ratio == f64::INFINITY);
     }
     assert!(overturned > 0, "some cases overturn");

@@ -1,40 +1,40 @@
-//! Many analyses: how many in a second of processor time, in lanes and one
-//! at a time, and what a sample takes.
+//! Many analyses: the number in a second of CPU time, in lanes and one at a
+//! time, and the CPU time of a sample.
 
 use rayon::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
-use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
 use rocking::integrator::{
-    BareSteps, Model, Observe, Order, Overturning, Scene, Solver, WorkLimit,
+    BareSteps, Model, Observe, Order, Overturning, Solver, WorkLimit,
 };
 use rocking::number::dispatch::Isa;
 use rocking_statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
 
-use super::cases::ETA;
+use super::cases::{ETA, scene};
 use super::clock::{process_s, thread_s};
 use super::csv;
 use rocking_common::curves::Execution;
 use rocking_common::words::rounded;
 
-/// A piece of work and what it took.
+/// A piece of work and its CPU time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Throughput {
-    /// What was done.
+    /// Name of the work.
     pub work: String,
     /// Threads that did it.
     pub threads: usize,
-    /// Processor time of all threads, in s.
+    /// CPU time of all threads, in s.
     pub cpu_s: f64,
     /// Analyses, or replicates.
     pub count: u64,
-    /// Samples in flight (one step each), where there are such.
+    /// Samples in flight (one step each), if there are any.
     pub samples: Option<u64>,
     /// Chains whose first overturning is at another level than by the
-    /// default, where that was looked at.
+    /// default, if they were compared.
     pub moved: Option<u64>,
 }
 
@@ -44,18 +44,18 @@ impl Throughput {
         Self { work, threads, cpu_s, count, samples, moved }
     }
 
-    /// Analyses or replicates in a second of processor time.
+    /// Analyses or replicates in a second of CPU time.
     pub fn rate_per_s(&self) -> f64 {
         self.count as f64 / self.cpu_s
     }
 
-    /// Nanoseconds of processor time a sample.
+    /// Nanoseconds of CPU time a sample.
     pub fn sample_ns(&self) -> Option<f64> {
         self.samples.map(|n| 1e9 * self.cpu_s / n as f64)
     }
 }
 
-/// Analyses and how they are made.
+/// Analyses to make, and the way to make them.
 #[derive(Clone, Copy)]
 pub struct CurveWork<'a> {
     /// The analyses, each of every record.
@@ -83,10 +83,10 @@ pub fn analyses(
     Ok(blocks.iter().map(|b| Analysis { model, order, ..paper(b) }).collect())
 }
 
-/// Processor time of `work` on a pool of that many threads.
+/// CPU time of `work` on a pool of that many threads.
 ///
 /// # Errors
-/// Where threads cannot be started.
+/// If threads cannot be started.
 pub fn on_threads<T: Send>(
     threads: usize,
     work: impl FnOnce() -> T + Send,
@@ -99,25 +99,31 @@ pub fn on_threads<T: Send>(
     }))
 }
 
-impl CurveWork<'_> {
-    /// Makes the curves three times, and says how long that took in the
-    /// median: one of four took up to 1.5 times as long as the others.
+impl<'a> CurveWork<'a> {
+    /// Work on one thread.
+    pub fn on_one_thread(
+        analyses: &'a [Analysis],
+        records: &'a [NormalisedRecord],
+        way: Execution,
+    ) -> Self {
+        Self { analyses, records, way, threads: 1 }
+    }
+
+    /// Makes the curves three times and returns the run of median CPU time:
+    /// one run of four took up to 1.5 times as long as the others.
     ///
     /// # Errors
     /// For a record that cannot be analysed.
     pub fn measure_thrice(
         &self,
-        work: &str,
+        names: &[&str],
     ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
-        let (mut measured, found) = self.measure(work)?;
-        let others = [self.measure(work)?.0, self.measure(work)?.0];
-        let mut times = [measured.cpu_s, others[0].cpu_s, others[1].cpu_s];
-        times.sort_by(f64::total_cmp);
-        measured.cpu_s = times[1];
-        Ok((measured, found))
+        let work = names.join(", ");
+        let [_, median, _] = by_time(|| self.measure(&work))?;
+        Ok(median)
     }
 
-    /// Makes the curves, and says how long that took.
+    /// Makes the curves and measures the CPU time.
     ///
     /// # Errors
     /// For a record that cannot be analysed.
@@ -135,6 +141,15 @@ impl CurveWork<'_> {
     }
 }
 
+/// Three runs, the quickest first.
+fn by_time<T>(
+    run: impl Fn() -> anyhow::Result<(Throughput, T)>,
+) -> anyhow::Result<[(Throughput, T); 3]> {
+    let mut all = [run()?, run()?, run()?];
+    all.sort_by(|a, b| a.0.cpu_s.total_cmp(&b.0.cpu_s));
+    Ok(all)
+}
+
 /// Chains whose first overturning is at another level than those of `base`.
 pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
     let level = |c: &IdaCurve| c.overturning.map(|first| first.scanned_im);
@@ -142,7 +157,7 @@ pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
     both.filter(|(own, other)| level(own) != level(other)).count() as u64
 }
 
-/// Steps that the analyses of some curves took.
+/// Number of steps of the analyses of some curves.
 ///
 /// # Errors
 /// For a record that cannot be analysed.
@@ -158,12 +173,11 @@ pub fn samples_of(
             records.iter().zip(curves).map(move |(r, c)| (a, r, c))
         })
         .collect();
+    let observe = Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
+    let solver = Solver { peak_only: true, ..Solver::default() };
     let steps: Vec<anyhow::Result<u64>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {
-            let solver = Solver { peak_only: true, ..Solver::default() };
-            let work_limit = WorkLimit::IDA;
-            let observe = Observe { work_limit, ..Observe::default() };
             let mut steps = 0;
             for point in &curve.points {
                 let scene = scene(analysis, record, point.pga_g);
@@ -173,21 +187,6 @@ pub fn samples_of(
         })
         .collect();
     steps.into_iter().try_fold(0, |sum, own| Ok(sum + own?))
-}
-
-fn scene<'a>(
-    analysis: &Analysis,
-    record: &'a NormalisedRecord,
-    pga_g: f64,
-) -> Scene<'a> {
-    Scene {
-        block: analysis.block,
-        restitution: analysis.restitution,
-        model: analysis.model,
-        overturning: analysis.overturning,
-        excitation: Excitation::Record(ScaledRecord::to_pga(record, pga_g)),
-        initial_ratio: 0.0,
-    }
 }
 
 /// The measurements as CSV.
@@ -200,8 +199,8 @@ pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
         .map(|row| Throughput { cpu_s: rounded(row.cpu_s, 4), ..row.clone() }))
 }
 
-/// The kernel of the lanes with hardly anything else: blocks rock freely
-/// after a push, in long flights with many samples.
+/// The lane kernel with little else: blocks rock freely after a push, in long
+/// flights with many samples.
 struct LaneKernel {
     record: [NormalisedRecord; 1],
     chains: Vec<Analysis>,
@@ -209,7 +208,8 @@ struct LaneKernel {
 }
 
 impl LaneKernel {
-    /// Of samples of `step` in 1/p, at an order if one is given.
+    /// A kernel with samples of length `step` in 1/p, at an order if one is
+    /// given.
     fn new(
         model: Model,
         order: Option<Order>,
@@ -225,7 +225,7 @@ impl LaneKernel {
         let push = Accelerogram::try_new("push", step, samples.collect())?;
         let record = [NormalisedRecord::new(&push)];
         let restitution = Restitution::constant(0.9995)?;
-        // By the other criterion a run goes on when its peak is known.
+        // By the other criterion a run would go on after its peak is known.
         let overturning = Overturning::HalfPi;
         let paper = Analysis {
             model,
@@ -233,7 +233,7 @@ impl LaneKernel {
             overturning,
             ..Analysis::paper(block, restitution)
         };
-        // The one level a little below overturning.
+        // A single level, a little below overturning.
         let grid = Grid::Im { step: 0.01 };
         let tried = curve(&record[0], &Analysis { grid, ..paper })?;
         let first = tried.overturning.map_or(2.0, |first| first.scanned_im);
@@ -248,12 +248,11 @@ impl LaneKernel {
         Ok(Self { record, chains, samples })
     }
 
-    /// Flies once, by instructions of a level.
+    /// Flies once, at an instruction-set level.
     fn measure(&self, work: &str, isa: Isa) -> anyhow::Result<Throughput> {
         let Self { record, chains, samples } = self;
         let way = Execution::Lanes(isa);
-        let job =
-            CurveWork { analyses: chains, records: record, way, threads: 1 };
+        let job = CurveWork::on_one_thread(chains, record, way);
         let samples = Some(*samples);
         Ok(Throughput { samples, ..job.measure(work)?.0 })
     }
@@ -270,11 +269,8 @@ pub fn kernel(
     step: f64,
 ) -> anyhow::Result<Throughput> {
     let kernel = LaneKernel::new(model, order, step)?;
-    let fly = || kernel.measure(work, Isa::best());
-    let (mut least, others) = (fly()?, [fly()?, fly()?]);
-    for again in others {
-        least.cpu_s = least.cpu_s.min(again.cpu_s);
-    }
+    let fly = || Ok((kernel.measure(work, Isa::best())?, ()));
+    let [(least, ()), ..] = by_time(fly)?;
     Ok(least)
 }
 
@@ -284,7 +280,7 @@ pub fn kernel(
 pub struct AgainstLoop {
     /// Instruction-set level.
     pub isa: &'static str,
-    /// Processor time of a sample, in ns.
+    /// CPU time of a sample, in ns.
     pub kernel_ns: f64,
     pub loop_ns: f64,
     /// Median of the ratios kernel : loop.

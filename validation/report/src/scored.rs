@@ -53,12 +53,12 @@ pub fn page(scored: &Score) -> String {
                             (PreEscaped(svg))
                         }
                         figcaption {
-                            "Digits are −log10 of the relative error, from 0 \
-                             to what double precision can get: 15 less log10 \
-                             of the condition number."
+                            "Digits: −log10 of the relative error, between 0 \
+                             and the most that double precision can give, \
+                             which is 15 less log10 of the condition number."
                         }
                     }
-                    h2 { "Answers that lack digits" }
+                    h2 { "Answers with missing digits" }
                     (lacking(scored))
                 }
             }
@@ -71,57 +71,38 @@ pub fn page(scored: &Score) -> String {
 /// Settings of the known codes: as shipped, and the finest that was tried.
 pub const SETTINGS: [&str; 2] = ["default", "best"];
 
-/// A code in one setting, this program among them.
-struct ScoredCode {
-    code: String,
-    version: String,
-    setting: String,
-    /// Median digits of each level, and the numbers of wrong and of all
-    /// outcomes.
-    medians: Vec<Option<f64>>,
-    wrong: usize,
-    outcomes: usize,
+/// The scores of a code in one setting, a row for each level.
+type LevelRows = Vec<Code>;
+
+/// Median digits, the fewest and the most of any level.
+fn extremes(code: &LevelRows) -> (f64, f64) {
+    range(code.iter().map(|row| row.median_digits))
 }
 
-impl ScoredCode {
-    /// The fewest median digits of any level.
-    fn least(&self) -> f64 {
-        let known = self.medians.iter().map(|m| m.unwrap_or(f64::NAN));
-        range(known).0
-    }
+/// Number of wrong outcomes, and of all outcomes answered.
+fn outcomes(code: &LevelRows) -> (usize, usize) {
+    let sum = |of: fn(&Code) -> usize| code.iter().map(of).sum();
+    (sum(|row| row.fates_wrong), sum(|row| row.fates_answered))
 }
 
 /// This program, then each known code in each setting; and the levels.
-fn scored_codes() -> anyhow::Result<(Vec<ScoredCode>, Vec<String>)> {
+fn scored_codes() -> anyhow::Result<(Vec<LevelRows>, Vec<String>)> {
     let own = score(&own_answers().map_err(anyhow::Error::msg)?);
-    let levels = own.levels.iter();
-    let wrong = levels.clone().map(|level| level.fates_wrong).sum();
-    let right: usize = levels.clone().map(|level| level.fates_right).sum();
-    let first = ScoredCode {
+    let first = own.levels.iter().map(|level| Code {
         code: "rocking".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
         setting: "as shipped".into(),
-        medians: levels.clone().map(|level| level.median_digits).collect(),
-        wrong,
-        outcomes: wrong + right,
-    };
-    let all = codes();
+        version: env!("CARGO_PKG_VERSION").into(),
+        level: level.level,
+        median_digits: level.median_digits.unwrap_or(f64::NAN),
+        worst_digits: level.worst_digits.unwrap_or(f64::NAN),
+        fates_wrong: level.fates_wrong,
+        fates_answered: level.fates_right + level.fates_wrong,
+    });
+    let all: LevelRows = first.chain(codes()).collect();
     let same =
         |a: &Code, b: &Code| (&a.code, &a.setting) == (&b.code, &b.setting);
-    let others = all.chunk_by(same).map(|rows| ScoredCode {
-        code: rows[0].code.clone(),
-        version: rows[0].version.clone(),
-        setting: rows[0].setting.clone(),
-        medians: levels
-            .clone()
-            .map(|own| rows.iter().find(|row| row.level == own.level))
-            .map(|row| Some(row?.median_digits))
-            .collect(),
-        wrong: rows.iter().map(|row| row.fates_wrong).sum(),
-        outcomes: rows.iter().map(|row| row.fates_answered).sum(),
-    });
-    let kinds = levels.clone().map(|level| level.kind.clone()).collect();
-    Ok(([first].into_iter().chain(others).collect(), kinds))
+    let levels = own.levels.iter().map(|level| level.kind.clone()).collect();
+    Ok((all.chunk_by(same).map(<[_]>::to_vec).collect(), levels))
 }
 
 /// Median digits of this program, and of known codes in these settings, level
@@ -130,17 +111,17 @@ fn scored_codes() -> anyhow::Result<(Vec<ScoredCode>, Vec<String>)> {
 /// # Errors
 /// If our own answers are refused.
 pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
-    let (codes, levels) = scored_codes()?;
-    let is_shown = |code: &&ScoredCode| {
-        code.setting == codes[0].setting
-            || settings.contains(&code.setting.as_str())
-    };
-    let row = |code: &ScoredCode| {
-        let name = format!("{} {}", code.code, code.version);
-        let mut cells = vec![name.trim_end().into(), code.setting.clone()];
-        cells.extend(code.medians.iter().map(|median| digits(*median)));
-        cells.push(format!("{} of {}", code.wrong, code.outcomes));
-        cells
+    let (mut codes, levels) = scored_codes()?;
+    let explained = explained(settings, &codes);
+    let own = codes.remove(0);
+    codes.retain(|code| settings.contains(&code[0].setting.as_str()));
+    let row = |code: &LevelRows| {
+        let Code { code: name, version, setting, .. } = &code[0];
+        let name = format!("{name} {version}");
+        let (wrong, all) = outcomes(code);
+        let digits = code.iter().map(|row| digits(Some(row.median_digits)));
+        let first = [name.trim_end().into(), setting.clone()].into_iter();
+        first.chain(digits).chain([format!("{wrong} of {all}")]).collect()
     };
     let names = ["code", "setting"].into_iter();
     let names = names.chain(levels.iter().map(String::as_str));
@@ -151,42 +132,43 @@ pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
         format!(
             "Median digits of the answers of this program and of other codes \
              to the reference data set (fixtures/benchmark), by level of \
-             difficulty. {}Double precision can give 14 to 15 digits if a \
-             scene is well conditioned. Physics engines, OpenSees and the \
-             penalty model (a block on springs and dampers) have no \
+             difficulty. {explained}Double precision can give 14 to 15 digits \
+             if a scene is well conditioned. Physics engines, OpenSees and \
+             the penalty model (a block on springs and dampers) have no \
              linearized equation, so they answer 54 outcomes of 65. \
              validation/peers lists the codes that could not be made to \
-             rock, and why.",
-            explained(settings, &codes)
+             rock, and why."
         ),
         &header,
-        codes.iter().filter(is_shown).map(row).collect(),
+        [own].iter().chain(&codes).map(row).collect(),
     ))
 }
 
 /// The meaning of each setting shown, and the codes with more wrong outcomes
 /// in the finest setting than as shipped.
-fn explained(settings: &[&str], codes: &[ScoredCode]) -> String {
+fn explained(settings: &[&str], codes: &[LevelRows]) -> String {
     let mut out = String::new();
-    for (setting, words) in [
-        (SETTINGS[0], "as the code is shipped"),
-        (SETTINGS[1], "the smallest steps and tightest tolerances tried"),
-    ] {
+    for (setting, words) in SETTINGS.into_iter().zip([
+        "as the code is shipped",
+        "the smallest steps and tightest tolerances tried",
+    ]) {
         if settings.contains(&setting) {
             out += &format!("`{setting}`: {words}. ");
         }
     }
-    for finest in codes.iter().filter(|code| code.setting == SETTINGS[1]) {
-        let is_shipped = |other: &&ScoredCode| {
-            (&*other.code, &*other.setting) == (&finest.code, SETTINGS[0])
+    let wrong = |name: &str, setting| {
+        let is = |own: &&LevelRows| {
+            (own[0].code.as_str(), own[0].setting.as_str()) == (name, setting)
         };
-        let shipped = codes.iter().find(is_shipped);
-        let shipped = shipped.map_or(0, |shipped| shipped.wrong);
-        if finest.wrong > shipped {
+        codes.iter().find(is).map_or(0, |own| outcomes(own).0)
+    };
+    for code in codes.chunk_by(|a, b| a[0].code == b[0].code) {
+        let name = &code[0][0].code;
+        let [shipped, finest] = SETTINGS.map(|setting| wrong(name, setting));
+        if finest > shipped {
             out += &format!(
-                "With `best`, {} has {} wrong outcomes; as shipped, it has \
-                 {shipped}. ",
-                finest.code, finest.wrong
+                "With `best`, {name} has {finest} wrong outcomes; as shipped, \
+                 it has {shipped}. "
             );
         }
     }
@@ -200,75 +182,74 @@ fn explained(settings: &[&str], codes: &[ScoredCode]) -> String {
 /// If our own answers are refused.
 pub fn codes_figure() -> anyhow::Result<Figure> {
     let (mut codes, levels) = scored_codes()?;
-    // This program first, then each code by its finest setting.
-    let finest = |code: &str| {
-        let of = codes.iter().filter(|other| other.code == code);
-        range(of.map(ScoredCode::least)).1
-    };
-    let ranks: BTreeMap<String, f64> =
-        codes.iter().map(|c| (c.code.clone(), finest(&c.code))).collect();
+    let finest = codes.iter().filter(|code| code[0].setting == SETTINGS[1]);
+    let ranks: BTreeMap<String, (f64, f64)> =
+        finest.map(|own| (own[0].code.clone(), extremes(own))).collect();
+    // This program first, then the codes by their finest setting.
     codes[1..].sort_by(|a, b| {
-        let by_rank = ranks[&b.code].total_cmp(&ranks[&a.code]);
-        by_rank.then_with(|| (&a.code, &a.setting).cmp(&(&b.code, &b.setting)))
+        let rank = |code: &LevelRows| ranks[&code[0].code].0;
+        rank(b).total_cmp(&rank(a))
     });
-    let is_finest = |code: &&ScoredCode| code.setting == SETTINGS[1];
-    let (many, few): (Vec<_>, Vec<_>) =
-        codes.iter().filter(is_finest).partition(|c| c.least() >= MANY);
-    let medians = few.iter().flat_map(|code| &code.medians);
-    let most = range(medians.filter_map(|median| *median)).1;
+    let many = ranks.values().filter(|(least, _)| *least >= MANY).count();
+    let few = ranks.values().filter(|(least, _)| *least < MANY);
+    let most = range(few.map(|(_, most)| *most)).1;
     let reading = format!(
         "Each mark is the median number of correct digits over the scenes of \
          one level of difficulty. With the finest settings tried (`best`), \
-         {} of {} other codes reach {MANY} digits or more on every level; \
+         {many} of {} other codes reach {MANY} digits or more on every level; \
          the rest reach at most {most:.1} on any. `default`: as shipped.",
-        many.len(),
-        many.len() + few.len()
+        ranks.len()
     );
-    // The first row is the highest.
-    let row = |k: usize| (codes.len() - k) as f64;
-    let line = Pen::new(Ink::Grid, 0.8);
-    let lines = (0..codes.len())
-        .map(|k| Series::note(Mark::Across(line), "", (f64::NAN, row(k))));
-    let marks = codes.iter().enumerate().flat_map(|(k, code)| {
-        let medians = code.medians.iter().enumerate();
-        medians.zip(&levels).map(move |((level, median), name)| {
+    let mut series = Vec::new();
+    for (k, code) in codes.iter().enumerate() {
+        // The first row is the highest.
+        let row = (codes.len() - k) as f64;
+        let line = Mark::Across(Pen::new(Ink::Grid, 0.8));
+        series.push(Series::note(line, "", (f64::NAN, row)));
+        for (own, level) in code.iter().zip(&levels) {
             // Beside each other, not on each other.
-            let y = row(k) + APART * (1.0 - level as f64 / 2.0);
-            let x = median.unwrap_or(f64::NAN);
-            let keys = [&code.code, &code.setting, name].map(String::clone);
-            Series::new(name, Mark::Points, vec![x], vec![y]).keyed(keys)
-        })
-    });
-    let name = |code: &ScoredCode| format!("{}, {}", code.code, code.setting);
+            let y = row + APART * (3.0 - f64::from(own.level));
+            let mark = Series::new(
+                level,
+                Mark::Points,
+                vec![own.median_digits],
+                vec![y],
+            );
+            let keys = [&own.code, &own.setting, level].map(String::clone);
+            series.push(mark.keyed(keys));
+        }
+    }
+    let name =
+        |code: &LevelRows| format!("{}, {}", code[0].code, code[0].setting);
     let panel = ChartPanel::new(
         "",
-        ChartAxis::linear("median of correct digits", (0.0, 15.5)),
+        ChartAxis::linear("median number of correct digits", (0.0, 15.5)),
         ChartAxis::named(codes.iter().rev().map(name).collect()),
-        lines.chain(marks).collect(),
+        series,
     );
-    let heading = Heading {
-        place: Place::Others,
-        ..Heading::new(
+    let chart = Chart::of(
+        [
             "codes",
             "Digits by level of difficulty, this program and other codes",
-            "Rows of marks, a row for each code and setting: median number \
-             of correct digits on each of five levels of scenes, from free \
+            "Rows of marks, a row for each code and setting: median number of \
+             correct digits on each of five levels of scenes, from free \
              rocking to hard cases.",
-        )
-    };
+        ],
+        vec![panel],
+    );
+    let heading = Heading { place: Place::Others, ..chart.heading };
     let grid = Grid::new(1, 1).plot(560.0, ROW_PX * codes.len() as f64);
     let grid = Some(Grid { left: NAMES_PX, ..grid });
     let keys = ["code", "setting", "level"];
     let layout = Layout::of(&keys, &[("median_digits", Of::X)]);
     let layout = Layout { grid, ..layout };
-    let chart = Chart { heading, panels: vec![panel], columns: 1 };
-    Ok(chart.laid_out(&layout, reading))
+    Ok(Chart { heading, ..chart }.laid_out(&layout, reading))
 }
 
 /// Digits that only a code without a model error has.
 const MANY: f64 = 10.0;
-/// Distance of the first and the third level within a row.
-const APART: f64 = 0.3;
+/// Distance of neighbouring levels within a row.
+const APART: f64 = 0.15;
 /// Height of a row, and room for the names of rows, in px.
 const ROW_PX: f64 = 22.0;
 const NAMES_PX: f64 = 124.0;
@@ -284,16 +265,15 @@ fn diagnosis(score: &Score) -> Markup {
                 " at a condition of 1."
             }
             CodeVerdict::Unknown => p {
-                "Something that is not among the known mistakes: no one of \
-                 them, and no two that were tried together, explain the \
-                 answers."
+                "The cause is not among the known mistakes: no single one, and \
+                 no pair that was tried, explains the answers."
             }
             CodeVerdict::TooFew => p { "Too few answers for a verdict." }
             CodeVerdict::Known => {
                 @if found.explanations.len() > 1 {
                     p {
-                        "The answers given cannot tell these explanations \
-                         apart:"
+                        "These answers fit each of the following \
+                         explanations:"
                     }
                 }
                 ul {
@@ -320,7 +300,7 @@ fn explanation(one: &Explanation) -> Markup {
     }
 }
 
-/// A number of digits, where there is one.
+/// A number of digits; a dash if there is none.
 fn digits(x: Option<f64>) -> String {
     x.map_or("–".into(), |x| format!("{x:.1}"))
 }
@@ -348,16 +328,16 @@ fn levels(score: &Score) -> Markup {
     table::untitled(&PlainTable::new(
         "levels",
         "Digits",
-        "Digits, fates and counts, level by level.",
+        "Digits, outcomes and counts, level by level.",
         &[
             "Level",
             "Numbers answered",
             "Median digits",
             "Fewest digits",
-            "Share that attains all digits",
-            "Fates right",
-            "Fates wrong",
-            "Fates missing",
+            "Share with all attainable digits",
+            "Outcomes right",
+            "Outcomes wrong",
+            "Outcomes missing",
             "Counts right",
             "Counts wrong",
         ],
@@ -365,7 +345,7 @@ fn levels(score: &Score) -> Markup {
     ))
 }
 
-/// Lines of the table of answers that lack digits.
+/// Most lines of the table of answers with missing digits.
 const MOST: usize = 40;
 
 fn lacking(score: &Score) -> Markup {
@@ -392,7 +372,7 @@ fn lacking(score: &Score) -> Markup {
     };
     if all.is_empty() {
         return html! {
-            p { "None: every answer has all digits that it can have." }
+            p { "None: every answer has all the digits it can have." }
         };
     }
     let shown = all.len().min(MOST);
@@ -400,8 +380,8 @@ fn lacking(score: &Score) -> Markup {
         ["Scene", "Quantity", "Answer", "Certified", "Digits", "Attainable"];
     table::untitled(&PlainTable::new(
         "lacking",
-        "Answers that lack digits",
-        format!("{} answers; the {shown} that lack most:", all.len()),
+        "Answers with missing digits",
+        format!("{} answers; the {shown} that miss the most:", all.len()),
         &header,
         all[..shown].iter().map(row).collect(),
     ))

@@ -1,5 +1,5 @@
-//! Shaking-table tests that are kept: two rocks, and what the model makes of
-//! their fates.
+//! The kept shaking-table tests of two rocks, and the model's prediction of
+//! their outcomes.
 
 mod drawing;
 mod sentences;
@@ -22,9 +22,9 @@ pub const KEPT: &str = rocking_fixtures::text("tests/granite.json");
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RockTests {
-    /// Who tested what, and when.
+    /// The authors of the tests, and the year.
     source: String,
-    /// Where the data lie.
+    /// The repository of the data.
     repository: String,
     /// SHA-256 of the tables, and of the list of motions.
     sha256: BTreeMap<String, String>,
@@ -32,17 +32,17 @@ pub struct RockTests {
     motions: usize,
     /// Most tests of one motion.
     levels: usize,
-    /// Tests whose motion is not at hand.
+    /// Tests whose motion is not available.
     missing_motions: usize,
     /// Tests whose stated peak is a target that the measured one misses.
     targets: usize,
-    /// What the fates of all tests say without a motion.
+    /// The outcomes of all tests, without their motions.
     measured: [MeasuredFates; 2],
-    /// With a fitted slenderness; words are about these.
+    /// With a fitted slenderness; the sentences are about these.
     fitted: [TestComparison; 2],
-    /// Without the tests that have a target.
+    /// Without the tests whose stated peak is a target.
     without_targets: [TestComparison; 2],
-    /// With a rounded slenderness, which is given.
+    /// With a given, rounded slenderness.
     given: [TestComparison; 2],
     /// With a fitted slenderness and Housner's restitution.
     housner: [TestComparison; 2],
@@ -50,18 +50,18 @@ pub struct RockTests {
     varied: Vec<ChangedRocks>,
 }
 
-/// What the fates of all tests of a rock say by themselves.
+/// The outcomes of all tests of a rock, without their motions.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MeasuredFates {
     tests: usize,
     overturned: usize,
-    /// Onset of rocking in g, of the rounded slenderness.
+    /// Onset of rocking in g, at the rounded slenderness.
     onset_g: f64,
-    /// Tests at or below the onset, and those of them that overturned.
+    /// Tests at or below the onset, and how many of them overturned.
     below: usize,
     overturned_below: usize,
-    /// Their number by a lognormal in PGA without a shift.
+    /// How many would by a lognormal in PGA without a shift.
     expected_below: f64,
     /// Log-likelihoods of the tests above the onset without and with a shift
     /// to it.
@@ -91,7 +91,7 @@ enum TestMeasure {
 impl TestMeasure {
     const ALL: [Self; 3] = [Self::Pga, Self::Pgv, Self::AverageSa];
 
-    /// Its name, and what its name in the results begins with.
+    /// Its name, and the beginning of its name in the results.
     const fn names(self) -> [&'static str; 2] {
         match self {
             Self::Pga => ["PGA", "pga"],
@@ -121,7 +121,7 @@ impl RockTests {
     /// The kept results.
     ///
     /// # Errors
-    /// Where the file has been damaged.
+    /// If the file has been damaged.
     pub fn kept() -> anyhow::Result<Self> {
         serde_json::from_str(KEPT).context("fixtures/tests/granite.json")
     }

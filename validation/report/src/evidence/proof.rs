@@ -1,5 +1,4 @@
-//! The results of the declared cases as `rocking verify` wrote them,
-//! handed in to be shown.
+//! The results of the reference cases, as `rocking verify` wrote them.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -16,7 +15,7 @@ use rocking_proof::cases::{Case, Cost, load_all};
 use rocking_proof::methods::DIGITS_HEADER;
 use rocking_proof::verdict::snapshot::{self, CaseResult};
 
-/// File of the results of the declared cases.
+/// File of the results of the reference cases.
 const RESULTS: &str = "verification.json";
 /// File of the digits that each precision reaches.
 const DIGITS: &str = "precision.csv";
@@ -24,37 +23,38 @@ const DIGITS: &str = "precision.csv";
 /// Method of the cases that measure the coverage of the study's intervals.
 const COVERAGE: &str = "coverage-of-inference";
 
-/// How to get what is not there.
-pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
+/// How to get results that are missing.
+pub const NOT_RUN: &str = "The reference cases were not run here: `rocking \
     verify --out FOLDER` runs them and writes their results to \
     FOLDER/data, and `rocking study --proof FOLDER/data` shows them.";
 
-/// Results of the declared cases: one for each case of this program that is
-/// run without `--full`, and no other.
+/// Results of the reference cases: one for each case that `rocking verify`
+/// runs without `--full`.
 #[derive(Clone, Debug)]
 pub struct Proof {
     place: String,
     cases: Vec<Case>,
     results: snapshot::Results,
     digits: String,
+    /// SHA-256 of the file of results.
     hash: String,
 }
 
-/// Shares of simulated suites in which intervals hold the truth: of each
-/// claim the nominal share, and the one found.
+/// Shares of simulated suites in which an interval contains the truth: for
+/// each claim the nominal share, and the share found.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     rows: Vec<(String, f64, f64)>,
 }
 
 impl Coverage {
-    /// The shares of the findings' intervals, in a sentence.
+    /// The shares for the findings' intervals, in a sentence.
     pub fn words(&self) -> String {
         let own = self.rows.iter().filter(|row| row.1 == LEVEL);
         let (low, high) = range(own.map(|row| row.2));
         format!(
-            "Coverage. Intervals of 90 % hold the known truth of {} to {} of \
-             simulated suites (annex).",
+            "Coverage. Intervals of 90 % contained the known truth in {} to \
+             {} of simulated suites (annex).",
             percent(low, 1),
             percent(high, 1)
         )
@@ -65,37 +65,33 @@ impl Coverage {
         let row = |(claim, nominal, share): &(String, f64, f64)| {
             vec![claim.clone(), percent(*nominal, 0), percent(*share, 1)]
         };
-        let header = ["interval", "nominal", "found"];
         PlainTable::new(
             "coverage",
             "Coverage of the intervals of the findings",
             "Share of simulated suites, whose truth is known, in which the \
-             interval holds it. The suites are like the recorded ones in \
-             their earthquakes and in how alike blocks and levels are. The \
-             standard error of a share is 1 to 3 %.",
-            &header,
+             interval contains it. The suites resemble the recorded ones in \
+             their earthquakes and in the correlation of blocks and levels. \
+             The standard error of a share is 1 to 3 %.",
+            &["interval", "nominal", "found"],
             self.rows.iter().map(row).collect(),
         )
     }
 }
 
 impl Proof {
-    /// Reads the folder into which `rocking verify` wrote them.
+    /// Reads the folder into which `rocking verify` wrote the results.
     ///
     /// # Errors
-    /// For a file that is missing or damaged, and for results
-    /// of other cases than this program's.
+    /// For a file that is missing or damaged, and for results of other cases
+    /// than this program's.
     pub fn read(folder: &Path) -> anyhow::Result<Self> {
         let text = |name| file_text(&folder.join(name));
         Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
     }
 
-    /// Results from the texts of both files; `folder` only appears in messages.
-    ///
-    /// # Errors
-    /// For damaged texts, and for results of other cases than
-    /// this program's.
-    pub fn from_texts(
+    /// Results from the texts of both files; `folder` only appears in
+    /// messages.
+    fn from_texts(
         folder: &Path,
         results: &str,
         digits: String,
@@ -114,7 +110,7 @@ impl Proof {
         Ok(Self { place, cases, results, digits, hash })
     }
 
-    /// What a folder holds; none where neither file is there.
+    /// The results in a folder; none if it has neither file.
     ///
     /// # Errors
     /// As [`Proof::read`].
@@ -141,12 +137,12 @@ impl Proof {
         self.results.values().filter(|case| case.passed()).count()
     }
 
-    /// Number of cases that did not.
+    /// Number of cases that failed.
     pub fn failed(&self) -> usize {
         self.results.len() - self.passed()
     }
 
-    /// The declared cases with their results, in the order of the files.
+    /// The reference cases with their results, in the order of the files.
     pub fn cases(&self) -> impl Iterator<Item = (&Case, &CaseResult)> {
         // Every case has a result, or the results were refused.
         self.cases.iter().filter_map(|case| {
@@ -161,8 +157,8 @@ impl Proof {
         families.map(|own| (own[0].0.family.as_str(), own.to_vec())).collect()
     }
 
-    /// How often the intervals of the study hold the truth of simulated
-    /// suites, by the cases that simulate them.
+    /// How often the intervals of the study contain the truth of simulated
+    /// suites, from the cases that simulate them.
     pub fn coverage(&self) -> Coverage {
         let own = self.cases().filter(|(case, _)| case.method == COVERAGE);
         let row = |(case, result): (&Case, &CaseResult)| {
@@ -175,30 +171,6 @@ impl Proof {
         Coverage { rows: own.filter_map(row).collect() }
     }
 
-    /// Number of wrong models that the cases rejected.
-    pub fn rejected(&self) -> usize {
-        self.results.values().map(|case| case.rejected.len()).sum()
-    }
-
-    /// Errors of the numbers compared, over their tolerances, in order.
-    fn margins(&self) -> Vec<f64> {
-        let mut margins: Vec<f64> = self
-            .results
-            .values()
-            .flat_map(|case| case.compared())
-            .map(|(_, quantity)| quantity.margin.0)
-            .filter(|margin| margin.is_finite())
-            .collect();
-        margins.sort_by(f64::total_cmp);
-        margins
-    }
-
-    /// Share of its tolerance that half of the numbers stay below.
-    pub fn middle_margin(&self) -> f64 {
-        let margins = self.margins();
-        margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN)
-    }
-
     /// Significant digits that each precision reaches on the hard cases and
     /// the reference trajectories.
     pub fn digits_table(&self) -> PlainTable {
@@ -207,10 +179,10 @@ impl Proof {
             "Table 2. Significant digits reached by three precisions",
             "End: the peak of |theta|/alpha, or the instant of overturning. \
              Impacts: the worst of the instants and speeds of the first ten. \
-             Where there is no reference of 36 digits the truth is the \
-             double-double run. The same source runs in all three; a digit \
-             missing in double precision is missing for the sensitivity of \
-             the motion, which the error estimate states.",
+             If there is no reference of 36 digits, the double-double run is \
+             taken for the truth. The same source runs in all three \
+             precisions; digits that double precision lacks are lost to the \
+             sensitivity of the motion, which the error estimate reports.",
             &[
                 "case",
                 "equation",
@@ -227,21 +199,27 @@ impl Proof {
     }
 }
 
-/// Whose results these are, how many cases passed, and how far their numbers
-/// stay within the tolerances.
+/// The origin of these results, the number of cases that passed, and the share
+/// of the tolerances that their numbers use.
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = self.results.values().flat_map(|case| case.compared());
+        let mut shares: Vec<f64> = all
+            .map(|(_, quantity)| quantity.margin.0)
+            .filter(|share| share.is_finite())
+            .collect();
+        shares.sort_by(f64::total_cmp);
+        let middle = shares.get(shares.len() / 2).copied();
         write!(
             f,
-            "By the results handed in ({}): {} of {} declared cases pass \
-             against closed forms, trajectories with 36 digits and other \
-             oracles, not by this study; of the {} numbers compared half use \
-             less than {:.0e} of their tolerance.",
-            self.place,
+            "{} of {} reference cases pass against closed forms, trajectories \
+             with 36 digits and other oracles, in a separate run ({}). In the \
+             median, the {} numbers compared use {:.0e} of their tolerance.",
             self.passed(),
             self.results.len(),
-            self.margins().len(),
-            self.middle_margin()
+            self.place,
+            shares.len(),
+            middle.unwrap_or(f64::NAN)
         )
     }
 }
@@ -261,14 +239,14 @@ fn same_cases(
     cases: &[Case],
     results: &snapshot::Results,
 ) -> anyhow::Result<()> {
-    let declared = cases.iter().map(|case| case.id.as_str());
-    let declared: BTreeSet<&str> = declared.collect();
-    let found: BTreeSet<&str> = results.keys().map(String::as_str).collect();
+    let declared: BTreeSet<&String> =
+        cases.iter().map(|case| &case.id).collect();
+    let found: BTreeSet<&String> = results.keys().collect();
     if declared == found {
         return Ok(());
     }
-    let less = |a: &BTreeSet<&str>, b| {
-        let ids: Vec<&str> = a.difference(b).copied().collect();
+    let less = |a: &BTreeSet<&String>, b| {
+        let ids: Vec<&str> = a.difference(b).map(|id| id.as_str()).collect();
         if ids.is_empty() { "none".into() } else { ids.join(", ") }
     };
     bail!(
@@ -282,26 +260,23 @@ fn same_cases(
 
 /// Refuses a table with other columns, without rows, or cut.
 fn whole_table(path: &Path, text: &str) -> anyhow::Result<()> {
-    let refused = |line: usize, found: &str, expected: String| {
-        bail!("{}:{line}: {found:?}, expected {expected}", path.display())
-    };
-    let mut lines = text.split_inclusive('\n');
-    let header = lines.next().unwrap_or_default();
-    if header != DIGITS_HEADER {
-        return refused(1, header, format!("{DIGITS_HEADER:?}"));
-    }
     let columns = cells(DIGITS_HEADER).len();
-    let mut count = 1;
-    for line in lines {
-        count += 1;
-        if cells(line).len() != columns || !line.ends_with('\n') {
-            return refused(count, line, format!("a row of {columns} cells"));
-        }
-    }
-    if count == 1 {
-        return refused(2, "", "a row".into());
-    }
-    Ok(())
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let is_whole = |(k, line): (usize, &str)| match k {
+        0 => line == DIGITS_HEADER,
+        _ => cells(line).len() == columns && line.ends_with('\n'),
+    };
+    // A header alone lacks a row.
+    let padded = lines.iter().copied().chain((lines.len() < 2).then_some(""));
+    let Some((k, found)) = padded.enumerate().find(|own| !is_whole(*own))
+    else {
+        return Ok(());
+    };
+    let expected = match k {
+        0 => format!("{DIGITS_HEADER:?}"),
+        _ => format!("a row of {columns} cells"),
+    };
+    bail!("{}:{}: {found:?}, expected {expected}", path.display(), k + 1)
 }
 
 /// The folder of the committed results.
@@ -363,11 +338,11 @@ mod tests {
         let proof = Proof::read(&committed()).unwrap();
         let (passed, all) = (proof.passed(), proof.results().len());
         assert_eq!(passed, all);
-        let own = "By the results handed in (data/verification.json): ";
-        let count = format!("{own}{all} of {all} declared cases pass");
+        let count = format!("{all} of {all} reference cases pass");
         let text = proof.to_string();
         assert!(text.starts_with(&count), "{text}");
-        assert!(text.contains("not by this study"), "{text}");
+        let place = "in a separate run (data/verification.json)";
+        assert!(text.contains(place), "{text}");
         assert!(!text.contains("NaN"), "{text}");
         assert!(proof.digits_table().rows.len() > 30);
         assert!(Proof::find(Path::new("nowhere")).unwrap().is_none());

@@ -12,46 +12,38 @@ use super::{RockTests, TestMeasure};
 
 /// Steps in which a fragility is drawn.
 const STEPS: u32 = 120;
-/// The ordinate up to which fragilities are drawn, of the wider one, as a
-/// normal score.
+/// Normal score up to which the widest fragility is drawn.
 const LAST: f64 = 2.3;
-
-/// A lognormal from 0 to `last`.
-fn curve(
-    label: &str,
-    pen: Pen,
-    (median, dispersion): (f64, f64),
-    last: f64,
-) -> Option<Series> {
-    let law = Lognormal::try_new(0.0, libm::log(median), dispersion).ok()?;
-    let step = last / f64::from(STEPS);
-    let x: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
-    let y = x.iter().map(|im| law.cdf(*im)).collect();
-    Some(Series::new(label, Mark::Own(Look::line(pen)), x, y))
-}
 
 /// Measured and computed fragility of a rock.
 fn fragility(rock: usize, own: &DistributionComparison) -> ChartPanel {
     let error = ModelError::default().dispersion().value();
     let total = libm::hypot(own.computed_dispersion, error);
     let laws = [
-        ("measured", (own.measured_median, own.measured_dispersion)),
-        ("computed", (own.computed_median, own.computed_dispersion)),
+        ("measured", own.measured_median, own.measured_dispersion),
+        ("computed", own.computed_median, own.computed_dispersion),
         (
             "computed, with the dispersion of the model",
-            (own.computed_median, total),
+            own.computed_median,
+            total,
         ),
     ];
-    let end = |(median, s): (f64, f64)| median * libm::exp(LAST * s);
-    let last = laws.iter().map(|(_, law)| end(*law)).fold(0.0, f64::max);
-    let curves = laws.iter().enumerate().filter_map(|(k, (label, law))| {
-        curve(label, Pen::of_series(k), *law, last)
-    });
+    let ends = laws.map(|(_, median, s)| median * libm::exp(LAST * s));
+    let last = ends.into_iter().fold(0.0, f64::max);
+    let step = last / f64::from(STEPS);
+    let x: Vec<f64> = (0..=STEPS).map(|k| step * f64::from(k)).collect();
+    let curve = |(k, (label, median, dispersion))| {
+        let law = Lognormal::try_new(0.0, libm::log(median), dispersion);
+        let law = law.ok()?;
+        let y = x.iter().map(|im| law.cdf(*im)).collect();
+        let mark = Mark::Own(Look::line(Pen::of_series(k)));
+        Some(Series::new(label, mark, x.clone(), y))
+    };
     ChartPanel::new(
         format!("rock {rock}"),
         ChartAxis::linear("PGV (m/s)", (0.0, last)),
         ChartAxis::linear("probability of overturning", (0.0, 1.0)),
-        curves.collect(),
+        laws.into_iter().enumerate().filter_map(curve).collect(),
     )
 }
 
@@ -106,57 +98,54 @@ impl RockTests {
 
     /// The figures.
     pub fn figures(&self) -> Vec<Figure> {
+        let figure = |words: [&str; 3], panels, reading| {
+            let chart = Chart::of(words, panels);
+            let place = Place::ShakingTable;
+            let heading = Heading { place, ..chart.heading };
+            Chart { heading, ..chart }.figure(reading)
+        };
         let rocks = self.fitted.iter().zip(1..).filter_map(|(own, rock)| {
             Some(fragility(rock, TestMeasure::Pgv.fragilities(own)?))
         });
-        let figure = |name: &str,
-                      title,
-                      description,
-                      panels: Vec<ChartPanel>,
-                      reading: &str| {
-            let heading = Heading::new(name, title, description);
-            let heading = Heading { place: Place::ShakingTable, ..heading };
-            let columns = panels.len().min(3);
-            let chart = Chart { heading, panels, columns };
-            chart.figure(reading)
-        };
-        let usual = ModelError::default();
-        let fitted = ModelError::fitted();
         let dispersion = by_measure(
             self,
             "dispersion that the model leaves out",
             ChartAxis::linear("dispersion", None),
-            usual.dispersion().ends(),
+            ModelError::default().dispersion().ends(),
             |own| own.missing_dispersion,
         );
         let median = by_measure(
             self,
             "measured over computed median",
             ChartAxis::linear("ratio", None),
-            fitted.bias().ends(),
+            ModelError::fitted().bias().ends(),
             |own| own.median_ratio,
         );
         vec![
             figure(
-                "shaking-table-fragility",
-                "Measured and computed fragility of two rocks",
-                "Lognormals fitted to the measured and to the computed fates \
-                 of each rock against PGV, and the computed one with the \
-                 dispersion of the model.",
+                [
+                    "shaking-table-fragility",
+                    "Measured and computed fragility of two rocks",
+                    "Lognormals fitted to the measured and to the computed \
+                     outcomes of each rock against PGV, and the computed one \
+                     with the dispersion of the model.",
+                ],
                 rocks.collect(),
-                "Lognormals fitted to the fates. PGV is as the authors state \
-                 it.",
+                "Lognormals fitted to the outcomes. PGV is as the authors \
+                 state it.",
             ),
             figure(
-                "shaking-table-error",
-                "Error of the model on the shaking table",
-                "Share of tests that overturned a rock against the predicted \
-                 probability; dispersion that the model leaves out and ratio \
-                 of medians, by intensity measure.",
+                [
+                    "shaking-table-error",
+                    "Error of the model on the shaking table",
+                    "Share of tests that overturned a rock against the \
+                     predicted probability; dispersion that the model leaves \
+                     out and ratio of medians, by intensity measure.",
+                ],
                 vec![self.reliability(), dispersion, median],
                 "(a) Each mark is a tenth of the tests. Bars: 90 % intervals. \
-                 Dashed in (b) and (c): ranges that decisions take for a \
-                 fitted object.",
+                 Dashed in (b) and (c): the ranges that decisions assume for \
+                 a fitted object.",
             ),
         ]
     }

@@ -7,7 +7,7 @@ use super::sentences::{plain, share};
 use super::{RockTests, TestMeasure};
 
 impl RockTests {
-    /// The block and measures as predictors of the same fates.
+    /// The block and measures as predictors of the same outcomes.
     pub fn predictors(&self) -> PlainTable {
         let cells = |name: &str, of: [Option<&Predictor>; 2]| {
             let each = of.map(|own| {
@@ -31,17 +31,17 @@ impl RockTests {
         let rows = [cells("computed block", block)].into_iter();
         PlainTable::new(
             "test-predictors",
-            "Predictors of the fates",
-            "The block overturns from its first overturning on, a measure \
-             where its fitted probability is above one half. Log score: mean \
-             of -ln of the probability of the fate, by a fit without the \
-             motion of the test; small is good.",
+            "Predictors of the outcomes",
+            "The block is predicted to overturn from its first overturning \
+             on, and by a measure if the fitted probability is above one \
+             half. Log score: mean of -ln of the probability of the outcome, \
+             by a fit without the motion of the test; small is good.",
             &[
                 "predictor",
-                "fates right, rock 1",
+                "outcomes right, rock 1",
                 "dispersion",
                 "log score",
-                "fates right, rock 2",
+                "outcomes right, rock 2",
                 "dispersion",
                 "log score",
             ],
@@ -66,7 +66,7 @@ impl RockTests {
         };
         let known = [
             ("as above", &self.fitted),
-            ("without tests of a missed target", &self.without_targets),
+            ("without tests that missed their target", &self.without_targets),
             ("alpha rounded, not fitted", &self.given),
             ("Housner's restitution", &self.housner),
         ];
@@ -83,9 +83,8 @@ impl RockTests {
             "test-choices",
             "Other choices of the block and the motions",
             format!(
-                "Bias: median of measured over computed capacity, 1 where \
-                 alpha is fitted. Fitted anew in each row unless alpha is \
-                 rounded. In {} tests the stated PGA, a target, is more than \
+                "Bias: median of measured over computed capacity, 1 if alpha \
+                 is fitted, as it is anew in each row unless it is rounded. In {} tests the stated PGA, a target, is more than \
                  10 % off the measured one.",
                 self.targets
             ),

@@ -49,16 +49,16 @@ fn the_usual_error_of_the_model_follows_from_the_tests() {
             assert!(unfitted.holds(moved) && !bias.holds(moved), "{moved}");
         }
     }
-    assert!(kept.left_out().contains("holds these values in PGV"));
+    assert!(kept.left_out().contains("contains these values in PGV"));
     let more = changed(|all| {
         for own in all["fitted"][1]["distributions"].as_array_mut().unwrap() {
             own["missing_dispersion"] = json!({"point": range.high() + 0.1});
         }
     });
-    assert!(more.unwrap().left_out().contains("does not hold all values"));
-    assert!(kept.left_out().contains("makes the fates more likely than"));
+    assert!(more.unwrap().left_out().contains("does not contain all values"));
+    assert!(kept.left_out().contains("makes the outcomes more likely than"));
     let above = changed(|all| all["fitted"][1]["onset"]["above"] = json!(0.0));
-    assert!(above.unwrap().left_out().contains("does not make all fates"));
+    assert!(above.unwrap().left_out().contains("does not make all outcomes"));
 }
 
 /// Two rocks, 490 tests, one fitted angle: no more is claimed.

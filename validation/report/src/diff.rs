@@ -1,7 +1,7 @@
-//! What changed between two sets of results, in engineering terms.
+//! The differences between two sets of results, in engineering terms.
 //!
-//! [`compare`] walks over both as trees of JSON. A [`Difference`] has what
-//! changed, each number against the smallest effect of interest.
+//! [`compare`] walks over both as trees of JSON. A [`Difference`] lists the
+//! changes, with each number against the smallest effect of interest.
 
 mod change;
 mod effect;
@@ -23,10 +23,10 @@ use walk::Walk;
 pub use change::{Change, Difference, Subject};
 pub use input::ResultFiles;
 
-/// Sets two results beside each other.
+/// Compares two sets of results.
 ///
 /// # Errors
-/// Where no file of one kind is on both sides.
+/// If no kind of file is on both sides.
 pub fn compare(
     old: &ResultFiles,
     new: &ResultFiles,
@@ -44,8 +44,7 @@ pub fn compare(
             (old, _) => {
                 let side = if old.is_some() { "old" } else { "new" };
                 out.notes.push(format!(
-                    "Not compared: {name}, which only the {side} results \
-                     have."
+                    "Not compared: {name}, which only the {side} results have."
                 ));
             }
         }

@@ -1,4 +1,4 @@
-//! What two sets of results say differently.
+//! The differences between two sets of results.
 
 use std::collections::BTreeMap;
 
@@ -7,71 +7,70 @@ use serde::Serialize;
 use super::effect::{OverturningChange, RecordSets};
 use super::number::NumberChange;
 
-/// What two sets of results say differently.
+/// The differences between two sets of results.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Difference {
-    /// Number of changes that are relevant: of answers, findings, settings
-    /// and records, of numbers beyond the smallest effect of interest or
-    /// their tolerance, and of what is on one side only.
+    /// Number of relevant changes: of answers, verdicts, settings and records,
+    /// of numbers beyond the smallest effect of interest or their tolerance,
+    /// and of parts that one side lacks.
     pub relevant: usize,
-    /// Whether nothing at all differs in what both sides have.
+    /// Whether nothing differs in what both sides have.
     pub identical: bool,
-    /// How many of each kind both sides have.
+    /// Number of results of each kind that both sides have.
     pub compared: BTreeMap<Subject, usize>,
     /// The records of each suite.
     pub(super) records: BTreeMap<String, RecordSets>,
-    /// What became of the overturning intensities.
+    /// The change of overturning intensities.
     pub(super) effect: OverturningChange,
-    /// What changed; of each kind, what weighs most comes first.
+    /// The changes; the heaviest of each kind comes first.
     pub changes: Vec<Change>,
-    /// What else is to be known of the comparison.
+    /// Remarks on the comparison.
     pub notes: Vec<String>,
 }
 
-/// What a change is of.
+/// The subject of a change.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Subject {
-    /// What was set, or where a suite is from.
+    /// A setting, or the source of a suite.
     Setting,
     /// The answer to a question of the first table.
     Answer,
-    /// An answer that stays, with its words and numbers.
+    /// The words and numbers of an answer that stays.
     Wording,
-    /// Whether a claim is seen, or its effect exists.
+    /// Whether a statement is seen, or its effect exists.
     Finding,
-    /// The verdict on a declared case.
+    /// The verdict on a reference case.
     Case,
     /// A number.
     Number,
     /// A part of the results.
     Part,
-    /// Words, intervals and details around results.
+    /// Texts, intervals and details around results.
     #[default]
     Text,
 }
 
-/// Something that is said differently.
+/// A result that differs.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Change {
-    /// What it is of.
+    /// Its kind.
     pub kind: Subject,
-    /// What it is about.
+    /// Its name.
     pub what: String,
-    /// What the old results say; nothing where they lack it.
+    /// The old value; none if the old results lack it.
     pub old: Option<String>,
-    /// What the new results say.
+    /// The new value.
     pub new: Option<String>,
-    /// Whether it is more than words, or a move within the limit.
+    /// Whether it is more than a text, or a move within the limit.
     pub relevant: bool,
-    /// Whether a word on a claim went from yes to no or the opposite, or
-    /// back.
+    /// Whether a verdict turned from yes to no or the opposite, or back.
     pub opposite: bool,
-    /// How the number moved, or that under the word.
+    /// The move of the number, or of the number under a verdict.
     pub moved: Option<NumberChange>,
-    /// Why one side lacks it, where that is known.
+    /// The reason why one side lacks it, if known.
     pub why: Option<String>,
 }
 

@@ -1,4 +1,5 @@
-//! Which records two runs share, and what became of the blocks.
+//! The records that two runs share, and the change of overturning
+//! intensities.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +10,8 @@ use super::number::{percent, plain};
 use rocking_statistics::Interval;
 use rocking_study::estimates::median;
 
-/// Records of a suite in two runs; the same name with other samples is
-/// another record.
+/// Records of a suite in two runs. The same name with other samples is another
+/// record.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct RecordSets {
     /// In both runs.
@@ -38,7 +39,7 @@ impl RecordSets {
         self.lost.is_empty() && self.gained.is_empty()
     }
 
-    /// How many are in both runs, and which are not, in a sentence.
+    /// The number of records in both runs, and the others, in a sentence.
     pub fn sentence(&self, suite: &str) -> String {
         let named = |records: &[String]| match records.len() {
             n @ 1..=3 => format!("{n} ({})", records.join(", ")),
@@ -54,18 +55,18 @@ impl RecordSets {
     }
 }
 
-/// By how much overturning intensities moved, as parts of the old ones.
+/// Changes of overturning intensities, relative to the old ones.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct OverturningChange {
     /// Changes of the medians of all blocks, by suite and intensity measure.
     pub medians: BTreeMap<String, Vec<f64>>,
-    /// Changes of the first overturning of the block of Figure 11, by record.
+    /// Changes of the first overturning of Figure 11's block, by record.
     pub records: BTreeMap<String, f64>,
 }
 
 impl OverturningChange {
-    /// The effect in a sentence, where overturning intensities are known;
-    /// records count where both runs have them.
+    /// The effect in a sentence, if overturning intensities are known. Of
+    /// single records, those count that both runs have.
     pub fn sentence(&self, both: &[String]) -> Option<String> {
         let all: Vec<f64> = self.medians.values().flatten().copied().collect();
         let own = both.iter().filter_map(|name| self.records.get(name));
@@ -77,22 +78,22 @@ impl OverturningChange {
         let change = |own: &[f64]| percent(median(own).value());
         let mut parts = Vec::new();
         if all.iter().any(|change| !change.is_nan()) {
-            let groups = self.medians.iter();
-            let groups: Vec<String> = groups
-                .map(|(group, own)| format!("{group} {}", change(own)))
-                .collect();
+            let group = |(group, own): (&String, &Vec<f64>)| {
+                format!("{group} {}", change(own))
+            };
+            let groups: Vec<String> = self.medians.iter().map(group).collect();
             parts.push(format!(
                 "median overturning intensities {} ({})",
                 change(&all),
                 groups.join("; ")
             ));
         }
-        let median = median(&own);
-        if let Some((low, high)) = median.interval().map(Interval::ends) {
+        if let Some((low, high)) = median(&own).interval().map(Interval::ends)
+        {
             parts.push(format!(
                 "record by record {} (95 %: {} to {}; block of Figure 11, n = \
                  {})",
-                percent(median.value()),
+                change(&own),
                 plain(100.0 * low, 2),
                 plain(100.0 * high, 2),
                 own.len()

@@ -1,4 +1,4 @@
-//! Finds and reads what is to be compared; refuses what it does not know.
+//! Finds and reads the results to compare.
 
 use std::path::{Path, PathBuf};
 
@@ -19,24 +19,24 @@ use crate::sentences::first_arm;
 /// Names of the files that can be compared.
 pub(super) const NAMES: [&str; 2] = ["findings.json", "verification.json"];
 
-/// What must stand in a file of results.
+/// The expected content of a file of results.
 const EXPECTED: &str =
-    "expected findings of a study or results of declared cases";
+    "expected findings of a study or results of reference cases";
 
 /// The results of one side.
 #[derive(Debug, Default)]
 pub struct ResultFiles {
-    /// Where they were read.
+    /// The file or folder that was read.
     pub path: PathBuf,
     /// The tree of each of the files that can be compared.
     pub(super) trees: [Option<Value>; 2],
 }
 
 impl ResultFiles {
-    /// Reads a file, or what lies in a folder or in its folder `data`.
+    /// Reads a file, or the results in a folder or in its folder `data`.
     ///
     /// # Errors
-    /// For what is missing, no JSON, or JSON of another form.
+    /// For a missing file, and for text that is not JSON or has another form.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let mut results = Self { path: path.into(), ..Self::default() };
         let shown = path.display();
@@ -56,15 +56,16 @@ impl ResultFiles {
         }
         for name in NAMES {
             let places = [path.join(name), path.join("data").join(name)];
-            let mut there = places.iter().filter(|place| place.exists());
-            let Some(place) = there.next() else { continue };
-            if there.next().is_some() {
-                bail!(
+            match places.map(|place| (place.exists(), place)) {
+                [(true, _), (true, _)] => bail!(
                     "{shown}: {name}: found it in the folder and in its \
                      folder data, expected one of them"
-                );
+                ),
+                [(true, place), _] | [_, (true, place)] => {
+                    results.add(&place)?;
+                }
+                _ => {}
             }
-            results.add(place)?;
         }
         if results.trees.iter().all(Option::is_none) {
             bail!(
@@ -81,7 +82,7 @@ impl ResultFiles {
         self.parse(&read).with_context(|| path.display().to_string())?;
         if let Some(tree) = &mut self.trees[0] {
             let beside = path.with_file_name("figure-11.csv");
-            // Only those of one arm are compared.
+            // Only those of one grid are compared.
             let arm = text(tree.get("arm"));
             tree["overturnings"] = json!({ arm: overturnings(&beside) });
         }
@@ -91,7 +92,7 @@ impl ResultFiles {
     /// Results from the text of a file; `path` only appears in messages.
     ///
     /// # Errors
-    /// For what is no JSON, or JSON of another form.
+    /// For text that is not JSON or has another form.
     pub fn from_text(path: &Path, text: &str) -> anyhow::Result<Self> {
         let mut results = Self { path: path.into(), ..Self::default() };
         let parsed = results.parse(text);
@@ -122,7 +123,7 @@ impl ResultFiles {
     }
 }
 
-/// The findings of a study, and the answers that they give.
+/// The findings of a study, and the answers based on them.
 fn tree(findings: &Findings) -> anyhow::Result<Value> {
     let mut tree = serde_json::to_value(findings)?;
     named("findings", &mut tree)?;
@@ -135,7 +136,7 @@ fn tree(findings: &Findings) -> anyhow::Result<Value> {
     Ok(tree)
 }
 
-/// Lists whose elements have names, and the fields that name them.
+/// Lists whose elements have names, and the fields of the names.
 const NAMED: [(&str, &[&str]); 7] = [
     ("suites", &["kind"]),
     ("list", &["name", "sha256"]),
@@ -146,7 +147,7 @@ const NAMED: [(&str, &[&str]); 7] = [
     ("questions", &["id"]),
 ];
 
-/// Makes branches of lists whose elements have names.
+/// Turns lists whose elements have names into maps.
 fn named(name: &str, tree: &mut Value) -> anyhow::Result<()> {
     let own = NAMED.iter().find(|(list, _)| *list == name);
     if let (Value::Array(list), Some((_, fields))) = (&mut *tree, own) {
@@ -179,8 +180,8 @@ pub fn text(value: Option<&Value>) -> String {
     }
 }
 
-/// What a value of a declared case may move by: its tolerance, and the last
-/// digit printed.
+/// The limit for a move of a value of a reference case: its tolerance, and the
+/// last digit printed.
 pub fn bounded(
     q: &QuantityResult,
     value: f64,

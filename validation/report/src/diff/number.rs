@@ -1,4 +1,5 @@
-//! How far numbers moved, against what matters and what is known of them.
+//! Moves of numbers, against the smallest effect of interest and their
+//! uncertainty.
 
 use serde::Serialize;
 
@@ -6,46 +7,45 @@ use rocking_common::findings::{Effect, Unit};
 use rocking_common::words::rounded;
 use rocking_statistics::Estimate;
 
-/// Unit of the ninth significant digit, relative: files have no more.
+/// Relative unit of the ninth significant digit, the last one in the files.
 pub const LAST_DIGIT: f64 = 1e-8;
 
-/// Records below which a move is a matter of chance first.
+/// With fewer records than this, a move is mainly due to chance.
 const LEAST: usize = 30;
 
 /// A number of both results.
 pub struct NumberPair {
-    /// What it may move by before that matters; none of what nobody decides
-    /// by.
+    /// The smallest effect of interest; none if no decision rests on it.
     pub effect: Option<Effect>,
     /// Its unit.
     pub unit: Unit,
     /// Old and new value, with their intervals.
     pub estimates: [Estimate; 2],
-    /// Numbers of records or ratios behind them, where known.
+    /// Numbers of records or ratios behind them, if known.
     pub n: [Option<usize>; 2],
 }
 
-/// How a number moved.
+/// The move of a number.
 #[derive(Clone, Debug, Serialize)]
 pub struct NumberChange {
-    /// Old and new value, with the digits that tell them apart.
+    /// Old and new value, with enough digits to differ.
     pub values: [String; 2],
-    /// The change: a part of the old value, or in the number's unit.
+    /// The change, relative to the old value or in the number's unit.
     pub change: f64,
-    /// The same in words; empty where it is no number.
+    /// The change in words; empty if it is not a number.
     pub change_text: String,
     /// Its size over the limit: above 1 it matters.
     pub change_over_limit: f64,
-    /// Its size over the half-widths of both intervals, the root of the sum
-    /// of their squares. Runs of the same records vary together: their change
-    /// is surer than this says.
+    /// Its size over the half-widths of both intervals (root of the sum of
+    /// squares). Runs of the same records vary together, so their change is
+    /// more certain than this suggests.
     pub change_over_uncertainty: Option<f64>,
     /// Numbers of records or ratios behind the old and the new value.
     pub n: [Option<usize>; 2],
 }
 
 impl NumberPair {
-    /// The change; NaN where only one is a number.
+    /// The change; NaN if only one is a number.
     pub fn change(&self) -> f64 {
         let [a, b] = self.estimates.map(|estimate| estimate.value());
         match self.effect {
@@ -55,7 +55,7 @@ impl NumberPair {
         }
     }
 
-    /// How it moved; none where it did not.
+    /// The move; none if the values are equal.
     pub fn moved(&self) -> Option<NumberChange> {
         let change = self.change();
         let (factor, unit, points) = match self.unit {
@@ -100,9 +100,9 @@ impl NumberChange {
         self.change_over_limit > 1.0
     }
 
-    /// What moves are sorted by, the highest first: whether there are
-    /// records enough, then the change over its
-    /// uncertainty or, where none is known, over the limit.
+    /// The key by which moves are sorted, the highest first: whether there are
+    /// enough records, then the change over its uncertainty or, if that is
+    /// unknown, over the limit.
     pub fn weight(&self) -> (bool, u64) {
         let few = self.n.iter().flatten().any(|n| *n < LEAST);
         let size = self.change_over_uncertainty;

@@ -1,50 +1,51 @@
-//! A comparison for people: the cause first.
+//! The text of a comparison: the cause first.
 
 use super::change::{Change, Difference, Subject};
 use super::effect::RecordSets;
 use super::number::NumberChange;
 use rocking_common::paper::SuiteKind;
 
-/// Lines of a list that are shown unless all are wanted.
+/// Most lines of a list, without `--all`.
 const MOST: usize = 12;
 
-/// What shows everything.
+/// The command that shows everything.
 const ALL: &str = "`rocking diff OLD NEW --all`";
 
 impl Difference {
-    /// For people; `all` lists every change.
+    /// The comparison for people; `all` lists every change.
     pub fn text(&self, all: bool) -> String {
         let mut out = self.head().join("\n") + "\n";
-        for (title, lines) in self.lists(all) {
-            out += &format!("\n{title}\n");
-            let lines = lines.iter().map(|line| line.replace('\n', "\n    "));
-            out.extend(lines.map(|line| format!("  {line}\n")));
+        for (title, mut lines) in self.lists(all) {
+            let left = lines.len().saturating_sub(MOST);
+            if left > 0 && !all {
+                lines.truncate(MOST);
+                lines.push(format!("{left} more: {ALL}"));
+            }
+            if !lines.is_empty() {
+                let text = lines.join("\n").replace("\n", "\n  ");
+                out += &format!("\n{title}\n  {text}\n");
+            }
         }
         out
     }
 
-    fn changes_of(
-        &self,
-        kind: Subject,
-    ) -> impl Iterator<Item = &Change> + Clone {
-        self.changes.iter().filter(move |change| change.kind == kind)
-    }
-
-    /// Changes of a kind in what both sides have.
-    fn count(&self, kinds: &[Subject]) -> usize {
-        kinds.iter().filter_map(|kind| self.compared.get(kind)).sum()
+    /// The changes of a kind, of what both sides have.
+    fn common(&self, kind: Subject) -> impl Iterator<Item = &Change> + Clone {
+        let own = self.changes.iter().filter(move |c| c.kind == kind);
+        own.filter(|change| change.is_common())
     }
 
     /// What changed, the cause first, in a few sentences.
     fn head(&self) -> Vec<String> {
-        let answers = self.count(&[Subject::Answer, Subject::Wording]);
+        let count = |kind| self.compared.get(&kind).copied().unwrap_or(0);
+        let changed = |kind| some(self.common(kind));
+        let answers = count(Subject::Answer) + count(Subject::Wording);
         let [findings, cases, numbers] =
-            [Subject::Finding, Subject::Case, Subject::Number]
-                .map(|kind| self.count(&[kind]));
+            [Subject::Finding, Subject::Case, Subject::Number].map(count);
         if self.identical {
             return vec![format!(
-                "Identical: {answers} answers, {findings} words on claims, \
-                 {cases} cases, {numbers} numbers."
+                "Identical: {answers} answers, {findings} verdicts on \
+                 statements, {cases} cases, {numbers} numbers."
             )];
         }
         let mut out = vec![self.cause()];
@@ -54,29 +55,28 @@ impl Difference {
         let both = ordinary.map(|records| &records.both[..]);
         out.extend(self.effect.sentence(both.unwrap_or_default()));
         if answers > 0 {
+            let opposite = self.common(Subject::Finding);
             out.push(format!(
-                "Answers that rest on findings: {} of {answers} changed; only \
-                 numbers moved in {}.",
-                some(self.changes_of(Subject::Answer)),
-                some(self.changes_of(Subject::Wording))
+                "Answers that rest on findings: {} of {answers} changed; in \
+                 {}, only numbers did.",
+                changed(Subject::Answer),
+                changed(Subject::Wording)
             ));
-            let flips =
-                self.changes_of(Subject::Finding).filter(|c| c.is_common());
             out.push(format!(
-                "Words on claims (seen, exists): {} of {findings} changed, {} \
-                 from yes to no or the opposite, or back.",
-                some(flips.clone()),
-                some(flips.filter(|change| change.opposite))
+                "Verdicts on statements (seen, exists): {} of {findings} \
+                 changed, {} to the contrary.",
+                changed(Subject::Finding),
+                some(opposite.filter(|change| change.opposite))
             ));
         }
         if cases > 0 {
             out.push(format!(
-                "Declared cases: {} of {cases} verdicts changed.",
-                some(self.changes_of(Subject::Case))
+                "Reference cases: {} of {cases} verdicts changed.",
+                changed(Subject::Case)
             ));
         }
         let moved = |relevant: bool| {
-            let all = self.changes_of(Subject::Number);
+            let all = self.common(Subject::Number);
             some(all.filter(|change| change.relevant == relevant))
         };
         out.push(format!(
@@ -88,75 +88,59 @@ impl Difference {
         out
     }
 
-    /// What was set differently, and whether the records are the same.
+    /// The settings that changed, and whether the records are the same.
     fn cause(&self) -> String {
         let records = self.records.values();
-        let same = if records.len() > 0
-            && records.clone().all(RecordSets::are_same)
-        {
-            let counts = records.map(|r| r.both.len().to_string());
-            let counts = counts.collect::<Vec<_>>().join(" + ");
-            format!(" (same {counts} records)")
-        } else {
-            String::new()
+        let counts = records.clone().map(|r| r.both.len().to_string());
+        let counts: Vec<String> = counts.collect();
+        let is_same = records.clone().all(RecordSets::are_same);
+        let same = match is_same && !counts.is_empty() {
+            true => format!(" (same {} records)", counts.join(" + ")),
+            false => String::new(),
         };
-        let settings = lines(self.changes_of(Subject::Setting));
-        match settings.len() {
-            0 => format!("No setting changed{same}."),
-            1 => format!("Setting changed: {}{same}.", settings[0]),
-            n => format!("Settings changed: {n}, listed below{same}."),
+        match &lines(self.common(Subject::Setting))[..] {
+            [] => format!("No setting changed{same}."),
+            [one] => format!("Setting changed: {one}{same}."),
+            all => format!("{} settings changed{same}:", all.len()),
         }
     }
 
-    /// The lists that have something, in the order of consequence.
-    fn lists(&self, all: bool) -> Vec<(&'static str, Vec<String>)> {
-        let common =
-            |kind| lines(self.changes_of(kind).filter(|c| c.is_common()));
-        let moved =
-            self.changes_of(Subject::Number).filter(|c| all || c.relevant);
-        let changes = self.changes.iter();
-        let mut notes = self.notes.clone();
-        let texts = self.changes_of(Subject::Text).count();
-        if texts > 0 && !all {
-            notes.push(format!("{texts} words, intervals and details differ"));
+    /// The lists, in the order of consequence.
+    fn lists(&self, all: bool) -> [(&'static str, Vec<String>); 10] {
+        let common = |kind| lines(self.common(kind));
+        let numbers = self.common(Subject::Number);
+        let lost = self.changes.iter().filter(|c| c.new.is_none());
+        let gained = self.changes.iter().filter(|c| c.old.is_none());
+        let (mut notes, mut texts) =
+            (self.notes.clone(), common(Subject::Text));
+        if !texts.is_empty() && !all {
+            let n = texts.len();
+            notes.push(format!("{n} texts, intervals and details differ"));
+            texts.clear();
         }
         let mut settings = common(Subject::Setting);
         if settings.len() == 1 {
             settings.clear();
         }
-        let mut lists = vec![
+        [
             ("Settings", settings),
             ("Answers that changed", common(Subject::Answer)),
-            ("Answers in which only numbers moved", common(Subject::Wording)),
-            ("Words on claims that changed", common(Subject::Finding)),
+            (
+                "Answers of which only numbers changed",
+                common(Subject::Wording),
+            ),
+            ("Verdicts on statements that changed", common(Subject::Finding)),
             (
                 "Largest single moves (u: change over the half-widths of both \
                  intervals; n: records or ratios behind the value)",
-                lines(moved),
+                lines(numbers.filter(|c| all || c.relevant)),
             ),
-            ("Declared cases", common(Subject::Case)),
-            (
-                "Only in the old results",
-                lines(changes.clone().filter(|c| c.new.is_none())),
-            ),
-            (
-                "Only in the new results",
-                lines(changes.filter(|c| c.old.is_none())),
-            ),
+            ("Reference cases", common(Subject::Case)),
+            ("Only in the old results", lines(lost)),
+            ("Only in the new results", lines(gained)),
             ("Also", notes),
-        ];
-        if all {
-            lists.push(("Words, intervals, details", common(Subject::Text)));
-        }
-        for (_, lines) in &mut lists {
-            let left = lines.len().saturating_sub(MOST);
-            if left > 0 && !all {
-                lines.truncate(MOST);
-                lines.push(format!("{left} more: {ALL}"));
-            }
-        }
-        lists.retain(|(_, lines)| !lines.is_empty());
-        lists
+            ("Texts, intervals, details", texts),
+        ]
     }
 }
 
@@ -183,11 +167,13 @@ fn line(change: &Change) -> String {
     let moved = moved.as_ref().map(NumberChange::text);
     match (kind, moved) {
         (Subject::Answer | Subject::Wording, _) => {
-            format!("{what}\nBefore: {old}\nNow: {new}")
+            format!("{what}\n  Before: {old}\n  Now: {new}")
         }
         (Subject::Setting, _) => format!("{what} {old} -> {new}"),
         (Subject::Number, Some(moved)) => format!("{what}: {moved}"),
-        (_, None) => format!("{what}: {old} -> {new}"),
-        (_, Some(moved)) => format!("{what}: {old} -> {new}; {moved}"),
+        (_, moved) => {
+            let moved = moved.map(|moved| format!("; {moved}"));
+            format!("{what}: {old} -> {new}{}", moved.unwrap_or_default())
+        }
     }
 }

@@ -84,7 +84,7 @@ fn a_row_that_one_side_lacks_says_why() {
     let path = ["tables", "slenderness-adjustment", "rows", "a"];
     for (arms, what, why) in [
         (["A", "C"], " = 5, arm C", "fewer than 10 ratios"),
-        (["A", "B"], "results of arm C", "this arm was not run"),
+        (["A", "B"], "results of grid C", "this grid was not run"),
     ] {
         let other = json!({ "settings": { "arms": arms } });
         let (found, reason) = part(&path, &json!({ "at": at }), &other);

@@ -1,5 +1,5 @@
-//! The walk over two trees side by side: by its path, what a branch is, and
-//! so by how much it may differ.
+//! The walk over two trees side by side. The path of a branch decides its
+//! kind, and so how much it may differ.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -24,7 +24,7 @@ type Sides<T> = [T; 2];
 pub(super) struct Walk<'a> {
     /// The trees.
     pub roots: Sides<&'a Value>,
-    /// What was found so far.
+    /// The differences found so far.
     pub out: &'a mut Difference,
 }
 
@@ -49,8 +49,9 @@ impl Walk<'_> {
         }
     }
 
-    /// Compares a branch as a whole; none where those below it say what
-    /// changed. They also say what a comparison as a whole is silent on.
+    /// Compares a branch as a whole; none if its branches are to be compared.
+    /// They are compared as well if this finds no change in branches that
+    /// differ.
     fn visit(
         &mut self,
         path: &[&str],
@@ -119,7 +120,7 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// Compares what is said in words.
+    /// Compares texts.
     fn say(
         &mut self,
         of: Subject,
@@ -180,7 +181,7 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// Compares the words on a claim, and its effect.
+    /// Compares the verdicts on a claim, and its effect.
     fn result(&mut self, id: &str, [a, b]: Sides<ClaimResult>) {
         let claim = &self.roots[1]["claims"][id];
         let plain = Some(&claim["plain"]).filter(|plain| *plain != "");
@@ -248,7 +249,7 @@ impl Change {
     }
 }
 
-/// Two branches in their type; none where one is not of it.
+/// Two branches in their type; none if either has another type.
 fn both<T: DeserializeOwned>(sides: Sides<&Value>) -> Option<Sides<T>> {
     let [a, b] = sides.map(T::deserialize);
     Some([a.ok()?, b.ok()?])
@@ -285,7 +286,7 @@ fn placed(at: &RowPlace) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Number of records of the suites that a name stands for.
+/// Number of records of the suites with a name.
 fn records(root: &Value, tested: &str) -> Option<usize> {
     let suites = root["suites"].as_object()?;
     let own = suites.iter().filter(|(kind, _)| {
@@ -295,8 +296,8 @@ fn records(root: &Value, tested: &str) -> Option<usize> {
     usize::try_from(n).ok().filter(|n| *n > 0)
 }
 
-/// How many ratios or histories of a row a number stands on, where the row
-/// counts them.
+/// Number of ratios or histories behind a number of a row, if the row counts
+/// them.
 fn behind(all: &[Quantity], row: &TableRow, name: &str) -> Option<usize> {
     let count = |name: &str| {
         let at = all.iter().position(|quantity| quantity.name == name)?;
@@ -309,8 +310,8 @@ fn behind(all: &[Quantity], row: &TableRow, name: &str) -> Option<usize> {
     }
 }
 
-/// What a part is, and why the other results lack it, where that is known;
-/// of an arm that was not run, all parts are one.
+/// The name of a part, and the reason why the other results lack it, if known.
+/// All parts of a grid that was not run have one name.
 pub(super) fn part(
     path: &[&str],
     part: &Value,
@@ -322,8 +323,8 @@ pub(super) fn part(
     if let (Some(arm), Ok(arms)) = (at.arm.or(arm), arms)
         && !arms.contains(&arm)
     {
-        let why = "this arm was not run".to_owned();
-        return (format!("results of arm {}", arm.name()), Some(why));
+        let why = "this grid was not run".to_owned();
+        return (format!("results of grid {}", arm.name()), Some(why));
     }
     let ["tables", topic, "rows", _] = path else {
         return (words(path), None);

@@ -158,11 +158,11 @@ fn the_consequence_comes_first() {
         "Setting changed: coefficient of restitution 0.92 -> 0.919.\n",
         "Effect: median overturning intensities +6.3 % (PGA/(g tan alpha), \
          ordinary +6.3 %).\n",
-        "Answers that rest on findings: 1 of 4 changed; only numbers moved in \
-         none.\n",
-        "Words on claims (seen, exists): 1 of 2 changed, 1 from yes to no or \
-         the opposite, or back.\n",
-        "Declared cases: 1 of 2 verdicts changed.\n",
+        "Answers based on findings: 1 of 4 turned; none changed only in \
+         numbers.\n",
+        "Verdicts on statements (seen, exists): 1 of 2 changed, 1 to the \
+         contrary.\n",
+        "Reference cases: 1 of 2 verdicts changed.\n",
         "Numbers: 2 of 5 moved by more than",
         "Before: Hardly, if every impact loses the same share of energy.\n",
         "  \"the same\" (quantiles-coincide), ordinary, arm C, seen: yes -> \
@@ -222,7 +222,7 @@ fn an_effect_that_turns_to_the_opposite_says_so() {
     let (_, out, _) = run(&place, "diff old new");
     let words = "arm C, exists: yes -> the opposite; 1.1 -> 0.9, -18 %";
     assert!(out.contains(words), "{out}");
-    assert!(out.contains(", 1 from yes to no or the opposite"), "{out}");
+    assert!(out.contains(", 1 to the contrary."), "{out}");
 }
 
 #[test]

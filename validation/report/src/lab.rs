@@ -1,5 +1,5 @@
-//! The page that recomputes: the engine as WebAssembly, what the compiled
-//! program gives beside it, and the script that asks.
+//! The page that recomputes: the engine as WebAssembly, the results of the
+//! compiled program, and the script that compares them.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ const PAGE: &str = include_str!("lab/page.html");
 const OWN_STYLE: &str = include_str!("lab/page.css");
 const SCRIPT: &str = include_str!("lab/page.js");
 
-/// What the compiled program gives.
+/// The results of the compiled program.
 #[derive(Serialize)]
 struct Native {
     cases: BTreeMap<String, CaseBits>,
@@ -40,7 +40,7 @@ struct CaseBits {
     first: String,
 }
 
-/// Asks the engine, compiled for this machine.
+/// Calls the engine, compiled for this machine.
 fn ask<T: for<'a> Deserialize<'a>>(question: &serde_json::Value) -> Result<T> {
     let answer = rocking_web::answer(&question.to_string());
     serde_json::from_str(&answer).with_context(|| answer)
@@ -64,10 +64,10 @@ fn native() -> Result<Native> {
     Ok(Native { cases, left })
 }
 
-/// The page with an engine, in the text that `validation/web/build` makes.
+/// The page with an engine, as text from `validation/web/build`.
 ///
 /// # Errors
-/// Where a declared case gives no answer or fails.
+/// If a reference case gives no answer or fails.
 pub fn page(engine: &str) -> Result<String> {
     let style = format!("{STYLE}{OWN_STYLE}");
     let hash = |text: &str| base64(&Sha256::digest(text));

@@ -15,8 +15,8 @@ use rocking_draw::figures::{
 use rocking_draw::grid::Grid;
 use rocking_draw::page::{head, table};
 use rocking_score::{
-    Code, CodeVerdict, Explanation, LevelScore, QuantityScore, Score, Value,
-    codes, own_answers, reference, score,
+    Code, CodeVerdict, Explanation, QuantityScore, Score, Value, codes,
+    own_answers, reference, score,
 };
 
 /// The page of a score: one file, without scripts and network.
@@ -306,43 +306,40 @@ fn digits(x: Option<f64>) -> String {
     x.map_or("–".into(), |x| format!("{x:.1}"))
 }
 
+/// A table of rows: of each column, its head, and its cell of a row.
+fn by_columns<T>(
+    [name, title, reading]: [&str; 3],
+    rows: &[T],
+    columns: &[(&str, &dyn Fn(&T) -> String)],
+) -> PlainTable {
+    let header: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
+    let row = |row| columns.iter().map(|(_, cell)| cell(row)).collect();
+    let rows = rows.iter().map(row).collect();
+    PlainTable::new(name, title, reading, &header, rows)
+}
+
 fn levels(score: &Score) -> Markup {
     let percent = |share| format!("{:.0} %", 100.0 * share);
-    let row = |level: &LevelScore| {
-        let mut cells = vec![
-            format!("{}, {}", level.level, level.kind),
-            format!("{} of {}", level.answered, level.asked),
-            digits(level.median_digits),
-            digits(level.worst_digits),
-            level.attained_share.map_or("–".into(), percent),
-        ];
-        let counts = [
-            level.fates_right,
-            level.fates_wrong,
-            level.fates_missing,
-            level.counts_right,
-            level.counts_wrong,
-        ];
-        cells.extend(counts.map(|count| count.to_string()));
-        cells
-    };
-    table::untitled(&PlainTable::new(
-        "levels",
-        "Digits",
-        "Digits, outcomes and counts, level by level.",
+    let words = ["levels", "Digits", "Digits, outcomes and counts by level."];
+    table::untitled(&by_columns(
+        words,
+        &score.levels,
         &[
-            "Level",
-            "Numbers answered",
-            "Median digits",
-            "Fewest digits",
-            "Share with all attainable digits",
-            "Outcomes right",
-            "Outcomes wrong",
-            "Outcomes missing",
-            "Counts right",
-            "Counts wrong",
+            ("Level", &|l| format!("{}, {}", l.level, l.kind)),
+            ("Numbers answered", &|l| {
+                format!("{} of {}", l.answered, l.asked)
+            }),
+            ("Median digits", &|l| digits(l.median_digits)),
+            ("Fewest digits", &|l| digits(l.worst_digits)),
+            ("Share with all attainable digits", &|l| {
+                l.attained_share.map_or("–".into(), percent)
+            }),
+            ("Outcomes right", &|l| l.fates_right.to_string()),
+            ("Outcomes wrong", &|l| l.fates_wrong.to_string()),
+            ("Outcomes missing", &|l| l.fates_missing.to_string()),
+            ("Counts right", &|l| l.counts_right.to_string()),
+            ("Counts wrong", &|l| l.counts_wrong.to_string()),
         ],
-        score.levels.iter().map(row).collect(),
     ))
 }
 
@@ -361,30 +358,25 @@ fn lacking(score: &Score) -> Markup {
     let mut all: Vec<_> =
         score.quantities.iter().filter(|q| !q.attained).collect();
     all.sort_by(|a, b| lacks(a).total_cmp(&lacks(b)));
-    let row = |q: &&QuantityScore| {
-        vec![
-            q.scene.to_string(),
-            q.quantity.to_string(),
-            text(&q.value),
-            text(q.certified),
-            digits(q.digits),
-            digits(q.attainable_digits),
-        ]
-    };
     if all.is_empty() {
         return html! {
             p { "None: every answer has all the digits it can have." }
         };
     }
     let shown = all.len().min(MOST);
-    let header =
-        ["Scene", "Quantity", "Answer", "Certified", "Digits", "Attainable"];
-    table::untitled(&PlainTable::new(
-        "lacking",
-        "Answers with missing digits",
-        format!("{} answers; the {shown} that miss the most:", all.len()),
-        &header,
-        all[..shown].iter().map(row).collect(),
+    let reading =
+        format!("{} answers; the {shown} that miss the most:", all.len());
+    table::untitled(&by_columns(
+        ["lacking", "Answers with missing digits", &reading],
+        &all[..shown],
+        &[
+            ("Scene", &|q| q.scene.to_string()),
+            ("Quantity", &|q| q.quantity.to_string()),
+            ("Answer", &|q| text(&q.value)),
+            ("Certified", &|q| text(q.certified)),
+            ("Digits", &|q| digits(q.digits)),
+            ("Attainable", &|q| digits(q.attainable_digits)),
+        ],
     ))
 }
 

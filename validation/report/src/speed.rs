@@ -1,8 +1,8 @@
-//! Speed against error: single analyses with a reference, throughput, and
-//! the timings kept in `fixtures/speed`.
+//! Speed against error: single analyses with a reference, and throughput.
+//! `fixtures/speed` keeps the timings.
 //!
-//! Nothing here is a result of the study: times differ from run to run, and
-//! no test looks at them.
+//! Times differ from run to run, so they are not results of the study and no
+//! test compares them.
 
 pub mod answers;
 pub mod cases;
@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 /// Rows of a table as [`csv`] writes it.
 ///
 /// # Errors
-/// The reader's word on what was wrong.
+/// As the reader.
 pub fn parse<T: DeserializeOwned>(text: &str) -> Result<Vec<T>, csv::Error> {
     csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
 }

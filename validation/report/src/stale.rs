@@ -1,5 +1,4 @@
-//! Whether a report on disk is what the program gives now, and what differs
-//! if not.
+//! Whether a report on disk is up to date, and the differences if not.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,12 +9,12 @@ use anyhow::Context as _;
 use crate::diff::{ResultFiles, compare};
 use crate::output::{CASES, FINDINGS, Files, LAST};
 
-/// What differs between the report in `out` and `files`; `None` if nothing
-/// does. Findings come first, as [`crate::diff`] describes them, then the
+/// The differences between the report in `out` and `files`; none if there are
+/// none. Findings come first, as [`crate::diff`] describes them, then the
 /// files by name.
 ///
 /// # Errors
-/// Where the report cannot be read.
+/// If the report cannot be read.
 pub fn stale(out: &Path, files: &Files) -> anyhow::Result<Option<String>> {
     let mut there = names(out)?;
     let mut findings = String::new();
@@ -32,14 +31,14 @@ pub fn stale(out: &Path, files: &Files) -> anyhow::Result<Option<String>> {
         }
         lines.push(format!("{name}: differs"));
         if name == FINDINGS {
-            // Findings of another form are replaced, too: that is no error.
+            // Findings of another form are replaced, too: not an error.
             findings = compared(&path, &old, new)
                 .unwrap_or_else(|error| format!("not compared: {error:#}\n"));
         }
     }
     there.retain(|name| !CASES.contains(&name.as_str()));
     lines.extend(
-        there.iter().map(|name| format!("{name}: no file of this report")),
+        there.iter().map(|name| format!("{name}: not a file of this report")),
     );
     Ok((!lines.is_empty()).then(|| {
         format!(
@@ -114,7 +113,7 @@ mod tests {
         assert!(words.starts_with("not compared: "), "{words}");
         let list = "4 files differ:\ndata/findings.json: differs\n\
                     data/moved.csv: differs\ndata/new.csv: missing\n\
-                    data/gone.csv: no file of this report\n";
+                    data/gone.csv: not a file of this report\n";
         assert!(words.ends_with(list), "{words}");
     }
 }

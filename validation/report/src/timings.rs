@@ -325,7 +325,7 @@ impl Timings {
              settings of a tool (ours: orders 4 to 10, as shipped); it is \
              dashed if an interpreter evaluates the equation. Each tool ran \
              the same {cases} analyses{fewer} with the same rule for rest. \
-             Errors are relative to a double-double computation.",
+             Errors are measured against double-double arithmetic.",
             digits(self.own.peak_error),
             by(false),
             by(true),

@@ -22,8 +22,10 @@ impl Difference {
                 lines.push(format!("{left} more: {ALL}"));
             }
             if !lines.is_empty() {
-                let text = lines.join("\n").replace("\n", "\n  ");
-                out += &format!("\n{title}\n  {text}\n");
+                out += &format!("\n{title}\n");
+            }
+            for line in lines {
+                out += &format!("  {}\n", line.replace('\n', "\n    "));
             }
         }
         out
@@ -35,7 +37,7 @@ impl Difference {
         own.filter(|change| change.is_common())
     }
 
-    /// What changed, the cause first, in a few sentences.
+    /// The changes in a few sentences, the cause first.
     fn head(&self) -> Vec<String> {
         let count = |kind| self.compared.get(&kind).copied().unwrap_or(0);
         let changed = |kind| some(self.common(kind));
@@ -57,8 +59,8 @@ impl Difference {
         if answers > 0 {
             let opposite = self.common(Subject::Finding);
             out.push(format!(
-                "Answers that rest on findings: {} of {answers} changed; in \
-                 {}, only numbers did.",
+                "Answers based on findings: {} of {answers} turned; {} changed \
+                 only in numbers.",
                 changed(Subject::Answer),
                 changed(Subject::Wording)
             ));
@@ -124,11 +126,8 @@ impl Difference {
         }
         [
             ("Settings", settings),
-            ("Answers that changed", common(Subject::Answer)),
-            (
-                "Answers of which only numbers changed",
-                common(Subject::Wording),
-            ),
+            ("Answers that turned", common(Subject::Answer)),
+            ("Answers that changed only in numbers", common(Subject::Wording)),
             ("Verdicts on statements that changed", common(Subject::Finding)),
             (
                 "Largest single moves (u: change over the half-widths of both \
@@ -167,7 +166,7 @@ fn line(change: &Change) -> String {
     let moved = moved.as_ref().map(NumberChange::text);
     match (kind, moved) {
         (Subject::Answer | Subject::Wording, _) => {
-            format!("{what}\n  Before: {old}\n  Now: {new}")
+            format!("{what}\nBefore: {old}\nNow: {new}")
         }
         (Subject::Setting, _) => format!("{what} {old} -> {new}"),
         (Subject::Number, Some(moved)) => format!("{what}: {moved}"),

@@ -20,8 +20,8 @@ struct PulseFile {
 #[derive(Deserialize)]
 struct PulseEntry {
     pulse: String,
-    /// Of the acceleration, of one pulse of the velocity: a number, and words
-    /// in brackets.
+    /// Amplitude of the acceleration (of one pulse, of the velocity): a number,
+    /// and words in brackets.
     #[serde(rename = "A", alias = "A_v")]
     amplitude: String,
     #[serde(rename = "Omega", alias = "f_p")]
@@ -29,7 +29,7 @@ struct PulseEntry {
     eta: String,
 }
 
-/// Errors against the closed forms, pulse by pulse; by the results handed in.
+/// Errors against the closed forms in the given results, pulse by pulse.
 pub fn similarity(proof: &Proof) -> PlainTable {
     let pulses: Vec<PulseEntry> = serde_json::from_str::<PulseFile>(PULSES)
         .map_or_else(|_| Vec::new(), |found| found.cases);
@@ -74,11 +74,10 @@ pub fn similarity(proof: &Proof) -> PlainTable {
     PlainTable::new(
         "sine-pulse-similarity",
         "Pulses in Eq. 2 against closed forms",
-        "Each row runs six blocks of alpha 0.001 to 0.4 rad and p \
-                  0.5 to 8 rad/s, which have one and the same closed form. \
-                  The error is the largest over the six. A dash stands where \
-                  the motion has no such number, or the case does not \
-                  compare it.",
+        "Each row runs six blocks (alpha 0.001 to 0.4 rad, p 0.5 to 8 rad/s) \
+         that share one closed form. The error is the largest of the six. A \
+         dash: the motion has no such number, or the case does not compare \
+         it.",
         &header,
         own.filter_map(row).collect(),
     )

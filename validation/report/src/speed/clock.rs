@@ -1,13 +1,13 @@
-//! Processor time and memory of this process.
+//! CPU time and memory of this process.
 
 use rustix::time::{ClockId, Timespec};
 
-/// Processor time that this thread has used, in s.
+/// CPU time of this thread, in s.
 pub fn thread_s() -> f64 {
     seconds(ClockId::ThreadCPUTime)
 }
 
-/// Processor time that all threads of this process have used, in s.
+/// CPU time of all threads of this process, in s.
 pub fn process_s() -> f64 {
     seconds(ClockId::ProcessCPUTime)
 }
@@ -21,8 +21,8 @@ fn seconds(clock: ClockId) -> f64 {
     (tv_nsec as f64).mul_add(1e-9, tv_sec as f64)
 }
 
-/// Minimum processor time (s) of this thread per call of `work`, over
-/// `batches` batches that each last about `batch_s`; and the result of `work`.
+/// Least CPU time (s) of this thread per call of `work`, over `batches`
+/// batches of about `batch_s` each; and the result of `work`.
 pub fn least_s<T>(
     batches: u32,
     batch_s: f64,
@@ -44,8 +44,8 @@ pub fn least_s<T>(
     (least, given)
 }
 
-/// Most memory that this process has held, in MiB; none where the system
-/// doesn't say.
+/// Peak memory of this process, in MiB; none if the system does not report
+/// it.
 pub fn peak_memory_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

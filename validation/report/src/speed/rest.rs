@@ -1,9 +1,9 @@
-//! The rest rule as every tool applies it, and impacts listed by it.
+//! The rule for rest that every tool applies, and the impacts by it.
 //!
-//! After an impact the block goes to rest if the series of hops provably
-//! ends within the record's interval while the ground stays below the uplift
-//! threshold. The core lists the impacts of that series, too; other tools
-//! don't integrate them. Lists are compared without them.
+//! After an impact the block goes to rest if the series of hops provably ends
+//! within the record's interval while the ground stays below the uplift
+//! threshold. The core lists the impacts of that series, but other tools do
+//! not integrate them, so lists are compared without them.
 
 use rocking::block::Block;
 
@@ -21,7 +21,7 @@ impl GroundRecord<'_> {
         (self.samples_g.len() - 1) as f64 * self.dt_s
     }
 
-    /// Interval that holds a time, as its number; none beyond the end.
+    /// Number of the interval that contains a time; none beyond the end.
     fn interval(&self, time_s: f64) -> Option<usize> {
         let k = (time_s / self.dt_s) as usize;
         (k + 1 < self.samples_g.len()).then_some(k)

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use rocking_draw::page::STYLE;
 use rocking_proof::cases::load_all;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 
 /// The file beside the page of the report.
@@ -16,14 +17,6 @@ pub const LAB: &str = "lab.html";
 const PAGE: &str = include_str!("lab/page.html");
 const OWN_STYLE: &str = include_str!("lab/page.css");
 const SCRIPT: &str = include_str!("lab/page.js");
-
-/// The results of the compiled program.
-#[derive(Serialize)]
-struct Native {
-    cases: BTreeMap<String, CaseBits>,
-    /// Cases that take too long in a browser.
-    left: Vec<String>,
-}
 
 #[derive(Deserialize)]
 struct CaseId {
@@ -41,16 +34,18 @@ struct CaseBits {
 }
 
 /// Calls the engine, compiled for this machine.
-fn ask<T: for<'a> Deserialize<'a>>(question: &serde_json::Value) -> Result<T> {
+fn ask<T: for<'a> Deserialize<'a>>(question: &Value) -> Result<T> {
     let answer = rocking_web::answer(&question.to_string());
     serde_json::from_str(&answer).with_context(|| answer)
 }
 
-fn native() -> Result<Native> {
-    let listed: Vec<CaseId> = ask(&serde_json::json!({ "ask": "cases" }))?;
+/// The results of the compiled program, and the cases that take too long in a
+/// browser.
+fn native() -> Result<Value> {
+    let listed: Vec<CaseId> = ask(&json!({ "ask": "cases" }))?;
     let run = |listed: &CaseId| {
         let id = listed.id.clone();
-        let question = serde_json::json!({ "ask": "case", "id": id });
+        let question = json!({ "ask": "case", "id": id });
         let found: CaseBits = ask(&question)?;
         if !found.holds {
             return Err(anyhow!("the case {id} fails"));
@@ -60,8 +55,8 @@ fn native() -> Result<Native> {
     let cases: BTreeMap<_, _> =
         listed.par_iter().map(run).collect::<Result<_>>()?;
     let left = load_all()?.into_iter().map(|case| case.id);
-    let left = left.filter(|id| !cases.contains_key(id)).collect();
-    Ok(Native { cases, left })
+    let left: Vec<_> = left.filter(|id| !cases.contains_key(id)).collect();
+    Ok(json!({ "cases": cases, "left": left }))
 }
 
 /// The page with an engine, as text from `validation/web/build`.
@@ -79,7 +74,7 @@ pub fn page(engine: &str) -> Result<String> {
         hash(&style)
     );
     // In the markup a `<` could end the element.
-    let native = serde_json::to_string(&native()?)?.replace('<', "\\u003c");
+    let native = native()?.to_string().replace('<', "\\u003c");
     let parts = [
         ("{policy}", policy),
         ("{style}", style),

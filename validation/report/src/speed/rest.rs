@@ -59,8 +59,8 @@ impl GroundRecord<'_> {
     }
 }
 
-/// Time in s within which the hops after an impact end, if they provably do;
-/// `side` is the sign of theta after it and `speed_rad_s` the speed.
+/// Time in s after an impact at which the hops end, if they provably do; `side`
+/// is the sign of theta after the impact and `speed_rad_s` the speed.
 pub fn chatter_s(
     block: &Block,
     eta: f64,
@@ -69,6 +69,7 @@ pub fn chatter_s(
     side: f64,
     speed_rad_s: f64,
 ) -> Option<f64> {
+    let positive = |x: f64| (x > 0.0).then_some(x);
     let (p, alpha) = (block.frequency_rad_s(), block.slenderness_rad());
     let threshold = libm::tan(alpha);
     let cosine = libm::cos(alpha);
@@ -77,41 +78,27 @@ pub fn chatter_s(
     let (f, slope) = ground.at(k, time_s);
     let (f, w) = (side * f, speed_rad_s / p);
     let left = ((k + 1) as f64 * ground.dt_s - time_s) * p;
-    if !(threshold - f.abs() > 0.0) {
-        return None;
-    }
+    positive(threshold - f.abs())?;
     let guess = 2.0 * w / (restoring(-f.abs()) * (1.0 - eta));
-    if !(guess < left) {
-        return None;
-    }
+    positive(left - guess)?;
     let window = f64::min(2.0 * guess, left);
     let drift = (slope / p).abs() * window;
-    let least = restoring(-(f.abs() + drift));
-    if !(least > 0.0) {
-        return None;
-    }
+    let least = positive(restoring(-(f.abs() + drift)))?;
     let push = (1.0 + threshold) * 2.0 * w * w / least;
-    let least = least - push;
-    if !(least > 0.0) {
-        return None;
-    }
+    let least = positive(least - push)?;
     let ratio =
         |f| (restoring(f + drift) + push) / (restoring(f - drift) - push);
     let worst = f64::max(ratio(f), ratio(-f));
     let decay = eta * worst.sqrt();
-    if !(decay < 1.0) {
-        return None;
-    }
+    positive(1.0 - decay)?;
     let bound = 2.0 * w * worst.sqrt() / (least * (1.0 - decay));
-    if !(bound < window) {
-        return None;
-    }
+    positive(window - bound)?;
     let hops = 1.0 / restoring(f) + eta / restoring(-f);
     Some(2.0 * w * hops / (1.0 - eta * eta) / p)
 }
 
-/// Times of the impacts up to the record's end without those of the series
-/// that end at rest: `all` has time and speed before each.
+/// Times of the impacts up to the record's end, without the series that end at
+/// rest; `all` has the time and the speed before each.
 pub fn without_chatter(
     block: &Block,
     eta: f64,
@@ -125,7 +112,7 @@ pub fn without_chatter(
     };
     let mut side = -sign;
     for (time_s, speed_before_rad_s) in all {
-        // Hops of a series that was cut here already.
+        // A hop of a series that is left out.
         if !(*time_s > uplift_s) {
             continue;
         }

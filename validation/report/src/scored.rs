@@ -306,11 +306,14 @@ fn digits(x: Option<f64>) -> String {
     x.map_or("–".into(), |x| format!("{x:.1}"))
 }
 
-/// A table of rows: of each column, its head, and its cell of a row.
+/// A column: its head, and its cell of a row.
+type ScoreColumn<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
+
+/// A table of rows.
 fn by_columns<T>(
     [name, title, reading]: [&str; 3],
     rows: &[T],
-    columns: &[(&str, &dyn Fn(&T) -> String)],
+    columns: &[ScoreColumn<'_, T>],
 ) -> PlainTable {
     let header: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
     let row = |row| columns.iter().map(|(_, cell)| cell(row)).collect();

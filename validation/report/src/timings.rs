@@ -3,7 +3,7 @@
 
 use anyhow::Context as _;
 
-use crate::speed::many::{PAPER, WAYS};
+use crate::speed::many::{IN_LANES, ONE_BY_ONE, PAPER};
 use crate::speed::measured::{Total, totals};
 use crate::speed::parse;
 use crate::speed::singles::BASE;
@@ -88,8 +88,8 @@ impl Timings {
         Ok(Self {
             own: total(BASE)?,
             theirs: total(PEER)?,
-            paper: work(&[PAPER, WAYS[0].0])?,
-            one_by_one: work(&[PAPER, WAYS[1].0])?,
+            paper: work(&[PAPER, IN_LANES])?,
+            one_by_one: work(&[PAPER, ONE_BY_ONE])?,
             peer: work(&[PAPER, &format!("{tool} {method}"), setting])?,
             singles,
             many,
@@ -251,7 +251,7 @@ impl Timings {
     fn in_lanes(&self, setting: &str) -> Option<&Throughput> {
         match setting == BASE[2] {
             true => Some(&self.paper),
-            false => on_one_thread(&self.many, &[PAPER, WAYS[0].0, setting]),
+            false => on_one_thread(&self.many, &[PAPER, IN_LANES, setting]),
         }
     }
 

@@ -14,9 +14,13 @@ use rocking_common::paper::BLOCKS;
 /// Name of the paper's analysis.
 pub const PAPER: &str = "15 blocks, Eq. 1";
 
-/// Both ways of making curves, by name.
-pub const WAYS: [(&str, fn() -> Execution); 2] =
-    [("in lanes", Execution::default), ("one by one", || Execution::OneByOne)];
+/// Names of both ways of making curves.
+pub const IN_LANES: &str = "in lanes";
+pub const ONE_BY_ONE: &str = "one by one";
+
+fn ways() -> [(&'static str, Execution); 2] {
+    [(IN_LANES, Execution::default()), (ONE_BY_ONE, Execution::OneByOne)]
+}
 
 /// Number of calls of `done`.
 pub const STEPS: u64 = 22;
@@ -45,8 +49,8 @@ pub fn measure(
     // Few chains: the work for a single block under a suite.
     let middle = Block::try_new(0.15, 3.0)?;
     let analyses = analyses(&[middle], one, None)?;
-    for (how, way) in WAYS {
-        let job = CurveWork::on_one_thread(&analyses, records, way());
+    for (how, way) in ways() {
+        let job = CurveWork::on_one_thread(&analyses, records, way);
         all.push(job.measure_thrice(&["p = 3, alpha = 0.15", how])?.0);
         done();
     }
@@ -67,8 +71,8 @@ fn whole(
     let shipped = analyses(&BLOCKS, model, None)?;
     let mut all = Vec::new();
     let mut base = Vec::new();
-    for (how, way) in WAYS {
-        let job = CurveWork::on_one_thread(&shipped, records, way());
+    for (how, way) in ways() {
+        let job = CurveWork::on_one_thread(&shipped, records, way);
         let (measured, found) = job.measure_thrice(&[work, how])?;
         all.push(measured);
         base = found;
@@ -76,10 +80,10 @@ fn whole(
     }
     let threads = rayon::current_num_threads();
     if threads > 1 {
-        let (how, way) = WAYS[0];
-        let job = CurveWork::on_one_thread(&shipped, records, way());
+        let way = Execution::default();
+        let job = CurveWork::on_one_thread(&shipped, records, way);
         let job = CurveWork { threads, ..job };
-        all.push(job.measure_thrice(&[work, how])?.0);
+        all.push(job.measure_thrice(&[work, IN_LANES])?.0);
     }
     let samples = samples_of(records, &shipped, &base)?;
     for measured in &mut all {
@@ -90,8 +94,8 @@ fn whole(
     }
     for (setting, order) in ORDERS.into_iter().filter(|own| own.1.is_some()) {
         let analyses = analyses(&BLOCKS, model, order)?;
-        for (how, way) in WAYS {
-            let job = CurveWork::on_one_thread(&analyses, records, way());
+        for (how, way) in ways() {
+            let job = CurveWork::on_one_thread(&analyses, records, way);
             let (measured, found) =
                 job.measure_thrice(&[work, how, setting])?;
             let moved = Some(moved(&found, &base));

@@ -28,17 +28,6 @@ pub fn charts() -> anyhow::Result<Vec<Figure>> {
     Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
 }
 
-/// Ends of `count` intervals of equal ratio.
-fn spaced((low, high): (f64, f64), count: usize) -> Vec<f64> {
-    let step = libm::log(high / low) / count as f64;
-    (0..=count).map(|k| low * libm::exp(step * k as f64)).collect()
-}
-
-/// Geometric middles of such intervals.
-fn middles(ends: &[f64]) -> Vec<f64> {
-    ends.windows(2).map(|pair| (pair[0] * pair[1]).sqrt()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;

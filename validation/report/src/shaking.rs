@@ -80,30 +80,23 @@ struct ChangedRocks {
     rocks: [TestComparison; 2],
 }
 
-/// An intensity measure of the comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum TestMeasure {
-    Pga,
-    Pgv,
-    AverageSa,
+/// An intensity measure of the comparison: its name, and the beginning of its
+/// name in the results.
+#[derive(Clone, Copy)]
+struct TestMeasure {
+    name: &'static str,
+    prefix: &'static str,
 }
 
 impl TestMeasure {
-    const ALL: [Self; 3] = [Self::Pga, Self::Pgv, Self::AverageSa];
-
-    /// Its name, and the beginning of its name in the results.
-    const fn names(self) -> [&'static str; 2] {
-        match self {
-            Self::Pga => ["PGA", "pga"],
-            Self::Pgv => ["PGV", "column:"],
-            Self::AverageSa => ["average SA", "avgsa:"],
-        }
-    }
+    const PGA: Self = Self { name: "PGA", prefix: "pga" };
+    const PGV: Self = Self { name: "PGV", prefix: "column:" };
+    const AVERAGE_SA: Self = Self { name: "average SA", prefix: "avgsa:" };
+    const ALL: [Self; 3] = [Self::PGA, Self::PGV, Self::AVERAGE_SA];
 
     /// The measure as a predictor.
     fn predictor(self, of: &TestComparison) -> Option<&Predictor> {
-        let is = |p: &&Predictor| p.predictor.starts_with(self.names()[1]);
-        of.rivals.iter().find(is)
+        of.rivals.iter().find(|p| p.predictor.starts_with(self.prefix))
     }
 
     /// The fragilities in the measure.
@@ -111,9 +104,7 @@ impl TestMeasure {
         self,
         of: &TestComparison,
     ) -> Option<&DistributionComparison> {
-        let is =
-            |d: &&DistributionComparison| d.im.starts_with(self.names()[1]);
-        of.distributions.iter().find(is)
+        of.distributions.iter().find(|d| d.im.starts_with(self.prefix))
     }
 }
 

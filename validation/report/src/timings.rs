@@ -371,10 +371,10 @@ impl Timings {
                 "setting",
                 "single analyses: time / as shipped",
                 "many, in lanes: time / as shipped",
-                "peak error",
-                "90 % below",
+                "peak error, median",
+                "peak error, 90 % quantile",
                 "chains moved",
-                "for",
+                "use",
             ],
             USES.iter().filter_map(row).collect(),
         )

@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::spectrum::{ETA, STOCKY_RAD, fate};
-use super::{middles, spaced};
+use super::spectrum::{ETA, STOCKY_RAD, fate, spaced};
 use rocking_common::words::percent;
 use rocking_draw::figures::{FateMap, Figure, Heading, MapFate};
 use rocking_proof::oracles::overturning;
@@ -17,6 +16,11 @@ const FREQUENCIES: (f64, f64) = (0.4, 10.0);
 const AMPLITUDES: (f64, f64) = (1.0, 30.0);
 /// Points of a boundary.
 const POINTS: usize = 240;
+
+/// Geometric middles of intervals.
+fn middles(ends: &[f64]) -> Vec<f64> {
+    ends.windows(2).map(|pair| (pair[0] * pair[1]).sqrt()).collect()
+}
 
 /// The map, computed by the integrator in Eq. 1, and the boundaries of Eq. 2
 /// in closed form.

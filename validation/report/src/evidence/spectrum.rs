@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::spaced;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
@@ -24,6 +23,12 @@ const TOP: f64 = 30.0;
 const INTERVALS: usize = 87;
 /// Lowest frequency over p of the whole spectrum, and of the bands.
 const LOWEST: f64 = 0.4;
+
+/// Ends of `count` intervals of equal ratio.
+pub(super) fn spaced((low, high): (f64, f64), count: usize) -> Vec<f64> {
+    let step = libm::log(high / low) / count as f64;
+    (0..=count).map(|k| low * libm::exp(step * k as f64)).collect()
+}
 
 /// Whether a one-sine pulse overturns, and after how many impacts.
 pub(super) fn fate(

@@ -67,19 +67,18 @@ fn the_whole_paper_is_required() {
     }
 }
 
+/// A requirement with this evidence.
+fn one(evidence: &str) -> Requirement {
+    let own = "id = \"r\"\nsource = \"ours\"\nplace = \"p\"\ntext = \"t\"";
+    let text = format!("[[requirement]]\n{own}\n{evidence}\n");
+    parse(&text).unwrap().remove(0)
+}
+
 #[test]
 fn a_failed_or_missing_case_is_red() {
-    let requirement = Requirement {
-        id: "r".into(),
-        source: Origin::Ours,
-        place: "p".into(),
-        text: "t".into(),
-        cases: vec!["a/*".into(), "b/one".into(), "a/x*z".into()],
-        findings: vec!["f".into()],
-        tests: vec!["tests/x.rs::y".into()],
-        figures: Some((1, 2)),
-        gap: String::new(),
-    };
+    let requirement =
+        one("cases = [\"a/*\", \"b/one\", \"a/x*z\"]\nfindings = [\"f\"]\n\
+         tests = [\"tests/x.rs::y\"]\nfigures = [1, 2]");
     let results = |b: &str| -> snapshot::Results {
         let of = |verdict: &str| {
             json!({
@@ -113,8 +112,8 @@ fn a_failed_or_missing_case_is_red() {
     assert!(!requirement.standing(all, &no, &yes, &drawn).is_met());
     assert!(!requirement.standing(all, &yes, &no, &drawn).is_met());
     let first = |number: u32| number == 1;
-    let one = requirement.standing(all, &yes, &yes, &first);
-    assert_eq!(one.missing, ["Figure 2"]);
+    let lacking = requirement.standing(all, &yes, &yes, &first);
+    assert_eq!(lacking.missing, ["Figure 2"]);
     let empty = requirement.standing(
         Some(&snapshot::Results::new()),
         &yes,
@@ -125,13 +124,7 @@ fn a_failed_or_missing_case_is_red() {
     let not_run = requirement.standing(None, &yes, &yes, &drawn);
     assert!(!not_run.is_met() && not_run.missing.is_empty());
     assert_eq!(state(&requirement, &not_run, &[]), "not run here");
-    let nothing = Requirement {
-        cases: Vec::new(),
-        findings: Vec::new(),
-        tests: Vec::new(),
-        figures: None,
-        ..requirement
-    };
+    let nothing = one("");
     assert!(!nothing.is_named());
     let none = nothing.standing(all, &yes, &yes, &drawn);
     assert_eq!(state(&nothing, &none, &[]), "✗ no evidence named");
@@ -143,17 +136,7 @@ fn a_claim_that_is_not_seen_is_not_shown_as_passed() {
     let id = "shift-gains-little-pgv";
     let mut claim =
         recorded.claims.iter().find(|c| c.id == id).unwrap().clone();
-    let requirement = Requirement {
-        id: "r".into(),
-        source: Origin::Paper,
-        place: "p".into(),
-        text: "t".into(),
-        cases: Vec::new(),
-        findings: vec![id.into()],
-        tests: Vec::new(),
-        figures: None,
-        gap: String::new(),
-    };
+    let requirement = one(&format!("findings = [\"{id}\"]"));
     let yes = |_: &str| true;
     let standing = requirement.standing(None, &yes, &yes, &|_| true);
     assert!(standing.is_met());

@@ -55,7 +55,7 @@ fn by_measure(
     limits: (f64, f64),
     of: impl Fn(&DistributionComparison) -> Estimate,
 ) -> ChartPanel {
-    let names = TestMeasure::ALL.map(|m| m.names()[0].to_owned());
+    let names = TestMeasure::ALL.map(|m| m.name.to_owned());
     let edges = [limits.0, limits.1].map(|at| {
         let pen = Pen::new(Ink::Muted, 1.0).dash(Dash::Dashed);
         Series::note(Mark::Across(pen), "", (f64::NAN, at))
@@ -105,7 +105,7 @@ impl RockTests {
             Chart { heading, ..chart }.figure(reading)
         };
         let rocks = self.fitted.iter().zip(1..).filter_map(|(own, rock)| {
-            Some(fragility(rock, TestMeasure::Pgv.fragilities(own)?))
+            Some(fragility(rock, TestMeasure::PGV.fragilities(own)?))
         });
         let dispersion = by_measure(
             self,

@@ -108,7 +108,7 @@ impl RockTests {
             });
             let [pga, pgv, average] = found.map(|[_, score]| score);
             let of = |(m, [dispersion, _]): (TestMeasure, [f64; 2])| {
-                format!("{} {}", m.names()[0], three(dispersion))
+                format!("{} {}", m.name, three(dispersion))
             };
             let all = TestMeasure::ALL.into_iter().zip(found);
             let all: Vec<String> = all.map(of).collect();
@@ -227,9 +227,9 @@ impl RockTests {
              tests with one motion and PGAs within 5 %, {pairs} have \
              different outcomes.",
             self.fitted_each(|own| share(&own.computed.right)),
-            words(TestMeasure::AverageSa),
-            words(TestMeasure::Pgv),
-            words(TestMeasure::Pga),
+            words(TestMeasure::AVERAGE_SA),
+            words(TestMeasure::PGV),
+            words(TestMeasure::PGA),
         )
     }
 
@@ -248,13 +248,13 @@ impl RockTests {
             let rocks = self
                 .missing(m)
                 .map(|own| own.map_or("no fit".into(), |own| plain(&own)));
-            format!("{} in {}", both(rocks), m.names()[0])
+            format!("{} in {}", both(rocks), m.name)
         };
         let usual = ModelError::default();
         let range = usual.dispersion();
         let own = |of: &Estimate| of.text("", |x| x.to_string());
         let holds = |x: f64| range.interval().is_some_and(|own| own.holds(x));
-        let known = [TestMeasure::Pgv, TestMeasure::AverageSa];
+        let known = [TestMeasure::PGV, TestMeasure::AVERAGE_SA];
         let known = known.map(|m| self.missing(m));
         let each = |of: &dyn Fn(Estimate) -> bool| {
             known.as_flattened().iter().all(|own| own.is_some_and(of))
@@ -291,9 +291,9 @@ impl RockTests {
              median comes from a restitution of 0.85 to 0.97. A factor on the \
              whole capacity {acts} a factor on its part above uplift \
              (log-likelihood {}).",
-            text(TestMeasure::Pgv),
-            text(TestMeasure::AverageSa),
-            text(TestMeasure::Pga),
+            text(TestMeasure::PGV),
+            text(TestMeasure::AVERAGE_SA),
+            text(TestMeasure::PGA),
             own(range),
             own(usual.bias()),
             own(ModelError::fitted().bias()),

@@ -26,7 +26,7 @@ impl RockTests {
         let block = [first, second].map(|own| Some(&own.computed));
         let measures = TestMeasure::ALL.map(|m| {
             let own = [first, second].map(|own| m.predictor(own));
-            cells(m.names()[0], own)
+            cells(m.name, own)
         });
         let rows = [cells("computed block", block)].into_iter();
         PlainTable::new(

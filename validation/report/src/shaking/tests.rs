@@ -25,7 +25,7 @@ fn the_usual_error_of_the_model_follows_from_the_tests() {
     let range = usual.dispersion().interval().unwrap();
     let bias = fitted.bias().interval().unwrap();
     let mut largest = 0.0_f64;
-    for measure in [TestMeasure::Pgv, TestMeasure::AverageSa] {
+    for measure in [TestMeasure::PGV, TestMeasure::AVERAGE_SA] {
         for own in &kept.fitted {
             let own = measure.fragilities(own).unwrap();
             let missing = own.missing_dispersion.value();

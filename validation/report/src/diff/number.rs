@@ -13,18 +13,6 @@ pub const LAST_DIGIT: f64 = 1e-8;
 /// With fewer records than this, a move is mainly due to chance.
 const LEAST: usize = 30;
 
-/// A number of both results.
-pub struct NumberPair {
-    /// The smallest effect of interest; none if no decision rests on it.
-    pub effect: Option<Effect>,
-    /// Its unit.
-    pub unit: Unit,
-    /// Old and new value, with their intervals.
-    pub estimates: [Estimate; 2],
-    /// Numbers of records or ratios behind them, if known.
-    pub n: [Option<usize>; 2],
-}
-
 /// The move of a number.
 #[derive(Clone, Debug, Serialize)]
 pub struct NumberChange {
@@ -44,57 +32,63 @@ pub struct NumberChange {
     pub n: [Option<usize>; 2],
 }
 
-impl NumberPair {
-    /// The change; NaN if only one is a number.
-    pub fn change(&self) -> f64 {
-        let [a, b] = self.estimates.map(|estimate| estimate.value());
-        match self.effect {
-            _ if a == b || (a.is_nan() && b.is_nan()) => 0.0,
-            Some(Effect::Relative(_)) => (b - a) / a.abs(),
-            _ => b - a,
+impl NumberChange {
+    /// The move between an old and a new value; none if they are equal.
+    /// `effect` is the smallest effect of interest, or none if no decision
+    /// rests on the number; `n` are the numbers of records or ratios behind
+    /// both values, if known.
+    pub fn between(
+        effect: Option<Effect>,
+        unit: Unit,
+        estimates: [Estimate; 2],
+        n: [Option<usize>; 2],
+    ) -> Option<Self> {
+        let [a, b] = estimates.map(|estimate| estimate.value());
+        if a == b || (a.is_nan() && b.is_nan()) {
+            return None;
         }
-    }
-
-    /// The move; none if the values are equal.
-    pub fn moved(&self) -> Option<NumberChange> {
-        let change = self.change();
-        let (factor, unit, points) = match self.unit {
+        let (factor, unit, points) = match unit {
             Unit::Share => (100.0, " %", " points"),
             Unit::Points => (100.0, " points", " points"),
             _ => (1.0, "", ""),
         };
         let at = |digits| {
-            self.estimates.map(|e| match e.value().is_nan() {
+            [a, b].map(|x| match x.is_nan() {
                 true => "none".into(),
-                false => plain(factor * e.value(), digits) + unit,
+                false => plain(factor * x, digits) + unit,
             })
         };
         let differ = |[a, b]: &[String; 2]| a != b;
-        let (limit, change_text) = match self.effect {
-            Some(Effect::Relative(x)) => (x, percent(change)),
-            Some(Effect::Absolute(x)) => (x, signed(change, factor, points)),
-            None => (f64::INFINITY, signed(change, factor, points)),
+        let (change, limit) = match effect {
+            Some(Effect::Relative(limit)) => ((b - a) / a.abs(), limit),
+            Some(Effect::Absolute(limit)) => (b - a, limit),
+            None => (b - a, f64::INFINITY),
+        };
+        let change_text = match effect {
+            _ if !change.is_finite() => String::new(),
+            Some(Effect::Relative(_)) => percent(change),
+            _ => signed(change, factor, points),
         };
         let over = change.abs() / (limit * (1.0 + LAST_DIGIT));
-        let over = if over.is_nan() { f64::INFINITY } else { over };
         let half =
             |e: Estimate| e.interval().map(|i| 0.5 * (i.high() - i.low()));
-        let [a, b] = self.estimates;
-        let u = half(a).zip(half(b)).map(|(a, b)| (a * a + b * b).sqrt());
-        let u = u.map(|u| (b.value() - a.value()).abs() / u);
-        let is_known = change.is_finite();
-        (change != 0.0).then(|| NumberChange {
+        let [old, new] = estimates.map(half);
+        let u = old.zip(new).map(|(a, b)| (a * a + b * b).sqrt());
+        let u = u.map(|u| (b - a).abs() / u);
+        Some(Self {
             values: (3..17).map(at).find(differ).unwrap_or_else(|| at(17)),
             change,
-            change_text: if is_known { change_text } else { String::new() },
-            change_over_limit: over,
+            change_text,
+            change_over_limit: if over.is_nan() {
+                f64::INFINITY
+            } else {
+                over
+            },
             change_over_uncertainty: u.filter(|u| u.is_finite()),
-            n: self.n,
+            n,
         })
     }
-}
 
-impl NumberChange {
     /// Whether it matters.
     pub fn is_beyond(&self) -> bool {
         self.change_over_limit > 1.0

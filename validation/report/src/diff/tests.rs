@@ -3,21 +3,21 @@ use rocking_statistics::{Estimate, Interval, Range};
 
 use serde_json::json;
 
-use super::number::{NumberChange, NumberPair};
+use super::number::NumberChange;
 use super::walk::part;
 
 const TENTH: Option<Effect> = Some(Effect::Relative(0.1));
 const POINTS: Option<Effect> = Some(Effect::Absolute(0.1));
 const TOLERANCE: Option<Effect> = Some(Effect::Absolute(1e-9));
 
-/// A number without an interval, on 86 records.
-fn number(effect: Option<Effect>, unit: Unit, ends: [f64; 2]) -> NumberPair {
-    let estimates = ends.map(Estimate::exact);
-    NumberPair { effect, unit, estimates, n: [Some(86); 2] }
-}
-
-fn moved(number: &NumberPair) -> NumberChange {
-    number.moved().unwrap()
+/// The move of a number without an interval, on 86 records.
+fn moved(
+    effect: Option<Effect>,
+    unit: Unit,
+    ends: [f64; 2],
+) -> Option<NumberChange> {
+    let values = ends.map(Estimate::exact);
+    NumberChange::between(effect, unit, values, [Some(86); 2])
 }
 
 #[test]
@@ -42,8 +42,8 @@ fn a_change_is_held_against_the_smallest_effect_of_interest() {
         (None, 1.0, 9.0, false),
         (None, 1.0, nan, true),
     ] {
-        let one = number(effect, Unit::One, [old, new]);
-        let found = one.moved().is_some_and(|m| m.is_beyond());
+        let one = moved(effect, Unit::One, [old, new]);
+        let found = one.is_some_and(|moved| moved.is_beyond());
         assert_eq!(found, beyond, "{effect:?}: {old} to {new}");
     }
 }
@@ -55,7 +55,7 @@ fn a_move_has_the_digits_that_show_it() {
         (TENTH, Unit::One, [2.0, 2.0002], "2 -> 2.0002, +0.01 %, n = 86"),
         (TENTH, Unit::One, [f64::NAN, 1e-3], "none -> 0.001, n = 86"),
     ] {
-        assert_eq!(moved(&number(effect, unit, ends)).text(), text);
+        assert_eq!(moved(effect, unit, ends).unwrap().text(), text);
     }
 }
 
@@ -65,17 +65,17 @@ fn what_is_least_a_matter_of_chance_weighs_most() {
         let interval = Interval::try_new(value - half, value + half).unwrap();
         Estimate::try_new(value, interval, Range::Real).unwrap()
     };
-    let sure = NumberPair {
-        estimates: [estimate(1.0, 0.03), estimate(1.2, 0.04)],
-        ..number(TENTH, Unit::One, [1.0, 1.2])
+    let values = [estimate(1.0, 0.03), estimate(1.2, 0.04)];
+    let sure = |n| {
+        NumberChange::between(TENTH, Unit::One, values, [Some(n), Some(86)])
     };
-    let [u, open] = [&sure, &number(TENTH, Unit::One, [1.0, 1.3])].map(moved);
+    let u = sure(86).unwrap();
+    let open = moved(TENTH, Unit::One, [1.0, 1.3]).unwrap();
     // 0.2 over the root of 0.03^2 + 0.04^2, against 30 % over 10 %.
     assert!((u.change_over_uncertainty.unwrap() - 4.0).abs() < 1e-9);
     assert_eq!(open.change_over_uncertainty, None);
     assert!(u.weight() > open.weight());
-    let few = NumberPair { n: [Some(29), Some(86)], ..sure };
-    assert!(moved(&few).weight() < open.weight());
+    assert!(sure(29).unwrap().weight() < open.weight());
 }
 
 #[test]

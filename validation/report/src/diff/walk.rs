@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::change::{Change, Difference, Subject};
 use super::input::{bounded, text};
-use super::number::NumberPair;
+use super::number::NumberChange;
 use rocking_common::findings::{
     ClaimResult, Effect, Exists, Quantity, RowPlace, Seen, SuiteSet, TableRow,
     Topic, Unit,
@@ -138,16 +138,16 @@ impl Walk<'_> {
         *self.out.compared.entry(of).or_default() += 1;
     }
 
-    fn number(&mut self, what: String, number: &NumberPair) {
+    fn number(&mut self, what: String, moved: Option<NumberChange>) {
         self.tally(Subject::Number);
-        if let Some(moved) = number.moved() {
+        self.out.changes.extend(moved.map(|moved| {
             let said = moved.values.clone().map(Some);
-            self.out.changes.push(Change {
+            Change {
                 relevant: moved.is_beyond(),
                 moved: Some(moved),
                 ..Change::of(Subject::Number, what, said)
-            });
-        }
+            }
+        }));
     }
 
     /// Compares the numbers of a row of a table.
@@ -160,23 +160,21 @@ impl Walk<'_> {
         let RowPlace { suite, intensity, .. } = b.at;
         for (k, Quantity { name, words, unit }) in new.iter().enumerate() {
             let n = [(&a, self.roots[0]), (&b, self.roots[1])];
-            let number = NumberPair {
-                effect: topic.smallest_effect(*unit),
-                unit: *unit,
-                estimates: [a.values[k], b.values[k]],
-                n: n.map(|(row, root)| {
-                    let own = behind(&new, row, name);
-                    own.or_else(|| records(root, suite?.name()))
-                }),
-            };
+            let n = n.map(|(row, root)| {
+                let own = behind(&new, row, name);
+                own.or_else(|| records(root, suite?.name()))
+            });
+            let effect = topic.smallest_effect(*unit);
+            let values = [a.values[k], b.values[k]];
+            let moved = NumberChange::between(effect, *unit, values, n);
             if topic == Topic::Overturning {
                 let group =
                     RowPlace { suite, intensity, ..RowPlace::default() };
                 let medians = &mut self.out.effect.medians;
                 let own = medians.entry(placed(&group)).or_default();
-                own.push(number.change());
+                own.push(moved.as_ref().map_or(0.0, |moved| moved.change));
             }
-            self.number(format!("{words}, {}", placed(&b.at)), &number);
+            self.number(format!("{words}, {}", placed(&b.at)), moved);
         }
         Some(())
     }
@@ -187,12 +185,10 @@ impl Walk<'_> {
         let plain = Some(&claim["plain"]).filter(|plain| *plain != "");
         let named = text(plain.or(claim.get("measure")));
         let what = format!("\"{named}\" ({id}), {}", b.place());
-        let number = NumberPair {
-            effect: Effect::of(b.unit),
-            unit: b.unit,
-            estimates: [a.estimate, b.estimate],
-            n: self.roots.map(|root| records(root, b.suite.name())),
-        };
+        let n = self.roots.map(|root| records(root, b.suite.name()));
+        let values = [a.estimate, b.estimate];
+        let effect = Effect::of(b.unit);
+        let moved = NumberChange::between(effect, b.unit, values, n);
         let seen = [a.seen, b.seen];
         let exists = [a.exists, b.exists];
         let turned = |seen: &[Seen; 2]| {
@@ -205,7 +201,7 @@ impl Walk<'_> {
                 "exists",
                 exists.map(|exists| Some(exists?.name())),
                 against.iter().all(|word| exists.contains(word)),
-                number.moved(),
+                moved.clone(),
             ),
         ] {
             if words[0].and(words[1]).is_some() {
@@ -219,21 +215,19 @@ impl Walk<'_> {
                 self.out.changes.push(change);
             }
         }
-        self.number(what, &number);
+        self.number(what, moved);
     }
 
     /// Compares the values of a quantity of a case.
     fn values(&mut self, what: &str, [a, b]: &Sides<QuantityResult>) {
         for (k, (old, new)) in a.first.iter().zip(&b.first).enumerate() {
-            let number = NumberPair {
-                // Every bound was checked when it was read.
-                effect: bounded(b, old.0).unwrap_or_default(),
-                unit: Unit::One,
-                estimates: [old.0, new.0].map(Estimate::exact),
-                n: [None; 2],
-            };
+            // Every bound was checked when it was read.
+            let effect = bounded(b, old.0).unwrap_or_default();
+            let values = [old.0, new.0].map(Estimate::exact);
+            let moved =
+                NumberChange::between(effect, Unit::One, values, [None; 2]);
             let what = format!("{what}, value {} of {}", k + 1, b.values);
-            self.number(what, &number);
+            self.number(what, moved);
         }
     }
 }

@@ -17,7 +17,7 @@ use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 use rocking_common::suites::inputs::read_suite;
 use rocking_report::speed::answers::ToolAnswer;
-use rocking_report::speed::cases::{SpeedCase, speed_cases};
+use rocking_report::speed::cases::speed_cases;
 use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
@@ -70,11 +70,6 @@ pub struct SpeedCommand {
 pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     let cases = speed_cases()?;
     if let Some(folder) = &args.export {
-        for SpeedCase { name, analysis, record, pga_g } in &cases {
-            let level = [*pga_g].into_iter();
-            let folder = folder.join("singles");
-            export::write(&folder, name, (analysis, record), level)?;
-        }
         let (records, _) = records(args)?;
         let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
@@ -82,17 +77,7 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         let job =
             CurveWork { analyses: &analyses, records: &records, way, threads };
         let (_, found) = job.measure("")?;
-        for (analysis, found) in analyses.iter().zip(&found) {
-            let block = &analysis.block;
-            let (p, alpha) =
-                (block.frequency_rad_s(), block.slenderness_rad());
-            let folder = folder.join(format!("chains/p{p}-a{alpha:.2}"));
-            for (record, curve) in records.iter().zip(found) {
-                let levels = curve.points.iter().map(|point| point.pga_g);
-                let name = record.name();
-                export::write(&folder, name, (analysis, record), levels)?;
-            }
-        }
+        export::cases_and_chains(folder, &cases, &job, &found)?;
         return Ok(());
     }
     let mut outputs = Outputs::of(args.answers.clone());

@@ -1,9 +1,14 @@
-//! Linear and logarithmic axes with round ticks.
+//! Linear and logarithmic axes with round ticks, as axes of plotters.
 //!
 //! plotters chooses the ticks of a linear axis. On a logarithmic axis it marks
-//! nothing below the first decade: the ticks there are our own.
+//! nothing below the first decade: the ticks there are our own. So is the
+//! mapping, because plotters takes the logarithm of the platform.
 
-use plotters::coord::ranged1d::{BoldPoints, Ranged as _};
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{
+    BoldPoints, KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter,
+};
 use plotters::coord::types::RangedCoordf64;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +31,27 @@ pub enum AxisScale {
     /// Inverse hyperbolic sine of the logarithm over this width: linear
     /// within it about 1, logarithmic twice over beyond.
     AboutOne(f64),
+}
+
+impl AxisScale {
+    /// What the axis is linear in; NaN for what it cannot show.
+    fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Linear => x,
+            _ if !(x > 0.0) => f64::NAN,
+            Self::Logarithmic => libm::log(x),
+            Self::AboutOne(width) => libm::asinh(libm::log(x) / width),
+        }
+    }
+
+    /// The value of what the axis is linear in.
+    fn value(self, y: f64) -> f64 {
+        match self {
+            Self::Linear => y,
+            Self::Logarithmic => libm::exp(y),
+            Self::AboutOne(width) => libm::exp(width * libm::sinh(y)),
+        }
+    }
 }
 
 /// Ticks of an axis of ratios in the order in which they get room.
@@ -184,19 +210,46 @@ impl Axis {
     /// Where a value lies: 0 at the lower end, 1 at the upper; NaN for what
     /// the axis cannot show.
     pub fn place(&self, x: f64) -> f64 {
-        let positive = |f: &dyn Fn(f64) -> f64| {
-            if x.is_nan() || x <= 0.0 {
-                return f64::NAN;
-            }
-            (f(x) - f(self.low)) / (f(self.high) - f(self.low))
-        };
-        match self.scale {
-            AxisScale::Linear => (x - self.low) / (self.high - self.low),
-            AxisScale::Logarithmic => positive(&libm::log),
-            AxisScale::AboutOne(width) => {
-                positive(&|x| libm::asinh(libm::log(x) / width))
-            }
+        let [low, high] = [self.low, self.high].map(|x| self.scale.of(x));
+        (self.scale.of(x) - low) / (high - low)
+    }
+
+    /// The value at a place.
+    pub(crate) fn value(&self, place: f64) -> f64 {
+        let [low, high] = [self.low, self.high].map(|x| self.scale.of(x));
+        self.scale.value(place.mul_add(high - low, low))
+    }
+}
+
+/// A number of points that stands for the unlabelled ticks.
+pub(crate) const UNLABELLED: usize = 0;
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, x: &f64, (from, to): (i32, i32)) -> i32 {
+        // What the axis cannot show lies below it.
+        let (place, from) = (self.place(*x).max(-1.0), f64::from(from));
+        place.mul_add(f64::from(to) - from, from).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        match hint.bold_points() {
+            UNLABELLED => self.minor.clone(),
+            _ => self.ticks.iter().map(|tick| tick.at).collect(),
         }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, at: &f64) -> String {
+        let tick = self.ticks.iter().find(|tick| tick.at == *at);
+        tick.map_or(String::new(), |tick| tick.label.clone())
     }
 }
 

@@ -5,7 +5,32 @@
 //! about ten, so they stay apart for colour-blind readers and in grey; each
 //! also has a dash of its own.
 
+use plotters::style::{Color as _, RGBColor, ShapeStyle};
+use plotters_backend::BackendColor;
 use serde::{Deserialize, Serialize};
+
+/// Classes of the inks in the style sheet, by their number.
+const CLASSES: [&str; 10] =
+    ["p", "t", "m", "g", "s1", "s2", "s3", "s4", "s5", "s6"];
+/// Attributes of the dashes, by their number.
+const DASHES: [&str; 6] = [
+    "",
+    " stroke-dasharray=\"5 2.5\"",
+    " stroke-dasharray=\"1.2 1.8\"",
+    " stroke-dasharray=\"6 2 1.2 2\"",
+    " stroke-dasharray=\"10 3\"",
+    " stroke-dasharray=\"2.5 1.5\"",
+];
+
+/// Class of the ink that a colour is the number of.
+pub(crate) fn class(colour: BackendColor) -> &'static str {
+    CLASSES[usize::from(colour.rgb.0)]
+}
+
+/// Attribute of the dash that a colour is the number of.
+pub(crate) fn dash_array(colour: BackendColor) -> &'static str {
+    DASHES[usize::from(colour.rgb.1)]
+}
 
 /// What a shape is drawn with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,17 +51,16 @@ impl Ink {
     /// Number of different series inks.
     pub const SERIES: usize = 6;
 
-    /// Its class in the style sheet.
-    pub(super) fn class(self) -> &'static str {
-        match self {
-            Self::Paper => "p",
-            Self::Text => "t",
-            Self::Muted => "m",
-            Self::Grid => "g",
-            Self::Series(k) => {
-                ["s1", "s2", "s3", "s4", "s5", "s6"][k % Self::SERIES]
-            }
-        }
+    /// The colour that is its number.
+    pub(crate) fn colour(self) -> RGBColor {
+        let number = match self {
+            Self::Paper => 0,
+            Self::Text => 1,
+            Self::Muted => 2,
+            Self::Grid => 3,
+            Self::Series(k) => 4 + (k % Self::SERIES) as u8,
+        };
+        RGBColor(number, 0, 0)
     }
 }
 
@@ -62,18 +86,6 @@ impl Dash {
     pub fn of_series(series: usize) -> Self {
         use Dash::{DashDot, Dashed, Dotted, Long, Short, Solid};
         [Solid, Dashed, Dotted, DashDot, Long, Short][series % 6]
-    }
-
-    /// SVG's dash array.
-    pub(super) fn array(self) -> Option<&'static str> {
-        match self {
-            Self::Solid => None,
-            Self::Dashed => Some("5 2.5"),
-            Self::Dotted => Some("1.2 1.8"),
-            Self::DashDot => Some("6 2 1.2 2"),
-            Self::Long => Some("10 3"),
-            Self::Short => Some("2.5 1.5"),
-        }
     }
 }
 
@@ -108,6 +120,22 @@ impl Pen {
     }
 }
 
+impl From<Pen> for ShapeStyle {
+    /// The width is in hundredths of a pixel.
+    fn from(pen: Pen) -> Self {
+        let width = (100.0 * pen.width_px).round().max(1.0);
+        let RGBColor(ink, ..) = pen.ink.colour();
+        RGBColor(ink, pen.dash as u8, 0).stroke_width(width as u32)
+    }
+}
+
+impl From<Fill> for ShapeStyle {
+    fn from(fill: Fill) -> Self {
+        let opacity = f64::from(fill.percent) / 100.0;
+        fill.ink.colour().mix(opacity).filled()
+    }
+}
+
 /// An area's ink and opacity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fill {
@@ -131,23 +159,4 @@ impl Fill {
 
 /// The style sheet of every figure. A page that holds several puts it in its
 /// head once.
-pub const STYLE: &str = "svg.fig .p{fill:#fff}svg.fig .t{fill:#1a1a1a}svg.fig \
-.m{fill:#595959}svg.fig .g{fill:#e2e2e2}svg.fig .s1{fill:#1f2d78}svg.fig \
-.s2{fill:#a3195b}svg.fig .s3{fill:#c2570c}svg.fig .s4{fill:#13877a}svg.fig \
-.s5{fill:#7a9a01}svg.fig .s6{fill:#6f6f6f}svg.fig path.l,svg.fig \
-circle.l{fill:none;stroke-linejoin:round}svg.fig .l.t{stroke:#1a1a1a}svg.fig \
-.l.m{stroke:#6b6b6b}svg.fig .l.g{stroke:#e2e2e2}svg.fig \
-.l.p{stroke:#fff}svg.fig .l.s1{stroke:#1f2d78}svg.fig \
-.l.s2{stroke:#a3195b}svg.fig .l.s3{stroke:#c2570c}svg.fig \
-.l.s4{stroke:#13877a}svg.fig .l.s5{stroke:#7a9a01}svg.fig \
-.l.s6{stroke:#6f6f6f}svg.fig .r{stroke-linecap:round}@media screen and \
-(prefers-color-scheme:dark){svg.fig .p{fill:#15181c}svg.fig \
-.t{fill:#e8e8e8}svg.fig .m{fill:#a8adb3}svg.fig .g{fill:#333a41}svg.fig \
-.s1{fill:#8fa2ff}svg.fig .s2{fill:#ff8ac4}svg.fig .s3{fill:#ffa55c}svg.fig \
-.s4{fill:#4fd6c3}svg.fig .s5{fill:#d4ee6a}svg.fig .s6{fill:#b0b0b0}svg.fig \
-path.l,svg.fig circle.l{fill:none}svg.fig .l.t{stroke:#e8e8e8}svg.fig \
-.l.m{stroke:#9aa0a6}svg.fig .l.g{stroke:#333a41}svg.fig \
-.l.p{stroke:#15181c}svg.fig .l.s1{stroke:#8fa2ff}svg.fig \
-.l.s2{stroke:#ff8ac4}svg.fig .l.s3{stroke:#ffa55c}svg.fig \
-.l.s4{stroke:#4fd6c3}svg.fig .l.s5{stroke:#d4ee6a}svg.fig \
-.l.s6{stroke:#b0b0b0}}";
+pub const STYLE: &str = include_str!("figure.css");

@@ -1,6 +1,6 @@
-//! Points, rectangles, clipping and simplification, in pixels.
+//! Points, rectangles, clipping and simplification.
 
-/// A point in px, y downwards.
+/// A point, in px with y downwards unless said otherwise.
 pub type Point = (f64, f64);
 
 /// A rectangle in px.
@@ -17,24 +17,6 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Width.
-    pub fn width(&self) -> f64 {
-        self.right - self.left
-    }
-
-    /// Height.
-    pub fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
-
-    /// Whether the point lies inside or on the edge, within `slack`.
-    pub fn contains(&self, (x, y): Point, slack: f64) -> bool {
-        x >= self.left - slack
-            && x <= self.right + slack
-            && y >= self.top - slack
-            && y <= self.bottom + slack
-    }
-
     /// The four corners, clockwise.
     pub fn corners(&self) -> [Point; 4] {
         [
@@ -46,14 +28,22 @@ impl Rect {
     }
 }
 
-/// The parts of a polyline inside the rectangle; a point that is not finite
-/// breaks the line.
-pub fn clip(line: &[Point], to: Rect) -> Vec<Vec<Point>> {
+/// A vector in px of this length, `angle` rad from upwards, positive to the
+/// right, from a point.
+pub fn from((x, y): Point, length: f64, angle: f64) -> Point {
+    (
+        length.mul_add(libm::sin(angle), x),
+        (-length).mul_add(libm::cos(angle), y),
+    )
+}
+
+/// The parts of a polyline whose coordinates lie between 0 and 1; a point
+/// that is not finite breaks the line.
+pub fn clip(line: &[Point]) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
     let mut open = false;
     for pair in line.windows(2) {
-        let [a, b] = [pair[0], pair[1]];
-        let Some((start, end)) = clip_segment(a, b, to) else {
+        let Some((start, end)) = clip_segment(pair[0], pair[1]) else {
             open = false;
             continue;
         };
@@ -63,53 +53,33 @@ pub fn clip(line: &[Point], to: Rect) -> Vec<Vec<Point>> {
             }
             _ => parts.push(vec![start, end]),
         }
-        open = end == b;
+        open = end == pair[1];
     }
     parts
 }
 
 /// Liang and Barsky's clipping of one segment.
-fn clip_segment(a: Point, b: Point, to: Rect) -> Option<(Point, Point)> {
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+fn clip_segment(a: Point, b: Point) -> Option<(Point, Point)> {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    for (slope, room) in [
-        (-dx, a.0 - to.left),
-        (dx, to.right - a.0),
-        (-dy, a.1 - to.top),
-        (dy, to.bottom - a.1),
+    for (from, to) in [
+        (a.0, b.0),
+        (1.0 - a.0, 1.0 - b.0),
+        (a.1, b.1),
+        (1.0 - a.1, 1.0 - b.1),
     ] {
-        if slope.is_nan() || room.is_nan() || slope.is_infinite() {
-            return None;
-        }
-        if slope == 0.0 {
-            if room < 0.0 {
-                return None;
-            }
-        } else if slope < 0.0 {
-            enter = enter.max(room / slope);
-        } else {
-            leave = leave.min(room / slope);
+        let edge = from / (from - to);
+        match (from >= 0.0, to >= 0.0) {
+            _ if !from.is_finite() || !to.is_finite() => return None,
+            (true, true) => {}
+            (false, false) => return None,
+            (false, true) => enter = enter.max(edge),
+            (true, false) => leave = leave.min(edge),
         }
     }
-    if enter > leave {
-        return None;
-    }
-    let at = |t: f64, end: Point| {
-        if t == 0.0 {
-            a
-        } else if t == 1.0 {
-            end
-        } else {
-            (dx.mul_add(t, a.0), dy.mul_add(t, a.1))
-        }
-    };
-    Some((at(enter, b), at(leave, b)))
-}
-
-/// Drops points of a polyline that lie within `tolerance` of what remains.
-pub fn simplify(line: &[Point], tolerance: f64) -> Vec<Point> {
-    let keep = kept(line, tolerance);
-    line.iter().zip(keep).filter(|(_, k)| *k).map(|(p, _)| *p).collect()
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let at = |t: f64| (dx.mul_add(t, a.0), dy.mul_add(t, a.1));
+    let end = if leave < 1.0 { at(leave) } else { b };
+    (enter <= leave).then(|| (at(enter), end))
 }
 
 /// Which points of a polyline stay (Douglas and Peucker, Cartographica 10,

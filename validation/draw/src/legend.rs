@@ -1,11 +1,11 @@
 //! One legend for all panels, above them.
 
+use crate::canvas::{Canvas, style};
 use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::Rect;
 use crate::markup;
 use crate::panel::Marker;
-use crate::scene::Drawing;
-use crate::text::{Horizontal, TEXT_PX, TextLine};
+use crate::text::{Horizontal, TEXT_PX};
 use serde::{Deserialize, Serialize};
 
 const SAMPLE_PX: f64 = 26.0;
@@ -18,6 +18,8 @@ const ROW_PX: f64 = 18.0;
 pub enum Sample {
     /// A line.
     Line(Pen),
+    /// A line between two others.
+    Quantiles(Pen, Pen),
     /// A mark.
     Mark(Marker, Ink),
     /// A mark on a line.
@@ -26,6 +28,8 @@ pub enum Sample {
     Box(Ink),
     /// A filled band.
     Band(Fill),
+    /// A line over its band.
+    LineAndBand(Pen, Fill),
 }
 
 /// One entry.
@@ -76,41 +80,55 @@ pub fn height(entries: &[Entry], width_px: f64) -> f64 {
     if rows == 0 { 0.0 } else { (rows as f64).mul_add(ROW_PX, 8.0) }
 }
 
-/// Draws the legend centred at the head of the scene.
-pub fn draw(scene: &mut Drawing, entries: &[Entry]) {
-    let width = scene.extent().right;
-    for (i, row) in rows(entries, width - 2.0 * BETWEEN_PX).iter().enumerate()
-    {
+/// Draws the legend centred at the head of a drawing of this width.
+pub(crate) fn draw(canvas: &Canvas<'_>, entries: &[Entry], width_px: f64) {
+    let words = style(TEXT_PX, Ink::Text, Horizontal::Left);
+    let rows = rows(entries, width_px - 2.0 * BETWEEN_PX);
+    for (i, row) in rows.iter().enumerate() {
         let between = BETWEEN_PX * (row.len() - 1) as f64;
         let total = row.iter().fold(between, |sum, e| sum + e.width());
-        let mut x = (width - total) / 2.0;
+        let mut x = (width_px - total) / 2.0;
         let y = (i as f64).mul_add(ROW_PX, 16.0);
         for entry in row {
-            draw_sample(scene, entry.sample, x, y);
+            draw_sample(canvas, entry.sample, x, y);
             let at = (x + SAMPLE_PX + GAP_PX, y + 0.36 * TEXT_PX);
-            scene.text(TextLine::new(&entry.label, at, Horizontal::Left));
+            canvas.text(&entry.label, at, words.clone());
             x += entry.width() + BETWEEN_PX;
         }
     }
 }
 
-fn draw_sample(scene: &mut Drawing, sample: Sample, x: f64, y: f64) {
-    let ends = [(x, y), (x + SAMPLE_PX, y)];
+fn draw_sample(canvas: &Canvas<'_>, sample: Sample, x: f64, y: f64) {
+    let line = |up: f64, pen| {
+        canvas.line(&[(x, y - up), (x + SAMPLE_PX, y - up)], pen);
+    };
     let middle = (x + SAMPLE_PX / 2.0, y);
     let (left, right) = (x + 5.0, x + SAMPLE_PX - 5.0);
     let (top, bottom) = (y - 5.0, y + 5.0);
     let corners = Rect { left, top, right, bottom }.corners();
     match sample {
-        Sample::Line(pen) => scene.line(&ends, pen),
-        Sample::Mark(marker, ink) => marker.draw(scene, middle, 3.2, ink),
+        Sample::Line(pen) => line(0.0, pen),
+        Sample::Quantiles(pen, sides) => {
+            for (up, pen) in [(4.0, sides), (0.0, pen), (-4.0, sides)] {
+                line(up, pen);
+            }
+        }
+        Sample::Mark(marker, ink) => marker.draw(canvas, middle, 3.2, ink),
         Sample::LineAndMark(pen, marker) => {
-            scene.line(&ends, pen);
-            marker.draw(scene, middle, 3.0, pen.ink);
+            line(0.0, pen);
+            marker.draw(canvas, middle, 3.0, pen.ink);
+        }
+        Sample::LineAndBand(pen, fill) => {
+            canvas.area(&corners, fill);
+            line(0.0, pen);
         }
         Sample::Box(ink) => {
-            scene.area(&corners, Fill::tint(ink, 28));
-            scene.outline(&corners, Pen::new(ink, 0.9));
+            canvas.area(&corners, Fill::tint(ink, 28));
+            canvas.outline(&corners, Pen::new(ink, 0.9));
         }
-        Sample::Band(fill) => scene.area(&corners, fill),
+        Sample::Band(fill) => {
+            canvas.area(&corners, fill);
+            canvas.outline(&corners, Pen::new(Ink::Muted, 0.4));
+        }
     }
 }

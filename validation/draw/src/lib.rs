@@ -1,13 +1,14 @@
 //! Drawing in the house style: hairlines, sub-pixel coordinates, marked-up
 //! text, one palette for light, dark, print and grey.
 //!
-//! A `Drawing` is a list of shapes in pixels, built without failing;
-//! `Drawing::svg` writes them.
-//! Layout uses a table of text widths, never the machine's fonts, so the same
-//! scene gives the same bytes everywhere.
+//! plotters draws, on a backend that records shapes and writes them as SVG
+//! (`drawing`). Layout uses a table of text widths and never the machine's
+//! fonts, so that the same figure has the same bytes everywhere.
 
 pub mod axis;
+mod canvas;
 pub mod colour;
+mod drawing;
 pub mod figures;
 mod geometry;
 pub mod grid;
@@ -15,8 +16,6 @@ pub mod legend;
 pub mod markup;
 pub mod page;
 pub mod panel;
-mod scene;
-mod svg;
 pub mod text;
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
                           base-uri 'none'; form-action 'none'";
 
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
-const WIDE_PX: f64 = 640.0;
+const WIDE_PX: u32 = 640;
 
 /// The head of a page, with all styles.
 #[must_use]
@@ -43,12 +43,13 @@ pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
     // Others share what stands in the place of a number.
     let called = if heading.number.is_some() { &number } else { title };
     let label = format!("{called}, drawing");
-    let svg = shown.svg();
-    let class = if shown.scene().extent().right > WIDE_PX {
+    let drawing = shown.scene();
+    let class = if drawing.size_px.0 > WIDE_PX {
         "scroll drawing wide"
     } else {
         "scroll drawing"
     };
+    let svg = drawing.finish();
     html! {
         figure.figure id=(name) {
             figcaption {

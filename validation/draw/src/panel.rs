@@ -1,18 +1,32 @@
-//! One pair of axes and what is drawn on them.
+//! One pair of axes and what is drawn on them, as a chart of plotters.
 
-use crate::axis::Axis;
-use crate::colour::{Fill, Ink, Pen};
-use crate::geometry::{Point, Rect, clip};
-use crate::markup;
-use crate::scene::Drawing;
-use crate::text::{Horizontal, TEXT_PX, TextLine};
+use std::f64::consts::TAU;
+
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::element::Polygon;
+use plotters::series::LineSeries;
+use plotters::style::TRANSPARENT;
 use serde::{Deserialize, Serialize};
+
+use crate::axis::{Axis, UNLABELLED};
+use crate::canvas::{Canvas, done, style};
+use crate::colour::{Fill, Ink, Pen};
+use crate::drawing::{Drawing, px, units};
+use crate::geometry::{Point, Rect, clip, from};
+use crate::markup;
+use crate::text::{Horizontal, TEXT_PX};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;
 const TITLE_PX: f64 = 12.0;
 /// Between the baselines of two notes.
 const NOTE_PX: f64 = 13.5;
+/// From an axis to the far edge of its label.
+const BELOW_PX: f64 = 33.0;
+const ABOVE_PX: f64 = 30.0;
+/// How far outside the frame a mark may lie, as a share of it.
+const SLACK: f64 = 0.002;
 const HAIRLINE: Pen = Pen::new(Ink::Text, 0.7);
 const GRID: Pen = Pen::new(Ink::Grid, 0.6);
 
@@ -39,6 +53,10 @@ pub enum Marker {
     Beyond,
     /// Arrow head to the left.
     BeyondLeft,
+    /// Arrow head upwards.
+    BeyondAbove,
+    /// Arrow head downwards.
+    BeyondBelow,
 }
 
 impl Marker {
@@ -49,300 +67,256 @@ impl Marker {
     }
 
     /// Draws the mark; `r` is its half width in px.
-    pub fn draw(self, scene: &mut Drawing, at: Point, r: f64, ink: Ink) {
-        let (x, y) = at;
+    pub(crate) fn draw(self, on: &Canvas<'_>, at: Point, r: f64, ink: Ink) {
+        // Corners of a regular polygon, the first at so many turns from
+        // upwards.
+        let corners = |count: u8, size: f64, turns: f64| -> Vec<Point> {
+            let turn = |k| TAU * (turns + f64::from(k) / f64::from(count));
+            (0..count).map(|k| from(at, size * r, turn(k))).collect()
+        };
+        let area = |count, size, turns, ink| {
+            on.area(&corners(count, size, turns), Fill::solid(ink));
+        };
         let pen = Pen::new(ink, 0.9);
-        let fill = Fill::solid(ink);
+        let cross = |turns| {
+            on.line(&corners(2, 1.1, turns), pen);
+            on.line(&corners(2, 1.1, turns + 0.25), pen);
+        };
+        let head = |turns| {
+            let ends = corners(3, 1.2, turns);
+            on.line(&[ends[1], ends[0], ends[2]], pen);
+        };
         match self {
-            Self::Dot => scene.dot(at, r, ink),
-            Self::Cross => {
-                let s = 0.8 * r;
-                scene.line(&[(x - s, y - s), (x + s, y + s)], pen);
-                scene.line(&[(x - s, y + s), (x + s, y - s)], pen);
+            Self::Dot => on.dot(at, r, ink),
+            Self::Cross => cross(0.125),
+            Self::Plus => cross(0.0),
+            Self::Square => area(4, 1.24, 0.125, ink),
+            Self::OpenSquare => {
+                area(4, 1.24, 0.125, Ink::Paper);
+                on.outline(&corners(4, 1.24, 0.125), pen);
             }
-            Self::Beyond | Self::BeyondLeft => {
-                let r_x = if self == Self::Beyond { r } else { -r };
-                let back = (-0.7_f64).mul_add(r_x, x);
-                let head = [(back, y - r), (x + r_x, y), (back, y + r)];
-                scene.line(&head, pen);
-            }
-            Self::Plus => {
-                scene.line(&[(x - r, y), (x + r, y)], pen);
-                scene.line(&[(x, y - r), (x, y + r)], pen);
-            }
-            Self::Square | Self::OpenSquare => {
-                let s = 0.88 * r;
-                let (l, r, t, b) = (x - s, x + s, y - s, y + s);
-                let square = [(l, t), (r, t), (r, b), (l, b)];
-                if self == Self::Square {
-                    scene.area(&square, fill);
-                } else {
-                    scene.area(&square, Fill::solid(Ink::Paper));
-                    scene.outline(&square, pen);
-                }
-            }
-            Self::Triangle | Self::Down => {
-                let up = if self == Self::Triangle { r } else { -r };
-                let base = 0.6_f64.mul_add(up, y);
-                let tip = (x, (-1.15_f64).mul_add(up, y));
-                scene.area(&[tip, (x + r, base), (x - r, base)], fill);
-            }
-            Self::Diamond => {
-                let s = 1.2 * r;
-                let ends = [(x, y - s), (x + s, y), (x, y + s), (x - s, y)];
-                scene.area(&ends, fill);
-            }
+            Self::Triangle => area(3, 1.15, 0.0, ink),
+            Self::Diamond => area(4, 1.2, 0.0, ink),
+            Self::Down => area(3, 1.15, 0.5, ink),
+            Self::Beyond => head(0.25),
+            Self::BeyondLeft => head(0.75),
+            Self::BeyondAbove => head(0.0),
+            Self::BeyondBelow => head(0.5),
         }
     }
 }
+
+type AxesChart<'d> =
+    ChartContext<'d, &'d mut Drawing, Cartesian2d<Axis, Axis>>;
 
 /// A panel being drawn: [`Panel::new`] draws the grid, [`Panel::finish`] the
 /// axes over the data.
-#[derive(Debug)]
-pub struct Panel<'s> {
-    scene: &'s mut Drawing,
+pub(crate) struct Panel<'d> {
+    canvas: Canvas<'d>,
+    chart: AxesChart<'d>,
     frame: Rect,
-    x: Axis,
-    y: Axis,
     second: Option<Axis>,
     empty: bool,
-    reason: &'static str,
 }
 
-impl<'s> Panel<'s> {
-    /// Starts a panel with its grid lines.
-    pub fn new(scene: &'s mut Drawing, frame: Rect, x: Axis, y: Axis) -> Self {
-        let (second, empty) = (None, true);
-        let reason = "no data in this range";
-        let panel = Self { scene, frame, x, y, second, empty, reason };
-        for tick in panel.x.ticks.iter().filter(|_| panel.x.grid) {
-            let x = panel.to_px((tick.at, 0.0)).0;
-            panel.scene.line(&[(x, frame.top), (x, frame.bottom)], GRID);
+/// A chart with this plot area and this room for its axes: left of it, below
+/// and above. plotters takes the last unit of a range for itself.
+fn chart<'d>(
+    canvas: &Canvas<'d>,
+    frame: Rect,
+    (x, y): (Axis, Axis),
+    [left, below, above]: [f64; 3],
+) -> AxesChart<'d> {
+    let (width, height) = canvas.0.dim_in_pixel();
+    let chart = ChartBuilder::on(&canvas.0)
+        .margin_left(units(frame.left - left))
+        .margin_right(width as i32 - units(frame.right) - 1)
+        .margin_top(units(frame.top - above))
+        .margin_bottom(height as i32 - units(frame.bottom + below) - 1)
+        .y_label_area_size(units(left))
+        .x_label_area_size(units(below))
+        .top_x_label_area_size(units(above))
+        .build_cartesian_2d(x, y);
+    done(chart)
+}
+
+/// Draws axes with their labels, and first their unlabelled ticks, which are
+/// shorter.
+fn draw_axes(chart: &mut AxesChart<'_>) {
+    let axes = chart.as_coord_spec();
+    let [x, y] = [axes.x_spec(), axes.y_spec()].map(|a| a.title.clone());
+    let words = style(TEXT_PX, Ink::Text, Horizontal::Centre);
+    let none = String::new;
+    for (ticks, tick_px, x, y) in
+        [(UNLABELLED, MINOR_PX, none(), none()), (1, TICK_PX, x, y)]
+    {
+        let mut axes = chart.configure_mesh();
+        axes.disable_mesh().axis_style(HAIRLINE).label_style(words.clone());
+        axes.x_labels(ticks).y_labels(ticks).x_desc(x).y_desc(y);
+        done(axes.set_all_tick_mark_size(units(tick_px)).draw());
+    }
+}
+
+impl<'d> Panel<'d> {
+    /// Starts a panel with its grid lines. A second horizontal axis goes over
+    /// the same width, at the upper edge.
+    pub(crate) fn new(
+        canvas: &Canvas<'d>,
+        frame: Rect,
+        (x, y): (Axis, Axis),
+        second: Option<Axis>,
+    ) -> Self {
+        let widths = y.ticks.iter().map(|t| markup::width(&t.label, TEXT_PX));
+        let room = 2.0 * TICK_PX + widths.fold(0.0, f64::max) + 8.0;
+        // Up to the upper edge of the label.
+        let left = (room.max(28.0) + 0.74 * TEXT_PX).min(frame.left);
+        let grids = [x.grid, y.grid];
+        let mut chart = chart(canvas, frame, (x, y), [left, BELOW_PX, 0.0]);
+        let mut grid = chart.configure_mesh();
+        grid.bold_line_style(GRID).light_line_style(TRANSPARENT);
+        if !grids[0] {
+            grid.disable_x_mesh();
         }
-        for tick in panel.y.ticks.iter().filter(|_| panel.y.grid) {
-            let y = panel.to_px((0.0, tick.at)).1;
-            panel.scene.line(&[(frame.left, y), (frame.right, y)], GRID);
+        if !grids[1] {
+            grid.disable_y_mesh();
         }
-        panel
+        done(grid.disable_axes().draw());
+        Self { canvas: canvas.clone(), chart, frame, second, empty: true }
     }
 
-    /// Another horizontal axis over the same width, at the upper edge, where
-    /// there is one.
-    pub fn with_second(self, second: Option<Axis>) -> Self {
-        Self { second, ..self }
-    }
-
-    /// Says why there may be nothing to see.
-    pub fn empty_because(self, reason: &'static str) -> Self {
-        Self { reason, ..self }
-    }
-
-    /// Both ends of the horizontal axis.
-    pub fn horizontal_range(&self) -> Point {
-        self.x.range()
-    }
-
-    /// The scene, for shapes placed in px.
-    pub fn scene(&mut self) -> &mut Drawing {
-        self.scene
+    /// The axes.
+    pub(crate) fn axes(&self) -> [&Axis; 2] {
+        let axes = self.chart.as_coord_spec();
+        [axes.x_spec(), axes.y_spec()]
     }
 
     /// Data to px.
-    pub fn to_px(&self, (x, y): Point) -> Point {
-        (
-            self.x.place(x).mul_add(self.frame.width(), self.frame.left),
-            (-self.y.place(y)).mul_add(self.frame.height(), self.frame.bottom),
-        )
-    }
-
-    /// Notes that the panel shows something.
-    pub fn mark_used(&mut self) {
-        self.empty = false;
+    pub(crate) fn to_px(&self, point: Point) -> Point {
+        let (x, y) = self.chart.backend_coord(&point);
+        (px(x), px(y))
     }
 
     /// A polyline, cut at the frame and at values that are not finite.
-    pub fn line(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
-        let px: Vec<Point> =
-            points.into_iter().map(|p| self.to_px(p)).collect();
-        for part in clip(&px, self.frame) {
-            self.scene.line(&part, pen);
-            self.empty = false;
-        }
+    pub(crate) fn line(
+        &mut self,
+        points: impl IntoIterator<Item = Point>,
+        pen: Pen,
+    ) {
+        self.empty &= !self.reference(points, pen);
     }
 
-    /// A reference line that does not count as data.
-    pub fn reference(&mut self, from: Point, to: Point, pen: Pen) {
-        let px = [self.to_px(from), self.to_px(to)];
-        for part in clip(&px, self.frame) {
-            self.scene.line(&part, pen);
+    /// A line that does not count as data, and whether some of it lies
+    /// inside.
+    pub(crate) fn reference(
+        &mut self,
+        points: impl IntoIterator<Item = Point>,
+        pen: Pen,
+    ) -> bool {
+        let [x, y] = self.axes();
+        let places = points.into_iter().map(|p| (x.place(p.0), y.place(p.1)));
+        let value = |p: &mut Point| *p = (x.value(p.0), y.value(p.1));
+        let mut parts = clip(&places.collect::<Vec<_>>());
+        parts.iter_mut().flatten().for_each(value);
+        let any = !parts.is_empty();
+        for part in parts {
+            done(self.chart.draw_series(LineSeries::new(part, pen)));
         }
+        any
     }
 
     /// A vertical reference line through the whole frame.
-    pub fn vertical(&mut self, x: f64, pen: Pen) {
-        let (low, high) = self.y.range();
-        self.reference((x, low), (x, high), pen);
+    pub(crate) fn vertical(&mut self, x: f64, pen: Pen) {
+        let (low, high) = self.axes()[1].range();
+        self.reference([(x, low), (x, high)], pen);
     }
 
-    /// A horizontal reference line through the whole frame.
-    pub fn horizontal(&mut self, y: f64, pen: Pen) {
-        let (low, high) = self.x.range();
-        self.reference((low, y), (high, y), pen);
-    }
-
-    /// Marks; those outside the frame are left out.
-    pub fn marks(
+    /// Marks, moved by some px; those outside the frame are left out.
+    pub(crate) fn marks(
         &mut self,
         points: impl IntoIterator<Item = Point>,
-        marker: Marker,
-        radius_px: f64,
-        ink: Ink,
+        (marker, radius_px, ink): (Marker, f64, Ink),
+        by: Point,
     ) {
         for point in points {
-            let at = self.to_px(point);
-            if self.frame.contains(at, 0.5) {
-                marker.draw(self.scene, at, radius_px, ink);
+            if self.is_inside(point) {
+                let (x, y) = self.to_px(point);
+                let at = (x + by.0, y + by.1);
+                marker.draw(&self.canvas, at, radius_px, ink);
                 self.empty = false;
             }
         }
     }
 
-    /// Where a point lies in px, or the place in the frame that is nearest.
-    fn inside(&self, point: Point) -> Point {
-        let ((x, y), f) = (self.to_px(point), self.frame);
-        (x.clamp(f.left, f.right), y.clamp(f.top, f.bottom))
+    fn is_inside(&self, point: Point) -> bool {
+        let [x, y] = self.axes();
+        let inside = -SLACK..=1.0 + SLACK;
+        [x.place(point.0), y.place(point.1)].iter().all(|p| inside.contains(p))
     }
 
-    /// A filled rectangle between two points, cut at the frame.
-    pub fn bar(&mut self, a: Point, b: Point, fill: Fill) {
-        let (a, b) = (self.inside(a), self.inside(b));
-        let (left, right) = (a.0.min(b.0), a.0.max(b.0));
-        let (top, bottom) = (a.1.min(b.1), a.1.max(b.1));
-        let bar = Rect { left, right, top, bottom };
-        if bar.width() > 0.0 && bar.height() > 0.0 {
-            self.scene.area(&bar.corners(), fill);
-            self.empty = false;
-        }
+    /// A filled polygon whose corners outside the frame go to its edge.
+    pub(crate) fn area(&mut self, corners: Vec<Point>, fill: Fill) {
+        let area = Polygon::new(corners, fill);
+        done(self.chart.plotting_area().draw(&area));
     }
 
     /// A filled band between two ordinates along x, where both are finite.
-    pub fn band(&mut self, rows: &[(f64, f64, f64)], fill: Fill) {
+    pub(crate) fn band(&mut self, rows: &[(f64, f64, f64)], fill: Fill) {
         let whole = |r: &&(f64, f64, f64)| {
             r.0.is_finite() && r.1.is_finite() && r.2.is_finite()
         };
         let rows: Vec<_> = rows.iter().filter(whole).collect();
-        let below = rows.iter().map(|r| self.inside((r.0, r.1)));
-        let above = rows.iter().rev().map(|r| self.inside((r.0, r.2)));
-        let corners: Vec<Point> = below.chain(above).collect();
-        self.scene.area(&corners, fill);
+        let below = rows.iter().map(|r| (r.0, r.1));
+        let above = rows.iter().rev().map(|r| (r.0, r.2));
+        self.area(below.chain(above).collect(), fill);
     }
 
     /// A note in the lower right-hand corner, so many lines above it.
-    pub fn corner(&mut self, text: &str, lines: usize) {
+    pub(crate) fn corner(&self, text: &str, lines: usize) {
         let up = 8.0 + NOTE_PX * lines as f64;
         let at = (self.frame.right - 5.0, self.frame.bottom - up);
-        self.note(text, at, Horizontal::Right);
+        self.note_px(text, at, Horizontal::Right);
     }
 
-    /// A note on a baseline at a point in px.
-    pub fn note(&mut self, text: &str, at: Point, align: Horizontal) {
-        let line = TextLine::new(text, at, align);
-        self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+    /// A note on a baseline at a point inside the frame.
+    pub(crate) fn note(&self, text: &str, at: Point, align: Horizontal) {
+        if self.is_inside(at) {
+            self.note_px(text, self.to_px(at), align);
+        }
+    }
+
+    fn note_px(&self, text: &str, at: Point, align: Horizontal) {
+        self.canvas.text(text, at, style(TEXT_PX - 1.0, Ink::Muted, align));
     }
 
     /// Words outside the right-hand edge, at an ordinate in px.
-    pub fn right_of_px(&mut self, y: f64, text: &str) {
+    pub(crate) fn right_of_px(&self, y: f64, text: &str) {
         let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);
-        let line = TextLine::new(text, at, Horizontal::Left);
-        self.scene.text(line.size(TEXT_PX - 1.0));
+        let words = style(TEXT_PX - 1.0, Ink::Text, Horizontal::Left);
+        self.canvas.text(text, at, words);
     }
 
-    /// Draws the axes, the title, and words where there is nothing to see.
-    /// Both are in [`super::markup`]; [`super::markup::fit`] cuts names.
-    pub fn finish(mut self, title: &str, subtitle: &str) {
+    /// Draws the axes, the title, and words if there is nothing to see.
+    /// Title and subtitle are in [`super::markup`].
+    pub(crate) fn finish(mut self, title: &str, subtitle: &str) {
         let f = self.frame;
+        let middle = f64::midpoint(f.left, f.right);
         if self.empty {
-            let middle = ((f.left + f.right) / 2.0, (f.top + f.bottom) / 2.0);
-            let words = TextLine::new(self.reason, middle, Horizontal::Centre);
-            let e = words.extent();
-            let (left, right) = (e.left - 6.0, e.right + 6.0);
-            let (top, bottom) = (e.top - 4.0, e.bottom + 4.0);
-            let backing = Rect { left, right, top, bottom };
-            self.scene.area(&backing.corners(), Fill::solid(Ink::Paper));
-            self.scene.text(words.ink(Ink::Muted));
+            let at = (middle, f64::midpoint(f.top, f.bottom));
+            self.note_px("no data in this range", at, Horizontal::Centre);
         }
-        self.axis_lines();
-        let middle = (f.left + f.right) / 2.0;
-        let title_y = if let Some(second) = self.second.take() {
-            self.upper_axis(&second);
-            f.top - 40.0
+        draw_axes(&mut self.chart);
+        let up = if let Some(second) = self.second.take() {
+            let axes = (second, self.axes()[1].clone());
+            let room = [0.0, 0.0, ABOVE_PX];
+            draw_axes(&mut chart(&self.canvas, f, axes, room));
+            40.0
         } else if subtitle.is_empty() {
-            f.top - 9.0
+            9.0
         } else {
-            let at = (middle, f.top - 7.0);
-            self.note(subtitle, at, Horizontal::Centre);
-            f.top - 20.0
+            self.note_px(subtitle, (middle, f.top - 7.0), Horizontal::Centre);
+            20.0
         };
-        let line = TextLine::new(title, (middle, title_y), Horizontal::Centre);
-        self.scene.text(line.size(TITLE_PX));
-    }
-
-    fn upper_axis(&mut self, second: &Axis) {
-        let f = self.frame;
-        self.hairline((f.left, f.top), (f.right, f.top));
-        let px = |at: f64| second.place(at).mul_add(f.width(), f.left);
-        for x in second.minor.iter().map(|at| px(*at)) {
-            self.hairline((x, f.top - MINOR_PX), (x, f.top));
-        }
-        for tick in &second.ticks {
-            let x = px(tick.at);
-            self.hairline((x, f.top - TICK_PX), (x, f.top));
-            self.label(&tick.label, (x, f.top - TICK_PX - 4.0));
-        }
-        let middle = (f.left + f.right) / 2.0;
-        self.label(&second.title, (middle, f.top - 22.0));
-    }
-
-    fn hairline(&mut self, a: Point, b: Point) {
-        self.scene.line(&[a, b], HAIRLINE);
-    }
-
-    /// Words centred on a point.
-    fn label(&mut self, text: &str, at: Point) {
-        self.scene.text(TextLine::new(text, at, Horizontal::Centre));
-    }
-
-    fn axis_lines(&mut self) {
-        let f = self.frame;
-        let spine = [(f.left, f.top), (f.left, f.bottom), (f.right, f.bottom)];
-        self.scene.line(&spine, HAIRLINE);
-        let (x, y) = (self.x.clone(), self.y.clone());
-        for at in &x.minor {
-            let x = self.to_px((*at, 0.0)).0;
-            self.hairline((x, f.bottom), (x, f.bottom + MINOR_PX));
-        }
-        for at in &y.minor {
-            let y = self.to_px((0.0, *at)).1;
-            self.hairline((f.left - MINOR_PX, y), (f.left, y));
-        }
-        for tick in &x.ticks {
-            let x = self.to_px((tick.at, 0.0)).0;
-            self.hairline((x, f.bottom), (x, f.bottom + TICK_PX));
-            self.label(&tick.label, (x, f.bottom + TICK_PX + TEXT_PX));
-        }
-        let mut widest = 0.0_f64;
-        for tick in &y.ticks {
-            let y = self.to_px((0.0, tick.at)).1;
-            self.hairline((f.left - TICK_PX, y), (f.left, y));
-            let at = (f.left - TICK_PX - 3.0, y + 0.36 * TEXT_PX);
-            widest = widest.max(markup::width(&tick.label, TEXT_PX));
-            let label = TextLine::new(&tick.label, at, Horizontal::Right);
-            self.scene.text(label);
-        }
-        self.label(&x.title, ((f.left + f.right) / 2.0, f.bottom + 33.0));
-        let room = TICK_PX + 3.0 + widest + 8.0;
-        let beside = (f.left - room.max(28.0), (f.top + f.bottom) / 2.0);
-        let label = TextLine::new(&y.title, beside, Horizontal::Centre);
-        self.scene.text(label.upwards());
+        let words = style(TITLE_PX, Ink::Text, Horizontal::Centre);
+        self.canvas.text(title, (middle, f.top - up), words);
     }
 }

@@ -6,11 +6,11 @@ use rocking_statistics::Boxplot;
 
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::drawing::Drawing;
 use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::panel::{Marker, Panel};
-use crate::scene::Drawing;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
@@ -172,34 +172,33 @@ pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
         let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
-    let (mut scene, grid) = common::scene(heading, grid, &legend);
     let level = Intensity::Pga.row().label;
-    for (i, shown) in figure.panels.iter().enumerate() {
-        let levels = shown.stripes.iter().map(|s| common::short(s.level));
-        let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);
-        let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
-            format!("{} (scale stretched about 1)", figure.ratio_label),
-        );
-        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
-            .empty_because("too few usable ratios");
-        panel.vertical(1.0, ONE);
-        let ink = common::ink(shown.alpha_rad);
-        draw_stripes(&mut panel, shown, ink, (low, high));
-        // Over the boxes: it is what their medians are compared with.
-        let stripes = shown.stripes.iter().enumerate();
-        let expected = stripes.filter_map(|(k, stripe)| {
-            let (ratio, y) = (stripe.closed_form?, (k + 1) as f64);
-            Some([(ratio, y - 0.5), (ratio, y + 0.5)])
-        });
-        panel.line(expected.flatten(), CLOSED_FORM);
-        let title = format!(
-            "{}, {}",
-            common::frequency(shown.p_rad_s),
-            common::slenderness(shown.alpha_rad)
-        );
-        panel.finish(&common::panel_title(i, &title), "");
-    }
-    scene
+    common::panels(heading, grid, &legend, |canvas, grid| {
+        for (i, shown) in figure.panels.iter().enumerate() {
+            let levels = shown.stripes.iter().map(|s| common::short(s.level));
+            let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);
+            let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
+                format!("{} (scale stretched about 1)", figure.ratio_label),
+            );
+            let mut panel = Panel::new(canvas, grid.frame(i), (x, y), None);
+            panel.vertical(1.0, ONE);
+            let ink = common::ink(shown.alpha_rad);
+            draw_stripes(&mut panel, shown, ink, (low, high));
+            // Over the boxes: it is what their medians are compared with.
+            let stripes = shown.stripes.iter().enumerate();
+            let expected = stripes.filter_map(|(k, stripe)| {
+                let (ratio, y) = (stripe.closed_form?, (k + 1) as f64);
+                Some([(ratio, y - 0.5), (ratio, y + 0.5)])
+            });
+            panel.line(expected.flatten(), CLOSED_FORM);
+            let title = format!(
+                "{}, {}",
+                common::frequency(shown.p_rad_s),
+                common::slenderness(shown.alpha_rad)
+            );
+            panel.finish(&common::panel_title(i, &title), "");
+        }
+    })
 }
 
 fn summaries(figure: &Boxplots) -> impl Iterator<Item = &Boxplot> {
@@ -245,23 +244,24 @@ fn draw_stripes(
             (b.q3, HALF),
         ];
         let lower = upper.iter().rev().map(|(x, up)| (*x, -up));
-        let px = |(x, up): Point| panel.to_px((x.clamp(low, high), y + up));
-        let corners: Vec<Point> =
-            upper.into_iter().chain(lower).map(px).collect();
+        let at = |(x, up): Point| (x.clamp(low, high), y + up);
+        let mut corners: Vec<Point> =
+            upper.into_iter().chain(lower).map(at).collect();
         if corners.iter().any(|c| !c.0.is_finite()) {
             continue;
         }
-        panel.mark_used();
         let inside = b.outliers.iter().filter(|x| (low..=high).contains(*x));
-        panel.marks(inside.map(|x| (*x, y)), Marker::Cross, 2.6, ink);
+        let cross = (Marker::Cross, 2.6, ink);
+        panel.marks(inside.map(|x| (*x, y)), cross, (0.0, 0.0));
         panel.line([(b.whisker_low, y), (b.q1, y)], pen);
         panel.line([(b.q3, y), (b.whisker_high, y)], pen);
         for end in [b.whisker_low, b.whisker_high] {
             let cap = HALF / 2.0;
             panel.line([(end, y - cap), (end, y + cap)], pen);
         }
-        panel.scene().area(&corners, Fill::tint(ink, 24));
-        panel.scene().outline(&corners, pen);
+        panel.area(corners.clone(), Fill::tint(ink, 24));
+        corners.push(corners[0]);
+        panel.line(corners, pen);
         let median = [(b.median, y - waist), (b.median, y + waist)];
         panel.line(median, Pen::new(ink, 1.6));
         if let Some(interval) = b.median_interval {
@@ -270,14 +270,10 @@ fn draw_stripes(
         }
         let above = b.outliers.iter().any(|x| *x > high);
         let below = b.outliers.iter().any(|x| *x < low);
-        for (wanted, edge, marker, inwards) in [
-            (above, high, Marker::Beyond, -8.0),
-            (below, low, Marker::BeyondLeft, 8.0),
-        ] {
-            if wanted {
-                let (x, y) = panel.to_px((edge, y));
-                marker.draw(panel.scene(), (x + inwards, y), 3.0, ink);
-            }
-        }
+        let (right, left) = (Marker::Beyond, Marker::BeyondLeft);
+        let above = above.then_some((high, y));
+        panel.marks(above, (right, 3.0, ink), (-8.0, 0.0));
+        let below = below.then_some((low, y));
+        panel.marks(below, (left, 3.0, ink), (8.0, 0.0));
     }
 }

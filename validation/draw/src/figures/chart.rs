@@ -4,14 +4,14 @@ use std::iter::empty;
 
 use super::common;
 use super::heading::Heading;
-use super::series::{Mark, Series};
+use super::series::{Look, Mark, Series};
 use crate::axis::{Axis, AxisScale};
 use crate::colour::Pen;
+use crate::drawing::Drawing;
 use crate::geometry::{Point, kept};
 use crate::grid::Grid;
 use crate::legend::Entry;
-use crate::panel::Panel;
-use crate::scene::Drawing;
+use crate::panel::{Marker, Panel};
 use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,9 @@ const TOLERANCE_PX: f64 = 0.1;
 /// Smallest distance between words at the right-hand edge, in px.
 const APART_PX: f64 = 11.5;
 
+/// So many lines show beside one another where they coincide; more of them
+/// get thinner from one to the next.
+const FEW: usize = 4;
 /// Room for words at the right-hand edge, in px.
 const EDGE_PX: f64 = 56.0;
 /// Room above a panel with a second line of title, in px.
@@ -210,7 +213,7 @@ impl Chart {
         for panel in &mut self.panels {
             let (x, y) = axes(panel);
             let lines = panel.series.iter_mut().filter(|s| {
-                let look = s.mark.look(Some(0));
+                let look = s.mark.look(Some(0), false);
                 s.interval.is_empty() && look.marker.is_none()
             });
             for line in lines {
@@ -296,7 +299,7 @@ fn extremes(line: &mut Series) {
 }
 
 /// Sizes of the plotting areas for a number of columns.
-fn grid(panels: usize, columns: usize) -> Grid {
+fn grid_of(panels: usize, columns: usize) -> Grid {
     let grid = Grid::new(panels, columns);
     match grid.columns {
         1 => grid.plot(560.0, 320.0),
@@ -306,59 +309,63 @@ fn grid(panels: usize, columns: usize) -> Grid {
 }
 
 pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
-    let mut labels: Vec<&str> = Vec::new();
-    let mut legend: Vec<Entry> = Vec::new();
-    for series in figure.panels.iter().flat_map(|p| &p.series) {
-        let label = series.label.as_str();
-        let rank = labels.len();
-        if !label.is_empty()
-            && !labels.contains(&label)
-            && let Some(sample) = series.mark.sample(rank)
-        {
-            labels.push(label);
-            legend.push(Entry::new(sample, label));
+    let all = || figure.panels.iter().flat_map(|p| &p.series);
+    let mut labels: Vec<&str> = vec![];
+    let mut shown: Vec<&Series> = vec![];
+    for series in all().filter(|s| !s.label.is_empty()) {
+        if !labels.contains(&series.label.as_str()) && series.has_sample() {
+            labels.push(&series.label);
+            shown.push(series);
         }
     }
-    legend.extend(figure.layout.legend.iter().cloned());
-    let mut grid = figure
-        .layout
-        .grid
-        .unwrap_or_else(|| grid(figure.panels.len(), figure.columns));
-    let mut all = figure.panels.iter().flat_map(|p| &p.series);
-    if figure.layout.grid.is_none() && all.any(|s| s.mark == Mark::Edge) {
-        grid.right = EDGE_PX;
+    let coincide = shown.iter().all(|s| s.interval.is_empty());
+    let look = |series: &Series| {
+        let rank = labels.iter().position(|label| *label == series.label);
+        series.mark.look(rank, labels.len() > FEW && coincide)
+    };
+    let mut legend: Vec<Entry> = vec![];
+    for series in shown {
+        let sample = look(series).sample(!series.interval.is_empty());
+        legend.extend(sample.map(|s| Entry::new(s, &*series.label)));
     }
+    let Layout { grid, legend: more, .. } = &figure.layout;
+    legend.extend(more.iter().cloned());
+    let mut grid = grid.unwrap_or_else(|| {
+        let grid = grid_of(figure.panels.len(), figure.columns);
+        match all().any(|s| s.mark == Mark::Edge) {
+            true => Grid { right: EDGE_PX, ..grid },
+            false => grid,
+        }
+    });
     if figure.panels.iter().any(|p| p.x.second.is_some()) {
         grid.above = SECOND_AXIS_PX;
     }
     if figure.panels.iter().any(|p| p.title.contains('\n')) {
         grid.above = SUBTITLE_PX;
     }
-    let (mut scene, grid) = common::scene(heading, grid, &legend);
-    for (i, shown) in figure.panels.iter().enumerate() {
-        let (x, y) = axes(shown);
-        let second = shown.x.second.as_ref().map(|second| {
-            let (low, high) = x.range();
-            let range = Some((second.factor * low, second.factor * high));
-            axis(&ChartAxis::new(&second.label, shown.x.scale, range), empty())
-        });
-        let frame = grid.frame(i);
-        let mut panel =
-            Panel::new(&mut scene, frame, x, y).with_second(second);
-        for series in &shown.series {
-            let rank = labels.iter().position(|label| *label == series.label);
-            draw_series(&mut panel, series, rank);
+    common::panels(heading, grid, &legend, |canvas, grid| {
+        for (i, shown) in figure.panels.iter().enumerate() {
+            let (x, y) = axes(shown);
+            let second = shown.x.second.as_ref().map(|second| {
+                let (low, high) = x.range();
+                let range = Some((second.factor * low, second.factor * high));
+                let (label, scale) = (&second.label, shown.x.scale);
+                axis(&ChartAxis::new(label, scale, range), empty())
+            });
+            let mut panel = Panel::new(canvas, grid.frame(i), (x, y), second);
+            for series in &shown.series {
+                draw_series(&mut panel, series, look(series));
+            }
+            outer_words(&panel, &shown.series);
+            let (title, subtitle) =
+                shown.title.split_once('\n').unwrap_or((&shown.title, ""));
+            let title = match figure.panels.len() {
+                1 => title.to_owned(),
+                _ => common::panel_title(i, title),
+            };
+            panel.finish(&title, subtitle);
         }
-        outer_words(&mut panel, &shown.series);
-        let (title, subtitle) =
-            shown.title.split_once('\n').unwrap_or((&shown.title, ""));
-        let title = match figure.panels.len() {
-            1 => title.to_owned(),
-            _ => common::panel_title(i, title),
-        };
-        panel.finish(&title, subtitle);
-    }
-    scene
+    })
 }
 
 fn axes(shown: &ChartPanel) -> (Axis, Axis) {
@@ -390,23 +397,31 @@ fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
     axis.label(asked.label.as_str())
 }
 
-fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
+fn draw_series(panel: &mut Panel<'_>, series: &Series, look: Look) {
     let at = series.points().next().unwrap_or((f64::NAN, f64::NAN));
     match series.mark {
-        Mark::Across(pen) => return panel.horizontal(at.1, pen),
-        Mark::Upright(pen) => return panel.vertical(at.0, pen),
-        Mark::Words(align) => {
-            return panel.note(&series.label, panel.to_px(at), align);
+        Mark::Across(pen) => {
+            let (low, high) = panel.axes()[0].range();
+            panel.reference([(low, at.1), (high, at.1)], pen);
         }
-        Mark::Corner | Mark::Edge => return,
+        Mark::Upright(pen) => panel.vertical(at.0, pen),
+        Mark::Words(align) => {
+            panel.note(&series.label, at, align);
+        }
         _ => {}
     }
-    let look = series.mark.look(rank);
     let ends = series.x.iter().zip(&series.interval);
     let rows: Vec<_> = ends.map(|(x, (a, b))| (*x, *a, *b)).collect();
     if let Some(bar) = look.bars {
         for (x, low, high) in &rows {
             panel.line([(*x, *low), (*x, *high)], bar);
+            // It goes on beyond the frame.
+            let (first, last) = panel.axes()[1].range();
+            let below = (*low < first && first < *high).then_some((*x, first));
+            let above = (*low < last && last < *high).then_some((*x, last));
+            let head = |marker| (marker, 3.0, bar.ink);
+            panel.marks(below, head(Marker::BeyondBelow), (0.0, -4.0));
+            panel.marks(above, head(Marker::BeyondAbove), (0.0, 4.0));
         }
     }
     if let Some(fill) = look.band {
@@ -415,7 +430,7 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
     if let Some(fill) = look.bins {
         let ends = series.x.windows(2).zip(&series.y);
         for (left, right, top) in ends.map(|(x, y)| (x[0], x[1], *y)) {
-            panel.bar((left, 0.0), (right, top), fill);
+            panel.band(&[(left, 0.0, top), (right, 0.0, top)], fill);
             let around =
                 [(left, 0.0), (left, top), (right, top), (right, 0.0)];
             panel.line(around, look.pen.unwrap_or(Pen::new(fill.ink, 0.0)));
@@ -428,12 +443,12 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
         [(&low, look.sides), (&series.x, look.pen), (&high, look.sides)]
     {
         if let Some(pen) = pen {
-            let points = path(x, &series.y, panel.horizontal_range().1);
+            let points = path(x, &series.y, panel.axes()[0].range().1);
             panel.line(points, pen);
         }
     }
-    if let Some((marker, half_px, ink)) = look.marker {
-        panel.marks(series.points(), marker, half_px, ink);
+    if let Some(marker) = look.marker {
+        panel.marks(series.points(), marker, (0.0, 0.0));
     }
 }
 
@@ -447,7 +462,7 @@ fn path(x: &[f64], y: &[f64], end: f64) -> Vec<Point> {
 }
 
 /// Words in the corner and at the right-hand edge, kept apart.
-fn outer_words(panel: &mut Panel<'_>, all: &[Series]) {
+fn outer_words(panel: &Panel<'_>, all: &[Series]) {
     let of = |mark| all.iter().filter(move |s| s.mark == mark);
     let corner: Vec<&Series> = of(Mark::Corner).collect();
     for (k, note) in corner.iter().rev().enumerate() {

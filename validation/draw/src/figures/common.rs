@@ -1,39 +1,49 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
 use super::heading::Heading;
+use crate::canvas::Canvas;
 use crate::colour::Ink;
+use crate::drawing::Drawing;
+use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::legend::{self, Entry};
 use crate::markup;
-use crate::scene::Drawing;
-use crate::text::Caption;
 use rocking_common::paper::{Arm, SLENDERNESSES_RAD};
 use rocking_common::words::letter;
 
-/// A scene with the grid's size, the legend drawn and room made for it.
-pub fn scene(
+/// A drawing with the words of a heading, of a size in px.
+pub(crate) fn drawing(
     heading: &Heading,
-    grid: Grid,
-    entries: &[Entry],
-) -> (Drawing, Grid) {
-    let head = grid.head + legend::height(entries, grid.total_width());
-    let grid = Grid { head, ..grid };
-    let (width, height) = (grid.total_width(), grid.total_height());
-    let mut scene = Drawing::new(caption(heading), width, height);
-    legend::draw(&mut scene, entries);
-    (scene, grid)
-}
-
-/// The words of a drawing.
-pub fn caption(heading: &Heading) -> Caption {
-    let (name, mut title) = (heading.name.clone(), heading.title.clone());
+    size_px: Point,
+    draw: impl FnOnce(&Canvas<'_>),
+) -> Drawing {
+    let mut title = heading.title.clone();
     if let Some(arm) = heading.arm {
         title += &format!(" (arm {})", arm.name());
     }
     if let Some(motions) = heading.motions {
         title += &format!(" ({} motions)", motions.name());
     }
-    Caption { name, title, description: heading.description.clone() }
+    let words = [&heading.name, &title, &heading.description];
+    let mut drawing = Drawing::new(words.map(String::as_str), size_px);
+    draw(&Canvas::on(&mut drawing));
+    drawing
+}
+
+/// A drawing with the grid's size, the legend drawn and room made for it.
+pub(crate) fn panels(
+    heading: &Heading,
+    grid: Grid,
+    legend: &[Entry],
+    draw: impl FnOnce(&Canvas<'_>, Grid),
+) -> Drawing {
+    let width_px = grid.total_width();
+    let head = grid.head + legend::height(legend, width_px);
+    let grid = Grid { head, ..grid };
+    drawing(heading, (width_px, grid.total_height()), |canvas| {
+        legend::draw(canvas, legend, width_px);
+        draw(canvas, grid);
+    })
 }
 
 /// `(a) words`.

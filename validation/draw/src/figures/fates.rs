@@ -1,14 +1,13 @@
 //! A map of fates in the plane of frequency and amplitude.
 
-use super::common;
+use super::chart::{self, ChartAxis, ChartPanel, Layout, Panels};
 use super::figure::{Figure, Graphic};
 use super::heading::Heading;
-use crate::axis::Axis;
+use super::series::{Look, Series};
 use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::drawing::Drawing;
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
-use crate::panel::Panel;
-use crate::scene::Drawing;
 use rocking::names::named;
 use rocking_common::table::{Table, number};
 
@@ -37,12 +36,12 @@ impl MapFate {
         }
     }
 
-    fn fill(self) -> Option<Fill> {
+    fn fill(self) -> Fill {
         match self {
-            Self::Stands => None,
-            Self::Before => Some(Fill::tint(Ink::Series(0), 45)),
-            Self::AfterOne => Some(Fill::tint(Ink::Series(2), 60)),
-            Self::AfterMore => Some(Fill::solid(Ink::Series(1))),
+            Self::Stands => Fill::solid(Ink::Paper),
+            Self::Before => Fill::tint(Ink::Series(0), 45),
+            Self::AfterOne => Fill::tint(Ink::Series(2), 60),
+            Self::AfterMore => Fill::solid(Ink::Series(1)),
         }
     }
 }
@@ -65,13 +64,13 @@ pub struct FateMap {
 impl FateMap {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        let drawn = Graphic::Other(scene(self), self.csv());
+        let drawn = Graphic::Fates(self.clone());
         Figure::new(&self.heading, drawn, reading)
     }
 
     /// `what,frequency_over_p,amplitude_from,amplitude_to`: in each column
     /// the rows of one fate together, at its middle; then the boundaries.
-    fn csv(&self) -> String {
+    pub(super) fn csv(&self) -> String {
         let mut table =
             Table::headed("what,frequency_over_p,amplitude_from,amplitude_to");
         for (x, cells) in self.frequencies.windows(2).zip(&self.cells) {
@@ -106,42 +105,41 @@ impl FateMap {
     }
 }
 
-fn pen(boundary: usize) -> Pen {
-    let dash = if boundary == 0 { Dash::Solid } else { Dash::Dashed };
-    Pen::new(Ink::Text, 1.6).dash(dash)
-}
-
-fn scene(figure: &FateMap) -> Drawing {
-    let entry = |fate: MapFate| {
-        Some(Entry::new(Sample::Band(fate.fill()?), fate.name()))
-    };
-    let mut legend: Vec<Entry> =
-        MapFate::ALL.into_iter().filter_map(entry).collect();
-    for (k, (name, _)) in figure.boundaries.iter().enumerate() {
-        legend.push(Entry::new(Sample::Line(pen(k)), name.as_str()));
-    }
-    let grid = Grid::new(1, 1).plot(600.0, 360.0);
-    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
-    let ends = |values: &[f64]| match values {
-        [first, .., last] => (*first, *last),
-        _ => (1.0, 10.0),
-    };
-    let (low, high) = ends(&figure.frequencies);
-    let x = Axis::logarithmic(low, high).label("pulse frequency *ω*/*p*");
-    let (low, high) = ends(&figure.amplitudes);
-    let y = Axis::logarithmic(low, high)
-        .label("amplitude over the threshold *g* tan *α*");
-    let mut panel = Panel::new(&mut scene, grid.frame(0), x, y);
+pub(super) fn scene(figure: &FateMap) -> Drawing {
+    let entry =
+        |fate: MapFate| Entry::new(Sample::Band(fate.fill()), fate.name());
+    let legend = MapFate::ALL.into_iter().map(entry).collect();
+    let mut series = Vec::new();
     for (x, cells) in figure.frequencies.windows(2).zip(&figure.cells) {
-        for (fate, from, to) in figure.runs(cells) {
-            if let Some(fill) = fate.fill() {
-                panel.bar((x[0], from), (x[1], to), fill);
-            }
+        let mut runs = figure.runs(cells);
+        runs.retain(|(fate, ..)| *fate != MapFate::Stands);
+        for (fate, from, to) in runs {
+            let (look, y) = (Look::band(fate.fill()), vec![f64::NAN; 2]);
+            let column = Series::of(look, x.to_vec(), y);
+            series.push(column.with(vec![(from, to); 2]));
         }
     }
-    for (k, (_, points)) in figure.boundaries.iter().enumerate() {
-        panel.line(points.iter().copied(), pen(k));
+    let dashes = [Dash::Solid, Dash::Dashed].into_iter().cycle();
+    for ((name, points), dash) in figure.boundaries.iter().zip(dashes) {
+        let look = Look::line(Pen::new(Ink::Text, 1.6).dash(dash));
+        let (x, y) = points.iter().copied().unzip();
+        series.push(Series::of(look, x, y).labelled(name.as_str()));
     }
-    panel.finish("white: the block comes to rest", "");
-    scene
+    let ends = |of: &[f64]| of.first().copied().zip(of.last().copied());
+    let panel = ChartPanel::new(
+        "",
+        ChartAxis::logarithmic(
+            "pulse frequency *ω*/*p*",
+            ends(&figure.frequencies),
+        ),
+        ChartAxis::logarithmic(
+            "amplitude over the threshold *g* tan *α*",
+            ends(&figure.amplitudes),
+        ),
+        series,
+    );
+    let grid = Grid { above: 10.0, ..Grid::new(1, 1).plot(600.0, 360.0) };
+    let layout = Layout { grid: Some(grid), legend, ..Layout::default() };
+    let shown = Panels { panels: vec![panel], columns: 1, layout };
+    chart::scene(&figure.heading, &shown)
 }

@@ -2,8 +2,10 @@
 
 use super::boxplots::{self, Boxplots};
 use super::chart::{self, Chart, Layout, NUMBERS, Panels};
+use super::fates::{self, FateMap};
 use super::heading::Heading;
-use crate::scene::Drawing;
+use super::sketch::{self, BlockSketch};
+use crate::drawing::Drawing;
 use serde::{Deserialize, Serialize};
 
 /// A figure: its words, its shapes and its numbers.
@@ -22,9 +24,11 @@ pub struct Figure {
 pub(super) enum Graphic {
     Chart(Panels),
     Boxplots(Boxplots),
-    /// Shapes and CSV of what is neither; such a figure is not kept.
+    /// Not kept, and neither is the next one.
     #[serde(skip)]
-    Other(Drawing, String),
+    Sketch(BlockSketch),
+    #[serde(skip)]
+    Fates(FateMap),
 }
 
 impl Figure {
@@ -36,12 +40,13 @@ impl Figure {
         Self { heading: heading.clone(), drawn, reading }
     }
 
-    /// The shapes, before they are written.
-    pub fn scene(&self) -> Drawing {
+    /// The drawing, before it is finished.
+    pub(crate) fn scene(&self) -> Drawing {
         match &self.drawn {
             Graphic::Chart(panels) => chart::scene(&self.heading, panels),
             Graphic::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
-            Graphic::Other(scene, _) => scene.clone(),
+            Graphic::Sketch(block) => sketch::scene(block),
+            Graphic::Fates(map) => fates::scene(map),
         }
     }
 
@@ -50,13 +55,14 @@ impl Figure {
         match &self.drawn {
             Graphic::Chart(panels) => panels.csv(),
             Graphic::Boxplots(boxes) => boxes.csv(),
-            Graphic::Other(_, csv) => csv.clone(),
+            Graphic::Sketch(block) => block.csv(),
+            Graphic::Fates(map) => map.csv(),
         }
     }
 
     /// The drawing.
     pub fn svg(&self) -> String {
-        self.scene().svg()
+        self.scene().finish()
     }
 }
 

@@ -74,6 +74,11 @@ impl Series {
         Self { keys: keys.into(), ..self }
     }
 
+    /// Whether the legend can show how it is drawn.
+    pub(super) fn has_sample(&self) -> bool {
+        self.mark.look(Some(0), false).sample(true).is_some()
+    }
+
     /// Its points.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> {
         self.x.iter().zip(&self.y).map(|(x, y)| (*x, *y))
@@ -141,15 +146,41 @@ impl Look {
     pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
         Self { marker: Some((marker, half_px, ink)), ..Self::default() }
     }
+
+    /// What stands before a label in the legend; a band only with intervals.
+    pub(super) fn sample(&self, has_intervals: bool) -> Option<Sample> {
+        let band = self.band.filter(|_| has_intervals);
+        let Some(pen) = self.pen else {
+            let mark = self.marker.map(|(m, _, ink)| Sample::Mark(m, ink));
+            return mark.or(self.band.map(Sample::Band));
+        };
+        Some(match (self.marker, self.sides, band) {
+            (Some((marker, ..)), ..) => Sample::LineAndMark(pen, marker),
+            (_, Some(sides), _) => Sample::Quantiles(pen, sides),
+            (_, _, Some(band)) => Sample::LineAndBand(pen, band),
+            _ => Sample::Line(pen),
+        })
+    }
 }
 
 impl Mark {
-    pub(super) fn look(self, rank: Option<usize>) -> Look {
-        let usual = Pen::of_series(rank.unwrap_or(0));
+    /// The look of the series with this rank in the legend, if it has one;
+    /// `nested`: lines get much thinner from one to the next.
+    pub(super) fn look(self, rank: Option<usize>, nested: bool) -> Look {
+        let series = rank.unwrap_or(0);
+        let mut usual = Pen::of_series(series);
+        if nested && self == Self::Line {
+            usual.width_px = (2.8 - 0.5 * series as f64).max(0.7);
+        }
         let thin = Pen { width_px: 1.1, dash: Dash::Solid, ..usual };
         let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
         let pen = match self {
             Self::Own(look) => return look,
+            Self::Across(_)
+            | Self::Upright(_)
+            | Self::Words(_)
+            | Self::Corner
+            | Self::Edge => return Look::default(),
             Self::Quantiles => {
                 let wide =
                     |share| Pen { width_px: share * usual.width_px, ..usual };
@@ -163,37 +194,13 @@ impl Mark {
         };
         let line = matches!(self, Self::Line | Self::Dashed);
         let bar = Pen { width_px: 0.8, dash: Dash::Solid, ..pen };
-        let marker = Marker::of_series(rank.unwrap_or(0));
+        let marker = Marker::of_series(series);
         Look {
             pen: (self != Self::Points).then_some(pen),
             bars: (!line).then_some(bar),
             band: line.then_some(Fill::tint(pen.ink, 16)),
             marker: (!line).then_some((marker, 3.0, pen.ink)),
             ..Look::default()
-        }
-    }
-
-    /// What stands before the label of a series in the legend.
-    pub(super) fn sample(self, rank: usize) -> Option<Sample> {
-        let look = self.look(Some(rank));
-        match (self, look.pen, look.marker) {
-            (
-                Self::Across(_)
-                | Self::Upright(_)
-                | Self::Words(_)
-                | Self::Corner
-                | Self::Edge,
-                ..,
-            ) => None,
-            (Self::Quantiles, ..) => Some(Sample::Line(Pen::of_series(rank))),
-            (_, Some(pen), Some((marker, ..))) => {
-                Some(Sample::LineAndMark(pen, marker))
-            }
-            (_, Some(pen), None) => Some(Sample::Line(pen)),
-            (_, None, Some((marker, _, ink))) => {
-                Some(Sample::Mark(marker, ink))
-            }
-            _ => look.band.map(Sample::Band),
         }
     }
 }

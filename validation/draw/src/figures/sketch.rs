@@ -5,10 +5,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::common;
 use super::figure::{Figure, Graphic};
 use super::heading::Heading;
+use crate::canvas::{Canvas, style};
 use crate::colour::{Dash, Fill, Ink, Pen};
-use crate::geometry::Point;
-use crate::scene::Drawing;
-use crate::text::{Horizontal, TextLine};
+use crate::drawing::Drawing;
+use crate::geometry::{Point, from};
+use crate::text::Horizontal;
 use rocking_common::table::{Table, number};
 
 /// The block with its symbols, rotated about its right-hand pivot.
@@ -25,12 +26,12 @@ pub struct BlockSketch {
 impl BlockSketch {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        let drawn = Graphic::Other(scene(self), self.csv());
+        let drawn = Graphic::Sketch(self.clone());
         Figure::new(&self.heading, drawn, reading)
     }
 
     /// `quantity,value,unit`.
-    fn csv(&self) -> String {
+    pub(super) fn csv(&self) -> String {
         let mut table = Table::new(&["quantity", "value", "unit"]);
         let rows =
             [("slenderness", self.alpha_rad), ("rotation", self.rotation_rad)];
@@ -49,40 +50,31 @@ const HALF_DIAGONAL: f64 = 158.0;
 const PIVOT: Point = (268.0, 372.0);
 const SIZE: f64 = 14.0;
 const THIN: Pen = Pen::new(Ink::Text, 0.8);
+/// From a corner to the end of its dimension.
+const FINE: Pen = Pen::new(Ink::Muted, 0.6);
 
-/// A vector of this length, `angle` rad from the upward vertical, positive
-/// to the right, from a point.
-fn from((x, y): Point, length: f64, angle: f64) -> Point {
-    (
-        length.mul_add(libm::sin(angle), x),
-        (-length).mul_add(libm::cos(angle), y),
-    )
-}
-
-fn scene(figure: &BlockSketch) -> Drawing {
-    let caption = common::caption(&figure.heading);
-    let mut scene = Drawing::new(caption, WIDTH, HEIGHT);
+pub(super) fn scene(figure: &BlockSketch) -> Drawing {
     let alpha = figure.alpha_rad.clamp(0.1, 0.6);
     let theta = figure.rotation_rad.clamp(0.05, 0.35);
     let base = 2.0 * HALF_DIAGONAL * libm::sin(alpha);
     let height = 2.0 * HALF_DIAGONAL * libm::cos(alpha);
-    ground(&mut scene);
-    let at_rest = corners(base, height, 0.0);
-    scene.outline(&at_rest, Pen::new(Ink::Muted, 0.8).dash(Dash::Dashed));
-    let rotated = corners(base, height, theta);
-    scene.area(&rotated, Fill::tint(Ink::Series(0), 14));
-    scene.outline(&rotated, Pen::new(Ink::Series(0), 1.5));
-    dimensions(&mut scene, &rotated);
-    angles(&mut scene, alpha, theta);
-    let left_pivot = from(PIVOT, -base, FRAC_PI_2);
-    for (at, name, aside) in [(PIVOT, "O′", 11.0), (left_pivot, "O", -11.0)]
-    {
-        scene.dot(at, 2.4, Ink::Text);
-        let at = (at.0 + aside, at.1 + 17.0);
-        word(&mut scene, name, at);
-    }
-    excitation(&mut scene);
-    scene
+    common::drawing(&figure.heading, (WIDTH, HEIGHT), |on| {
+        ground(on);
+        let at_rest = corners(base, height, 0.0);
+        on.outline(&at_rest, Pen::new(Ink::Muted, 0.8).dash(Dash::Dashed));
+        let rotated = corners(base, height, theta);
+        on.area(&rotated, Fill::tint(Ink::Series(0), 14));
+        on.outline(&rotated, Pen::new(Ink::Series(0), 1.5));
+        dimensions(on, &rotated);
+        angles(on, alpha, theta);
+        let left_pivot = from(PIVOT, -base, FRAC_PI_2);
+        let pivots = [(PIVOT, "O′", 11.0), (left_pivot, "O", -11.0)];
+        for (at, name, aside) in pivots {
+            on.dot(at, 2.4, Ink::Text);
+            word(on, name, (at.0 + aside, at.1 + 17.0));
+        }
+        excitation(on);
+    })
 }
 
 /// Corners of the block turned about its right-hand pivot.
@@ -91,87 +83,91 @@ fn corners(base: f64, height: f64, turn: f64) -> [Point; 4] {
     [left, from(left, height, turn), from(PIVOT, height, turn), PIVOT]
 }
 
-fn word(scene: &mut Drawing, markup: &str, at: Point) {
-    let line = TextLine::new(markup, at, Horizontal::Centre);
-    scene.text(line.size(SIZE));
+fn word(on: &Canvas<'_>, markup: &str, at: Point) {
+    on.text(markup, at, style(SIZE, Ink::Text, Horizontal::Centre));
 }
 
-fn ground(scene: &mut Drawing) {
+fn ground(on: &Canvas<'_>) {
     let (left, right, y) = (40.0, WIDTH - 40.0, PIVOT.1);
-    scene.line(&[(left, y), (right, y)], Pen::new(Ink::Text, 1.2));
+    on.line(&[(left, y), (right, y)], Pen::new(Ink::Text, 1.2));
     let mut x = left + 4.0;
     while x < right {
-        scene.line(&[(x, y), (x - 7.0, y + 7.0)], Pen::new(Ink::Muted, 0.6));
+        on.line(&[(x, y), (x - 7.0, y + 7.0)], Pen::new(Ink::Muted, 0.6));
         x += 9.0;
     }
 }
 
 /// An arrow head at `tip`, coming along `angle` from the upward vertical.
-fn head(scene: &mut Drawing, tip: Point, angle: f64, ink: Ink) {
+fn head(on: &Canvas<'_>, tip: Point, angle: f64, ink: Ink) {
     let back = angle + std::f64::consts::PI;
     let wings = [from(tip, 8.0, back - 0.33), from(tip, 8.0, back + 0.33)];
-    scene.area(&[tip, wings[0], wings[1]], Fill::solid(ink));
+    on.area(&[tip, wings[0], wings[1]], Fill::solid(ink));
 }
 
 /// A line with an arrow head at each end.
-fn measure(scene: &mut Drawing, a: Point, b: Point) {
+fn measure(on: &Canvas<'_>, a: Point, b: Point) {
     let angle = libm::atan2(b.0 - a.0, a.1 - b.1);
-    scene.line(&[a, b], THIN);
-    head(scene, b, angle, Ink::Text);
-    head(scene, a, angle + std::f64::consts::PI, Ink::Text);
+    on.line(&[a, b], THIN);
+    head(on, b, angle, Ink::Text);
+    head(on, a, angle + std::f64::consts::PI, Ink::Text);
 }
 
 /// 2b along the top, 2h along the left side, both outside the block.
-fn dimensions(scene: &mut Drawing, block: &[Point; 4]) {
+fn dimensions(on: &Canvas<'_>, block: &[Point; 4]) {
     let [low_left, top_left, top_right, _] = *block;
     let turn = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
     for (a, b, angle, [far, beyond, down], name) in [
         (top_left, top_right, turn, [16.0, 10.0, 0.0], "2*b*"),
         (low_left, top_left, turn + FRAC_PI_2, [-34.0, -16.0, 5.0], "2*h*"),
     ] {
-        let (a, b) = (from(a, far, angle), from(b, far, angle));
-        measure(scene, a, b);
+        let ends = [a, b].map(|corner| {
+            let past = far + if far < 0.0 { -4.0 } else { 4.0 };
+            on.line(&[corner, from(corner, past, angle)], FINE);
+            from(corner, far, angle)
+        });
+        let [a, b] = ends;
+        measure(on, a, b);
         let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
         let (x, y) = from(middle, beyond, angle);
-        word(scene, name, (x, y + down));
+        word(on, name, (x, y + down));
     }
 }
 
 /// The half diagonal R to the centre of mass, alpha between it and the
 /// block's side, theta between the vertical and that side.
-fn angles(scene: &mut Drawing, alpha: f64, theta: f64) {
+fn angles(on: &Canvas<'_>, alpha: f64, theta: f64) {
     let centre = from(PIVOT, HALF_DIAGONAL, theta - alpha);
-    scene.line(&[PIVOT, centre], Pen::new(Ink::Series(1), 1.3));
-    scene.dot(centre, 3.2, Ink::Series(1));
+    on.line(&[PIVOT, centre], Pen::new(Ink::Series(1), 1.3));
+    on.dot(centre, 3.2, Ink::Series(1));
     let half = from(PIVOT, 0.60 * HALF_DIAGONAL, theta - alpha);
-    word(scene, "*R*", (half.0 - 11.0, half.1 + 2.0));
-    word(scene, "c.m.", (centre.0 - 2.0, centre.1 - 9.0));
+    word(on, "*R*", (half.0 - 11.0, half.1 + 2.0));
+    word(on, "c.m.", (centre.0 - 2.0, centre.1 - 9.0));
     let up = from(PIVOT, 1.36 * HALF_DIAGONAL, 0.0);
     let fine = Pen::new(Ink::Muted, 0.8).dash(Dash::DashDot);
-    scene.line(&[PIVOT, up], fine);
+    on.line(&[PIVOT, up], fine);
     let arc = |radius: f64, a: f64, b: f64| -> Vec<Point> {
         let step = (b - a) / 24.0;
         let angle = |i| step.mul_add(f64::from(i), a);
         (0..=24).map(|i| from(PIVOT, radius, angle(i))).collect()
     };
     let radius = 0.46 * HALF_DIAGONAL;
-    scene.line(&arc(radius, theta - alpha, theta), THIN);
+    on.line(&arc(radius, theta - alpha, theta), THIN);
     let at = from(PIVOT, radius + 13.0, 0.5 * theta - 0.01);
-    word(scene, "*α*", (at.0, at.1 + 4.0));
+    word(on, "*α*", (at.0, at.1 + 4.0));
     let radius = 1.18 * HALF_DIAGONAL;
-    scene.line(&arc(radius, 0.0, theta), THIN);
+    on.line(&arc(radius, 0.0, theta), THIN);
     let end = from(PIVOT, radius, theta);
     let along = theta + FRAC_PI_2;
-    head(scene, end, along, Ink::Text);
+    head(on, end, along, Ink::Text);
     let at = from(PIVOT, radius + 12.0, 0.5 * theta);
-    word(scene, "*θ*", at);
+    word(on, "*θ*", at);
 }
 
 /// The ground's acceleration.
-fn excitation(scene: &mut Drawing) {
+fn excitation(on: &Canvas<'_>) {
     let y = PIVOT.1 + 34.0;
     let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
-    scene.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
-    head(scene, b, FRAC_PI_2, Ink::Series(2));
-    word(scene, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
+    on.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
+    head(on, b, FRAC_PI_2, Ink::Series(2));
+    word(on, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
 }

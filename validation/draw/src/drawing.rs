@@ -46,7 +46,7 @@ const PER_PX: i32 = 20;
 const TOLERANCE: f64 = 2.0;
 /// The same of lines thinner than half a pixel, of which there are many: no
 /// reader follows one of them.
-const OF_MANY: f64 = 10.0;
+const OF_MANY: f64 = 14.0;
 const FONTS: &str =
     "Helvetica,Arial,'Liberation Sans','Nimbus Sans',sans-serif";
 

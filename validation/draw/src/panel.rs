@@ -20,8 +20,6 @@ use crate::text::{Horizontal, TEXT_PX};
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;
 const TITLE_PX: f64 = 12.0;
-/// Between the baselines of two notes.
-const NOTE_PX: f64 = 13.5;
 /// From an axis to the far edge of its label.
 const BELOW_PX: f64 = 33.0;
 const ABOVE_PX: f64 = 30.0;
@@ -114,9 +112,9 @@ type AxesChart<'d> =
 pub(crate) struct Panel<'d> {
     canvas: Canvas<'d>,
     chart: AxesChart<'d>,
-    frame: Rect,
+    pub(crate) frame: Rect,
     second: Option<Axis>,
-    empty: bool,
+    pub(crate) empty: bool,
 }
 
 /// A chart with this plot area and this room for its axes: left of it, below
@@ -202,64 +200,39 @@ impl<'d> Panel<'d> {
         points: impl IntoIterator<Item = Point>,
         pen: Pen,
     ) {
-        self.empty &= !self.reference(points, pen);
-    }
-
-    /// A line that does not count as data, and whether some of it lies
-    /// inside.
-    pub(crate) fn reference(
-        &mut self,
-        points: impl IntoIterator<Item = Point>,
-        pen: Pen,
-    ) -> bool {
         let [x, y] = self.axes();
         let places = points.into_iter().map(|p| (x.place(p.0), y.place(p.1)));
         let value = |p: &mut Point| *p = (x.value(p.0), y.value(p.1));
         let mut parts = clip(&places.collect::<Vec<_>>());
         parts.iter_mut().flatten().for_each(value);
-        let any = !parts.is_empty();
+        self.empty &= parts.is_empty();
         for part in parts {
             done(self.chart.draw_series(LineSeries::new(part, pen)));
         }
-        any
     }
 
-    /// A vertical reference line through the whole frame.
-    pub(crate) fn vertical(&mut self, x: f64, pen: Pen) {
-        let (low, high) = self.axes()[1].range();
-        self.reference([(x, low), (x, high)], pen);
-    }
-
-    /// Marks, moved by some px; those outside the frame are left out.
+    /// Marks; those outside the frame are left out.
     pub(crate) fn marks(
         &mut self,
         points: impl IntoIterator<Item = Point>,
-        (marker, radius_px, ink): (Marker, f64, Ink),
-        by: Point,
+        (marker, half_px, ink): (Marker, f64, Ink),
     ) {
         for point in points {
             if self.is_inside(point) {
-                let (x, y) = self.to_px(point);
-                let at = (x + by.0, y + by.1);
-                marker.draw(&self.canvas, at, radius_px, ink);
+                marker.draw(&self.canvas, self.to_px(point), half_px, ink);
                 self.empty = false;
             }
         }
     }
 
-    fn is_inside(&self, point: Point) -> bool {
+    pub(crate) fn is_inside(&self, point: Point) -> bool {
         let [x, y] = self.axes();
         let inside = -SLACK..=1.0 + SLACK;
         [x.place(point.0), y.place(point.1)].iter().all(|p| inside.contains(p))
     }
 
-    /// A filled polygon whose corners outside the frame go to its edge.
-    pub(crate) fn area(&mut self, corners: Vec<Point>, fill: Fill) {
-        let area = Polygon::new(corners, fill);
-        done(self.chart.plotting_area().draw(&area));
-    }
-
-    /// A filled band between two ordinates along x, where both are finite.
+    /// A filled band between two ordinates along x, where both are finite;
+    /// what lies outside the frame goes to its edge.
     pub(crate) fn band(&mut self, rows: &[(f64, f64, f64)], fill: Fill) {
         let whole = |r: &&(f64, f64, f64)| {
             r.0.is_finite() && r.1.is_finite() && r.2.is_finite()
@@ -267,42 +240,31 @@ impl<'d> Panel<'d> {
         let rows: Vec<_> = rows.iter().filter(whole).collect();
         let below = rows.iter().map(|r| (r.0, r.1));
         let above = rows.iter().rev().map(|r| (r.0, r.2));
-        self.area(below.chain(above).collect(), fill);
+        let corners = below.chain(above).collect::<Vec<_>>();
+        let band = Polygon::new(corners, fill);
+        done(self.chart.plotting_area().draw(&band));
     }
 
-    /// A note in the lower right-hand corner, so many lines above it.
-    pub(crate) fn corner(&self, text: &str, lines: usize) {
-        let up = 8.0 + NOTE_PX * lines as f64;
-        let at = (self.frame.right - 5.0, self.frame.bottom - up);
-        self.note_px(text, at, Horizontal::Right);
-    }
-
-    /// A note on a baseline at a point inside the frame.
-    pub(crate) fn note(&self, text: &str, at: Point, align: Horizontal) {
-        if self.is_inside(at) {
-            self.note_px(text, self.to_px(at), align);
-        }
-    }
-
-    fn note_px(&self, text: &str, at: Point, align: Horizontal) {
-        self.canvas.text(text, at, style(TEXT_PX - 1.0, Ink::Muted, align));
-    }
-
-    /// Words outside the right-hand edge, at an ordinate in px.
-    pub(crate) fn right_of_px(&self, y: f64, text: &str) {
-        let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);
-        let words = style(TEXT_PX - 1.0, Ink::Text, Horizontal::Left);
-        self.canvas.text(text, at, words);
+    /// Small words on a baseline at a point in px.
+    pub(crate) fn words(
+        &self,
+        text: &str,
+        at: Point,
+        ink: Ink,
+        to: Horizontal,
+    ) {
+        self.canvas.text(text, at, style(TEXT_PX - 1.0, ink, to));
     }
 
     /// Draws the axes, the title, and words if there is nothing to see.
     /// Title and subtitle are in [`super::markup`].
     pub(crate) fn finish(mut self, title: &str, subtitle: &str) {
         let f = self.frame;
-        let middle = f64::midpoint(f.left, f.right);
+        let (middle, centre) =
+            (f64::midpoint(f.left, f.right), Horizontal::Centre);
         if self.empty {
             let at = (middle, f64::midpoint(f.top, f.bottom));
-            self.note_px("no data in this range", at, Horizontal::Centre);
+            self.words("no data in this range", at, Ink::Muted, centre);
         }
         draw_axes(&mut self.chart);
         let up = if let Some(second) = self.second.take() {
@@ -313,10 +275,10 @@ impl<'d> Panel<'d> {
         } else if subtitle.is_empty() {
             9.0
         } else {
-            self.note_px(subtitle, (middle, f.top - 7.0), Horizontal::Centre);
+            self.words(subtitle, (middle, f.top - 7.0), Ink::Muted, centre);
             20.0
         };
-        let words = style(TITLE_PX, Ink::Text, Horizontal::Centre);
+        let words = style(TITLE_PX, Ink::Text, centre);
         self.canvas.text(title, (middle, f.top - up), words);
     }
 }

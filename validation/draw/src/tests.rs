@@ -181,7 +181,7 @@ fn plotters_draws_a_chart_on_the_backend() {
             );
             let marks = [(3.0, 0.1), (5.0, 0.1), (3.0, -1.0)];
             let dot = (Marker::Dot, 1.0, Ink::Text);
-            panel.marks(marks, dot, (0.0, 0.0));
+            panel.marks(marks, dot);
         })
     };
     let svg = drawn();

@@ -1,20 +1,23 @@
-//! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
+//! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe. plotters
+//! has boxplots, but without a notch and in single precision.
 
-use super::common;
-use super::heading::Heading;
-use rocking_statistics::Boxplot;
+use std::iter::once;
 
-use crate::axis::Axis;
-use crate::colour::{Dash, Fill, Ink, Pen};
-use crate::drawing::Drawing;
-use crate::geometry::Point;
-use crate::grid::Grid;
-use crate::legend::{Entry, Sample};
-use crate::panel::{Marker, Panel};
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
+use rocking_statistics::Boxplot;
 use serde::{Deserialize, Serialize};
+
+use super::chart::{ChartPanel, Layout, Panels};
+use super::common;
+use super::series::{Look, Mark, Series};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::geometry::Point;
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::Marker;
 
 /// Notched boxplots of paired ratios, stripe by stripe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -136,7 +139,10 @@ const WIDEST: (f64, f64) = (0.1, 10.0);
 /// Width about 1, in ln, within which the axis of every figure is linear.
 const STRETCH: f64 = 0.005;
 
-pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
+/// The boxes as lines, bands and marks.
+pub(super) fn panels(figure: &Boxplots) -> Panels {
+    let stripes = || figure.panels.iter().flat_map(|p| &p.stripes);
+    let boxes = || stripes().filter_map(|s| s.summary.as_ref());
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
     let grid = Grid::new(figure.panels.len(), figure.columns);
@@ -146,7 +152,13 @@ pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
         _ => 166.0,
     };
     let grid = Grid { right: 44.0, ..grid }.plot(width, height);
-    let (low, high) = ratio_range(figure);
+    // The usual range, or what boxes and whiskers need.
+    let ends = boxes().flat_map(|b| {
+        [b.notch_low, b.notch_high, b.whisker_low, b.whisker_high]
+    });
+    let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
+    let low = (0.9 * low).clamp(WIDEST.0, USUAL.0);
+    let high = (1.12 * high).clamp(USUAL.1, WIDEST.1);
     let mut legend: Vec<Entry> = Vec::new();
     for alpha in figure.panels.iter().map(|p| p.alpha_rad) {
         let words = common::slenderness(alpha);
@@ -154,126 +166,118 @@ pub(super) fn scene(heading: &Heading, figure: &Boxplots) -> Drawing {
             legend.push(Entry::new(Sample::Box(common::ink(alpha)), words));
         }
     }
-    let cross = Sample::Mark(Marker::Cross, Ink::Text);
-    legend.push(Entry::new(cross, "outlier"));
-    if summaries(figure).any(|b| b.median_interval.is_some()) {
-        let words = "exact 95 % interval of the median";
-        legend.push(Entry::new(Sample::Line(INTERVAL), words));
+    let mark = |marker| Sample::Mark(marker, Ink::Text);
+    let outside = |x: &f64| *x > high || *x < low;
+    let closed = stripes().any(|stripe| stripe.closed_form.is_some());
+    for (shown, sample, words) in [
+        (true, mark(Marker::Cross), "outlier"),
+        (
+            boxes().any(|b| b.median_interval.is_some()),
+            Sample::Line(INTERVAL),
+            "exact 95 % interval of the median",
+        ),
+        (closed, Sample::Line(ONE), "ratio 1"),
+        (
+            closed,
+            Sample::Line(CLOSED_FORM),
+            "closed form (sin *α*/*α*)/(sin 0.1/0.1)",
+        ),
+        (
+            boxes().any(|b| b.outliers.iter().any(outside)),
+            mark(Marker::Beyond),
+            "more outliers beyond the axis",
+        ),
+    ] {
+        legend.extend(shown.then(|| Entry::new(sample, words)));
     }
-    let mut stripes = figure.panels.iter().flat_map(|panel| &panel.stripes);
-    if stripes.any(|stripe| stripe.closed_form.is_some()) {
-        legend.push(Entry::new(Sample::Line(ONE), "ratio 1"));
-        let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
-        legend.push(Entry::new(Sample::Line(CLOSED_FORM), words));
-    }
-    let beyond =
-        |b: &Boxplot| b.outliers.iter().any(|x| *x > high || *x < low);
-    if summaries(figure).any(beyond) {
-        let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
-        legend.push(Entry::new(arrow, "more outliers beyond the axis"));
-    }
-    let level = Intensity::Pga.row().label;
-    common::panels(heading, grid, &legend, |canvas, grid| {
-        for (i, shown) in figure.panels.iter().enumerate() {
-            let levels = shown.stripes.iter().map(|s| common::short(s.level));
-            let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);
-            let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
-                format!("{} (scale stretched about 1)", figure.ratio_label),
-            );
-            let mut panel = Panel::new(canvas, grid.frame(i), (x, y), None);
-            panel.vertical(1.0, ONE);
-            let ink = common::ink(shown.alpha_rad);
-            draw_stripes(&mut panel, shown, ink, (low, high));
-            // Over the boxes: it is what their medians are compared with.
-            let stripes = shown.stripes.iter().enumerate();
-            let expected = stripes.filter_map(|(k, stripe)| {
-                let (ratio, y) = (stripe.closed_form?, (k + 1) as f64);
-                Some([(ratio, y - 0.5), (ratio, y + 0.5)])
-            });
-            panel.line(expected.flatten(), CLOSED_FORM);
-            let title = format!(
-                "{}, {}",
-                common::frequency(shown.p_rad_s),
-                common::slenderness(shown.alpha_rad)
-            );
-            panel.finish(&common::panel_title(i, &title), "");
-        }
-    })
+    let x = Axis::about_one(low, high, STRETCH, 27.0 / width)
+        .label(format!("{} (scale stretched about 1)", figure.ratio_label));
+    let panel = |shown: &BoxPanel| {
+        let levels = shown.stripes.iter().map(|s| common::short(s.level));
+        let y = Axis::named(&levels.collect::<Vec<_>>());
+        let ink = common::ink(shown.alpha_rad);
+        let stripes = || (1..).map(f64::from).zip(&shown.stripes);
+        let boxes = stripes()
+            .flat_map(|(y, stripe)| drawn(stripe, y, ink, (low, high)));
+        // Over the boxes: it is what their medians are compared with.
+        let expected =
+            stripes().filter_map(|(y, s)| Some((s.closed_form?, y)));
+        let expected =
+            expected.flat_map(|(x, y)| [(x, y - 0.5), (x, y + 0.5)]);
+        let one = Series::note(Mark::Upright(ONE), "", (1.0, 1.0));
+        let series =
+            once(one).chain(boxes).chain(once(line(expected, CLOSED_FORM)));
+        let title = format!(
+            "{}, {}",
+            common::frequency(shown.p_rad_s),
+            common::slenderness(shown.alpha_rad)
+        );
+        let level = Intensity::Pga.row().label;
+        ChartPanel::new(title, x.clone(), y.label(level), series.collect())
+    };
+    let panels = figure.panels.iter().map(panel).collect();
+    let layout = Layout { grid: Some(grid), legend, ..Layout::default() };
+    Panels { panels, columns: figure.columns, layout }
 }
 
-fn summaries(figure: &Boxplots) -> impl Iterator<Item = &Boxplot> {
-    let stripes = figure.panels.iter().flat_map(|p| &p.stripes);
-    stripes.filter_map(|s| s.summary.as_ref())
+fn line(points: impl IntoIterator<Item = Point>, pen: Pen) -> Series {
+    let (x, y) = points.into_iter().unzip();
+    Series::of(Look::line(pen), x, y)
 }
 
-/// The usual range, or what boxes and whiskers need.
-fn ratio_range(figure: &Boxplots) -> (f64, f64) {
-    let ends = summaries(figure).flat_map(|b| {
-        [b.notch_low, b.notch_high, b.whisker_low, b.whisker_high]
-    });
-    let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
-    (
-        (0.9 * low).clamp(WIDEST.0, USUAL.0),
-        (1.12 * high).clamp(USUAL.1, WIDEST.1),
-    )
-}
-
-/// Boxes, with the share of usable ratios beside them.
-fn draw_stripes(
-    panel: &mut Panel<'_>,
-    shown: &BoxPanel,
-    ink: Ink,
-    (low, high): (f64, f64),
-) {
-    for (k, stripe) in shown.stripes.iter().enumerate() {
-        let y = (k + 1) as f64;
-        let percent = (100.0 * stripe.usable_share()).round();
-        let (_, y_px) = panel.to_px((1.0, y));
-        panel.right_of_px(y_px, &format!("{percent} %"));
-        let Some(b) = &stripe.summary else { continue };
-        let notched = stripe.usable >= NOTCHED;
-        let pen = Pen::new(ink, 0.9);
-        let waist = if notched { WAIST } else { HALF };
-        // Without a notch its ends are the median.
-        let notch = |end: f64| if notched { end } else { b.median };
-        let upper = [
-            (b.q1, HALF),
-            (notch(b.notch_low), HALF),
-            (b.median, waist),
-            (notch(b.notch_high), HALF),
-            (b.q3, HALF),
-        ];
-        let lower = upper.iter().rev().map(|(x, up)| (*x, -up));
-        let at = |(x, up): Point| (x.clamp(low, high), y + up);
-        let mut corners: Vec<Point> =
-            upper.into_iter().chain(lower).map(at).collect();
-        if corners.iter().any(|c| !c.0.is_finite()) {
-            continue;
-        }
-        let inside = b.outliers.iter().filter(|x| (low..=high).contains(*x));
-        let cross = (Marker::Cross, 2.6, ink);
-        panel.marks(inside.map(|x| (*x, y)), cross, (0.0, 0.0));
-        panel.line([(b.whisker_low, y), (b.q1, y)], pen);
-        panel.line([(b.q3, y), (b.whisker_high, y)], pen);
-        for end in [b.whisker_low, b.whisker_high] {
-            let cap = HALF / 2.0;
-            panel.line([(end, y - cap), (end, y + cap)], pen);
-        }
-        panel.area(corners.clone(), Fill::tint(ink, 24));
-        corners.push(corners[0]);
-        panel.line(corners, pen);
-        let median = [(b.median, y - waist), (b.median, y + waist)];
-        panel.line(median, Pen::new(ink, 1.6));
-        if let Some(interval) = b.median_interval {
-            let (from, to) = interval.interval.ends();
-            panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
-        }
-        let above = b.outliers.iter().any(|x| *x > high);
-        let below = b.outliers.iter().any(|x| *x < low);
-        let (right, left) = (Marker::Beyond, Marker::BeyondLeft);
-        let above = above.then_some((high, y));
-        panel.marks(above, (right, 3.0, ink), (-8.0, 0.0));
-        let below = below.then_some((low, y));
-        panel.marks(below, (left, 3.0, ink), (8.0, 0.0));
+/// A box at an ordinate, with the share of usable ratios beside it.
+fn drawn(stripe: &Stripe, y: f64, ink: Ink, range: Point) -> Vec<Series> {
+    let percent = (100.0 * stripe.usable_share()).round();
+    let share = format!("{percent} %");
+    let mut all = vec![Series::note(Mark::Edge, share, (1.0, y))];
+    let Some(b) = &stripe.summary else { return all };
+    let (low, high) = range;
+    let notched = stripe.usable >= NOTCHED;
+    let waist = if notched { WAIST } else { HALF };
+    // Without a notch its ends are the median.
+    let notch = |end: f64| if notched { end } else { b.median };
+    let half = [
+        (b.q1, HALF),
+        (notch(b.notch_low), HALF),
+        (b.median, waist),
+        (notch(b.notch_high), HALF),
+        (b.q3, HALF),
+    ];
+    if half.iter().any(|(x, _)| !x.is_finite()) {
+        return all;
     }
+    let half = half.map(|(x, up)| (x.clamp(low, high), up));
+    let mut mark = |marker, half_px, x: Vec<f64>| {
+        let y = vec![y; x.len()];
+        all.push(Series::of(Look::marks(marker, half_px, ink), x, y));
+    };
+    let (out, rest): (Vec<f64>, Vec<f64>) =
+        b.outliers.iter().partition(|x| !(low..=high).contains(*x));
+    mark(Marker::Cross, 2.6, rest);
+    if out.iter().any(|x| *x > high) {
+        mark(Marker::Beyond, 3.0, vec![high]);
+    }
+    if out.iter().any(|x| *x < low) {
+        mark(Marker::BeyondLeft, 3.0, vec![low]);
+    }
+    let pen = Pen::new(ink, 0.9);
+    let flat = |from, to, up, pen| line([(from, y + up), (to, y + up)], pen);
+    let across = |x, up, pen| line([(x, y - up), (x, y + up)], pen);
+    let body = Look::band(Fill::tint(ink, 24));
+    let ends = half.map(|(_, up)| (y - up, y + up)).into();
+    let around =
+        half.into_iter().chain(half.map(|(x, up)| (x, -up)).into_iter().rev());
+    let around = around.chain([half[0]]).map(|(x, up)| (x, y + up));
+    all.extend([
+        flat(b.whisker_low, b.q1, 0.0, pen),
+        flat(b.q3, b.whisker_high, 0.0, pen),
+        across(b.whisker_low, HALF / 2.0, pen),
+        across(b.whisker_high, HALF / 2.0, pen),
+        Series::of(body, half.map(|(x, _)| x).into(), vec![y; 5]).with(ends),
+        line(around, pen),
+        across(b.median, waist, Pen::new(ink, 1.6)),
+    ]);
+    let interval = b.median_interval.map(|i| i.interval.ends());
+    all.extend(interval.map(|(from, to)| flat(from, to, BELOW, INTERVAL)));
+    all
 }

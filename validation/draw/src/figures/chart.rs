@@ -6,12 +6,13 @@ use super::common;
 use super::heading::Heading;
 use super::series::{Look, Mark, Series};
 use crate::axis::{Axis, AxisScale};
-use crate::colour::Pen;
+use crate::colour::{Ink, Pen};
 use crate::drawing::Drawing;
 use crate::geometry::{Point, kept};
 use crate::grid::Grid;
 use crate::legend::Entry;
 use crate::panel::{Marker, Panel};
+use crate::text::{Horizontal, TEXT_PX};
 use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,8 @@ use serde::{Deserialize, Serialize};
 const COLUMNS: usize = 1120;
 /// How far a thinned line may be from the full one, in px.
 const TOLERANCE_PX: f64 = 0.1;
+/// Between the baselines of two notes in the corner, in px.
+const NOTE_PX: f64 = 13.5;
 /// Smallest distance between words at the right-hand edge, in px.
 const APART_PX: f64 = 11.5;
 
@@ -310,24 +313,23 @@ fn grid_of(panels: usize, columns: usize) -> Grid {
 
 pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     let all = || figure.panels.iter().flat_map(|p| &p.series);
-    let mut labels: Vec<&str> = vec![];
-    let mut shown: Vec<&Series> = vec![];
-    for series in all().filter(|s| !s.label.is_empty()) {
-        if !labels.contains(&series.label.as_str()) && series.has_sample() {
-            labels.push(&series.label);
-            shown.push(series);
+    let mut labelled: Vec<&Series> = Vec::new();
+    let rank = |labelled: &[&Series], series: &Series| {
+        labelled.iter().position(|one| one.label == series.label)
+    };
+    for series in all().filter(|s| s.has_sample()) {
+        if rank(&labelled, series).is_none() {
+            labelled.push(series);
         }
     }
-    let coincide = shown.iter().all(|s| s.interval.is_empty());
-    let look = |series: &Series| {
-        let rank = labels.iter().position(|label| *label == series.label);
-        series.mark.look(rank, labels.len() > FEW && coincide)
+    let nested =
+        labelled.len() > FEW && labelled.iter().all(|s| s.interval.is_empty());
+    let look = |one: &Series| one.mark.look(rank(&labelled, one), nested);
+    let entry = |one: &&Series| {
+        let sample = look(one).sample(!one.interval.is_empty())?;
+        Some(Entry::new(sample, &*one.label))
     };
-    let mut legend: Vec<Entry> = vec![];
-    for series in shown {
-        let sample = look(series).sample(!series.interval.is_empty());
-        legend.extend(sample.map(|s| Entry::new(s, &*series.label)));
-    }
+    let mut legend: Vec<Entry> = labelled.iter().filter_map(entry).collect();
     let Layout { grid, legend: more, .. } = &figure.layout;
     legend.extend(more.iter().cloned());
     let mut grid = grid.unwrap_or_else(|| {
@@ -399,29 +401,30 @@ fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
 
 fn draw_series(panel: &mut Panel<'_>, series: &Series, look: Look) {
     let at = series.points().next().unwrap_or((f64::NAN, f64::NAN));
+    let [(left, right), (bottom, top)] = panel.axes().map(Axis::range);
+    let empty = panel.empty;
     match series.mark {
-        Mark::Across(pen) => {
-            let (low, high) = panel.axes()[0].range();
-            panel.reference([(low, at.1), (high, at.1)], pen);
-        }
-        Mark::Upright(pen) => panel.vertical(at.0, pen),
-        Mark::Words(align) => {
-            panel.note(&series.label, at, align);
+        Mark::Across(pen) => panel.line([(left, at.1), (right, at.1)], pen),
+        Mark::Upright(pen) => panel.line([(at.0, bottom), (at.0, top)], pen),
+        Mark::Words(align) if panel.is_inside(at) => {
+            panel.words(&series.label, panel.to_px(at), Ink::Muted, align);
         }
         _ => {}
     }
+    // Reference lines are no data.
+    panel.empty = empty;
     let ends = series.x.iter().zip(&series.interval);
     let rows: Vec<_> = ends.map(|(x, (a, b))| (*x, *a, *b)).collect();
     if let Some(bar) = look.bars {
         for (x, low, high) in &rows {
             panel.line([(*x, *low), (*x, *high)], bar);
             // It goes on beyond the frame.
-            let (first, last) = panel.axes()[1].range();
-            let below = (*low < first && first < *high).then_some((*x, first));
-            let above = (*low < last && last < *high).then_some((*x, last));
-            let head = |marker| (marker, 3.0, bar.ink);
-            panel.marks(below, head(Marker::BeyondBelow), (0.0, -4.0));
-            panel.marks(above, head(Marker::BeyondAbove), (0.0, 4.0));
+            for (edge, marker) in
+                [(bottom, Marker::BeyondBelow), (top, Marker::BeyondAbove)]
+            {
+                let cut = (*low < edge && edge < *high).then_some((*x, edge));
+                panel.marks(cut, (marker, 3.0, bar.ink));
+            }
         }
     }
     if let Some(fill) = look.band {
@@ -443,12 +446,11 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, look: Look) {
         [(&low, look.sides), (&series.x, look.pen), (&high, look.sides)]
     {
         if let Some(pen) = pen {
-            let points = path(x, &series.y, panel.axes()[0].range().1);
-            panel.line(points, pen);
+            panel.line(path(x, &series.y, right), pen);
         }
     }
     if let Some(marker) = look.marker {
-        panel.marks(series.points(), marker, (0.0, 0.0));
+        panel.marks(series.points(), marker);
     }
 }
 
@@ -464,14 +466,16 @@ fn path(x: &[f64], y: &[f64], end: f64) -> Vec<Point> {
 /// Words in the corner and at the right-hand edge, kept apart.
 fn outer_words(panel: &Panel<'_>, all: &[Series]) {
     let of = |mark| all.iter().filter(move |s| s.mark == mark);
-    let corner: Vec<&Series> = of(Mark::Corner).collect();
-    for (k, note) in corner.iter().rev().enumerate() {
-        panel.corner(&note.label, k);
+    let mut y = panel.frame.bottom - 8.0;
+    for note in of(Mark::Corner).rev() {
+        let at = (panel.frame.right - 5.0, y);
+        panel.words(&note.label, at, Ink::Muted, Horizontal::Right);
+        y -= NOTE_PX;
     }
-    let mut last = f64::INFINITY;
+    let mut y = f64::INFINITY;
     for words in of(Mark::Edge) {
-        let y = panel.to_px((0.0, words.y[0])).1.min(last - APART_PX);
-        panel.right_of_px(y, &words.label);
-        last = y;
+        y = panel.to_px((0.0, words.y[0])).1.min(y - APART_PX);
+        let at = (panel.frame.right + 5.0, y + 0.33 * TEXT_PX);
+        panel.words(&words.label, at, Ink::Text, Horizontal::Left);
     }
 }

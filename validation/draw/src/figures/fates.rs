@@ -1,11 +1,10 @@
 //! A map of fates in the plane of frequency and amplitude.
 
-use super::chart::{self, ChartAxis, ChartPanel, Layout, Panels};
+use super::chart::{ChartAxis, ChartPanel, Layout, Panels};
 use super::figure::{Figure, Graphic};
 use super::heading::Heading;
 use super::series::{Look, Series};
 use crate::colour::{Dash, Fill, Ink, Pen};
-use crate::drawing::Drawing;
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use rocking::names::named;
@@ -105,7 +104,8 @@ impl FateMap {
     }
 }
 
-pub(super) fn scene(figure: &FateMap) -> Drawing {
+/// Columns as bands, and the boundaries over them.
+pub(super) fn panels(figure: &FateMap) -> Panels {
     let entry =
         |fate: MapFate| Entry::new(Sample::Band(fate.fill()), fate.name());
     let legend = MapFate::ALL.into_iter().map(entry).collect();
@@ -140,6 +140,5 @@ pub(super) fn scene(figure: &FateMap) -> Drawing {
     );
     let grid = Grid { above: 10.0, ..Grid::new(1, 1).plot(600.0, 360.0) };
     let layout = Layout { grid: Some(grid), legend, ..Layout::default() };
-    let shown = Panels { panels: vec![panel], columns: 1, layout };
-    chart::scene(&figure.heading, &shown)
+    Panels { panels: vec![panel], columns: 1, layout }
 }

@@ -44,9 +44,13 @@ impl Figure {
     pub(crate) fn scene(&self) -> Drawing {
         match &self.drawn {
             Graphic::Chart(panels) => chart::scene(&self.heading, panels),
-            Graphic::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
+            Graphic::Boxplots(boxes) => {
+                chart::scene(&self.heading, &boxplots::panels(boxes))
+            }
             Graphic::Sketch(block) => sketch::scene(block),
-            Graphic::Fates(map) => fates::scene(map),
+            Graphic::Fates(map) => {
+                chart::scene(&self.heading, &fates::panels(map))
+            }
         }
     }
 

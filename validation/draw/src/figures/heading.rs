@@ -63,37 +63,32 @@ pub enum Place {
     Beyond,
 }
 
-/// The figures with numbers, those of the paper first: where each belongs,
-/// and whether it is drawn once for each arm.
-const NUMBERED: [(Place, bool); 21] = {
+/// Where a figure with a number belongs, those of the paper first.
+fn place_of(number: u32) -> Place {
     use Place::{Answers, Checks, Folded, Opens, Proof};
     use Theme::{
         Choices, Fragilities, Lognormality, SingleRecords, Statistics,
     };
-    [
-        (Folded(Choices), false),
-        (Folded(SingleRecords), false),
-        (Folded(SingleRecords), false),
-        (Opens(SingleRecords), false),
-        (Folded(SingleRecords), false),
-        (Opens(Statistics), true),
-        (Folded(Statistics), true),
-        (Answers, true),
-        (Folded(Statistics), true),
-        (Folded(Statistics), true),
-        (Folded(Lognormality), false),
-        (Opens(Lognormality), false),
-        (Folded(Lognormality), true),
-        (Folded(Lognormality), false),
-        (Folded(Fragilities), false),
-        (Opens(Fragilities), false),
-        (Folded(Fragilities), false),
-        (Folded(Fragilities), false),
-        (Checks, false),
-        (Proof, false),
-        (Checks, false),
-    ]
-};
+    match number {
+        1 => Folded(Choices),
+        4 => Opens(SingleRecords),
+        2 | 3 | 5 => Folded(SingleRecords),
+        6 => Opens(Statistics),
+        7 | 9 | 10 => Folded(Statistics),
+        8 => Answers,
+        12 => Opens(Lognormality),
+        11 | 13 | 14 => Folded(Lognormality),
+        16 => Opens(Fragilities),
+        15 | 17 | 18 => Folded(Fragilities),
+        20 => Proof,
+        _ => Checks,
+    }
+}
+
+/// Whether a figure with a number is drawn once for each arm.
+fn is_by_arm(number: u32) -> bool {
+    matches!(number, 6..=10 | 13)
+}
 
 impl Heading {
     /// The words of a figure without a number.
@@ -121,11 +116,12 @@ impl Heading {
         description: impl Into<String>,
         arm: Option<Arm>,
     ) -> Self {
-        let (place, by_arm) = NUMBERED[number as usize - 1];
         let of_arm = |arm: Arm| format!("-{}", arm.name().to_lowercase());
-        let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
+        let suffix =
+            arm.filter(|_| is_by_arm(number)).map_or(String::new(), of_arm);
         let name = format!("figure-{number:02}{suffix}");
         let words = Self::new(name, title, description);
+        let place = place_of(number);
         Self { place, arm, number: Some(number), ..words }
     }
 
@@ -154,8 +150,7 @@ impl Heading {
 
     /// The arm, where it is drawn once for each.
     pub fn own_arm(&self) -> Option<Arm> {
-        let by_arm = |n: u32| NUMBERED[n as usize - 1].1;
-        self.arm.filter(|_| self.number.is_some_and(by_arm))
+        self.arm.filter(|_| self.number.is_some_and(is_by_arm))
     }
 
     /// What stands before its title: `Figure 6, arm C, recorded motions`.

@@ -74,9 +74,10 @@ impl Series {
         Self { keys: keys.into(), ..self }
     }
 
-    /// Whether the legend can show how it is drawn.
+    /// Whether the legend shows how it is drawn.
     pub(super) fn has_sample(&self) -> bool {
-        self.mark.look(Some(0), false).sample(true).is_some()
+        let sample = self.mark.look(Some(0), false).sample(true);
+        !self.label.is_empty() && sample.is_some()
     }
 
     /// Its points.

@@ -110,13 +110,10 @@ impl Axis {
     /// A logarithmic axis of exactly this range; ends that are not positive
     /// become 0.1 and 10.
     pub fn logarithmic(low: f64, high: f64) -> Self {
-        let usable = low > 0.0 && high > low && high.is_finite();
-        let (low, high) = if usable {
-            (low, high)
-        } else if low > 0.0 && low.is_finite() {
-            (low / 2.0, low * 2.0)
-        } else {
-            (0.1, 10.0)
+        let (low, high) = match low > 0.0 && low.is_finite() {
+            true if high > low && high.is_finite() => (low, high),
+            true => (low / 2.0, low * 2.0),
+            false => (0.1, 10.0),
         };
         let decades = libm::log10(high / low);
         let mut axis =
@@ -127,33 +124,30 @@ impl Axis {
         }
         let first = libm::log10(low).floor() as i32;
         let last = libm::log10(high).ceil() as i32;
-        let plain = first >= -2 && last <= 3;
         let every = (f64::from(last - first) / 7.0).ceil().max(1.0) as i32;
+        let inside = low * (1.0 - 1e-9)..=high * (1.0 + 1e-9);
         for decade in first..=last {
+            let power = format!("10^{{{}}}", minus(&decade.to_string()));
             for digit in 1..10 {
                 let at = f64::from(digit) * power_of_ten(decade);
-                if at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9) {
-                    continue;
-                }
-                let labelled = match digit {
+                let is_labelled = match digit {
                     1 => decade.rem_euclid(every) == 0,
                     2 | 5 => decades < 2.2,
                     _ => false,
                 };
-                if !labelled {
-                    if every == 1 || digit == 1 {
-                        axis.minor.push(at);
+                let label = match digit {
+                    _ if first >= -2 && last <= 3 => {
+                        fixed(at, usize::try_from(-decade).unwrap_or(0))
                     }
-                    continue;
-                }
-                let label = if plain {
-                    fixed(at, usize::try_from(-decade).unwrap_or(0))
-                } else if digit == 1 {
-                    format!("10^{{{}}}", minus(&decade.to_string()))
-                } else {
-                    format!("{digit}·10^{{{}}}", minus(&decade.to_string()))
+                    1 => power.clone(),
+                    _ => format!("{digit}·{power}"),
                 };
-                axis.ticks.push(Tick { at, label });
+                match is_labelled {
+                    _ if !inside.contains(&at) => {}
+                    true => axis.ticks.push(Tick { at, label }),
+                    false if every > 1 && digit > 1 => {}
+                    false => axis.minor.push(at),
+                }
             }
         }
         axis
@@ -162,9 +156,12 @@ impl Axis {
     /// An axis of ratios that shows both what lies within `width` of 1 (in
     /// ln) and what lies far away: ln r goes to asinh(ln r / width). Ticks
     /// are at least the share `apart` of the axis away from one another.
-    pub fn about_one(low: f64, high: f64, width: f64, apart: f64) -> Self {
-        let low = if low > 0.0 && low < 1.0 { low } else { 0.5 };
-        let high = if high > 1.0 && high.is_finite() { high } else { 2.0 };
+    pub(crate) fn about_one(
+        low: f64,
+        high: f64,
+        width: f64,
+        apart: f64,
+    ) -> Self {
         let mut axis =
             Self::new(low, high, AxisScale::AboutOne(width), Vec::new());
         let mut taken: Vec<f64> = Vec::new();

@@ -21,13 +21,14 @@ pub mod of_suite;
 mod series;
 mod sketch;
 
+pub use crate::panel::Look;
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
 pub use chart::{Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of};
 pub use fates::{FateMap, MapFate};
 pub use figure::Figure;
 pub use heading::{Heading, Motions, Place};
 pub use histories::{History, HistoryPanel, histories};
-pub use series::{Look, Mark, Series};
+pub use series::{Mark, Series};
 pub use sketch::BlockSketch;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::canvas::{Canvas, style};
 use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::Rect;
 use crate::markup;
-use crate::panel::Marker;
+use crate::panel::{Look, Marker};
 use crate::text::{Horizontal, TEXT_PX};
 use serde::{Deserialize, Serialize};
 
@@ -18,18 +18,14 @@ const ROW_PX: f64 = 18.0;
 pub enum Sample {
     /// A line.
     Line(Pen),
-    /// A line between two others.
-    Quantiles(Pen, Pen),
     /// A mark.
     Mark(Marker, Ink),
     /// A mark on a line.
     LineAndMark(Pen, Marker),
-    /// A filled box with its outline.
-    Box(Ink),
     /// A filled band.
     Band(Fill),
-    /// A line over its band.
-    LineAndBand(Pen, Fill),
+    /// What a series looks like.
+    Of(Look),
 }
 
 /// One entry.
@@ -99,36 +95,29 @@ pub(crate) fn draw(canvas: &Canvas<'_>, entries: &[Entry], width_px: f64) {
 }
 
 fn draw_sample(canvas: &Canvas<'_>, sample: Sample, x: f64, y: f64) {
-    let line = |up: f64, pen| {
-        canvas.line(&[(x, y - up), (x + SAMPLE_PX, y - up)], pen);
-    };
-    let middle = (x + SAMPLE_PX / 2.0, y);
-    let (left, right) = (x + 5.0, x + SAMPLE_PX - 5.0);
-    let (top, bottom) = (y - 5.0, y + 5.0);
-    let corners = Rect { left, top, right, bottom }.corners();
-    match sample {
-        Sample::Line(pen) => line(0.0, pen),
-        Sample::Quantiles(pen, sides) => {
-            for (up, pen) in [(4.0, sides), (0.0, pen), (-4.0, sides)] {
-                line(up, pen);
-            }
-        }
-        Sample::Mark(marker, ink) => marker.draw(canvas, middle, 3.2, ink),
+    let look = match sample {
+        Sample::Line(pen) => Look::line(pen),
+        Sample::Mark(marker, ink) => Look::marks(marker, 3.2, ink),
         Sample::LineAndMark(pen, marker) => {
-            line(0.0, pen);
-            marker.draw(canvas, middle, 3.0, pen.ink);
+            let marker = Some((marker, 3.0, pen.ink));
+            Look { marker, ..Look::line(pen) }
         }
-        Sample::LineAndBand(pen, fill) => {
-            canvas.area(&corners, fill);
-            line(0.0, pen);
+        Sample::Band(fill) => Look::band(fill),
+        Sample::Of(look) => look,
+    };
+    if let Some(fill) = look.band {
+        let (left, right) = (x + 5.0, x + SAMPLE_PX - 5.0);
+        let (top, bottom) = (y - 5.0, y + 5.0);
+        let corners = Rect { left, top, right, bottom }.corners();
+        canvas.area(&corners, fill);
+        canvas.outline(&corners, Pen::new(Ink::Muted, 0.4));
+    }
+    for (up, pen) in [(4.0, look.sides), (0.0, look.pen), (-4.0, look.sides)] {
+        if let Some(pen) = pen {
+            canvas.line(&[(x, y - up), (x + SAMPLE_PX, y - up)], pen);
         }
-        Sample::Box(ink) => {
-            canvas.area(&corners, Fill::tint(ink, 28));
-            canvas.outline(&corners, Pen::new(ink, 0.9));
-        }
-        Sample::Band(fill) => {
-            canvas.area(&corners, fill);
-            canvas.outline(&corners, Pen::new(Ink::Muted, 0.4));
-        }
+    }
+    if let Some((marker, _, ink)) = look.marker {
+        marker.draw(canvas, (x + SAMPLE_PX / 2.0, y), 3.2, ink);
     }
 }

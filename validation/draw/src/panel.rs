@@ -104,6 +104,40 @@ impl Marker {
     }
 }
 
+/// Pens, fills and marks of a series; those it does not have are none.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Look {
+    /// The line.
+    pub pen: Option<Pen>,
+    /// Lines along the ends of the abscissas' intervals.
+    pub sides: Option<Pen>,
+    /// Bars between the ends of the ordinates' intervals.
+    pub bars: Option<Pen>,
+    /// The band between these ends.
+    pub band: Option<Fill>,
+    /// Bars from each abscissa to the next one, which the line goes around.
+    pub bins: Option<Fill>,
+    /// Mark, half width in px and ink at each point.
+    pub marker: Option<(Marker, f64, Ink)>,
+}
+
+impl Look {
+    /// Nothing but a line.
+    pub fn line(pen: Pen) -> Self {
+        Self { pen: Some(pen), ..Self::default() }
+    }
+
+    /// Nothing but a band.
+    pub fn band(fill: Fill) -> Self {
+        Self { band: Some(fill), ..Self::default() }
+    }
+
+    /// Nothing but marks of this half width in px.
+    pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
+        Self { marker: Some((marker, half_px, ink)), ..Self::default() }
+    }
+}
+
 type AxesChart<'d> =
     ChartContext<'d, &'d mut Drawing, Cartesian2d<Axis, Axis>>;
 

@@ -1,8 +1,6 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe. plotters
 //! has boxplots, but without a notch and in single precision.
 
-use std::iter::once;
-
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
@@ -11,13 +9,12 @@ use serde::{Deserialize, Serialize};
 
 use super::chart::{ChartPanel, Layout, Panels};
 use super::common;
-use super::series::{Look, Mark, Series};
+use super::series::{Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::grid::Grid;
-use crate::legend::{Entry, Sample};
-use crate::panel::Marker;
+use crate::panel::{Look, Marker};
 
 /// Notched boxplots of paired ratios, stripe by stripe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -129,7 +126,7 @@ const WAIST: f64 = 0.15;
 /// Where the interval of the median is drawn, below the box.
 const BELOW: f64 = -0.43;
 const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
-const ONE: Pen = Pen::new(Ink::Muted, 0.9);
+const ONE: Mark = Mark::Upright(Pen::new(Ink::Muted, 0.9));
 const CLOSED_FORM: Pen = Pen::new(Ink::Series(1), 1.1).dash(Dash::Short);
 /// The range of every figure, unless a whisker reaches farther; outliers
 /// beyond are left out, with an arrow head at the edge.
@@ -159,64 +156,31 @@ pub(super) fn panels(figure: &Boxplots) -> Panels {
     let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
     let low = (0.9 * low).clamp(WIDEST.0, USUAL.0);
     let high = (1.12 * high).clamp(USUAL.1, WIDEST.1);
-    let mut legend: Vec<Entry> = Vec::new();
-    for alpha in figure.panels.iter().map(|p| p.alpha_rad) {
-        let words = common::slenderness(alpha);
-        if figure.panels.len() > 1 && legend.iter().all(|e| e.label != words) {
-            legend.push(Entry::new(Sample::Box(common::ink(alpha)), words));
-        }
-    }
-    let mark = |marker| Sample::Mark(marker, Ink::Text);
-    let outside = |x: &f64| *x > high || *x < low;
-    let closed = stripes().any(|stripe| stripe.closed_form.is_some());
-    for (shown, sample, words) in [
-        (true, mark(Marker::Cross), "outlier"),
-        (
-            boxes().any(|b| b.median_interval.is_some()),
-            Sample::Line(INTERVAL),
-            "exact 95 % interval of the median",
-        ),
-        (closed, Sample::Line(ONE), "ratio 1"),
-        (
-            closed,
-            Sample::Line(CLOSED_FORM),
-            "closed form (sin *α*/*α*)/(sin 0.1/0.1)",
-        ),
-        (
-            boxes().any(|b| b.outliers.iter().any(outside)),
-            mark(Marker::Beyond),
-            "more outliers beyond the axis",
-        ),
-    ] {
-        legend.extend(shown.then(|| Entry::new(sample, words)));
-    }
     let x = Axis::about_one(low, high, STRETCH, 27.0 / width)
         .label(format!("{} (scale stretched about 1)", figure.ratio_label));
     let panel = |shown: &BoxPanel| {
         let levels = shown.stripes.iter().map(|s| common::short(s.level));
         let y = Axis::named(&levels.collect::<Vec<_>>());
-        let ink = common::ink(shown.alpha_rad);
         let stripes = || (1..).map(f64::from).zip(&shown.stripes);
-        let boxes = stripes()
-            .flat_map(|(y, stripe)| drawn(stripe, y, ink, (low, high)));
+        let alpha = common::slenderness(shown.alpha_rad);
+        let mut series = vec![Series::note(ONE, "ratio 1", (1.0, 1.0))];
+        for (y, stripe) in stripes() {
+            series.extend(drawn(stripe, y, shown.alpha_rad, (low, high)));
+        }
         // Over the boxes: it is what their medians are compared with.
-        let expected =
-            stripes().filter_map(|(y, s)| Some((s.closed_form?, y)));
-        let expected =
-            expected.flat_map(|(x, y)| [(x, y - 0.5), (x, y + 0.5)]);
-        let one = Series::note(Mark::Upright(ONE), "", (1.0, 1.0));
-        let series =
-            once(one).chain(boxes).chain(once(line(expected, CLOSED_FORM)));
-        let title = format!(
-            "{}, {}",
-            common::frequency(shown.p_rad_s),
-            common::slenderness(shown.alpha_rad)
-        );
+        let limits = stripes().filter_map(|(y, s)| Some((s.closed_form?, y)));
+        let limits: Vec<Point> =
+            limits.flat_map(|(x, y)| [(x, y - 0.5), (x, y + 0.5)]).collect();
+        if !limits.is_empty() {
+            let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
+            series.push(line(limits, CLOSED_FORM).labelled(words));
+        }
+        let title = format!("{}, {alpha}", common::frequency(shown.p_rad_s));
         let level = Intensity::Pga.row().label;
-        ChartPanel::new(title, x.clone(), y.label(level), series.collect())
+        ChartPanel::new(title, x.clone(), y.label(level), series)
     };
     let panels = figure.panels.iter().map(panel).collect();
-    let layout = Layout { grid: Some(grid), legend, ..Layout::default() };
+    let layout = Layout { grid: Some(grid), ..Layout::default() };
     Panels { panels, columns: figure.columns, layout }
 }
 
@@ -226,58 +190,66 @@ fn line(points: impl IntoIterator<Item = Point>, pen: Pen) -> Series {
 }
 
 /// A box at an ordinate, with the share of usable ratios beside it.
-fn drawn(stripe: &Stripe, y: f64, ink: Ink, range: Point) -> Vec<Series> {
+fn drawn(
+    stripe: &Stripe,
+    y: f64,
+    alpha_rad: f64,
+    (low, high): Point,
+) -> Vec<Series> {
     let percent = (100.0 * stripe.usable_share()).round();
     let share = format!("{percent} %");
     let mut all = vec![Series::note(Mark::Edge, share, (1.0, y))];
     let Some(b) = &stripe.summary else { return all };
-    let (low, high) = range;
-    let notched = stripe.usable >= NOTCHED;
-    let waist = if notched { WAIST } else { HALF };
     // Without a notch its ends are the median.
-    let notch = |end: f64| if notched { end } else { b.median };
-    let half = [
-        (b.q1, HALF),
-        (notch(b.notch_low), HALF),
-        (b.median, waist),
-        (notch(b.notch_high), HALF),
-        (b.q3, HALF),
-    ];
-    if half.iter().any(|(x, _)| !x.is_finite()) {
+    let (notch_low, notch_high, waist) = match stripe.usable >= NOTCHED {
+        true => (b.notch_low, b.notch_high, WAIST),
+        false => (b.median, b.median, HALF),
+    };
+    let ends = [b.q1, notch_low, b.median, notch_high, b.q3];
+    if ends.iter().any(|x| !x.is_finite()) {
         return all;
     }
-    let half = half.map(|(x, up)| (x.clamp(low, high), up));
-    let mut mark = |marker, half_px, x: Vec<f64>| {
-        let y = vec![y; x.len()];
-        all.push(Series::of(Look::marks(marker, half_px, ink), x, y));
+    let ink = common::ink(alpha_rad);
+    let x = ends.map(|x| x.clamp(low, high));
+    let half = [HALF, HALF, waist, HALF, HALF];
+    let body =
+        Series::of(Look::band(Fill::tint(ink, 24)), x.into(), vec![y; 5])
+            .labelled(common::slenderness(alpha_rad))
+            .with(half.map(|up| (y - up, y + up)).into());
+    let mark = |marker, half_px, x: Vec<f64>, words| {
+        let words = if x.is_empty() { "" } else { words };
+        let (look, y) = (Look::marks(marker, half_px, ink), vec![y; x.len()]);
+        Series::of(look, x, y).labelled(words)
     };
-    let (out, rest): (Vec<f64>, Vec<f64>) =
-        b.outliers.iter().partition(|x| !(low..=high).contains(*x));
-    mark(Marker::Cross, 2.6, rest);
-    if out.iter().any(|x| *x > high) {
-        mark(Marker::Beyond, 3.0, vec![high]);
-    }
-    if out.iter().any(|x| *x < low) {
-        mark(Marker::BeyondLeft, 3.0, vec![low]);
-    }
+    let outside = |is: fn(f64, f64) -> bool, end: f64| {
+        let any = b.outliers.iter().any(|x| is(*x, end));
+        any.then_some(end).into_iter().collect()
+    };
+    let inside = b.outliers.iter().copied();
+    let inside = inside.filter(|x| (low..=high).contains(x)).collect();
+    let more = "more outliers beyond the axis";
+    let upper = x.into_iter().zip(half.map(|up| y + up));
+    let lower = x.into_iter().zip(half.map(|up| y - up)).rev();
+    let around = upper.chain(lower).chain([(x[0], y + HALF)]);
     let pen = Pen::new(ink, 0.9);
-    let flat = |from, to, up, pen| line([(from, y + up), (to, y + up)], pen);
+    let flat = |from, to| line([(from, y), (to, y)], pen);
     let across = |x, up, pen| line([(x, y - up), (x, y + up)], pen);
-    let body = Look::band(Fill::tint(ink, 24));
-    let ends = half.map(|(_, up)| (y - up, y + up)).into();
-    let around =
-        half.into_iter().chain(half.map(|(x, up)| (x, -up)).into_iter().rev());
-    let around = around.chain([half[0]]).map(|(x, up)| (x, y + up));
     all.extend([
-        flat(b.whisker_low, b.q1, 0.0, pen),
-        flat(b.q3, b.whisker_high, 0.0, pen),
+        mark(Marker::Cross, 2.6, inside, "outlier"),
+        mark(Marker::Beyond, 3.0, outside(|x, end| x > end, high), more),
+        mark(Marker::BeyondLeft, 3.0, outside(|x, end| x < end, low), more),
+        flat(b.whisker_low, b.q1),
+        flat(b.q3, b.whisker_high),
         across(b.whisker_low, HALF / 2.0, pen),
         across(b.whisker_high, HALF / 2.0, pen),
-        Series::of(body, half.map(|(x, _)| x).into(), vec![y; 5]).with(ends),
+        body,
         line(around, pen),
         across(b.median, waist, Pen::new(ink, 1.6)),
     ]);
     let interval = b.median_interval.map(|i| i.interval.ends());
-    all.extend(interval.map(|(from, to)| flat(from, to, BELOW, INTERVAL)));
+    all.extend(interval.map(|(from, to)| {
+        let points = [(from, y + BELOW), (to, y + BELOW)];
+        line(points, INTERVAL).labelled("exact 95 % interval of the median")
+    }));
     all
 }

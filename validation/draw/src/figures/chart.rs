@@ -4,14 +4,14 @@ use std::iter::empty;
 
 use super::common;
 use super::heading::Heading;
-use super::series::{Look, Mark, Series};
+use super::series::{Mark, Series};
 use crate::axis::{Axis, AxisScale};
 use crate::colour::{Ink, Pen};
 use crate::drawing::Drawing;
 use crate::geometry::{Point, kept};
 use crate::grid::Grid;
-use crate::legend::Entry;
-use crate::panel::{Marker, Panel};
+use crate::legend::{Entry, Sample};
+use crate::panel::{Look, Marker, Panel};
 use crate::text::{Horizontal, TEXT_PX};
 use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
@@ -326,10 +326,14 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
         labelled.len() > FEW && labelled.iter().all(|s| s.interval.is_empty());
     let look = |one: &Series| one.mark.look(rank(&labelled, one), nested);
     let entry = |one: &&Series| {
-        let sample = look(one).sample(!one.interval.is_empty())?;
-        Some(Entry::new(sample, &*one.label))
+        let look = look(one);
+        // A line shows its band only where it has one.
+        let band = look
+            .band
+            .filter(|_| look.pen.is_none() || !one.interval.is_empty());
+        Entry::new(Sample::Of(Look { band, ..look }), &*one.label)
     };
-    let mut legend: Vec<Entry> = labelled.iter().filter_map(entry).collect();
+    let mut legend: Vec<Entry> = labelled.iter().map(entry).collect();
     let Layout { grid, legend: more, .. } = &figure.layout;
     legend.extend(more.iter().cloned());
     let mut grid = grid.unwrap_or_else(|| {

@@ -3,10 +3,10 @@
 use super::chart::{ChartAxis, ChartPanel, Layout, Panels};
 use super::figure::{Figure, Graphic};
 use super::heading::Heading;
-use super::series::{Look, Series};
+use super::series::Series;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::grid::Grid;
-use crate::legend::{Entry, Sample};
+use crate::panel::Look;
 use rocking::names::named;
 use rocking_common::table::{Table, number};
 
@@ -106,10 +106,11 @@ impl FateMap {
 
 /// Columns as bands, and the boundaries over them.
 pub(super) fn panels(figure: &FateMap) -> Panels {
-    let entry =
-        |fate: MapFate| Entry::new(Sample::Band(fate.fill()), fate.name());
-    let legend = MapFate::ALL.into_iter().map(entry).collect();
-    let mut series = Vec::new();
+    let legend = |fate: MapFate| {
+        let look = Look::band(fate.fill());
+        Series::of(look, vec![], vec![]).labelled(fate.name())
+    };
+    let mut series: Vec<_> = MapFate::ALL.into_iter().map(legend).collect();
     for (x, cells) in figure.frequencies.windows(2).zip(&figure.cells) {
         let mut runs = figure.runs(cells);
         runs.retain(|(fate, ..)| *fate != MapFate::Stands);
@@ -139,6 +140,6 @@ pub(super) fn panels(figure: &FateMap) -> Panels {
         series,
     );
     let grid = Grid { above: 10.0, ..Grid::new(1, 1).plot(600.0, 360.0) };
-    let layout = Layout { grid: Some(grid), legend, ..Layout::default() };
+    let layout = Layout { grid: Some(grid), ..Layout::default() };
     Panels { panels: vec![panel], columns: 1, layout }
 }

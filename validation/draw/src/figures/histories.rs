@@ -4,12 +4,12 @@ use super::chart::{Chart, ChartPanel, Column, Layout, Of};
 use super::common;
 use super::figure::Figure;
 use super::heading::Heading;
-use super::series::{Look, Mark, Series};
+use super::series::{Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
-use crate::panel::Marker;
+use crate::panel::{Look, Marker};
 use rocking_common::paper::Intensity;
 use rocking_common::table::number;
 

@@ -2,9 +2,8 @@
 
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
-use crate::legend::Sample;
 use crate::markup;
-use crate::panel::Marker;
+use crate::panel::{Look, Marker};
 use crate::text::Horizontal;
 use serde::{Deserialize, Serialize};
 
@@ -76,8 +75,9 @@ impl Series {
 
     /// Whether the legend shows how it is drawn.
     pub(super) fn has_sample(&self) -> bool {
-        let sample = self.mark.look(Some(0), false).sample(true);
-        !self.label.is_empty() && sample.is_some()
+        let Look { pen, marker, band, .. } = self.mark.look(Some(0), false);
+        let drawn = pen.is_some() || marker.is_some() || band.is_some();
+        drawn && !self.label.is_empty()
     }
 
     /// Its points.
@@ -115,55 +115,6 @@ pub enum Mark {
     Edge,
 }
 
-/// Pens, fills and marks of a series; those it does not have are none.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Look {
-    /// The line.
-    pub pen: Option<Pen>,
-    /// Lines along the ends of the abscissas' intervals.
-    pub sides: Option<Pen>,
-    /// Bars between the ends of the ordinates' intervals.
-    pub bars: Option<Pen>,
-    /// The band between these ends.
-    pub band: Option<Fill>,
-    /// Bars from each abscissa to the next one, which the line goes around.
-    pub bins: Option<Fill>,
-    /// Mark, half width in px and ink at each point.
-    pub marker: Option<(Marker, f64, Ink)>,
-}
-
-impl Look {
-    /// Nothing but a line.
-    pub fn line(pen: Pen) -> Self {
-        Self { pen: Some(pen), ..Self::default() }
-    }
-
-    /// Nothing but a band.
-    pub fn band(fill: Fill) -> Self {
-        Self { band: Some(fill), ..Self::default() }
-    }
-
-    /// Nothing but marks of this half width in px.
-    pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
-        Self { marker: Some((marker, half_px, ink)), ..Self::default() }
-    }
-
-    /// What stands before a label in the legend; a band only with intervals.
-    pub(super) fn sample(&self, has_intervals: bool) -> Option<Sample> {
-        let band = self.band.filter(|_| has_intervals);
-        let Some(pen) = self.pen else {
-            let mark = self.marker.map(|(m, _, ink)| Sample::Mark(m, ink));
-            return mark.or(self.band.map(Sample::Band));
-        };
-        Some(match (self.marker, self.sides, band) {
-            (Some((marker, ..)), ..) => Sample::LineAndMark(pen, marker),
-            (_, Some(sides), _) => Sample::Quantiles(pen, sides),
-            (_, _, Some(band)) => Sample::LineAndBand(pen, band),
-            _ => Sample::Line(pen),
-        })
-    }
-}
-
 impl Mark {
     /// The look of the series with this rank in the legend, if it has one;
     /// `nested`: lines get much thinner from one to the next.
@@ -177,11 +128,10 @@ impl Mark {
         let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
         let pen = match self {
             Self::Own(look) => return look,
-            Self::Across(_)
-            | Self::Upright(_)
-            | Self::Words(_)
-            | Self::Corner
-            | Self::Edge => return Look::default(),
+            Self::Across(pen) | Self::Upright(pen) => return Look::line(pen),
+            Self::Words(_) | Self::Corner | Self::Edge => {
+                return Look::default();
+            }
             Self::Quantiles => {
                 let wide =
                     |share| Pen { width_px: share * usual.width_px, ..usual };

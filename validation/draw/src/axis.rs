@@ -180,11 +180,9 @@ impl Axis {
 
     /// An axis of names at 1, 2, 3 and so on.
     pub fn named(names: &[String]) -> Self {
-        let ticks = names
-            .iter()
-            .enumerate()
-            .map(|(i, name)| Tick { at: (i + 1) as f64, label: name.clone() })
-            .collect();
+        let tick =
+            |(at, name): (f64, &String)| Tick { at, label: name.clone() };
+        let ticks = (1..).map(f64::from).zip(names).map(tick).collect();
         let high = names.len().max(1) as f64 + 0.6;
         Self { grid: false, ..Self::new(0.4, high, AxisScale::Linear, ticks) }
     }

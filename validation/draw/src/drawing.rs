@@ -29,7 +29,7 @@
 use std::convert::Infallible;
 use std::fmt::Write as _;
 
-use plotters_backend::text_anchor::VPos;
+use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle,
     DrawingBackend, DrawingErrorKind, FontTransform,
@@ -38,7 +38,6 @@ use plotters_backend::{
 use crate::colour::{STYLE, class, dash_array};
 use crate::geometry::{Point, kept};
 use crate::markup;
-use crate::text::{TEXT_PX, TextLine};
 
 /// Units of plotters in a pixel.
 const PER_PX: i32 = 20;
@@ -58,7 +57,7 @@ pub(crate) struct Drawing {
     open: String,
     /// Width and height in px.
     pub(crate) size_px: (u32, u32),
-    pub(crate) texts: Vec<TextLine>,
+    texts: String,
 }
 
 /// Units of plotters nearest to a length in px.
@@ -83,24 +82,20 @@ impl Drawing {
              width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-desc\" \
-             font-family=\"{FONTS}\" font-size=\"{TEXT_PX}\">\n\
+             font-family=\"{FONTS}\" xml:space=\"preserve\">\n\
              <title id=\"{id}-title\">{title}</title>\n\
              <desc id=\"{id}-desc\">{description}</desc>\n\
              <style>{STYLE}</style>\n\
              <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
         );
-        let (open, texts) = (String::new(), Vec::new());
+        let (open, texts) = (String::new(), String::new());
         Self { svg, open, size_px: (width, height), texts }
     }
 
     /// The SVG.
     pub(crate) fn finish(mut self) -> String {
         self.close();
-        for text in &self.texts {
-            text.write(&mut self.svg);
-        }
-        self.svg.push_str("</svg>\n");
-        self.svg
+        self.svg + &self.texts + "</svg>\n"
     }
 
     fn close(&mut self) {
@@ -110,7 +105,7 @@ impl Drawing {
         }
     }
 
-    /// A line, which ends with a command where it does not close itself.
+    /// A line, with the command at its end unless it closes itself.
     fn shape(
         &mut self,
         look: String,
@@ -122,7 +117,6 @@ impl Drawing {
         let keep = kept(&exact.collect::<Vec<_>>(), tolerance);
         let points = points.into_iter().zip(keep).filter(|(_, keep)| *keep);
         let mut points: Vec<_> = points.map(|(point, _)| point).collect();
-        points.dedup();
         let closed = points.len() > 2 && points.first() == points.last();
         points.truncate(points.len() - usize::from(closed));
         if self.open != look {
@@ -167,8 +161,7 @@ impl DrawingBackend for &mut Drawing {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        let (width, height) = self.size_px;
-        (width * PER_PX as u32, height * PER_PX as u32)
+        <[u32; 2]>::from(self.size_px).map(|px| px * PER_PX as u32).into()
     }
 
     fn ensure_prepared(&mut self) -> Drawn {
@@ -226,6 +219,9 @@ impl DrawingBackend for &mut Drawing {
         style: &S,
     ) -> Drawn {
         let BackendColor { alpha, .. } = style.color();
+        if alpha == 0.0 {
+            return Ok(());
+        }
         let mut look = format!("class=\"{}\"", class(style.color()));
         if alpha < 1.0 {
             let _ = write!(look, " fill-opacity=\"{alpha}\"");
@@ -240,18 +236,36 @@ impl DrawingBackend for &mut Drawing {
         style: &S,
         (x, y): BackendCoord,
     ) -> Drawn {
-        let (size_px, anchor) = (style.size(), style.anchor());
-        let down = units(match anchor.v_pos {
+        if text.is_empty() {
+            return Ok(());
+        }
+        let size_px = style.size();
+        let down = units(match style.anchor().v_pos {
             VPos::Top => 0.74 * size_px,
             VPos::Center => 0.36 * size_px,
             VPos::Bottom => 0.0,
         });
-        let upwards = !matches!(style.transform(), FontTransform::None);
-        let at = if upwards { (x + down, y) } else { (x, y + down) };
-        let (at, markup) = ((px(at.0), px(at.1)), text.to_owned());
-        let (align, class) = (anchor.h_pos, class(style.color()));
-        let line = TextLine { markup, at, align, size_px, class, upwards };
-        self.texts.extend((!text.is_empty()).then_some(line));
+        let place = match style.transform() {
+            FontTransform::None => {
+                format!("x=\"{}\" y=\"{}\"", px(x), px(y + down))
+            }
+            _ => {
+                let (x, y) = (px(x + down), px(y));
+                format!("transform=\"translate({x} {y}) rotate(-90)\"")
+            }
+        };
+        let align = match style.anchor().h_pos {
+            HPos::Left => "",
+            HPos::Center => " text-anchor=\"middle\"",
+            HPos::Right => " text-anchor=\"end\"",
+        };
+        let (ink, content) =
+            (class(style.color()), markup::tspans(text, size_px));
+        let _ = writeln!(
+            self.texts,
+            "<text class=\"{ink}\" {place}{align} font-size=\"{size_px}\">\
+             {content}</text>"
+        );
         Ok(())
     }
 
@@ -260,7 +274,7 @@ impl DrawingBackend for &mut Drawing {
         text: &str,
         style: &S,
     ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
-        let width = markup::width(text, style.size());
-        Ok((units(width) as u32, units(style.size()) as u32))
+        let size = (markup::width(text, style.size()), style.size());
+        Ok((units(size.0) as u32, units(size.1) as u32))
     }
 }

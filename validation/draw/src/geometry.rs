@@ -16,18 +16,6 @@ pub struct Rect {
     pub bottom: f64,
 }
 
-impl Rect {
-    /// The four corners, clockwise.
-    pub fn corners(&self) -> [Point; 4] {
-        [
-            (self.left, self.top),
-            (self.right, self.top),
-            (self.right, self.bottom),
-            (self.left, self.bottom),
-        ]
-    }
-}
-
 /// A vector in px of this length, `angle` rad from upwards, positive to the
 /// right, from a point.
 pub fn from((x, y): Point, length: f64, angle: f64) -> Point {
@@ -43,17 +31,16 @@ pub fn clip(line: &[Point]) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
     let mut open = false;
     for pair in line.windows(2) {
-        let Some((start, end)) = clip_segment(pair[0], pair[1]) else {
-            open = false;
-            continue;
-        };
-        match parts.last_mut() {
-            Some(part) if open && part.last() == Some(&start) => {
+        let inside = clip_segment(pair[0], pair[1]);
+        match (inside, parts.last_mut()) {
+            (Some((start, end)), Some(part))
+                if open && part.last() == Some(&start) =>
+            {
                 part.push(end);
             }
-            _ => parts.push(vec![start, end]),
+            _ => parts.extend(inside.map(|(start, end)| vec![start, end])),
         }
-        open = end == pair[1];
+        open = inside.is_some_and(|(_, end)| end == pair[1]);
     }
     parts
 }

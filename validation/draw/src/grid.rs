@@ -1,6 +1,6 @@
 //! Panels in rows and columns, with room for titles, axes and a legend.
 
-use crate::geometry::Rect;
+use crate::geometry::{Point, Rect};
 use serde::{Deserialize, Serialize};
 
 /// Sizes of a grid of equal panels, in px.
@@ -47,19 +47,16 @@ impl Grid {
         Self { width, height, ..self }
     }
 
-    /// Width of the whole figure.
-    pub fn total_width(&self) -> f64 {
-        self.columns as f64 * (self.left + self.width + self.right)
-    }
-
-    /// Height of the whole figure.
-    pub fn total_height(&self) -> f64 {
+    /// Width and height of the whole figure.
+    pub(crate) fn size(&self) -> Point {
         let rows = self.panels.div_ceil(self.columns) as f64;
-        rows.mul_add(self.above + self.height + self.below, self.head)
+        let down = self.above + self.height + self.below;
+        let across = self.left + self.width + self.right;
+        (self.columns as f64 * across, rows.mul_add(down, self.head))
     }
 
     /// Plotting area of a panel, counted row by row.
-    pub fn frame(&self, panel: usize) -> Rect {
+    pub(crate) fn frame(&self, panel: usize) -> Rect {
         let (row, column) = (panel / self.columns, panel % self.columns);
         let across = self.left + self.width + self.right;
         let down = self.above + self.height + self.below;

@@ -2,7 +2,6 @@
 
 use crate::canvas::{Canvas, style};
 use crate::colour::{Fill, Ink, Pen};
-use crate::geometry::Rect;
 use crate::markup;
 use crate::panel::{Look, Marker};
 use crate::text::{Horizontal, TEXT_PX};
@@ -50,37 +49,32 @@ impl Entry {
     }
 }
 
-/// Entries row by row, so that each row fits the width.
-fn rows(entries: &[Entry], width_px: f64) -> Vec<Vec<&Entry>> {
-    let mut rows: Vec<Vec<&Entry>> = Vec::new();
-    let mut used = 0.0;
-    for entry in entries {
-        let more = BETWEEN_PX + entry.width();
-        match rows.last_mut() {
-            Some(row) if used + more <= width_px => {
-                row.push(entry);
-                used += more;
-            }
-            _ => {
-                rows.push(vec![entry]);
-                used = entry.width();
-            }
-        }
+/// Entries row by row, so that each row fits the width of a drawing.
+fn rows(mut rest: &[Entry], width_px: f64) -> Vec<&[Entry]> {
+    let mut rows = Vec::new();
+    while !rest.is_empty() {
+        let mut used = BETWEEN_PX;
+        let fitting = rest.iter().take_while(|entry| {
+            used += entry.width() + BETWEEN_PX;
+            used <= width_px
+        });
+        let (row, after) = rest.split_at(fitting.count().max(1));
+        rows.push(row);
+        rest = after;
     }
     rows
 }
 
 /// Room that the legend takes at this width.
 pub fn height(entries: &[Entry], width_px: f64) -> f64 {
-    let rows = rows(entries, width_px - 2.0 * BETWEEN_PX).len();
+    let rows = rows(entries, width_px).len();
     if rows == 0 { 0.0 } else { (rows as f64).mul_add(ROW_PX, 8.0) }
 }
 
 /// Draws the legend centred at the head of a drawing of this width.
 pub(crate) fn draw(canvas: &Canvas<'_>, entries: &[Entry], width_px: f64) {
     let words = style(TEXT_PX, Ink::Text, Horizontal::Left);
-    let rows = rows(entries, width_px - 2.0 * BETWEEN_PX);
-    for (i, row) in rows.iter().enumerate() {
+    for (i, row) in rows(entries, width_px).into_iter().enumerate() {
         let between = BETWEEN_PX * (row.len() - 1) as f64;
         let total = row.iter().fold(between, |sum, e| sum + e.width());
         let mut x = (width_px - total) / 2.0;
@@ -106,9 +100,8 @@ fn draw_sample(canvas: &Canvas<'_>, sample: Sample, x: f64, y: f64) {
         Sample::Of(look) => look,
     };
     if let Some(fill) = look.band {
-        let (left, right) = (x + 5.0, x + SAMPLE_PX - 5.0);
-        let (top, bottom) = (y - 5.0, y + 5.0);
-        let corners = Rect { left, top, right, bottom }.corners();
+        let (l, r, t, b) = (x + 5.0, x + SAMPLE_PX - 5.0, y - 5.0, y + 5.0);
+        let corners = [(l, t), (r, t), (r, b), (l, b)];
         canvas.area(&corners, fill);
         canvas.outline(&corners, Pen::new(Ink::Muted, 0.4));
     }

@@ -30,6 +30,19 @@ pub enum Level {
     Accent,
 }
 
+impl Level {
+    /// How far it goes down, in units of the text size, and how much of the
+    /// usual width it takes.
+    fn form(self) -> (f64, f64) {
+        match self {
+            Self::Base => (0.0, 1.0),
+            Self::Sub => (SUB_EM, SCRIPT),
+            Self::Super => (SUPER_EM, SCRIPT),
+            Self::Accent => (ACCENT_EM, 0.0),
+        }
+    }
+}
+
 /// Characters of one style.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Run {
@@ -85,30 +98,18 @@ pub fn runs(markup: &str) -> Vec<Run> {
 
 /// Text that is to be read as it is, such as a file name.
 pub fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if matches!(c, '\\' | '*' | '_' | '^' | '}') {
-            out.push('\\');
-        }
-        out.push(c);
-    }
-    out
+    let mark = |c: char| matches!(c, '\\' | '*' | '_' | '^' | '}');
+    let escape = |c| mark(c).then_some('\\').into_iter().chain([c]);
+    text.chars().flat_map(escape).collect()
 }
 
 /// Width in px of the marked-up text at a size in px, by Helvetica's widths.
 pub fn width(markup: &str, size_px: f64) -> f64 {
-    let mut thousandths = 0.0;
-    for run in runs(markup) {
-        let scale = match run.level {
-            Level::Base => 1.0,
-            Level::Sub | Level::Super => SCRIPT,
-            Level::Accent => 0.0,
-        };
-        for c in run.text.chars() {
-            thousandths += scale * f64::from(character_width(c));
-        }
-    }
-    thousandths * size_px / 1000.0
+    let of = |run: &Run| {
+        let letters = run.text.chars().map(character_width).map(f64::from);
+        run.level.form().1 * letters.sum::<f64>()
+    };
+    runs(markup).iter().map(of).sum::<f64>() * size_px / 1000.0
 }
 
 /// The text cut to a width, with an ellipsis where it was cut.
@@ -160,17 +161,12 @@ pub(super) fn tspans(markup: &str, size_px: f64) -> String {
     // Width of the last letter, and how far the next run is to be moved.
     let (mut letter, mut along) = (0.0, 0.0);
     for run in runs(markup) {
-        let (shift, script) = match run.level {
-            Level::Base => (0.0, false),
-            Level::Sub => (SUB_EM * size_px, true),
-            Level::Super => (SUPER_EM * size_px, true),
-            Level::Accent => (ACCENT_EM * size_px, false),
-        };
+        let (shift, scale) = run.level.form();
         if run.level == Level::Accent {
             along = -f64::midpoint(letter, TILDE_EM) + ACCENT_SLANT_EM;
         }
-        let step = shift - raised;
-        raised = shift;
+        let (step, script) = (shift * size_px - raised, scale == SCRIPT);
+        raised = shift * size_px;
         let attributes = [
             (along != 0.0).then(|| format!(" dx=\"{:.2}\"", along * size_px)),
             (step != 0.0).then(|| format!(" dy=\"{step:.2}\"")),

@@ -44,11 +44,7 @@ pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
     let called = if heading.number.is_some() { &number } else { title };
     let label = format!("{called}, drawing");
     let drawing = shown.scene();
-    let class = if drawing.size_px.0 > WIDE_PX {
-        "scroll drawing wide"
-    } else {
-        "scroll drawing"
-    };
+    let wide = if drawing.size_px.0 > WIDE_PX { " wide" } else { "" };
     let svg = drawing.finish();
     html! {
         figure.figure id=(name) {
@@ -59,7 +55,7 @@ pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
                     a href={ "data/" (name) ".csv" } { "Numbers" } "."
                 }
             }
-            div class=(class) role="region" aria-label=(label) tabindex="0" {
+            div class={ "scroll drawing" (wide) } role="region" aria-label=(label) tabindex="0" {
                 (PreEscaped(inline(&svg)))
             }
             @for other in others {

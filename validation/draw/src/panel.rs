@@ -202,17 +202,12 @@ impl<'d> Panel<'d> {
         let room = 2.0 * TICK_PX + widths.fold(0.0, f64::max) + 8.0;
         // Up to the upper edge of the label.
         let left = (room.max(28.0) + 0.74 * TEXT_PX).min(frame.left);
-        let grids = [x.grid, y.grid];
+        // Without a grid an axis has no unlabelled ticks.
+        let [x_lines, y_lines] = [x.grid, y.grid].map(usize::from);
         let mut chart = chart(canvas, frame, (x, y), [left, BELOW_PX, 0.0]);
         let mut grid = chart.configure_mesh();
         grid.bold_line_style(GRID).light_line_style(TRANSPARENT);
-        if !grids[0] {
-            grid.disable_x_mesh();
-        }
-        if !grids[1] {
-            grid.disable_y_mesh();
-        }
-        done(grid.disable_axes().draw());
+        done(grid.disable_axes().x_labels(x_lines).y_labels(y_lines).draw());
         Self { canvas: canvas.clone(), chart, frame, second, empty: true }
     }
 

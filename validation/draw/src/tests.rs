@@ -145,7 +145,7 @@ fn writes_scripts_and_italics_as_tspans_over_the_shapes() {
         on.dot((1.0, 1.0), 1.0, Ink::Text);
     });
     let text = "\n<text class=\"t\" x=\"50\" y=\"20\" \
-                text-anchor=\"middle\" xml:space=\"preserve\">\
+                text-anchor=\"middle\" font-size=\"11\">\
                 <tspan font-style=\"italic\">p</tspan> \
                 = 1 s<tspan dy=\"-3.96\" font-size=\"7.92\">−1</tspan>\
                 </text>\n";

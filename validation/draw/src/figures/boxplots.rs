@@ -74,7 +74,13 @@ impl Boxplots {
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for stripe in &panel.stripes {
-                let mut row = |quantity: &str, value: String| {
+                let mut rows = vec![
+                    ("usable", stripe.usable as f64),
+                    ("records", stripe.records as f64),
+                ];
+                rows.extend(stripe.closed_form.map(|r| ("closed_form", r)));
+                rows.extend(stripe.summary.iter().flat_map(quantities));
+                for (quantity, value) in rows {
                     table.row([
                         letter(i),
                         number(panel.p_rad_s),
@@ -83,37 +89,32 @@ impl Boxplots {
                         Intensity::Pga.name().into(),
                         number(stripe.level),
                         quantity.into(),
-                        value,
+                        number(value),
                     ]);
-                };
-                row("usable", stripe.usable.to_string());
-                row("records", stripe.records.to_string());
-                if let Some(ratio) = stripe.closed_form {
-                    row("closed_form", number(ratio));
-                }
-                let Some(b) = &stripe.summary else { continue };
-                let interval = b.median_interval.map(|i| i.interval.ends());
-                let (low, high) = interval.unwrap_or((f64::NAN, f64::NAN));
-                for (quantity, value) in [
-                    ("whisker_low", b.whisker_low),
-                    ("q1", b.q1),
-                    ("notch_low", b.notch_low),
-                    ("median", b.median),
-                    ("notch_high", b.notch_high),
-                    ("q3", b.q3),
-                    ("whisker_high", b.whisker_high),
-                    ("median_low", low),
-                    ("median_high", high),
-                ] {
-                    row(quantity, number(value));
-                }
-                for outlier in &b.outliers {
-                    row("outlier", number(*outlier));
                 }
             }
         }
         table.finish()
     }
+}
+
+/// What the CSV has of a box.
+fn quantities(b: &Boxplot) -> Vec<(&'static str, f64)> {
+    let interval = b.median_interval.map(|i| i.interval.ends());
+    let (low, high) = interval.unwrap_or((f64::NAN, f64::NAN));
+    let mut all = vec![
+        ("whisker_low", b.whisker_low),
+        ("q1", b.q1),
+        ("notch_low", b.notch_low),
+        ("median", b.median),
+        ("notch_high", b.notch_high),
+        ("q3", b.q3),
+        ("whisker_high", b.whisker_high),
+        ("median_low", low),
+        ("median_high", high),
+    ];
+    all.extend(b.outliers.iter().map(|outlier| ("outlier", *outlier)));
+    all
 }
 
 /// Half height of a box in units of the distance between stripes.

@@ -1,6 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
-use std::iter::empty;
+use std::cmp::Ordering;
+use std::iter::repeat;
 
 use super::common;
 use super::heading::Heading;
@@ -64,17 +65,13 @@ pub struct ChartPanel {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChartAxis {
     /// Label with unit, in markup.
-    pub label: String,
+    label: String,
     /// Linear, or logarithmic: then values that are not positive are gaps.
-    pub scale: AxisScale,
-    /// Both ends; none: from the data.
-    pub range: AxisRange,
-    /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
-    pub categories: Vec<String>,
-    /// The same in another unit, at the opposite edge; of a horizontal axis
-    /// alone.
-    pub second: Option<Second>,
-    /// The axis as it is drawn, which the rest then does not change.
+    scale: AxisScale,
+    /// The same in another unit, at the opposite edge, if the axis is
+    /// horizontal: how many of it make 1 of the axis, and its label.
+    second: Option<(f64, String)>,
+    /// The axis as it is drawn; none: from the data.
     drawn: Option<Axis>,
 }
 
@@ -87,23 +84,19 @@ impl From<Axis> for ChartAxis {
 /// Both ends of an axis; none: from the data.
 pub type AxisRange = Option<(f64, f64)>;
 
-/// Another unit of an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Second {
-    /// How many of it make 1 of the axis.
-    pub factor: f64,
-    /// Label, in markup.
-    pub label: String,
-}
-
 impl ChartAxis {
     fn new(
         label: impl Into<String>,
         scale: AxisScale,
         range: AxisRange,
     ) -> Self {
-        let (label, categories) = (label.into(), Vec::new());
-        Self { label, scale, range, categories, second: None, drawn: None }
+        let (label, second) = (label.into(), None);
+        let drawn = range.map(|(low, high)| match scale {
+            AxisScale::Logarithmic => Axis::logarithmic(low, high),
+            _ => Axis::linear(low, high, 6),
+        });
+        let drawn = drawn.map(|axis| axis.label(&*label));
+        Self { label, scale, second, drawn }
     }
 
     /// A linear axis with these ends, or with those of the data.
@@ -124,12 +117,12 @@ impl ChartAxis {
 
     /// An axis with these names at 1, 2, 3 and so on.
     pub fn named(categories: Vec<String>) -> Self {
-        Self { categories, ..Self::new("", AxisScale::Linear, None) }
+        Axis::named(&categories).into()
     }
 
     /// The same axis with another unit beside its own.
     pub fn with_second(self, factor: f64, label: impl Into<String>) -> Self {
-        Self { second: Some(Second { factor, label: label.into() }), ..self }
+        Self { second: Some((factor, label.into())), ..self }
     }
 }
 
@@ -174,7 +167,7 @@ impl Layout {
 /// A column of numbers: its name, and what it has of a point.
 pub type Column = (&'static str, Of);
 
-/// What a column has of a point.
+/// What a column has of a point, in the order of [`Panels::csv`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Of {
     /// Abscissa.
@@ -244,17 +237,11 @@ impl Panels {
         for (i, panel) in self.panels.iter().enumerate() {
             let named = panel.series.iter().filter(|s| !s.keys.is_empty());
             for series in named {
-                for (k, (x, y)) in series.points().enumerate() {
-                    let ends = series.interval.get(k).copied();
-                    let (low, high) = ends.unwrap_or((f64::NAN, f64::NAN));
+                let ends = series.interval.iter().copied();
+                let ends = ends.chain(repeat((f64::NAN, f64::NAN)));
+                for ((x, y), (low, high)) in series.points().zip(ends) {
                     let cells = numbers.iter().map(|(_, of)| {
-                        let value = match of {
-                            Of::X => x,
-                            Of::Y => y,
-                            Of::Low => low,
-                            Of::High => high,
-                        };
-                        digits(value, DIGITS)
+                        digits([x, y, low, high][*of as usize], DIGITS)
                     });
                     let first = [letter(i)].into_iter();
                     let keys = series.keys.iter().cloned();
@@ -285,16 +272,12 @@ fn extremes(line: &mut Series) {
     let mut keep = vec![false; y.len()];
     for start in (0..y.len()).step_by(stretch) {
         let end = y.len().min(start + stretch);
-        let (mut low, mut high) = (start, start);
-        for i in start..end {
-            if y[i] < y[low] {
-                low = i;
-            }
-            if y[i] > y[high] {
-                high = i;
-            }
-        }
-        for i in [start, low, high, end - 1] {
+        let by = |a: &usize, b: &usize| {
+            y[*a].partial_cmp(&y[*b]).unwrap_or(Ordering::Equal)
+        };
+        let (low, high) =
+            ((start..end).min_by(by), (start..end).rev().max_by(by));
+        for i in [start, end - 1].into_iter().chain(low).chain(high) {
             keep[i] = true;
         }
     }
@@ -336,13 +319,11 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     let mut legend: Vec<Entry> = labelled.iter().map(entry).collect();
     let Layout { grid, legend: more, .. } = &figure.layout;
     legend.extend(more.iter().cloned());
-    let mut grid = grid.unwrap_or_else(|| {
-        let grid = grid_of(figure.panels.len(), figure.columns);
-        match all().any(|s| s.mark == Mark::Edge) {
-            true => Grid { right: EDGE_PX, ..grid },
-            false => grid,
-        }
-    });
+    let usual = || grid_of(figure.panels.len(), figure.columns);
+    let mut grid = grid.unwrap_or_else(usual);
+    if figure.layout.grid.is_none() && all().any(|s| s.mark == Mark::Edge) {
+        grid.right = EDGE_PX;
+    }
     if figure.panels.iter().any(|p| p.x.second.is_some()) {
         grid.above = SECOND_AXIS_PX;
     }
@@ -352,11 +333,11 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     common::panels(heading, grid, &legend, |canvas, grid| {
         for (i, shown) in figure.panels.iter().enumerate() {
             let (x, y) = axes(shown);
-            let second = shown.x.second.as_ref().map(|second| {
+            let second = shown.x.second.as_ref();
+            let second = second.and_then(|(factor, label)| {
                 let (low, high) = x.range();
-                let range = Some((second.factor * low, second.factor * high));
-                let (label, scale) = (&second.label, shown.x.scale);
-                axis(&ChartAxis::new(label, scale, range), empty())
+                let range = Some((factor * low, factor * high));
+                ChartAxis::new(label, shown.x.scale, range).drawn
             });
             let mut panel = Panel::new(canvas, grid.frame(i), (x, y), second);
             for series in &shown.series {
@@ -367,7 +348,7 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
                 shown.title.split_once('\n').unwrap_or((&shown.title, ""));
             let title = match figure.panels.len() {
                 1 => title.to_owned(),
-                _ => common::panel_title(i, title),
+                _ => format!("({}) {title}", letter(i)),
             };
             panel.finish(&title, subtitle);
         }
@@ -383,24 +364,18 @@ fn axes(shown: &ChartPanel) -> (Axis, Axis) {
     (axis(&shown.x, xs), axis(&shown.y, ys))
 }
 
-/// The axis asked for, fitted to the data where no range is given.
-fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
-    if let Some(drawn) = &asked.drawn {
-        return drawn.clone();
-    }
-    if !asked.categories.is_empty() {
-        return Axis::named(&asked.categories).label(asked.label.as_str());
-    }
-    let logarithmic = asked.scale == AxisScale::Logarithmic;
-    let span = asked.range.or_else(|| common::span(values, logarithmic));
-    let (low, high) = span.unwrap_or((1.0, 10.0));
-    let axis = match (logarithmic, asked.range) {
-        (true, Some(_)) => Axis::logarithmic(low, high),
-        (true, None) => Axis::logarithmic(low / 1.3, high * 1.3),
-        (false, Some(_)) => Axis::linear(low, high, 6),
-        (false, None) => Axis::around(low, high, 6),
-    };
-    axis.label(asked.label.as_str())
+/// The axis, from the data unless its ends are given.
+fn axis(given: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
+    given.drawn.clone().unwrap_or_else(|| {
+        let logarithmic = given.scale == AxisScale::Logarithmic;
+        let span = common::span(values, logarithmic);
+        let (low, high) = span.unwrap_or((1.0, 10.0));
+        let axis = match logarithmic {
+            true => Axis::logarithmic(low / 1.3, high * 1.3),
+            false => Axis::around(low, high, 6),
+        };
+        axis.label(&*given.label)
+    })
 }
 
 fn draw_series(panel: &mut Panel<'_>, series: &Series, look: Look) {

@@ -9,7 +9,6 @@ use crate::grid::Grid;
 use crate::legend::{self, Entry};
 use crate::markup;
 use rocking_common::paper::{Arm, SLENDERNESSES_RAD};
-use rocking_common::words::letter;
 
 /// A drawing with the words of a heading, of a size in px.
 pub(crate) fn drawing(
@@ -37,18 +36,13 @@ pub(crate) fn panels(
     legend: &[Entry],
     draw: impl FnOnce(&Canvas<'_>, Grid),
 ) -> Drawing {
-    let width_px = grid.total_width();
-    let head = grid.head + legend::height(legend, width_px);
-    let grid = Grid { head, ..grid };
-    drawing(heading, (width_px, grid.total_height()), |canvas| {
+    let (width_px, height_px) = grid.size();
+    let head_px = legend::height(legend, width_px);
+    let grid = Grid { head: grid.head + head_px, ..grid };
+    drawing(heading, (width_px, height_px + head_px), |canvas| {
         legend::draw(canvas, legend, width_px);
         draw(canvas, grid);
     })
-}
-
-/// `(a) words`.
-pub fn panel_title(panel: usize, words: &str) -> String {
-    format!("({}) {words}", letter(panel))
 }
 
 /// `p = 3 s^-1`.

@@ -2,7 +2,6 @@
 
 use super::boxplots::{self, Boxplots};
 use super::chart::{self, Chart, Layout, NUMBERS, Panels};
-use super::fates::{self, FateMap};
 use super::heading::Heading;
 use super::sketch::{self, BlockSketch};
 use crate::drawing::Drawing;
@@ -14,7 +13,7 @@ pub struct Figure {
     /// The words that go with it.
     pub heading: Heading,
     /// The numbers that it draws.
-    drawn: Graphic,
+    pub(super) drawn: Graphic,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
 }
@@ -24,22 +23,12 @@ pub struct Figure {
 pub(super) enum Graphic {
     Chart(Panels),
     Boxplots(Boxplots),
-    /// Not kept, and neither is the next one.
+    /// Not kept.
     #[serde(skip)]
     Sketch(BlockSketch),
-    #[serde(skip)]
-    Fates(FateMap),
 }
 
 impl Figure {
-    pub(super) fn new(
-        heading: &Heading,
-        drawn: Graphic,
-        reading: String,
-    ) -> Self {
-        Self { heading: heading.clone(), drawn, reading }
-    }
-
     /// The drawing, before it is finished.
     pub(crate) fn scene(&self) -> Drawing {
         match &self.drawn {
@@ -48,9 +37,6 @@ impl Figure {
                 chart::scene(&self.heading, &boxplots::panels(boxes))
             }
             Graphic::Sketch(block) => sketch::scene(block),
-            Graphic::Fates(map) => {
-                chart::scene(&self.heading, &fates::panels(map))
-            }
         }
     }
 
@@ -60,7 +46,6 @@ impl Figure {
             Graphic::Chart(panels) => panels.csv(),
             Graphic::Boxplots(boxes) => boxes.csv(),
             Graphic::Sketch(block) => block.csv(),
-            Graphic::Fates(map) => map.csv(),
         }
     }
 
@@ -82,18 +67,17 @@ impl Chart {
         layout: &Layout,
         reading: impl Into<String>,
     ) -> Figure {
-        let drawn = Graphic::Chart(Panels {
-            panels: self.panels.clone(),
-            columns: self.columns,
-            layout: layout.clone(),
-        });
-        Figure::new(&self.heading, drawn, reading.into())
+        let Self { heading, panels, columns } = self.clone();
+        let layout = layout.clone();
+        let drawn = Graphic::Chart(Panels { panels, columns, layout });
+        Figure { heading, drawn, reading: reading.into() }
     }
 }
 
 impl Boxplots {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(self, heading: &Heading, reading: String) -> Figure {
-        Figure::new(heading, Graphic::Boxplots(self), reading)
+        let drawn = Graphic::Boxplots(self);
+        Figure { heading: heading.clone(), drawn, reading }
     }
 }

@@ -6,7 +6,7 @@ use rocking_common::paper::Arm;
 use serde::{Deserialize, Serialize};
 
 /// The words that go with a figure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Heading {
     /// File stem, unique in a report: `figure-06-c`.
     pub name: String,
@@ -98,9 +98,8 @@ impl Heading {
         description: impl Into<String>,
     ) -> Self {
         let (name, title) = (name.into(), title.into());
-        let (description, place) = (description.into(), Place::Beyond);
-        let (arm, number, motions) = (None, None, None);
-        Self { name, title, description, arm, number, motions, place }
+        let description = description.into();
+        Self { name, title, description, ..Self::default() }
     }
 
     /// The same words of an arm.

@@ -8,7 +8,6 @@ use super::series::{Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};
 use crate::grid::Grid;
-use crate::legend::{Entry, Sample};
 use crate::panel::{Look, Marker};
 use rocking_common::paper::Intensity;
 use rocking_common::table::number;
@@ -55,18 +54,12 @@ pub fn histories(
     columns: usize,
     reading: String,
 ) -> Figure {
-    let mut legend = Vec::new();
-    if shown.iter().flat_map(|p| &p.curves).any(|c| c.overturned) {
-        let mark = Sample::Mark(Marker::Cross, Ink::Text);
-        legend.push(Entry::new(mark, "overturned"));
-    }
     // Room for ticks of small rotations.
     let grid = Grid::new(shown.len(), columns);
     let grid = Grid { left: 72.0, width: WIDTH_PX, ..grid };
     let panels = shown.iter().map(panel).collect();
     let chart = Chart { heading, panels, columns };
-    let layout =
-        Layout { grid: Some(grid), legend, ..Layout::of(&KEYS, &NUMBERS) };
+    let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     chart.thinned((WIDTH_PX, grid.height)).laid_out(&layout, reading)
 }
 
@@ -94,7 +87,8 @@ fn panel(shown: &HistoryPanel) -> ChartPanel {
         if let Some((t, y)) = end.filter(|_| curve.overturned) {
             let cross = Look::marks(Marker::Cross, 4.5, Ink::Series(k));
             let at = (vec![t], vec![y.clamp(low, high)]);
-            series.push(Series::of(cross, at.0, at.1).keyed([]));
+            let cross = Series::of(cross, at.0, at.1).keyed([]);
+            series.push(cross.labelled("overturned"));
         }
     }
     let title = format!(

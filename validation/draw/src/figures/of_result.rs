@@ -1,7 +1,7 @@
 //! Charts of the result of one command, each a function of that result.
 
 use rocking::accelerogram::Accelerogram;
-use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
+use rocking::integrator::{Response, Scene, uplift_threshold};
 use rocking_procedures::Ranking;
 use rocking_records::intensity::{IntensityMeasure, Measures};
 use rocking_score::{Code, Score};
@@ -22,16 +22,11 @@ pub fn response_svg(
     pga_g: f64,
 ) -> String {
     let alpha_rad = scene.block.slenderness_rad();
-    let of = |f: fn(&HistoryPoint) -> f64| {
-        response.history.iter().map(f).collect::<Vec<f64>>()
-    };
-    let rotation = of(|point| point.rotation_rad);
-    let history = History {
-        alpha_rad,
-        time_s: of(|point| point.time_s),
-        ratio: rotation.iter().map(|theta| theta / alpha_rad).collect(),
-        overturned: response.outcome.is_overturned(),
-    };
+    let points = response.history.iter();
+    let points = points.map(|p| (p.time_s, p.rotation_rad / alpha_rad));
+    let (time_s, ratio) = points.unzip();
+    let overturned = response.outcome.is_overturned();
+    let history = History { alpha_rad, time_s, ratio, overturned };
     let panel = HistoryPanel {
         p_rad_s: scene.block.frequency_rad_s(),
         record: excitation.to_owned(),
@@ -107,15 +102,12 @@ pub fn record_svg(
 /// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a
 /// tenth more either way, within the record.
 fn strong(motion: &Accelerogram) -> (f64, f64) {
-    let mut sum = 0.0;
-    let energy: Vec<f64> = motion
-        .samples_g()
-        .iter()
-        .map(|a| {
-            sum += a * a;
-            sum
-        })
-        .collect();
+    let energy = motion.samples_g().iter().scan(0.0, |sum, a| {
+        *sum += a * a;
+        Some(*sum)
+    });
+    let energy: Vec<f64> = energy.collect();
+    let sum = energy.last().copied().unwrap_or(0.0);
     let at = |share: f64| {
         let place = energy.iter().position(|e| *e >= share * sum);
         place.unwrap_or(0) as f64 * motion.dt_s()

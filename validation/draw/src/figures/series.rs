@@ -133,9 +133,9 @@ impl Mark {
                 return Look::default();
             }
             Self::Quantiles => {
-                let wide =
-                    |share| Pen { width_px: share * usual.width_px, ..usual };
-                let (pen, sides) = (Some(wide(1.15)), Some(wide(0.55)));
+                let [pen, sides] = [1.15, 0.55].map(|share| {
+                    Some(Pen { width_px: share * usual.width_px, ..usual })
+                });
                 return Look { pen, sides, ..Look::default() };
             }
             _ if rank.is_none() => grey,

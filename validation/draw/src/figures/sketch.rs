@@ -1,6 +1,6 @@
 //! Figure 1: the block and its symbols.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::common;
 use super::figure::{Figure, Graphic};
@@ -26,8 +26,8 @@ pub struct BlockSketch {
 impl BlockSketch {
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: String) -> Figure {
-        let drawn = Graphic::Sketch(self.clone());
-        Figure::new(&self.heading, drawn, reading)
+        let (heading, drawn) = (self.heading.clone(), self.clone());
+        Figure { heading, drawn: Graphic::Sketch(drawn), reading }
     }
 
     /// `quantity,value,unit`.
@@ -73,7 +73,12 @@ pub(super) fn scene(figure: &BlockSketch) -> Drawing {
             on.dot(at, 2.4, Ink::Text);
             word(on, name, (at.0 + aside, at.1 + 17.0));
         }
-        excitation(on);
+        // The ground's acceleration.
+        let y = PIVOT.1 + 34.0;
+        let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
+        on.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
+        head(on, b, FRAC_PI_2, Ink::Series(2));
+        word(on, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
     })
 }
 
@@ -99,36 +104,29 @@ fn ground(on: &Canvas<'_>) {
 
 /// An arrow head at `tip`, coming along `angle` from the upward vertical.
 fn head(on: &Canvas<'_>, tip: Point, angle: f64, ink: Ink) {
-    let back = angle + std::f64::consts::PI;
-    let wings = [from(tip, 8.0, back - 0.33), from(tip, 8.0, back + 0.33)];
-    on.area(&[tip, wings[0], wings[1]], Fill::solid(ink));
+    let [a, b] = [-0.33, 0.33].map(|by| from(tip, -8.0, angle + by));
+    on.area(&[tip, a, b], Fill::solid(ink));
 }
 
-/// A line with an arrow head at each end.
-fn measure(on: &Canvas<'_>, a: Point, b: Point) {
-    let angle = libm::atan2(b.0 - a.0, a.1 - b.1);
-    on.line(&[a, b], THIN);
-    head(on, b, angle, Ink::Text);
-    head(on, a, angle + std::f64::consts::PI, Ink::Text);
-}
-
-/// 2b along the top, 2h along the left side, both outside the block.
+/// 2b along the top, 2h along the left side, both outside the block, with
+/// lines from its corners.
 fn dimensions(on: &Canvas<'_>, block: &[Point; 4]) {
     let [low_left, top_left, top_right, _] = *block;
-    let turn = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
-    for (a, b, angle, [far, beyond, down], name) in [
-        (top_left, top_right, turn, [16.0, 10.0, 0.0], "2*b*"),
-        (low_left, top_left, turn + FRAC_PI_2, [-34.0, -16.0, 5.0], "2*h*"),
+    let up = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
+    let right = up + FRAC_PI_2;
+    for (a, b, along, aside, [far, beyond, down], name) in [
+        (top_left, top_right, right, up, [16.0, 10.0, 0.0], "2*b*"),
+        (low_left, top_left, up, right, [-34.0, -16.0, 5.0], "2*h*"),
     ] {
-        let ends = [a, b].map(|corner| {
-            let past = far + if far < 0.0 { -4.0 } else { 4.0 };
-            on.line(&[corner, from(corner, past, angle)], FINE);
-            from(corner, far, angle)
+        let [a, b] = [a, b].map(|corner| {
+            on.line(&[corner, from(corner, 1.15 * far, aside)], FINE);
+            from(corner, far, aside)
         });
-        let [a, b] = ends;
-        measure(on, a, b);
+        on.line(&[a, b], THIN);
+        head(on, b, along, Ink::Text);
+        head(on, a, along + PI, Ink::Text);
         let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
-        let (x, y) = from(middle, beyond, angle);
+        let (x, y) = from(middle, beyond, aside);
         word(on, name, (x, y + down));
     }
 }
@@ -143,8 +141,7 @@ fn angles(on: &Canvas<'_>, alpha: f64, theta: f64) {
     word(on, "*R*", (half.0 - 11.0, half.1 + 2.0));
     word(on, "c.m.", (centre.0 - 2.0, centre.1 - 9.0));
     let up = from(PIVOT, 1.36 * HALF_DIAGONAL, 0.0);
-    let fine = Pen::new(Ink::Muted, 0.8).dash(Dash::DashDot);
-    on.line(&[PIVOT, up], fine);
+    on.line(&[PIVOT, up], Pen::new(Ink::Muted, 0.8).dash(Dash::DashDot));
     let arc = |radius: f64, a: f64, b: f64| -> Vec<Point> {
         let step = (b - a) / 24.0;
         let angle = |i| step.mul_add(f64::from(i), a);
@@ -157,17 +154,6 @@ fn angles(on: &Canvas<'_>, alpha: f64, theta: f64) {
     let radius = 1.18 * HALF_DIAGONAL;
     on.line(&arc(radius, 0.0, theta), THIN);
     let end = from(PIVOT, radius, theta);
-    let along = theta + FRAC_PI_2;
-    head(on, end, along, Ink::Text);
-    let at = from(PIVOT, radius + 12.0, 0.5 * theta);
-    word(on, "*θ*", at);
-}
-
-/// The ground's acceleration.
-fn excitation(on: &Canvas<'_>) {
-    let y = PIVOT.1 + 34.0;
-    let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
-    on.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
-    head(on, b, FRAC_PI_2, Ink::Series(2));
-    word(on, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
+    head(on, end, theta + FRAC_PI_2, Ink::Text);
+    word(on, "*θ*", from(PIVOT, radius + 12.0, 0.5 * theta));
 }

@@ -7,29 +7,49 @@ mod xml;
 use super::Figure;
 use crate::geometry::Rect;
 use crate::markup;
-use crate::text::TextLine;
-use plotters::style::text_anchor::HPos;
 use rocking_common::paper::Arm;
 
 /// Bytes of an SVG that no figure should have.
 const TOO_MANY: usize = 150_000;
 
-/// The rectangle that a text fills, by the table of widths.
-fn extent(text: &TextLine) -> Rect {
-    let width = markup::width(&text.markup, text.size_px);
-    let before = match text.align {
-        HPos::Left => 0.0,
-        HPos::Center => width / 2.0,
-        HPos::Right => width,
+/// The texts of a drawing with the rectangle that each fills, by the table of
+/// widths.
+fn texts(svg: &str) -> Vec<(&str, Rect)> {
+    let value = |of: &'_ str, name: &str| -> Option<f64> {
+        let (_, rest) = of.split_once(&format!(" {name}=\""))?;
+        rest.split('"').next()?.parse().ok()
     };
-    let (above, below) = (0.74 * text.size_px, 0.21 * text.size_px);
-    let (x, y) = text.at;
-    let (left, right, top, bottom) = if text.upwards {
-        (x - above, x + below, y + before - width, y + before)
-    } else {
-        (x - before, x - before + width, y - above, y + below)
+    let text = |text| {
+        let (head, rest): (&str, &str) = str::split_once(text, '>')?;
+        let (content, _) = rest.split_once("</text>")?;
+        let size = value(head, "font-size")?;
+        let width = format!(">{content}");
+        let width = width.split('<').map(|part| {
+            let (of, words) = part.split_once('>').unwrap_or(("", part));
+            let words = words.replace("&lt;", "<").replace("&amp;", "&");
+            let words = markup::escape(&words.replace('˜', ""));
+            markup::width(&words, value(of, "font-size").unwrap_or(size))
+        });
+        let width: f64 = width.sum();
+        let before = match head {
+            _ if head.contains("\"middle\"") => width / 2.0,
+            _ if head.contains("\"end\"") => width,
+            _ => 0.0,
+        };
+        let (above, below) = (0.74 * size, 0.21 * size);
+        let turned = head.split_once("translate(");
+        let (left, right, top, bottom) = if let Some((_, at)) = turned {
+            let (x, y) = at.split_once(')')?.0.split_once(' ')?;
+            let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
+            (x - above, x + below, y + before - width, y + before)
+        } else {
+            let (x, y) = (value(head, "x")?, value(head, "y")?);
+            (x - before, x - before + width, y - above, y + below)
+        };
+        Some((content, Rect { left, right, top, bottom }))
     };
-    Rect { left, right, top, bottom }
+    let found: Vec<_> = svg.split("<text").skip(1).map(text).collect();
+    found.into_iter().collect::<Option<_>>().unwrap()
 }
 
 /// The figures of the recorded suites.
@@ -93,16 +113,14 @@ fn text_lies_inside_the_figure() {
     {
         let scene = figure.scene();
         let (width, height) = scene.size_px;
-        for text in &scene.texts {
-            let e = extent(text);
+        for (text, e) in texts(&scene.finish()) {
             assert!(
                 e.left >= 0.0
                     && e.top >= 0.0
                     && e.right <= f64::from(width)
                     && e.bottom <= f64::from(height),
-                "{}: {} at {e:?}",
+                "{}: {text} at {e:?}",
                 figure.heading.name,
-                text.markup
             );
         }
     }
@@ -118,17 +136,12 @@ fn text_does_not_lie_on_text() {
     };
     for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
     {
-        let scene = figure.scene();
-        let texts = &scene.texts;
-        for (i, a) in texts.iter().enumerate() {
-            for b in &texts[i + 1..] {
-                assert!(
-                    apart(extent(a), extent(b)),
-                    "{}: {} on {}",
-                    figure.heading.name,
-                    a.markup,
-                    b.markup
-                );
+        let svg = figure.svg();
+        let texts = texts(&svg);
+        for (i, (a, of_a)) in texts.iter().enumerate() {
+            for (b, of_b) in &texts[i + 1..] {
+                let name = &figure.heading.name;
+                assert!(apart(*of_a, *of_b), "{name}: {a} on {b}");
             }
         }
     }
@@ -156,7 +169,7 @@ fn a_kept_figure_is_drawn_as_before() {
         assert_eq!(back.reading, figure.reading);
         kept += 1;
     }
-    assert_eq!(kept, figures.len() - 2);
+    assert_eq!(kept, figures.len() - 1);
 }
 
 #[test]

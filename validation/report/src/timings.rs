@@ -126,7 +126,7 @@ impl Timings {
     /// Error against time.
     pub fn figure(&self) -> Figure {
         let own_ms = 1e3 * self.own.cpu_s;
-        let panel = |title, mut y: ChartAxis, of: fn(&Total) -> f64| {
+        let panel = |title, y: ChartAxis, of: fn(&Total) -> f64| {
             let line = |(label, key, is_interpreted)| {
                 let mark = match is_interpreted {
                     true => Mark::DashedAndPoints,
@@ -141,8 +141,7 @@ impl Timings {
             let x = ChartAxis::logarithmic("CPU time over ours as shipped", x);
             let x = x.with_second(own_ms, "CPU time (ms)");
             let ys = around(series.iter().flat_map(|s| &s.y), 8.0);
-            y.range = y.range.or(Some(ys));
-            ChartPanel::new(title, x, y, series.into())
+            ChartPanel::new(title, x, y.or_within(ys), series.into())
         };
         let error = |label| ChartAxis::logarithmic(label, None);
         let share = "analyses with a wrong number of impacts (%)";

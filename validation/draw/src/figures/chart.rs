@@ -120,6 +120,12 @@ impl ChartAxis {
         Axis::named(&categories).into()
     }
 
+    /// The same axis, with these ends if it has none.
+    pub fn or_within(self, ends: (f64, f64)) -> Self {
+        let new = Self::new(self.label, self.scale, Some(ends)).drawn;
+        Self { drawn: self.drawn.or(new), label: String::new(), ..self }
+    }
+
     /// The same axis with another unit beside its own.
     pub fn with_second(self, factor: f64, label: impl Into<String>) -> Self {
         Self { second: Some((factor, label.into())), ..self }
@@ -180,7 +186,8 @@ pub enum Of {
     High,
 }
 
-pub(super) const NUMBERS: [Column; 4] =
+/// The usual columns of numbers.
+pub const NUMBERS: [Column; 4] =
     [("x", Of::X), ("y", Of::Y), ("y_low", Of::Low), ("y_high", Of::High)];
 
 /// Significant digits of a number that is drawn: more than a drawing shows.

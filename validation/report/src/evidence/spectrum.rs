@@ -2,9 +2,12 @@
 
 use rayon::prelude::*;
 
+use rocking_draw::colour::{Dash, Ink, Pen};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Layout, Mark, NUMBERS,
+    Series,
 };
+use rocking_draw::legend::{Entry, Sample};
 use rocking_proof::edge::edge;
 use rocking_proof::engine::Core;
 use rocking_proof::oracles::overturning;
@@ -177,14 +180,18 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
         None,
     );
     let panels = panels.chain([panel]).collect();
-    Ok(Chart { heading, panels, columns: 3 }.figure(format!(
+    let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
+    let stocky = "lower edges in Eq. 1, *α* = 0.25 rad";
+    let legend = vec![Entry::new(Sample::Line(grey), stocky)];
+    let layout = Layout { legend, ..Layout::of(&["series"], &NUMBERS) };
+    let reading = format!(
         "Mode 1 ends at omega/p = {fold:.3}; above it a safe zone opens below \
          mode 2. By |theta| >= alpha the zone opens only at 6.999. At omega/p \
          = 0.5 a pulse {:.1} % above the threshold overturns the block after \
-         {impacts} impacts; mode 1 needs a stronger pulse. Shaded: Eq. 2. \
-         Dashed grey: the lower edges of Eq. 1 at alpha = 0.25.",
+         {impacts} impacts; mode 1 needs a stronger pulse. Shaded: Eq. 2.",
         100.0 * (lowest - 1.0)
-    )))
+    );
+    Ok(Chart { heading, panels, columns: 3 }.laid_out(&layout, reading))
 }
 
 /// The bands of three impacts and more; number of impacts and amplitude of
@@ -220,7 +227,7 @@ fn low_frequencies(
         .and_then(|k| found[k].first())
         .map_or((0, f64::NAN), |band| (band.0, band.1));
     let panel = ChartPanel::new(
-        "low frequencies, |*θ*| > *π*/2",
+        "low frequencies, |*θ*| > *π*/2, Eq. 2",
         ChartAxis::linear("*ω*/*p*", (LOWEST, highest)),
         ChartAxis::linear("amplitude over threshold", (1.0, 1.2)),
         series,

@@ -14,13 +14,11 @@ use rocking_common::paper::{
 use rocking_common::table::number;
 use rocking_common::words::{percent, range};
 use rocking_draw::axis::Axis;
-use rocking_draw::colour::{Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
     Chart, ChartPanel, Column, Figure, Heading, Layout, Mark, Of, Series,
 };
 use rocking_draw::grid::Grid;
-use rocking_draw::legend::{Entry, Sample};
 use rocking_draw::markup::plain;
 use rocking_draw::text::Horizontal;
 
@@ -71,14 +69,7 @@ fn figure(
     let columns = panels.len();
     let grid = Grid { right: 40.0, ..Grid::new(columns, columns) };
     let grid = grid.plot(264.0, grid.height);
-    let legend = [(1.8, "median"), (0.9, "16 and 84 %")].map(|(width, of)| {
-        Entry::new(Sample::Line(Pen::new(Ink::Text, width)), of)
-    });
-    let layout = Layout {
-        grid: Some(grid),
-        legend: legend.into(),
-        ..Layout::of(&KEYS, &NUMBERS)
-    };
+    let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let shown = panels.iter().map(|one| {
         let (low, high) = levels(one);
         let groups = one.groups.iter().map(|group| {

@@ -65,7 +65,7 @@ const RATIOS: [f64; 19] = [
 pub struct Axis {
     low: f64,
     high: f64,
-    scale: AxisScale,
+    pub(crate) scale: AxisScale,
     /// The labelled ticks.
     pub ticks: Vec<Tick>,
     /// The unlabelled ticks.
@@ -89,11 +89,11 @@ impl Axis {
         let digits = decimals(round[1] - round[0]);
         let tick = |at| Tick { at, label: fixed(at, digits) };
         let ticks = round.into_iter().map(tick).collect();
-        Self::new(low, high, AxisScale::Linear, ticks)
+        Self { ticks, ..Self::new(low, high, AxisScale::Linear) }
     }
 
-    fn new(low: f64, high: f64, scale: AxisScale, ticks: Vec<Tick>) -> Self {
-        let (minor, title) = (Vec::new(), String::new());
+    fn new(low: f64, high: f64, scale: AxisScale) -> Self {
+        let (ticks, minor, title) = (Vec::new(), Vec::new(), String::new());
         Self { low, high, scale, ticks, minor, title, grid: true }
     }
 
@@ -116,8 +116,7 @@ impl Axis {
             false => (0.1, 10.0),
         };
         let decades = libm::log10(high / low);
-        let mut axis =
-            Self::new(low, high, AxisScale::Logarithmic, Vec::new());
+        let mut axis = Self::new(low, high, AxisScale::Logarithmic);
         if decades < 0.6 {
             axis.ticks = Self::linear(low, high, 5).ticks;
             return axis;
@@ -129,7 +128,7 @@ impl Axis {
         for decade in first..=last {
             let power = format!("10^{{{}}}", minus(&decade.to_string()));
             for digit in 1..10 {
-                let at = f64::from(digit) * power_of_ten(decade);
+                let at = f64::from(digit) * libm::pow(10.0, f64::from(decade));
                 let is_labelled = match digit {
                     1 => decade.rem_euclid(every) == 0,
                     2 | 5 => decades < 2.2,
@@ -162,8 +161,7 @@ impl Axis {
         width: f64,
         apart: f64,
     ) -> Self {
-        let mut axis =
-            Self::new(low, high, AxisScale::AboutOne(width), Vec::new());
+        let mut axis = Self::new(low, high, AxisScale::AboutOne(width));
         let mut taken: Vec<f64> = Vec::new();
         for ratio in RATIOS {
             let place = axis.place(ratio);
@@ -184,7 +182,8 @@ impl Axis {
             |(at, name): (f64, &String)| Tick { at, label: name.clone() };
         let ticks = (1..).map(f64::from).zip(names).map(tick).collect();
         let high = names.len().max(1) as f64 + 0.6;
-        Self { grid: false, ..Self::new(0.4, high, AxisScale::Linear, ticks) }
+        let axis = Self::new(0.4, high, AxisScale::Linear);
+        Self { grid: false, ticks, ..axis }
     }
 
     /// The same with a label, in [`super::markup`].
@@ -273,20 +272,16 @@ fn most(count: usize) -> usize {
 /// every machine. A hair more range keeps the ticks at both ends.
 fn round_numbers(low: f64, high: f64, most: usize) -> Vec<f64> {
     let hair = 1e-7 * (high - low);
-    let unit = power_of_ten(libm::log10(high - low).floor() as i32 - 1);
+    let unit = libm::pow(10.0, libm::log10(high - low).floor() - 1.0);
     let range = (low - hair) / unit..(high + hair) / unit;
     let whole = RangedCoordf64::from(range).key_points(BoldPoints(most));
     whole.into_iter().map(|n| n.round() * unit).collect()
 }
 
-fn power_of_ten(n: i32) -> f64 {
-    libm::pow(10.0, f64::from(n))
-}
-
 /// Decimals that a step needs.
 fn decimals(step: f64) -> usize {
-    let magnitude = libm::log10(step * (1.0 + 1e-9)).floor();
-    if magnitude < 0.0 { (-magnitude) as usize } else { 0 }
+    // A negative number becomes 0.
+    (-libm::log10(step * (1.0 + 1e-9)).floor()) as usize
 }
 
 /// A number with a true minus sign, and without one before zero.

@@ -28,18 +28,13 @@ pub(crate) fn done<T>(
 }
 
 /// Text of this size in px, on the baseline of its point.
-pub(crate) fn style(
-    size_px: f64,
-    ink: Ink,
-    align: Horizontal,
-) -> TextStyle<'static> {
-    let across = match align {
+pub(crate) fn style(px: f64, ink: Ink, to: Horizontal) -> TextStyle<'static> {
+    let across = match to {
         Horizontal::Left => HPos::Left,
         Horizontal::Centre => HPos::Center,
         Horizontal::Right => HPos::Right,
     };
-    let font =
-        FontDesc::new(FontFamily::SansSerif, size_px, FontStyle::Normal);
+    let font = FontDesc::new(FontFamily::SansSerif, px, FontStyle::Normal);
     font.color(&ink.colour()).pos(Pos::new(across, VPos::Bottom))
 }
 

@@ -142,16 +142,14 @@ impl Drawing {
     /// Writes units as px with the fewest characters, behind a letter or
     /// another number.
     fn number(&mut self, units: i32) {
-        let text = px(units).to_string();
-        let text = match text.starts_with("0.") || text.starts_with("-0.") {
-            true => text.replacen("0.", ".", 1),
-            false => text,
-        };
+        let text = px(units).to_string().replace("-0.", "-.");
+        let short = text.strip_prefix('0').filter(|rest| !rest.is_empty());
+        let text = short.unwrap_or(&text);
         let behind = self.svg.ends_with(|c: char| c.is_ascii_digit());
         if behind && !text.starts_with('-') {
             self.svg.push(' ');
         }
-        self.svg.push_str(&text);
+        self.svg.push_str(text);
     }
 }
 

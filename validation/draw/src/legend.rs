@@ -93,8 +93,7 @@ fn draw_sample(canvas: &Canvas<'_>, sample: Sample, x: f64, y: f64) {
         Sample::Line(pen) => Look::line(pen),
         Sample::Mark(marker, ink) => Look::marks(marker, 3.2, ink),
         Sample::LineAndMark(pen, marker) => {
-            let marker = Some((marker, 3.0, pen.ink));
-            Look { marker, ..Look::line(pen) }
+            Look { marker: Some((marker, 3.0, pen.ink)), ..Look::line(pen) }
         }
         Sample::Band(fill) => Look::band(fill),
         Sample::Of(look) => look,

@@ -15,7 +15,7 @@ use crate::colour::{Fill, Ink, Pen};
 use crate::drawing::{Drawing, px, units};
 use crate::geometry::{Point, Rect, clip, from};
 use crate::markup;
-use crate::text::{Horizontal, TEXT_PX};
+use crate::text::{Horizontal as Align, TEXT_PX};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;
@@ -177,7 +177,7 @@ fn chart<'d>(
 fn draw_axes(chart: &mut AxesChart<'_>) {
     let axes = chart.as_coord_spec();
     let [x, y] = [axes.x_spec(), axes.y_spec()].map(|a| a.title.clone());
-    let words = style(TEXT_PX, Ink::Text, Horizontal::Centre);
+    let words = style(TEXT_PX, Ink::Text, Align::Centre);
     let none = String::new;
     for (ticks, tick_px, x, y) in
         [(UNLABELLED, MINOR_PX, none(), none()), (1, TICK_PX, x, y)]
@@ -275,13 +275,7 @@ impl<'d> Panel<'d> {
     }
 
     /// Small words on a baseline at a point in px.
-    pub(crate) fn words(
-        &self,
-        text: &str,
-        at: Point,
-        ink: Ink,
-        to: Horizontal,
-    ) {
+    pub(crate) fn words(&self, text: &str, at: Point, ink: Ink, to: Align) {
         self.canvas.text(text, at, style(TEXT_PX - 1.0, ink, to));
     }
 
@@ -289,11 +283,10 @@ impl<'d> Panel<'d> {
     /// Title and subtitle are in [`super::markup`].
     pub(crate) fn finish(mut self, title: &str, subtitle: &str) {
         let f = self.frame;
-        let (middle, centre) =
-            (f64::midpoint(f.left, f.right), Horizontal::Centre);
+        let middle = f64::midpoint(f.left, f.right);
         if self.empty {
             let at = (middle, f64::midpoint(f.top, f.bottom));
-            self.words("no data in this range", at, Ink::Muted, centre);
+            self.words("no data in this range", at, Ink::Muted, Align::Centre);
         }
         draw_axes(&mut self.chart);
         let up = if let Some(second) = self.second.take() {
@@ -304,10 +297,15 @@ impl<'d> Panel<'d> {
         } else if subtitle.is_empty() {
             9.0
         } else {
-            self.words(subtitle, (middle, f.top - 7.0), Ink::Muted, centre);
+            self.words(
+                subtitle,
+                (middle, f.top - 7.0),
+                Ink::Muted,
+                Align::Centre,
+            );
             20.0
         };
-        let words = style(TITLE_PX, Ink::Text, centre);
+        let words = style(TITLE_PX, Ink::Text, Align::Centre);
         self.canvas.text(title, (middle, f.top - up), words);
     }
 }

@@ -58,10 +58,7 @@ pub struct Stripe {
 impl Stripe {
     /// Share of the records with a well-defined ratio, 0 to 1.
     pub fn usable_share(&self) -> f64 {
-        if self.records == 0 {
-            return 0.0;
-        }
-        self.usable as f64 / self.records as f64
+        self.usable as f64 / self.records.max(1) as f64
     }
 }
 

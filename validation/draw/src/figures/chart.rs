@@ -1,6 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::iter::repeat;
 
 use super::common;
@@ -64,20 +65,18 @@ pub struct ChartPanel {
 /// One axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChartAxis {
-    /// Label with unit, in markup.
-    label: String,
-    /// Linear, or logarithmic: then values that are not positive are gaps.
-    scale: AxisScale,
     /// The same in another unit, at the opposite edge, if the axis is
     /// horizontal: how many of it make 1 of the axis, and its label.
     second: Option<(f64, String)>,
-    /// The axis as it is drawn; none: from the data.
-    drawn: Option<Axis>,
+    drawn: Axis,
+    /// Whether its ends come from the data.
+    #[serde(default)]
+    fitted: bool,
 }
 
 impl From<Axis> for ChartAxis {
-    fn from(axis: Axis) -> Self {
-        Self { drawn: Some(axis), ..Self::linear("", None) }
+    fn from(drawn: Axis) -> Self {
+        Self { second: None, drawn, fitted: false }
     }
 }
 
@@ -90,13 +89,12 @@ impl ChartAxis {
         scale: AxisScale,
         range: AxisRange,
     ) -> Self {
-        let (label, second) = (label.into(), None);
-        let drawn = range.map(|(low, high)| match scale {
+        let (low, high) = range.unwrap_or((1.0, 10.0));
+        let drawn = match scale {
             AxisScale::Logarithmic => Axis::logarithmic(low, high),
             _ => Axis::linear(low, high, 6),
-        });
-        let drawn = drawn.map(|axis| axis.label(&*label));
-        Self { label, scale, second, drawn }
+        };
+        Self { fitted: range.is_none(), ..drawn.label(label).into() }
     }
 
     /// A linear axis with these ends, or with those of the data.
@@ -122,8 +120,12 @@ impl ChartAxis {
 
     /// The same axis, with these ends if it has none.
     pub fn or_within(self, ends: (f64, f64)) -> Self {
-        let new = Self::new(self.label, self.scale, Some(ends)).drawn;
-        Self { drawn: self.drawn.or(new), label: String::new(), ..self }
+        if !self.fitted {
+            return self;
+        }
+        let axis = self.drawn;
+        let axis = Self::new(axis.title, axis.scale, Some(ends));
+        Self { second: self.second, ..axis }
     }
 
     /// The same axis with another unit beside its own.
@@ -303,25 +305,21 @@ fn grid_of(panels: usize, columns: usize) -> Grid {
 
 pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     let all = || figure.panels.iter().flat_map(|p| &p.series);
-    let mut labelled: Vec<&Series> = Vec::new();
-    let rank = |labelled: &[&Series], series: &Series| {
-        labelled.iter().position(|one| one.label == series.label)
-    };
-    for series in all().filter(|s| s.has_sample()) {
-        if rank(&labelled, series).is_none() {
-            labelled.push(series);
-        }
-    }
+    // The first series of each label.
+    let mut seen = BTreeSet::new();
+    let mut labelled: Vec<&Series> = all().collect();
+    labelled.retain(|s| s.has_sample() && seen.insert(&s.label));
+    let rank =
+        |one: &Series| labelled.iter().position(|s| s.label == one.label);
     let nested =
         labelled.len() > FEW && labelled.iter().all(|s| s.interval.is_empty());
-    let look = |one: &Series| one.mark.look(rank(&labelled, one), nested);
+    let look = |one: &Series| one.mark.look(rank(one), nested);
     let entry = |one: &&Series| {
-        let look = look(one);
-        // A line shows its band only where it has one.
-        let band = look
-            .band
-            .filter(|_| look.pen.is_none() || !one.interval.is_empty());
-        Entry::new(Sample::Of(Look { band, ..look }), &*one.label)
+        let mut look = look(one);
+        if look.pen.is_some() && one.interval.is_empty() {
+            look.band = None;
+        }
+        Entry::new(Sample::Of(look), &*one.label)
     };
     let mut legend: Vec<Entry> = labelled.iter().map(entry).collect();
     let Layout { grid, legend: more, .. } = &figure.layout;
@@ -340,11 +338,10 @@ pub(super) fn scene(heading: &Heading, figure: &Panels) -> Drawing {
     common::panels(heading, grid, &legend, |canvas, grid| {
         for (i, shown) in figure.panels.iter().enumerate() {
             let (x, y) = axes(shown);
-            let second = shown.x.second.as_ref();
-            let second = second.and_then(|(factor, label)| {
+            let second = shown.x.second.as_ref().map(|(factor, label)| {
                 let (low, high) = x.range();
                 let range = Some((factor * low, factor * high));
-                ChartAxis::new(label, shown.x.scale, range).drawn
+                ChartAxis::new(label, x.scale, range).drawn
             });
             let mut panel = Panel::new(canvas, grid.frame(i), (x, y), second);
             for series in &shown.series {
@@ -373,16 +370,15 @@ fn axes(shown: &ChartPanel) -> (Axis, Axis) {
 
 /// The axis, from the data unless its ends are given.
 fn axis(given: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
-    given.drawn.clone().unwrap_or_else(|| {
-        let logarithmic = given.scale == AxisScale::Logarithmic;
-        let span = common::span(values, logarithmic);
-        let (low, high) = span.unwrap_or((1.0, 10.0));
-        let axis = match logarithmic {
+    let logarithmic = given.drawn.scale == AxisScale::Logarithmic;
+    let axis = match common::span(values, logarithmic) {
+        Some((low, high)) if given.fitted => match logarithmic {
             true => Axis::logarithmic(low / 1.3, high * 1.3),
             false => Axis::around(low, high, 6),
-        };
-        axis.label(&*given.label)
-    })
+        },
+        _ => return given.drawn.clone(),
+    };
+    axis.label(&*given.drawn.title)
 }
 
 fn draw_series(panel: &mut Panel<'_>, series: &Series, look: Look) {

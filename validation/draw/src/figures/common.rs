@@ -16,13 +16,10 @@ pub(crate) fn drawing(
     size_px: Point,
     draw: impl FnOnce(&Canvas<'_>),
 ) -> Drawing {
-    let mut title = heading.title.clone();
-    if let Some(arm) = heading.arm {
-        title += &format!(" (arm {})", arm.name());
-    }
-    if let Some(motions) = heading.motions {
-        title += &format!(" ({} motions)", motions.name());
-    }
+    let arm = heading.arm.map(|arm| format!(" (arm {})", arm.name()));
+    let motions = heading.motions.map(|m| format!(" ({} motions)", m.name()));
+    let title = [Some(heading.title.clone()), arm, motions];
+    let title: String = title.into_iter().flatten().collect();
     let words = [&heading.name, &title, &heading.description];
     let mut drawing = Drawing::new(words.map(String::as_str), size_px);
     draw(&Canvas::on(&mut drawing));

@@ -115,13 +115,13 @@ impl Heading {
         description: impl Into<String>,
         arm: Option<Arm>,
     ) -> Self {
-        let of_arm = |arm: Arm| format!("-{}", arm.name().to_lowercase());
-        let suffix =
-            arm.filter(|_| is_by_arm(number)).map_or(String::new(), of_arm);
-        let name = format!("figure-{number:02}{suffix}");
-        let words = Self::new(name, title, description);
+        let words = Self::new("", title, description);
         let place = place_of(number);
-        Self { place, arm, number: Some(number), ..words }
+        let words = Self { place, arm, number: Some(number), ..words };
+        let suffix = |arm: Arm| format!("-{}", arm.name().to_lowercase());
+        let suffix = words.own_arm().map_or(String::new(), suffix);
+        let name = format!("figure-{number:02}{suffix}");
+        Self { name, ..words }
     }
 
     /// The same figure of these motions, where a page has it of both; of the

@@ -86,9 +86,8 @@ fn panel(shown: &HistoryPanel) -> ChartPanel {
         ]));
         if let Some((t, y)) = end.filter(|_| curve.overturned) {
             let cross = Look::marks(Marker::Cross, 4.5, Ink::Series(k));
-            let at = (vec![t], vec![y.clamp(low, high)]);
-            let cross = Series::of(cross, at.0, at.1).keyed([]);
-            series.push(cross.labelled("overturned"));
+            let cross = Series::of(cross, vec![t], vec![y.clamp(low, high)]);
+            series.push(cross.keyed([]).labelled("overturned"));
         }
     }
     let title = format!(

@@ -84,10 +84,8 @@ pub fn record_svg(
         vec![series(periods_s.to_vec(), spectrum)],
     ));
     let name = motion.name();
-    let done = done.map_or_else(
-        || "as given".to_owned(),
-        |words| format!("processed: {words}"),
-    );
+    let processed = |words| format!("processed: {words}");
+    let done = done.map_or("as given".to_owned(), processed);
     let title = format!("Record {name}");
     let words = format!(
         "Acceleration, velocity and displacement of {name} against time \
@@ -193,16 +191,14 @@ fn by_level(
     (name, own): (&str, &Score),
     setting: &str,
 ) -> ChartPanel {
-    let of = |code: &[&Code]| {
-        code.iter().map(|c| (f64::from(c.level), c.median_digits)).unzip()
-    };
     let codes: Vec<&Code> =
         codes.iter().filter(|code| code.setting == setting).collect();
     let mut notes = Vec::new();
     let mut series: Vec<Series> = Vec::new();
     for code in codes.chunk_by(|a, b| a.code == b.code) {
         let look = Look::line(Pen::new(Ink::Muted, 0.9));
-        let (x, y): (Vec<f64>, Vec<f64>) = of(code);
+        let of = code.iter().map(|c| (f64::from(c.level), c.median_digits));
+        let (x, y): (Vec<f64>, Vec<f64>) = of.unzip();
         let end = x.last().copied().zip(y.last().copied());
         let name = markup::escape(&code[0].code);
         series.push(Series::of(look, x, y).keyed([code[0].code.clone()]));

@@ -95,10 +95,9 @@ fn word(on: &Canvas<'_>, markup: &str, at: Point) {
 fn ground(on: &Canvas<'_>) {
     let (left, right, y) = (40.0, WIDTH - 40.0, PIVOT.1);
     on.line(&[(left, y), (right, y)], Pen::new(Ink::Text, 1.2));
-    let mut x = left + 4.0;
-    while x < right {
-        on.line(&[(x, y), (x - 7.0, y + 7.0)], Pen::new(Ink::Muted, 0.6));
-        x += 9.0;
+    for k in 0..42 {
+        let x = 9.0_f64.mul_add(f64::from(k), left + 4.0);
+        on.line(&[(x, y), (x - 7.0, y + 7.0)], FINE);
     }
 }
 

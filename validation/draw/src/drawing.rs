@@ -108,10 +108,14 @@ impl Drawing {
     /// A line, with the command at its end unless it closes itself.
     fn shape(
         &mut self,
+        colour: BackendColor,
         look: String,
         points: impl IntoIterator<Item = BackendCoord>,
         (tolerance, end): (f64, &str),
     ) -> Drawn {
+        if colour.alpha == 0.0 {
+            return Ok(());
+        }
         let points: Vec<_> = points.into_iter().collect();
         let exact = points.iter().map(|p| (f64::from(p.0), f64::from(p.1)));
         let keep = kept(&exact.collect::<Vec<_>>(), tolerance);
@@ -188,14 +192,12 @@ impl DrawingBackend for &mut Drawing {
         path: I,
         style: &S,
     ) -> Drawn {
-        if style.color().alpha == 0.0 {
-            return Ok(());
-        }
         let (ink, dash) = (class(style.color()), dash_array(style.color()));
         let width = f64::from(style.stroke_width()) / 100.0;
         let look = format!("class=\"l {ink}\" stroke-width=\"{width}\"{dash}");
-        let thin = style.stroke_width() < 50;
-        self.shape(look, path, (if thin { OF_MANY } else { TOLERANCE }, ""))
+        let is_thin = style.stroke_width() < 50;
+        let end = (if is_thin { OF_MANY } else { TOLERANCE }, "");
+        self.shape(style.color(), look, path, end)
     }
 
     /// A point of a thick round pen, so that many dots make one path.
@@ -208,7 +210,7 @@ impl DrawingBackend for &mut Drawing {
     ) -> Drawn {
         let (ink, width) = (class(style.color()), 2.0 * px(radius as i32));
         let look = format!("class=\"l r {ink}\" stroke-width=\"{width}\"");
-        self.shape(look, [centre], (TOLERANCE, "h0"))
+        self.shape(style.color(), look, [centre], (TOLERANCE, "h0"))
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
@@ -217,14 +219,11 @@ impl DrawingBackend for &mut Drawing {
         style: &S,
     ) -> Drawn {
         let BackendColor { alpha, .. } = style.color();
-        if alpha == 0.0 {
-            return Ok(());
-        }
         let mut look = format!("class=\"{}\"", class(style.color()));
         if alpha < 1.0 {
             let _ = write!(look, " fill-opacity=\"{alpha}\"");
         }
-        self.shape(look, corners, (TOLERANCE, "z"))
+        self.shape(style.color(), look, corners, (TOLERANCE, "z"))
     }
 
     /// The lower edge of a text is its baseline.

@@ -117,13 +117,10 @@ pub fn fit(text: &str, size_px: f64, width_px: f64) -> String {
     if width(&escape(text), size_px) <= width_px {
         return text.to_owned();
     }
-    let mut kept = String::new();
-    for c in text.chars() {
-        kept.push(c);
-        if width(&escape(&kept), size_px) + size_px > width_px {
-            kept.pop();
-            break;
-        }
+    let mut kept = text.to_owned();
+    let room_px = width_px - size_px;
+    while !kept.is_empty() && width(&escape(&kept), size_px) > room_px {
+        kept.pop();
     }
     format!("{}…", kept.trim_end())
 }

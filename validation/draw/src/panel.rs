@@ -80,9 +80,11 @@ impl Marker {
             on.line(&corners(2, 1.1, turns), pen);
             on.line(&corners(2, 1.1, turns + 0.25), pen);
         };
-        let head = |turns| {
-            let ends = corners(3, 1.2, turns);
-            on.line(&[ends[1], ends[0], ends[2]], pen);
+        // Its tip lies 4 px before the point, which is at the edge.
+        let head = |turns: f64| {
+            let middle = from(at, -4.0 - 1.2 * r, TAU * turns);
+            let end = |turn| from(middle, 1.2 * r, TAU * (turns + turn));
+            on.line(&[1.0 / 3.0, 0.0, -1.0 / 3.0].map(end), pen);
         };
         match self {
             Self::Dot => on.dot(at, r, ink),
@@ -144,7 +146,7 @@ type AxesChart<'d> =
 /// A panel being drawn: [`Panel::new`] draws the grid, [`Panel::finish`] the
 /// axes over the data.
 pub(crate) struct Panel<'d> {
-    canvas: Canvas<'d>,
+    pub(crate) canvas: Canvas<'d>,
     chart: AxesChart<'d>,
     pub(crate) frame: Rect,
     second: Option<Axis>,
@@ -176,12 +178,10 @@ fn chart<'d>(
 /// shorter.
 fn draw_axes(chart: &mut AxesChart<'_>) {
     let axes = chart.as_coord_spec();
-    let [x, y] = [axes.x_spec(), axes.y_spec()].map(|a| a.title.clone());
+    let names = [axes.x_spec(), axes.y_spec()].map(|a| a.title.clone());
     let words = style(TEXT_PX, Ink::Text, Align::Centre);
-    let none = String::new;
-    for (ticks, tick_px, x, y) in
-        [(UNLABELLED, MINOR_PX, none(), none()), (1, TICK_PX, x, y)]
-    {
+    let minor = (UNLABELLED, MINOR_PX, Default::default());
+    for (ticks, tick_px, [x, y]) in [minor, (1, TICK_PX, names)] {
         let mut axes = chart.configure_mesh();
         axes.disable_mesh().axis_style(HAIRLINE).label_style(words.clone());
         axes.x_labels(ticks).y_labels(ticks).x_desc(x).y_desc(y);
@@ -285,8 +285,8 @@ impl<'d> Panel<'d> {
         let f = self.frame;
         let middle = f64::midpoint(f.left, f.right);
         if self.empty {
-            let at = (middle, f64::midpoint(f.top, f.bottom));
-            self.words("no data in this range", at, Ink::Muted, Align::Centre);
+            let at = (f.right - 5.0, f.bottom - 8.0);
+            self.words("no data in this range", at, Ink::Muted, Align::Right);
         }
         draw_axes(&mut self.chart);
         let up = if let Some(second) = self.second.take() {

@@ -119,6 +119,8 @@ const HALF: f64 = 0.30;
 /// Fewest ratios of a box with a notch: of fewer the notch often reaches
 /// beyond the quartiles.
 const NOTCHED: usize = 20;
+/// Opacity of a box in percent.
+const TINT: u8 = 24;
 /// Half height at the notch.
 const WAIST: f64 = 0.15;
 /// Where the interval of the median is drawn, below the box.
@@ -141,11 +143,7 @@ pub(super) fn panels(figure: &Boxplots) -> Panels {
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
     let grid = Grid::new(figure.panels.len(), figure.columns);
-    let width = match grid.columns {
-        1 | 2 => 400.0,
-        3 => 262.0,
-        _ => 166.0,
-    };
+    let width = [400.0, 400.0, 262.0, 166.0][grid.columns.min(4) - 1];
     let grid = Grid { right: 44.0, ..grid }.plot(width, height);
     // The usual range, or what boxes and whiskers need.
     let ends = boxes().flat_map(|b| {
@@ -156,14 +154,21 @@ pub(super) fn panels(figure: &Boxplots) -> Panels {
     let high = (1.12 * high).clamp(USUAL.1, WIDEST.1);
     let x = Axis::about_one(low, high, STRETCH, 27.0 / width)
         .label(format!("{} (scale stretched about 1)", figure.ratio_label));
+    let key = |shown: &BoxPanel| {
+        let fill = Fill::tint(common::ink(shown.alpha_rad), TINT);
+        let words = common::slenderness(shown.alpha_rad);
+        Series::of(Look::band(fill), vec![], vec![]).labelled(words)
+    };
     let panel = |shown: &BoxPanel| {
         let levels = shown.stripes.iter().map(|s| common::short(s.level));
         let y = Axis::named(&levels.collect::<Vec<_>>());
         let stripes = || (1..).map(f64::from).zip(&shown.stripes);
         let alpha = common::slenderness(shown.alpha_rad);
-        let mut series = vec![Series::note(ONE, "ratio 1", (1.0, 1.0))];
+        let ink = common::ink(shown.alpha_rad);
+        let mut series: Vec<_> = figure.panels.iter().map(key).collect();
+        series.push(Series::note(ONE, "ratio 1", (1.0, 1.0)));
         for (y, stripe) in stripes() {
-            series.extend(drawn(stripe, y, shown.alpha_rad, (low, high)));
+            series.extend(drawn(stripe, y, ink, (low, high)));
         }
         // Over the boxes: it is what their medians are compared with.
         let limits = stripes().filter_map(|(y, s)| Some((s.closed_form?, y)));
@@ -188,14 +193,9 @@ fn line(points: impl IntoIterator<Item = Point>, pen: Pen) -> Series {
 }
 
 /// A box at an ordinate, with the share of usable ratios beside it.
-fn drawn(
-    stripe: &Stripe,
-    y: f64,
-    alpha_rad: f64,
-    (low, high): Point,
-) -> Vec<Series> {
-    let percent = (100.0 * stripe.usable_share()).round();
-    let share = format!("{percent} %");
+fn drawn(stripe: &Stripe, y: f64, ink: Ink, range: Point) -> Vec<Series> {
+    let (low, high) = range;
+    let share = format!("{} %", (100.0 * stripe.usable_share()).round());
     let mut all = vec![Series::note(Mark::Edge, share, (1.0, y))];
     let Some(b) = &stripe.summary else { return all };
     // Without a notch its ends are the median.
@@ -207,12 +207,10 @@ fn drawn(
     if ends.iter().any(|x| !x.is_finite()) {
         return all;
     }
-    let ink = common::ink(alpha_rad);
     let x = ends.map(|x| x.clamp(low, high));
     let half = [HALF, HALF, waist, HALF, HALF];
     let body =
-        Series::of(Look::band(Fill::tint(ink, 24)), x.into(), vec![y; 5])
-            .labelled(common::slenderness(alpha_rad))
+        Series::of(Look::band(Fill::tint(ink, TINT)), x.into(), vec![y; 5])
             .with(half.map(|up| (y - up, y + up)).into());
     let mark = |marker, half_px, x: Vec<f64>, words| {
         let words = if x.is_empty() { "" } else { words };

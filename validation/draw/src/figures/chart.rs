@@ -456,8 +456,14 @@ fn outer_words(panel: &Panel<'_>, all: &[Series]) {
     }
     let mut y = f64::INFINITY;
     for words in of(Mark::Edge) {
-        y = panel.to_px((0.0, words.y[0])).1.min(y - APART_PX);
-        let at = (panel.frame.right + 5.0, y + 0.33 * TEXT_PX);
+        let end = panel.to_px((words.x[0], words.y[0]));
+        y = end.1.min(y - APART_PX);
+        let right = panel.frame.right;
+        if end.1 - y > 4.0 && end.0 > right - EDGE_PX {
+            let leader = [end, (right + 3.0, y)];
+            panel.canvas.line(&leader, Pen::new(Ink::Muted, 0.4));
+        }
+        let at = (right + 5.0, y + 0.33 * TEXT_PX);
         panel.words(&words.label, at, Ink::Text, Horizontal::Left);
     }
 }

@@ -122,7 +122,7 @@ impl Mark {
         let series = rank.unwrap_or(0);
         let mut usual = Pen::of_series(series);
         if nested && self == Self::Line {
-            usual.width_px = (2.8 - 0.5 * series as f64).max(0.7);
+            usual.width_px = (2.3 - 0.4 * series as f64).max(0.6);
         }
         let thin = Pen { width_px: 1.1, dash: Dash::Solid, ..usual };
         let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);

@@ -28,9 +28,6 @@ pub enum AxisScale {
     Linear,
     /// Logarithmic.
     Logarithmic,
-    /// Inverse hyperbolic sine of the logarithm over this width: linear
-    /// within it about 1, logarithmic twice over beyond.
-    AboutOne(f64),
 }
 
 impl AxisScale {
@@ -40,7 +37,6 @@ impl AxisScale {
             Self::Linear => x,
             _ if !(x > 0.0) => f64::NAN,
             Self::Logarithmic => libm::log(x),
-            Self::AboutOne(width) => libm::asinh(libm::log(x) / width),
         }
     }
 
@@ -49,16 +45,9 @@ impl AxisScale {
         match self {
             Self::Linear => y,
             Self::Logarithmic => libm::exp(y),
-            Self::AboutOne(width) => libm::exp(width * libm::sinh(y)),
         }
     }
 }
-
-/// Ticks of an axis of ratios in the order in which they get room.
-const RATIOS: [f64; 19] = [
-    1.0, 0.5, 2.0, 0.95, 1.05, 0.99, 1.01, 0.2, 5.0, 0.1, 10.0, 0.9, 1.1, 0.8,
-    1.25, 0.98, 1.02, 0.7, 1.4,
-];
 
 /// An axis: a range, ticks and a label.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -149,30 +138,6 @@ impl Axis {
                 }
             }
         }
-        axis
-    }
-
-    /// An axis of ratios that shows both what lies within `width` of 1 (in
-    /// ln) and what lies far away: ln r goes to asinh(ln r / width). Ticks
-    /// are at least the share `apart` of the axis away from one another.
-    pub(crate) fn about_one(
-        low: f64,
-        high: f64,
-        width: f64,
-        apart: f64,
-    ) -> Self {
-        let mut axis = Self::new(low, high, AxisScale::AboutOne(width));
-        let mut taken: Vec<f64> = Vec::new();
-        for ratio in RATIOS {
-            let place = axis.place(ratio);
-            let free = taken.iter().all(|t| (t - place).abs() >= apart);
-            if free && (-1e-9..=1.0 + 1e-9).contains(&place) {
-                taken.push(place);
-                let label = ratio.to_string();
-                axis.ticks.push(Tick { at: ratio, label });
-            }
-        }
-        axis.ticks.sort_by(|a, b| a.at.total_cmp(&b.at));
         axis
     }
 

@@ -1,5 +1,5 @@
-//! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe. plotters
-//! has boxplots, but without a notch and in single precision.
+//! Figures 6, 7 and 9: medians and notched boxplots of paired ratios by stripe.
+//! plotters has boxplots, but without a notch and in single precision.
 
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
@@ -11,7 +11,7 @@ use super::chart::{ChartPanel, Layout, Panels};
 use super::common;
 use super::series::{Mark, Series};
 use crate::axis::Axis;
-use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::colour::{Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::panel::{Look, Marker};
@@ -21,10 +21,8 @@ use crate::panel::{Look, Marker};
 pub struct Boxplots {
     /// What is compared, in markup: `*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}`.
     pub ratio_label: String,
-    /// Panels row by row.
+    /// The blocks, those of one frequency parameter behind each other.
     pub panels: Vec<BoxPanel>,
-    /// Panels in a row.
-    pub columns: usize,
 }
 
 /// One pair of blocks.
@@ -123,68 +121,107 @@ const NOTCHED: usize = 20;
 const TINT: u8 = 24;
 /// Half height at the notch.
 const WAIST: f64 = 0.15;
-/// Where the interval of the median is drawn, below the box.
-const BELOW: f64 = -0.43;
-const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
-const ONE: Mark = Mark::Upright(Pen::new(Ink::Muted, 0.9));
-const CLOSED_FORM: Pen = Pen::new(Ink::Series(1), 1.1).dash(Dash::Short);
-/// The range of every figure, unless a whisker reaches farther; outliers
-/// beyond are left out, with an arrow head at the edge.
-const USUAL: (f64, f64) = (0.2, 5.0);
-/// The widest range.
-const WIDEST: (f64, f64) = (0.1, 10.0);
-/// Width about 1, in ln, within which the axis of every figure is linear.
-const STRETCH: f64 = 0.005;
+/// Distance between the medians of one stripe.
+const APART: f64 = 0.18;
+const ZERO: Mark = Mark::Upright(Pen::new(Ink::Muted, 0.9));
+/// Ratios that the boxes show, as in the paper; outliers beyond are left out,
+/// with an arrow head at the edge.
+const RATIOS: (f64, f64) = (0.5, 2.0);
+/// Width of a panel, and height of a stripe, in px.
+const WIDTH: f64 = 400.0;
+const STRIPE: f64 = 21.0;
 
-/// The boxes as lines, bands and marks.
+/// For each frequency parameter the medians against the closed form, and the
+/// boxes of its last block, as in the paper.
 pub(super) fn panels(figure: &Boxplots) -> Panels {
-    let stripes = || figure.panels.iter().flat_map(|p| &p.stripes);
-    let boxes = || stripes().filter_map(|s| s.summary.as_ref());
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
-    let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
-    let grid = Grid::new(figure.panels.len(), figure.columns);
-    let width = [400.0, 400.0, 262.0, 166.0][grid.columns.min(4) - 1];
-    let grid = Grid { right: 44.0, ..grid }.plot(width, height);
-    // The usual range, or what boxes and whiskers need.
-    let ends = boxes().flat_map(|b| {
-        [b.notch_low, b.notch_high, b.whisker_low, b.whisker_high]
+    let height = STRIPE * most.unwrap_or(0).clamp(6, 16) as f64;
+    let by_p = || figure.panels.chunk_by(|a, b| a.p_rad_s == b.p_rad_s);
+    let grid = Grid::new(2 * by_p().count(), 2);
+    let grid = Grid { right: 44.0, ..grid }.plot(WIDTH, height);
+    let all = figure.panels.iter().flat_map(|p| &p.stripes);
+    let known = all.filter(|s| s.usable >= NOTCHED).filter_map(Stripe::median);
+    let most = known.fold(0.2, |most: f64, (at, ..)| most.max(at.abs()));
+    let reach = 1.6 * most;
+    let panels = by_p().flat_map(|blocks| {
+        let last = &blocks[blocks.len() - 1];
+        let levels = |shown: &BoxPanel| {
+            let names = shown.stripes.iter().map(|s| common::short(s.level));
+            let axis = Axis::named(&names.collect::<Vec<_>>());
+            axis.label(Intensity::Pga.row().label)
+        };
+        let longest = blocks.iter().max_by_key(|b| b.stripes.len());
+        let p = common::frequency(last.p_rad_s);
+        let medians = ChartPanel::new(
+            format!("{p}, medians"),
+            Axis::linear(-reach, reach, 6).label(format!(
+                "median of {} over closed form, minus 1 (%)",
+                figure.ratio_label
+            )),
+            levels(longest.unwrap_or(last)),
+            medians(blocks, reach),
+        );
+        let mut series = vec![Series::note(ZERO, "", (1.0, 1.0))];
+        for (y, stripe) in (1..).map(f64::from).zip(&last.stripes) {
+            series.extend(drawn(stripe, y, common::ink(last.alpha_rad)));
+        }
+        let alpha = common::slenderness(last.alpha_rad);
+        let boxes = ChartPanel::new(
+            format!("{p}, {alpha}, boxplots"),
+            Axis::linear(RATIOS.0, RATIOS.1, 6).label(&*figure.ratio_label),
+            levels(last),
+            series,
+        );
+        [medians, boxes]
     });
-    let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
-    let low = (0.9 * low).clamp(WIDEST.0, USUAL.0);
-    let high = (1.12 * high).clamp(USUAL.1, WIDEST.1);
-    let x = Axis::about_one(low, high, STRETCH, 27.0 / width)
-        .label(format!("{} (scale stretched about 1)", figure.ratio_label));
-    let key = |shown: &BoxPanel| {
-        let fill = Fill::tint(common::ink(shown.alpha_rad), TINT);
-        let words = common::slenderness(shown.alpha_rad);
-        Series::of(Look::band(fill), vec![], vec![]).labelled(words)
-    };
-    let panel = |shown: &BoxPanel| {
-        let levels = shown.stripes.iter().map(|s| common::short(s.level));
-        let y = Axis::named(&levels.collect::<Vec<_>>());
-        let stripes = || (1..).map(f64::from).zip(&shown.stripes);
-        let alpha = common::slenderness(shown.alpha_rad);
-        let ink = common::ink(shown.alpha_rad);
-        let mut series: Vec<_> = figure.panels.iter().map(key).collect();
-        series.push(Series::note(ONE, "ratio 1", (1.0, 1.0)));
-        for (y, stripe) in stripes() {
-            series.extend(drawn(stripe, y, ink, (low, high)));
-        }
-        // Over the boxes: it is what their medians are compared with.
-        let limits = stripes().filter_map(|(y, s)| Some((s.closed_form?, y)));
-        let limits: Vec<Point> =
-            limits.flat_map(|(x, y)| [(x, y - 0.5), (x, y + 0.5)]).collect();
-        if !limits.is_empty() {
-            let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
-            series.push(line(limits, CLOSED_FORM).labelled(words));
-        }
-        let title = format!("{}, {alpha}", common::frequency(shown.p_rad_s));
-        let level = Intensity::Pga.row().label;
-        ChartPanel::new(title, x.clone(), y.label(level), series)
-    };
-    let panels = figure.panels.iter().map(panel).collect();
     let layout = Layout { grid: Some(grid), ..Layout::default() };
-    Panels { panels, columns: figure.columns, layout }
+    Panels { panels: panels.collect(), columns: 2, layout }
+}
+
+/// The medians of blocks with their intervals, per cent off the closed form;
+/// an interval that reaches the frame ends in an arrow head.
+fn medians(blocks: &[BoxPanel], reach: f64) -> Vec<Series> {
+    let mut all = vec![Series::note(ZERO, "", (0.0, 0.0))];
+    let middle = (blocks.len() as f64 - 1.0) / 2.0;
+    for (k, shown) in blocks.iter().enumerate() {
+        let ink = common::ink(shown.alpha_rad);
+        let own: Vec<(f64, (f64, Option<(f64, f64)>))> = (1..)
+            .map(|row| f64::from(row) + APART * (k as f64 - middle))
+            .zip(&shown.stripes)
+            .filter_map(|(y, stripe)| Some((y, stripe.median()?)))
+            .collect();
+        for &(y, (_, interval)) in &own {
+            let Some((low, high)) = interval else { continue };
+            let (from, to) = (low.max(-reach), high.min(reach));
+            let pen = Pen::new(ink, 1.0);
+            all.push(line([(from, y), (to, y)], pen));
+            let cut = |marker, x| {
+                Series::of(Look::marks(marker, 2.6, ink), vec![x], vec![y])
+            };
+            all.extend((high > reach).then(|| cut(Marker::Beyond, reach)));
+            all.extend(
+                (low < -reach).then(|| cut(Marker::BeyondLeft, -reach)),
+            );
+        }
+        let inside = own.iter().filter(|(_, (at, _))| at.abs() <= reach);
+        let (x, y) = inside.map(|(y, (at, _))| (*at, *y)).unzip();
+        let look = Look::marks(Marker::of_series(k), 2.6, ink);
+        let words = common::slenderness(shown.alpha_rad);
+        all.push(Series::of(look, x, y).labelled(words));
+    }
+    all
+}
+
+impl Stripe {
+    /// The median and its interval, per cent off the closed form.
+    fn median(&self) -> Option<(f64, Option<(f64, f64)>)> {
+        let b = self.summary.as_ref()?;
+        let of = self.closed_form.unwrap_or(1.0);
+        let off = |x: f64| 100.0 * (x / of - 1.0);
+        let interval = b.median_interval.map(|i| i.interval.ends());
+        let interval = interval.map(|(low, high)| (off(low), off(high)));
+        b.median.is_finite().then_some((off(b.median), interval))
+    }
 }
 
 fn line(points: impl IntoIterator<Item = Point>, pen: Pen) -> Series {
@@ -193,8 +230,8 @@ fn line(points: impl IntoIterator<Item = Point>, pen: Pen) -> Series {
 }
 
 /// A box at an ordinate, with the share of usable ratios beside it.
-fn drawn(stripe: &Stripe, y: f64, ink: Ink, range: Point) -> Vec<Series> {
-    let (low, high) = range;
+fn drawn(stripe: &Stripe, y: f64, ink: Ink) -> Vec<Series> {
+    let (low, high) = RATIOS;
     let share = format!("{} %", (100.0 * stripe.usable_share()).round());
     let mut all = vec![Series::note(Mark::Edge, share, (1.0, y))];
     let Some(b) = &stripe.summary else { return all };
@@ -242,10 +279,5 @@ fn drawn(stripe: &Stripe, y: f64, ink: Ink, range: Point) -> Vec<Series> {
         line(around, pen),
         across(b.median, waist, Pen::new(ink, 1.6)),
     ]);
-    let interval = b.median_interval.map(|i| i.interval.ends());
-    all.extend(interval.map(|(from, to)| {
-        let points = [(from, y + BELOW), (to, y + BELOW)];
-        line(points, INTERVAL).labelled("exact 95 % interval of the median")
-    }));
     all
 }

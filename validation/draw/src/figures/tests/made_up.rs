@@ -135,6 +135,5 @@ pub fn boxplots(panels: usize) -> Boxplots {
     Boxplots {
         ratio_label: "*r*_{*α*} = *θ̃*_{*α*} / *θ̃*_{0.10}".into(),
         panels: (0..panels).map(panel).collect(),
-        columns: if panels == 4 { 2 } else { 4 },
     }
 }

@@ -16,6 +16,7 @@ pub fn all() -> Vec<Figure> {
     motions[2].record = "A_very_long_name_".repeat(9);
 
     let mut boxplots = made_up::boxplots(4);
+    boxplots.panels[0].p_rad_s = 3.0;
     boxplots.panels[0].stripes.clear();
     for stripe in &mut boxplots.panels[1].stripes {
         stripe.summary = None;

@@ -6,6 +6,23 @@
 //! and coefficients by [`Number::ratio`], rounded in the type's own
 //! precision.
 
+/// Implements operators of two numbers of one type.
+macro_rules! operators {
+    ($type:ident: $(
+        $operation:ident $method:ident |$a:ident, $b:ident| $result:expr;
+    )*) => {$(
+        impl $operation for $type {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                let ($a, $b) = (self, other);
+                $result
+            }
+        }
+    )*};
+}
+
 pub mod dispatch;
 pub mod double;
 mod fused;
@@ -46,8 +63,18 @@ pub trait Number:
         Self::from_f64(f64::from(i) / f64::from(j))
     }
 
-    /// `self * b + c` with one rounding where the type has one.
-    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// `self * b + c`, with one rounding in double precision and in lanes; as
+    /// given here, with two.
+    #[inline]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+
+    /// Absolute value.
+    fn abs(self) -> Self;
 
     /// Sine and cosine of an angle in [0, pi/4] or a little beyond; as given
     /// here, in double precision.
@@ -96,12 +123,6 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
         if self > Self::zero() { self } else { Self::zero() }
     }
 
-    /// Square root.
-    fn sqrt(self) -> Self;
-
-    /// Absolute value.
-    fn abs(self) -> Self;
-
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
 
@@ -142,6 +163,16 @@ impl Number for f64 {
         } else {
             f64::mul_add(self, b, c)
         }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
     }
 }
 
@@ -186,16 +217,6 @@ impl Real for f64 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
     }
 
     fn sin_cos(self) -> (Self, Self) {

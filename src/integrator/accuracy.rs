@@ -5,11 +5,11 @@
 //! derivatives by what is rounded once and acts in all of them; and, for the
 //! condition number, the fundamental matrix since the last uplift from rest.
 //! At an impact the saltation matrix applies; rest forgets everything, and
-//! whether it is one is a decision. Second-order accuracy is plenty: one
-//! digit is asked for.
+//! whether a rest is one is a decision. Second-order accuracy is plenty: one
+//! digit is needed.
 //!
-//! The propagation is linear. It ends where an error can turn a decision,
-//! or is no longer small: see [`Certificate`].
+//! The propagation is linear. It ends if an error can turn a decision or is no
+//! longer small: see [`Certificate`].
 //!
 //! # Proof P4
 //!
@@ -25,19 +25,19 @@ use crate::integrator::certificate::{
 /// Multiple of the standard deviation that is reported as the bound.
 const COVERAGE: f64 = 32.0;
 
-/// Relative error, in units in the last place, of what is rounded once.
+/// Relative error, in units in the last place, of a quantity rounded once.
 const ONCE: f64 = 2.0;
 
 /// Relative error, in units in the last place, of the ground acceleration
 /// and of the uplift threshold where a block at rest lifts.
 const AT_REST: f64 = 4.0;
 
-/// Relative error, in units in the last place, of a time of the scene and of
-/// a place in it where the two are held against each other.
+/// Relative error, in units in the last place, of the difference between a
+/// time of the scene and a place in it.
 const CLOCK: f64 = 2.0;
 
-/// Quantities of a run that are rounded once: the derivatives of (u, w) by
-/// their logarithms are carried.
+/// Quantities of a run that are rounded once. The derivatives of (u, w) by
+/// their logarithms are tracked.
 #[derive(Clone, Copy)]
 enum Once {
     /// Uplift threshold.
@@ -58,53 +58,53 @@ const ONCES: usize = 5;
 /// Tracked quantities, in units of 1/p.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Accuracy {
-    /// Distance from 1 to the next number of the type to which what is
-    /// tracked is rounded.
+    /// Distance from 1 to the next number of the rounded type.
     unit: f64,
-    /// True where the inputs' rounding is tracked, not the arithmetic's.
+    /// True if the rounding of the inputs is tracked, not that of the
+    /// arithmetic.
     of_inputs: bool,
     alpha: f64,
     /// Covariance of the error of (u, w).
     uu: f64,
     uw: f64,
     ww: f64,
-    /// Derivatives of (u, w) with respect to what is rounded once.
+    /// Derivatives of (u, w) by the quantities rounded once.
     once: [[f64; 2]; ONCES],
     /// Fundamental matrix, columns by initial u and w.
     initial: [[f64; 2]; 2],
     /// Snapshot at the largest peak so far.
     peak: f64,
     peak_error: f64,
-    peak_condition: f64,
+    pub peak_condition: f64,
     /// Largest rotation that the block may have reached.
     highest: f64,
-    certificate: Certificate,
-    /// The impacts under way surely end in a rest: whatever happens until
-    /// then has no consequence.
-    resting: bool,
-    /// Outcome and peak are surely known.
-    settled: bool,
+    pub certificate: Certificate,
+    /// The present impacts surely end in a rest, so nothing until then has a
+    /// consequence.
+    pub resting: bool,
+    /// Outcome and peak are final; later decisions are ignored.
+    pub settled: bool,
 }
 
 /// A 2 by 2 matrix by rows.
 type Matrix = [[f64; 2]; 2];
 
-/// A step, as the errors see it.
+/// Input of [`Accuracy::step`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
-    /// Its length.
+    /// Length of the step.
     pub tau: f64,
     /// Derivative of u'' by u.
     pub curvature: f64,
-    /// Sizes that are rounded in it, of u and of w.
+    /// Sizes that are rounded in the step, of u and of w.
     pub sizes: [f64; 2],
-    /// What its series leaves of w.
+    /// Truncation error of w.
     pub left: f64,
     /// Uplift threshold over gravity.
     pub threshold: f64,
     /// Ground acceleration over gravity, on the side of the rotation.
     pub f: f64,
-    /// Its change if the time within the excitation changes by all of it.
+    /// Change of `f` if the time within the excitation changes by its span.
     pub shift: f64,
     /// Angular velocity and acceleration.
     pub w: f64,
@@ -112,18 +112,18 @@ pub(crate) struct Leg {
 }
 
 impl Accuracy {
-    /// Nothing yet, in arithmetic with this unit roundoff.
+    /// No error yet, in arithmetic with this unit roundoff.
     pub fn of_arithmetic(roundoff: f64, alpha: f64) -> Self {
         Self { unit: 2.0 * roundoff, alpha, ..Self::default() }
     }
 
-    /// Nothing yet, of inputs that are known to the nearest double.
+    /// No error yet, of inputs that are known to the nearest double.
     pub fn of_inputs(alpha: f64) -> Self {
         let of_inputs = true;
         Self { unit: f64::EPSILON, of_inputs, alpha, ..Self::default() }
     }
 
-    /// Starts anew at rest.
+    /// Restarts at rest.
     pub fn start(&mut self) {
         (self.uu, self.uw, self.ww) = (0.0, 0.0, 0.0);
         self.once = [[0.0; 2]; ONCES];
@@ -149,7 +149,7 @@ impl Accuracy {
         self.initial = self.initial.map(times);
     }
 
-    /// A step, and the errors made in it.
+    /// Propagates the errors over a step and adds those made in it.
     pub fn step(&mut self, by: &Leg) {
         let Leg { tau, curvature, sizes: [u, w], left, .. } = *by;
         let half = 0.5 * curvature * tau * tau;
@@ -174,13 +174,13 @@ impl Accuracy {
         *w += by.force * tau;
     }
 
-    /// An impact at speed `speed` (before it), with accelerations u'' just
-    /// before and just after, each on its own branch.
+    /// Propagates the errors over an impact at `speed` (before the impact),
+    /// with the accelerations u'' just before and just after it, each on its
+    /// own branch. Returns bounds on the errors of the impact's time and speed.
     ///
-    /// What decides whether there is one is the speed at which the base is
-    /// met; what decides whether the order of events is known is the time of
-    /// the impact against that of the hop after it.
-    /// Returns bounds of the errors of its time and of its speed.
+    /// The impact is certain if its speed is clear of the error of that speed.
+    /// The order of events is certain if the time of the next hop is clear of
+    /// the error of the impact's time.
     pub fn impact(
         &mut self,
         eta: f64,
@@ -204,7 +204,7 @@ impl Accuracy {
         [late, met]
     }
 
-    /// Bound of the error of a quantity with these derivatives by u and w.
+    /// Bound on the error of a quantity with these derivatives by u and w.
     pub fn bound(&self, [a, b]: [f64; 2]) -> f64 {
         let variance =
             a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
@@ -219,13 +219,13 @@ impl Accuracy {
         COVERAGE * random + ONCE * self.unit * once
     }
 
-    /// Bound of the error of u.
+    /// Bound on the error of u.
     pub fn error(&self) -> f64 {
         self.bound([1.0, 0.0])
     }
 
-    /// Takes in that the block is in flight: what the error must stay below.
-    /// Returns the bound of the error of u.
+    /// Compares the error in flight with its limit. Returns the bound on the
+    /// error of u.
     pub fn fly(&mut self, time_s: f64) -> f64 {
         // Clear up to the largest error itself.
         let most = CLEARANCE * LARGEST_ERROR * self.alpha;
@@ -236,7 +236,7 @@ impl Accuracy {
         by_u
     }
 
-    /// Notes a decision of a margin with some error.
+    /// Notes a decision with its margin and the error of the margin.
     pub fn decide(
         &mut self,
         decision: Decision,
@@ -244,15 +244,15 @@ impl Accuracy {
         error: f64,
         time_s: f64,
     ) {
-        if self.matters() && !self.resting {
+        if !self.settled && !self.resting {
             let ratio = ratio(margin, error);
             self.certificate.note(decision, ratio, time_s);
         }
     }
 
     /// Notes an end of observation in flight, at rotation `u` and velocity
-    /// `w`, with the rotation that is left to overturning; `is_peak` where
-    /// the rotation is the largest so far. The time comes in 1/p and in s.
+    /// `w`, with the rotation `left` to overturning. `is_peak` means that the
+    /// rotation is the largest so far. The time is given in 1/p and in s.
     pub fn stop(
         &mut self,
         [u, w]: [f64; 2],
@@ -269,22 +269,21 @@ impl Accuracy {
         }
     }
 
-    /// Notes the time between an event and the end of observation, for a
-    /// bound of the error of the event's place and the time (1/p) that both
-    /// are resolved in.
+    /// Notes the time between an event and the end of observation. `late` is a
+    /// bound on the error of the event's time; the end is given in 1/p and in
+    /// s.
     pub fn end(&mut self, between: f64, late: f64, [time, time_s]: [f64; 2]) {
         let error = late + self.mistimed(time);
         self.decide(Decision::End, between, error, time_s);
     }
 
-    /// Takes in an uplift as [`Self::end`] does. Its time changes by `late`
-    /// where the ground acceleration changes by the threshold and the clock
-    /// by all of it.
+    /// As [`Self::end`], for an uplift. Its time changes by `late` if the
+    /// ground acceleration changes by the threshold and the clock by its span.
     pub fn end_at_rest(&mut self, between: f64, late: f64, times: [f64; 2]) {
         self.end(between, AT_REST * self.unit * late, times);
     }
 
-    /// Bound of the error of the end of observation at a time.
+    /// Bound on the error of an end of observation at `time`.
     fn mistimed(&self, time: f64) -> f64 {
         CLOCK * self.unit * time
     }
@@ -297,31 +296,11 @@ impl Accuracy {
         self.decide(Decision::Uplift, distance, error, time_s);
     }
 
-    /// True while the impacts under way are not sure to end in a rest.
-    pub fn is_in_motion(&self) -> bool {
-        !self.resting
-    }
-
-    /// Whether the impacts under way surely end in a rest.
-    pub fn rest_surely(&mut self, surely: bool) {
-        self.resting = surely;
-    }
-
-    /// A rest: it had better be sure.
+    /// Notes a rest; it decides something unless it was sure.
     pub fn rest(&mut self, time_s: f64) {
         if !self.resting {
             self.decide(Decision::Rest, 0.0, 1.0, time_s);
         }
-    }
-
-    /// Outcome and peak are surely known: nothing later is asked.
-    pub fn settle(&mut self) {
-        self.settled = true;
-    }
-
-    /// True while decisions can change outcome or peak.
-    pub fn matters(&self) -> bool {
-        !self.settled
     }
 
     /// Notes the error at a peak `u`, the highest so far.
@@ -347,8 +326,8 @@ impl Accuracy {
         self.take_peak(u, error, self.moved(along) / (at_peak * u));
     }
 
-    /// How far relative changes of restitution and initial state move a
-    /// quantity with these derivatives.
+    /// Change of a quantity with these derivatives under relative changes of
+    /// restitution and initial state.
     fn moved(&self, [a, b]: [f64; 2]) -> f64 {
         let along = |[u, w]: [f64; 2]| (a * u + b * w).abs();
         let [first, second] = self.initial;
@@ -366,7 +345,7 @@ impl Accuracy {
     /// Notes a turning point that may be the highest.
     pub fn reach(&mut self, u: f64, error: f64) {
         let most = u + error;
-        if self.matters() && !(most <= self.highest) {
+        if !self.settled && !(most <= self.highest) {
             self.highest = most;
         }
     }
@@ -376,12 +355,7 @@ impl Accuracy {
         self.peak_error = self.error();
     }
 
-    /// What the run decided.
-    pub fn certificate(&self) -> Certificate {
-        self.certificate
-    }
-
-    /// Bound on the error of the peak ratio; none where it is not known.
+    /// Bound on the error of the peak ratio; `None` if it is not known.
     pub fn peak_error(&self) -> Option<f64> {
         // Some other peak may be the highest.
         let other = self.highest - self.peak;
@@ -389,11 +363,6 @@ impl Accuracy {
             if other > self.peak_error { other } else { self.peak_error };
         let known = self.certificate.is_clear();
         known.then_some(error / self.alpha + self.unit)
-    }
-
-    /// Condition number of the peak.
-    pub fn peak_condition(&self) -> f64 {
-        self.peak_condition
     }
 }
 

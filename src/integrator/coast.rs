@@ -22,41 +22,55 @@ mod orbit;
 use crate::integrator::certificate::Decision;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::motion::{BlockMotion, RunTrace, tail_speed};
-use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
+use crate::integrator::{Impact, ImpactError, Observe, Side};
 use crate::number::Real;
 use orbit::{Energy, OrbitPlace, hop, speed_at, transit, turning};
 
-/// Impacts logged at most where neither motion nor observation ends.
+/// Most impacts logged if neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
 
-/// Relative step of differences: one digit of these is needed.
+/// Relative step of differences, of which one digit is needed.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Relative error of the time of a tail of impacts, at the speeds at which
-/// one stands for them.
+/// Relative error of the time in which a tail of impacts ends, at speeds
+/// below [`tail_speed`].
 const TAIL: f64 = 1e-9;
 
-/// What the free motion is asked.
+/// Input of [`coast`].
 pub(crate) struct Coast<'a, N> {
     pub dynamics: &'a Dynamics<N>,
-    /// When it starts, s.
+    /// Start of the free motion, s.
     pub start_s: N,
-    /// Log impacts and the time of rest.
-    pub events: bool,
-    /// When the log ends, s: after all that outcome and peak rest on.
+    pub observe: &'a Observe,
+    /// End of the log of impacts and rest, s. Outcome and peak are decided
+    /// before it.
     pub until_s: Option<N>,
-    /// Work beyond which the run is refused.
-    pub limit: WorkLimit,
 }
 
-/// How it ends.
+/// Last decision of a run.
 pub(crate) struct CoastEnd<N> {
     pub overturned: Option<(N, Side)>,
-    /// Smallest distance of a decision taken here from the other one, where
-    /// the criterion is decided by the saddle.
+    /// Smallest distance from the other outcome, if the saddle decides the
+    /// criterion.
     pub margin: Option<f64>,
     /// The smallest such distance by either criterion.
-    pub nearest: f64,
+    pub nearest: Option<f64>,
+}
+
+impl<N: Real> CoastEnd<N> {
+    /// An overturning, which `record` notes.
+    pub fn overturned(
+        record: &mut RunTrace<N>,
+        time_s: N,
+        side: Side,
+        margin: f64,
+    ) -> Self {
+        for tracker in record.trackers() {
+            tracker.overturned();
+        }
+        let (overturned, margin) = (Some((time_s, side)), Some(margin));
+        Self { overturned, margin, nearest: margin }
+    }
 }
 
 /// Decides the free motion from `motion` on, completing `record`.
@@ -69,7 +83,6 @@ pub(crate) fn coast<N: Real>(
     let BlockMotion { side, u, w } = motion;
     let zero = N::zero();
     let level = Energy::of(d, u, w);
-    let inward = w < zero;
     let passing = gap(d, u, w).abs().to_f64();
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
     let gradient = gap_gradient(d, u);
@@ -82,15 +95,10 @@ pub(crate) fn coast<N: Real>(
         return fly_out(ask, motion, level, gap, record);
     }
     // The block turns, or already moves inwards, and meets the base.
-    let here = OrbitPlace { u, speed: w.abs() };
-    let time = if inward {
-        transit(d, OrbitPlace { u: zero, speed: level.speed() }, here, level)
-    } else {
-        let top = turning(d, level);
-        let rise = transit(d, here, OrbitPlace { u: top, speed: zero }, level);
+    let (time, turn) = to_base(d, (u, w), level);
+    if let Some((top, rise)) = turn {
         raise(d, record, top, ask.start_s + rise / d.p, (u, w), 0.0);
-        rise + hop(d, level)
-    };
+    }
     let impact_s = ask.start_s + time / d.p;
     let next = level.after_impact(d);
     let w = d.eta * level.speed();
@@ -110,15 +118,15 @@ pub(crate) fn coast<N: Real>(
     let errors = record.accuracy.map(|accuracy| {
         let energy = level.above_base.to_f64();
         let late = |[u, w]: [f64; 2]| {
-            let level = Energy::of(d, N::from_f64(u), N::from_f64(w));
-            time_to_base(d, N::from_f64(u), N::from_f64(w), level).to_f64()
+            let (u, w) = (N::from_f64(u), N::from_f64(w));
+            to_base(d, (u, w), Energy::of(d, u, w)).0.to_f64()
         };
         let motion = [u, motion.w].map(Real::to_f64);
         let late = accuracy.bound(derivatives(late, motion));
         CoastErrors {
             late,
             energy: accuracy.bound(by_energy) / energy,
-            known: accuracy.certificate().is_clear() && late.is_finite(),
+            known: accuracy.certificate.is_clear() && late.is_finite(),
         }
     });
     if next.below_saddle < zero {
@@ -128,14 +136,13 @@ pub(crate) fn coast<N: Real>(
         return fly_out(&later, motion, next, margin, record);
     }
     hops(ask, record, impact_s, level, (u, motion.w), errors);
-    CoastEnd {
-        overturned: None,
-        margin: margin_of(d, margin),
-        nearest: margin,
-    }
+    // Under |theta| >= alpha the peak itself is the margin.
+    let nearest = Some(margin);
+    let margin = nearest.filter(|_| d.overturning == Overturning::HalfPi);
+    CoastEnd { overturned: None, margin, nearest }
 }
 
-/// True where a block overturns on the branch that it is on.
+/// True if a block overturns on its present branch.
 fn flies_out<N: Real>(
     d: &Dynamics<N>,
     (u, w): (N, N),
@@ -146,18 +153,18 @@ fn flies_out<N: Real>(
     if u > d.alpha { !(inward && passes) } else { !inward && passes }
 }
 
-/// What free motion comes to last of all that outcome and peak rest on: the
-/// overturning, or the top of the second hop.
+/// Last event that can decide outcome or peak of free motion: the overturning,
+/// or the top of the second hop.
 pub(crate) struct Last {
-    /// When, in 1/p from the state on.
+    /// Time from the state to the event, in 1/p.
     pub time: f64,
-    /// It is an overturning.
+    /// True if the event is an overturning.
     pub overturns: bool,
     /// Derivatives of the time by u and w, to a few digits.
     pub gradient: [f64; 2],
 }
 
-/// That of the free motion from a state on.
+/// [`Last`] of the free motion that starts at (u, w).
 pub(crate) fn last<N: Real>(d: &Dynamics<N>, u: N, w: N) -> Last {
     let (time, overturns) = last_after(d, u, w);
     let late = |[u, w]: [f64; 2]| {
@@ -172,7 +179,7 @@ fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
     if flies_out(d, (u, w), level) {
         return (time_out(d, (u, w), level), true);
     }
-    let base = time_to_base(d, u, w, level);
+    let (base, _) = to_base(d, (u, w), level);
     let next = level.after_impact(d);
     let (u, w) = (N::zero(), d.eta * level.speed());
     if next.below_saddle < u {
@@ -182,15 +189,22 @@ fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
     }
 }
 
-/// Time (in 1/p) from a place in free motion to the base.
-fn time_to_base<N: Real>(d: &Dynamics<N>, u: N, w: N, level: Energy<N>) -> N {
+/// Time (in 1/p) from a state of free motion to the base; if the block turns
+/// before it, also the rotation and the time at which it turns.
+fn to_base<N: Real>(
+    d: &Dynamics<N>,
+    (u, w): (N, N),
+    level: Energy<N>,
+) -> (N, Option<(N, N)>) {
+    let zero = N::zero();
     let here = OrbitPlace { u, speed: w.abs() };
-    if w < N::zero() {
-        let base = OrbitPlace { u: N::zero(), speed: level.speed() };
-        return transit(d, base, here, level);
+    if w < zero {
+        let base = OrbitPlace { u: zero, speed: level.speed() };
+        return (transit(d, base, here, level), None);
     }
-    let top = OrbitPlace { u: turning(d, level), speed: N::zero() };
-    transit(d, here, top, level) + hop(d, level)
+    let top = turning(d, level);
+    let rise = transit(d, here, OrbitPlace { u: top, speed: zero }, level);
+    (rise + hop(d, level), Some((top, rise)))
 }
 
 /// Derivatives of a quantity by u and w, to a few digits.
@@ -201,14 +215,14 @@ fn derivatives(of: impl Fn([f64; 2]) -> f64, [u, w]: [f64; 2]) -> [f64; 2] {
     [of([u - step, w]) - here, of([u, w - step]) - here].map(|x| x / step)
 }
 
-/// What free motion makes of the errors at its first impact.
+/// Error bounds carried through free motion to an impact.
 #[derive(Clone, Copy)]
 struct CoastErrors {
-    /// Of the impact's time, in 1/p.
+    /// Error of the time of the impact, in 1/p.
     late: f64,
-    /// Of the energy before it, relative.
+    /// Relative error of the energy before the impact.
     energy: f64,
-    /// All decisions before are clear.
+    /// True if all decisions before the impact are clear.
     known: bool,
 }
 
@@ -228,7 +242,7 @@ impl CoastErrors {
         })
     }
 
-    /// State after a further hop of a level; `half` is half its duration.
+    /// Errors after another hop of a level; `half` is half its duration.
     fn after_hop<N: Real>(
         self,
         d: &Dynamics<N>,
@@ -260,24 +274,12 @@ pub(crate) fn gap<N: Real>(d: &Dynamics<N>, u: N, w: N) -> N {
     }
 }
 
-/// Its derivatives by u and w.
+/// Derivatives of [`gap`] by u and w.
 pub(crate) fn gap_gradient<N: Real>(d: &Dynamics<N>, u: N) -> [f64; 2] {
     let half = 0.5 * (d.alpha - u).to_f64();
     match d.model {
         Model::Nonlinear => [libm::cos(half), 1.0],
         Model::Linearized => [1.0, 1.0],
-    }
-}
-
-/// Under |theta| >= alpha the peak itself is the margin.
-fn margin_of<N: Real>(d: &Dynamics<N>, margin: f64) -> Option<f64> {
-    (d.overturning == Overturning::HalfPi).then_some(margin)
-}
-
-impl<N: Real> Coast<'_, N> {
-    /// True from the end of the log on.
-    fn past(&self, time_s: N) -> bool {
-        self.until_s.is_some_and(|until| !(time_s < until))
     }
 }
 
@@ -292,17 +294,10 @@ fn fly_out<N: Real>(
     let BlockMotion { side, u, w } = motion;
     let time = time_out(ask.dynamics, (u, w), level);
     let time_s = ask.start_s + time / ask.dynamics.p;
-    for tracker in record.trackers() {
-        tracker.overturned();
-    }
-    CoastEnd {
-        overturned: Some((time_s, side)),
-        margin: Some(margin),
-        nearest: margin,
-    }
+    CoastEnd::overturned(record, time_s, side, margin)
 }
 
-/// Time (in 1/p) from a state to overturning on the branch that it is on.
+/// Time (in 1/p) from a state to overturning on the same branch.
 fn time_out<N: Real>(d: &Dynamics<N>, (u, w): (N, N), level: Energy<N>) -> N {
     let here = OrbitPlace { u, speed: w.abs() };
     let end = OrbitPlace { u: d.limit, speed: speed_at(d, d.limit, level) };
@@ -360,7 +355,7 @@ fn log_impact<N: Real>(
     errors: Option<CoastErrors>,
 ) {
     record.work.impacts += 1;
-    if ask.events {
+    if ask.observe.events {
         record.impacts.push(Impact {
             time_s,
             speed_before_rad_s: speed * ask.dynamics.p,
@@ -383,15 +378,16 @@ fn hops<N: Real>(
     let d = ask.dynamics;
     let tail = d.alpha * N::from_f64(tail_speed::<N>());
     let two = N::from_f64(2.0);
+    let past = |time_s: N| ask.until_s.is_some_and(|until| !(time_s < until));
     let mut level = before;
     let mut time_s = first_s;
     for count in 0.. {
-        if ask.past(time_s) {
+        if past(time_s) {
             return;
         }
         let speed = level.speed();
         log_impact(ask, record, time_s, speed, errors);
-        if record.exceeds(ask.limit, time_s) {
+        if record.exceeds(ask.observe.work_limit, time_s) {
             return;
         }
         level = level.after_impact(d);
@@ -406,7 +402,7 @@ fn hops<N: Real>(
         let endless = !(d.eta < N::one())
             && ask.until_s.is_none()
             && count + 1 >= ENDLESS_IMPACTS;
-        if !ask.events || endless {
+        if !ask.observe.events || endless {
             return;
         }
         let after = d.eta * speed;
@@ -415,7 +411,7 @@ fn hops<N: Real>(
             let down = d.restoring(N::zero());
             let rest = two * after / (down * (N::one() - d.eta));
             let rest_s = time_s + rest / d.p;
-            if ask.past(rest_s) {
+            if past(rest_s) {
                 return;
             }
             record.rest_time_s = Some(rest_s);
@@ -428,9 +424,8 @@ fn hops<N: Real>(
             });
             return;
         }
-        errors = errors
-            .filter(|_| ask.events)
-            .map(|errors| errors.after_hop(d, level, half.to_f64()));
+        errors =
+            errors.map(|errors| errors.after_hop(d, level, half.to_f64()));
         time_s = time_s + two * half / d.p;
     }
 }

@@ -35,93 +35,88 @@ use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, Moment, NEAR_THRESHOLD};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
-use crate::integrator::{
-    Observe, Response, Scene, SceneError, Side, WorkLimit,
-};
+use crate::integrator::{Observe, Response, Scene, SceneError, Side};
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 
 /// Truncation error allowed in a step, in units of roundoff times
-/// (|w| + alpha h): what rounding does anyway.
+/// (|w| + alpha h): as large as the rounding error of the step.
 const TRUNCATION_SHARE: f64 = 0.5;
 
-/// Truncation allowed in a step, as a share of the velocity.
+/// Truncation error allowed in a step, as a share of the velocity.
 pub(crate) fn tolerance<N: Real>() -> f64 {
     TRUNCATION_SHARE * N::ROUNDOFF
 }
 
-/// How a step was left.
+/// How a step ended.
 enum Advance<N> {
     /// At its end.
     Reached,
     /// At an impact within it.
     Bounced,
-    /// Overturning within it: the step stands there.
+    /// At overturning within it.
     Overturned,
     /// The flight ended in it.
     Ended(Flight<N>),
 }
 
-/// Steps by a series whose length each call names, and by one of `HARD`
-/// coefficients where that leaves too much; the forcing's series has `F`.
-/// The short length is no part of the type: what does not depend on it is
-/// compiled once.
+/// Makes steps by a series whose length each call names. If its truncation
+/// error is too large, a series of `HARD` coefficients replaces it. The series
+/// of the forcing has `F` coefficients. The short length is no parameter of
+/// the type, so that code that does not depend on it is compiled once.
 pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
-    dynamics: Dynamics<N>,
-    forcing: G,
+    pub dynamics: Dynamics<N>,
+    pub forcing: G,
     isa: Isa,
-    record: RunTrace<N>,
-    events: bool,
-    interval_s: Option<f64>,
-    /// A history or forces are asked for: each step is looked into.
+    pub record: RunTrace<N>,
+    pub observe: Observe,
+    /// True if every step is sampled for history or forces.
     watched: bool,
+    /// End of observation, s.
     until_s: Option<N>,
-    limit: WorkLimit,
-    /// Truncation allowed in a step, as a share of the velocity.
+    /// Truncation error allowed in a step, as a share of the velocity.
     tolerance: N,
-    /// Whether series keep their length, whatever their truncation error.
+    /// True if series keep their length, whatever their truncation error.
     fixed: bool,
-    /// Rough certificate, where nothing but outcome and peak is asked for.
+    /// Rough certificate.
     screen: Option<Screen<N>>,
-    /// Whether a run that is doubtful is made again.
-    again: Again,
-    /// Where it is asked whether what is left can change outcome or peak.
+    pub again: Again,
+    /// Early-termination test; `None` if the whole run is needed.
     barrier: Option<Barrier<N>>,
-    /// Nothing but outcome and peak is asked for.
+    /// True if only outcome and peak are needed.
     ends_early: bool,
-    /// First piece in which it is asked whether that matters.
-    exit_from: usize,
+    /// First piece at which the early-termination test runs.
+    pub exit_from: usize,
 }
 
-/// Whether a run that is doubtful is made again, its decisions assessed.
+/// Whether a doubtful run is repeated with its decisions assessed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Again {
     No,
-    /// It ends where it is surely doubtful.
+    /// The run ends as soon as it is surely doubtful.
     IfDoubtful,
-    /// It is the one made again.
+    /// This run is the repetition.
     Now,
 }
 
 /// How a flight through the excitation ended.
 pub(crate) enum Flight<N> {
-    /// At rest from this place on; the time (s) is when the last of the
-    /// impacts has accumulated.
+    /// At rest from this place on; the impacts end at the time (s).
     Rest(Moment<N>, N),
     /// Overturned.
     Overturned { time_s: N, side: Side, margin: f64 },
-    /// Nothing that the excitation has left can overturn the block or raise
+    /// The rest of the excitation can neither overturn the block nor raise
     /// its peak.
     Settled,
     /// The excitation ended in flight.
     End(BlockMotion<N>),
     /// The observation ended in flight.
     Stopped,
-    /// The run is doubtful, and is made again.
+    /// The run is doubtful and is repeated.
     Doubtful,
 }
 
-/// Motion about to enter a step.
+/// Motion at the start of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<N> {
     pub place: Moment<N>,
@@ -132,11 +127,19 @@ pub(crate) struct Step<N> {
     pub at_threshold: bool,
 }
 
-/// Where a run stands between steps.
+impl<N: Real> Step<N> {
+    /// The step at the start of the excitation.
+    fn first(motion: BlockMotion<N>) -> Self {
+        let place = Moment { piece: 0, offset: N::zero() };
+        Self { place, index: 0, motion, at_threshold: false }
+    }
+}
+
+/// State of a run between steps.
 pub(crate) enum Stage<N> {
     /// In flight, about to enter a step.
     Flying(Step<N>),
-    /// Nothing is left to step.
+    /// No step is left.
     Landed(Flight<N>),
 }
 
@@ -150,11 +153,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             forcing,
             isa,
             record: RunTrace::empty(),
-            events: false,
-            interval_s: None,
+            observe: Observe::default(),
             watched: false,
             until_s: None,
-            limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             fixed: false,
             screen: None,
@@ -165,14 +166,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// One that may be made again.
-    pub fn again(mut self, again: Again) -> Self {
-        self.again = again;
-        self
-    }
-
-    /// Ends as soon as outcome and peak are known, which nothing but them may
-    /// be asked for.
+    /// Ends as soon as outcome and peak are known. Nothing else may be
+    /// observed.
     #[inline(always)]
     pub fn for_peak(mut self) -> Self {
         let matters = self.dynamics.overturning == Overturning::Alpha;
@@ -182,13 +177,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self
     }
 
-    /// [`Self::for_peak`], if that is asked for.
-    pub fn for_peak_if(self, asked: bool) -> Self {
-        if asked { self.for_peak() } else { self }
-    }
-
-    /// With a truncation allowed in a step, as a share of the velocity. If
-    /// it is infinite, the order is fixed.
+    /// Sets the truncation error allowed in a step, as a share of the
+    /// velocity. If it is infinite, the order is fixed.
     #[inline(always)]
     pub fn within(mut self, tolerance: f64) -> Self {
         self.tolerance = N::from_f64(tolerance);
@@ -196,19 +186,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self
     }
 
-    /// Runs the scene to its end.
+    /// Runs the scene to its end; calls `see` before every step.
     #[inline(always)]
     pub fn run<const SIZE: usize>(
-        self,
-        scene: &Scene<'_>,
-        observe: &Observe,
-    ) -> Result<Response<N>, SceneError> {
-        self.run_seen::<SIZE>(scene, observe, |_, _| {})
-    }
-
-    /// [`Self::run`]; `see` is shown every step before it is made.
-    #[inline(always)]
-    pub fn run_seen<const SIZE: usize>(
         mut self,
         scene: &Scene<'_>,
         observe: &Observe,
@@ -236,39 +216,18 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     pub fn begin(&mut self, scene: &Scene<'_>, observe: &Observe) -> Stage<N> {
         self.observe(observe);
         self.record.forces = observe.forces.then(|| Forces::at_rest(scene));
-        let start = Moment { piece: 0, offset: N::zero() };
         if !(scene.initial_ratio > 0.0) {
+            let start = Moment { piece: 0, offset: N::zero() };
             return self.uplift(start, N::zero());
         }
         let u = self.dynamics.alpha * N::from_f64(scene.initial_ratio);
-        let motion = BlockMotion { side: Side::Positive, u, w: N::zero() };
         self.record.peak = u;
         self.record.peak_time_s = Some(N::zero());
         for tracker in self.record.trackers() {
             tracker.release(u.to_f64());
         }
-        Stage::Flying(Step {
-            place: start,
-            index: 0,
-            motion,
-            at_threshold: false,
-        })
-    }
-
-    #[inline(always)]
-    pub fn dynamics(&self) -> &Dynamics<N> {
-        &self.dynamics
-    }
-
-    #[inline(always)]
-    pub fn forcing(&self) -> &G {
-        &self.forcing
-    }
-
-    /// Largest rotation so far at a turning point.
-    #[inline(always)]
-    pub fn peak(&self) -> N {
-        self.record.peak
+        let motion = BlockMotion { side: Side::Positive, u, w: N::zero() };
+        Stage::Flying(Step::first(motion))
     }
 
     /// The rough certificate.
@@ -277,30 +236,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.screen.get_or_insert_with(Screen::at_rest)
     }
 
-    /// First piece in which it is asked whether what is left matters.
-    #[inline(always)]
-    pub fn exit_from(&self) -> u64 {
-        self.exit_from as u64
-    }
-
-    /// Counts steps taken elsewhere.
-    #[inline(always)]
-    pub fn count_steps(&mut self, steps: u64) {
-        self.record.work.steps += steps;
-    }
-
-    /// Counts impacts solved elsewhere.
-    #[inline(always)]
-    pub fn count_impacts(&mut self, impacts: u64) {
-        self.record.work.impacts += impacts;
-    }
-
     fn observe(&mut self, observe: &Observe) {
-        self.events = observe.events;
-        self.interval_s = observe.history_interval_s;
-        self.watched = self.interval_s.is_some() || observe.forces;
+        self.observe = *observe;
+        self.watched = observe.history_interval_s.is_some() || observe.forces;
         self.until_s = observe.until_s.map(N::from_f64);
-        self.limit = observe.work_limit;
         if observe.accuracy {
             let alpha = self.dynamics.alpha.to_f64();
             let own = Accuracy::of_arithmetic(N::ROUNDOFF, alpha);
@@ -315,7 +254,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// From a place at rest to the next uplift, if there is one.
+    /// Goes from a place at rest to the next uplift, if there is one.
     #[inline(always)]
     fn uplift(&mut self, from: Moment<N>, since_s: N) -> Stage<N> {
         if self.is_settled(from.piece, N::zero()) {
@@ -358,8 +297,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         })
     }
 
-    /// One step by a series of `SIZE` coefficients, or a part of it, and the
-    /// rest that may follow.
+    /// Makes one step by a series of `SIZE` coefficients, or a part of it, and
+    /// passes the rest that may follow.
     #[inline(always)]
     pub fn proceed<const SIZE: usize>(
         &mut self,
@@ -372,15 +311,15 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// From an impact elsewhere that leaves a speed, after which the block
-    /// comes to rest within `after` (in 1/p), to the next uplift.
+    /// Goes from an impact that a lane has made, after which the block moves
+    /// at `w` and comes to rest within `after` (in 1/p), to the next uplift.
     pub fn rest(&mut self, impact: Moment<N>, w: N, after: N) -> Stage<N> {
         let (place, time_s) = self.later(impact, w, after);
         self.uplift(place, time_s)
     }
 
-    /// Where in the same piece, and when (s), a block has come to rest some
-    /// time (in 1/p) after an impact that leaves a speed.
+    /// Place in the same piece, and time (s), of a rest that begins `after`
+    /// (in 1/p) an impact after which the block moves at `w`.
     #[inline(always)]
     fn later(&mut self, place: Moment<N>, w: N, after: N) -> (Moment<N>, N) {
         let left = self.forcing.length(place.piece) - place.offset;
@@ -391,7 +330,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         (Moment { offset, ..place }, time_s)
     }
 
-    /// One step, or the part of it up to an impact.
+    /// Makes one step, or the part of it up to an impact.
     #[inline(always)]
     fn next<const SIZE: usize>(
         &mut self,
@@ -419,7 +358,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         let length = boundary - step.place.offset;
         if length > N::zero() {
-            match self.advance::<SIZE>(step, length) {
+            let done = self.attempt::<SIZE>(step, length);
+            match done.unwrap_or_else(|| self.advance_hard(step, length)) {
                 Advance::Reached => {}
                 Advance::Bounced => return None,
                 Advance::Overturned => {
@@ -435,9 +375,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         step.index = next;
         step.place.offset = boundary;
         if next == steps {
-            // What was sure to end in this piece has not.
+            // The chatter has not ended in this piece, as it was sure to.
             for tracker in self.record.trackers() {
-                tracker.rest_surely(false);
+                tracker.resting = false;
             }
             step.index = 0;
             step.place = Moment { piece: piece + 1, offset: N::zero() };
@@ -446,8 +386,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     pub fn time_s(&self, place: Moment<N>) -> N {
-        let pieces = self.forcing.pieces();
-        if place.piece >= pieces {
+        if place.piece >= self.forcing.pieces() {
             return self.end_s();
         }
         self.forcing.start_s(place.piece) + place.offset / self.dynamics.p
@@ -455,13 +394,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// End of the excitation in s.
     fn end_s(&self) -> N {
-        match self.forcing.pieces() {
-            0 => N::zero(),
-            n => {
-                self.forcing.start_s(n - 1)
-                    + self.forcing.length(n - 1) / self.dynamics.p
-            }
-        }
+        self.forcing.pieces().checked_sub(1).map_or(N::zero(), |last| {
+            self.forcing.start_s(last)
+                + self.forcing.length(last) / self.dynamics.p
+        })
     }
 
     fn step_index(&self, place: Moment<N>) -> usize {

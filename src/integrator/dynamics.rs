@@ -16,8 +16,8 @@
 //! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
 //!
 //! A further overturning criterion is a variant of [`Overturning`] and its
-//! `limit`. The compiler is silent in `for_peak`, `see_peak`, `turning_beyond`
-//! and `margin_of`, which compare criteria with `==`.
+//! `limit`. The compiler does not find `for_peak`, `see_peak`, `Beyond` and
+//! `coast`, which compare criteria with `==`.
 
 use crate::block::{Block, Restitution};
 use crate::names::named;
@@ -71,7 +71,7 @@ pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
     }
 }
 
-/// What drives a step.
+/// Drive of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Drive<N, const F: usize> {
     /// A and B at its start.
@@ -116,6 +116,20 @@ pub(crate) fn curvature<N: Number, const F: usize>(
     }
 }
 
+/// Downward acceleration at the base under forcing f: B at u = 0.
+#[inline(always)]
+pub(crate) fn restoring<N: Number>(
+    model: Model,
+    threshold: N,
+    cosine: N,
+    f: N,
+) -> N {
+    match model {
+        Model::Nonlinear => (threshold + f) * cosine,
+        Model::Linearized => threshold + f,
+    }
+}
+
 impl<N: Real> Dynamics<N> {
     pub fn new(
         block: &Block,
@@ -145,7 +159,7 @@ impl<N: Real> Dynamics<N> {
         }
     }
 
-    /// What drives a step under the series of f.
+    /// The drive of a step under the series of f.
     #[inline(always)]
     pub fn drive<const F: usize>(&self, f: [N; F]) -> Drive<N, F> {
         Drive::new(self.model, (self.threshold, self.sine, self.cosine), f)
@@ -159,10 +173,7 @@ impl<N: Real> Dynamics<N> {
 
     /// Downward acceleration at the base under forcing f: B at u = 0.
     pub fn restoring(&self, f: N) -> N {
-        match self.model {
-            Model::Nonlinear => (self.threshold + f) * self.cosine,
-            Model::Linearized => self.threshold + f,
-        }
+        restoring(self.model, self.threshold, self.cosine, f)
     }
 
     /// The saddle's energy above the base:

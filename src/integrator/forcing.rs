@@ -1,4 +1,4 @@
-//! The excitation as the driver meets it: pieces with a Taylor series each.
+//! The excitation of the driver: pieces, each with a Taylor series.
 //!
 //! # Proof P11
 //!
@@ -26,22 +26,23 @@ pub(crate) use ground::Shaking;
 pub(crate) use remainder::Remainder;
 pub(crate) use stretch::pieces_of;
 
-/// Longest step in units of 1/p for which the Taylor orders in use leave
-/// nothing above rounding.
+/// Longest step in units of 1/p at which the truncation error of the Taylor
+/// orders in use is below rounding.
 pub(crate) const LONGEST_STEP: f64 = 0.1;
 
 /// Relative distance from the uplift threshold above which a sample is not
 /// near it.
 pub(crate) const NEAR_THRESHOLD: f64 = 1e-12;
 
-/// Relative excess over the threshold, in units of roundoff, that is a touch.
+/// Relative excess over the threshold, in units of roundoff, that counts as a
+/// touch.
 const TOUCH: f64 = 8.0;
 
 /// Longest step in units of a pulse's own phase.
 const LONGEST_PHASE: f64 = 0.25;
 
-/// Pieces of a pulse that a block at rest looks at one by one before it looks
-/// at blocks of them: most pulses have fewer.
+/// Pieces of a pulse that a rest scans one by one before it scans blocks of
+/// them. Most pulses have fewer.
 const WALKED: u64 = 128;
 
 /// A place in the excitation: a piece and the time since its start, in units
@@ -52,26 +53,38 @@ pub(crate) struct Moment<N> {
     pub offset: N,
 }
 
+impl<N: Real> Moment<N> {
+    /// The first place of a piece that is not before this one.
+    fn at(self, piece: usize) -> Self {
+        let offset = if piece == self.piece { self.offset } else { N::zero() };
+        Self { piece, offset }
+    }
+}
+
+/// The lesser number; the second if they have no order.
+fn lesser<N: Real>(a: N, b: N) -> N {
+    if a < b { a } else { b }
+}
+
 /// Where a resting block lifts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exceedance<N> {
     pub place: Moment<N>,
     /// Sign of the ground acceleration.
     pub positive: bool,
-    /// True where the acceleration crosses the threshold there, false where
-    /// it is above it at once (a jump).
+    /// True if the acceleration crosses the threshold there, false if it jumps
+    /// above it.
     pub crossing: bool,
 }
 
-/// What a block at rest has seen.
+/// Scan of the excitation during a rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RestScan<N> {
-    /// Pieces, or blocks of pieces, looked at.
+    /// Number of pieces, or blocks of pieces, scanned.
     pub pieces: u64,
-    /// Least relative distance of the peaks of |a/g| from the threshold, or
-    /// some bound of it that is far above rounding. Peaks are crests, the
-    /// start where |a/g| falls from it on, corners, constant stretches, and
-    /// the end.
+    /// Least relative distance of the peaks of |a/g| from the threshold, or a
+    /// bound on it that is far above rounding. Peaks are crests, a start from
+    /// which |a/g| falls, corners, constant stretches, and the end.
     pub nearest: N,
 }
 
@@ -86,51 +99,50 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Length of a piece in units of 1/p.
     fn length(&self, piece: usize) -> N;
 
-    /// One over the length of a piece.
-    #[inline(always)]
-    fn inverse(&self, piece: usize) -> N {
-        N::one() / self.length(piece)
-    }
-
     /// Number of equal steps in which a piece is integrated.
-    fn steps(&self) -> usize;
+    #[inline(always)]
+    fn steps(&self) -> usize {
+        1
+    }
 
     /// Series of a/g about a place.
     fn series(&self, place: Moment<N>) -> [N; F];
 
-    /// First place from `from` on where |a/g| exceeds `threshold`, and what
-    /// was seen on the way.
+    /// First place from `from` on at which |a/g| exceeds `threshold`, and the scan
+    /// up to it.
     fn exceedance(
         &self,
         from: Moment<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>);
 
-    /// Time (in 1/p) whose rounding shifts the whole excitation: none where
-    /// places in it belong to their piece.
+    /// Time (in 1/p) whose rounding shifts the whole excitation; zero if each
+    /// place is measured from its own piece.
     fn span(&self) -> f64 {
         0.0
     }
 
-    /// What is left of a/g from each piece on; none where that is not known.
+    /// Bounds on the rest of the excitation from each piece on; `None` if they
+    /// are not known.
     fn remainder(&self) -> Option<Remainder<'_, N>> {
         None
     }
 }
 
-/// Steps in which a sample of `length` (in 1/p) is integrated.
+/// Number of steps in which a sample of `length` (in 1/p) is integrated.
 pub(crate) fn steps_of(length: f64) -> usize {
     libm::ceil(length / LONGEST_STEP).max(1.0) as usize
 }
 
-/// A record: one piece an interval between samples.
+/// A record: one piece for each interval between samples.
 #[derive(Clone, Copy)]
 pub(crate) struct RecordForcing<'a, N> {
     record: ScaledRecord<'a>,
     index: &'a RecordIndex,
     factor: N,
     length: N,
-    inverse: N,
+    /// One over the length of a piece.
+    pub inverse: N,
     steps: usize,
 }
 
@@ -189,11 +201,6 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
     }
 
     #[inline(always)]
-    fn inverse(&self, _piece: usize) -> N {
-        self.inverse
-    }
-
-    #[inline(always)]
     fn steps(&self) -> usize {
         self.steps
     }
@@ -214,27 +221,19 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
         let amplitude = self.record.amplitude().abs();
         let bound = threshold.to_f64() * (1.0 - 1e-14);
         let mut piece = from.piece;
-        let (mut scanned, mut gap) = (0, self.gap_at_start(from, threshold));
-        let scan =
-            |pieces, gap: N| RestScan { pieces, nearest: gap / threshold };
-        while piece < self.pieces() {
+        let (mut pieces, mut gap) = (0, self.gap_at_start(from, threshold));
+        let mut found = None;
+        while piece < self.pieces() && found.is_none() {
+            pieces += 1;
             if let Some(next) = self.index.skip(piece, bound / amplitude) {
                 piece = next;
-                scanned += 1;
                 continue;
             }
-            scanned += 1;
-            let offset =
-                if piece == from.piece { from.offset } else { N::zero() };
-            let found = self.within(Moment { piece, offset }, threshold);
-            let own = self.gap(piece, threshold);
-            gap = if own < gap { own } else { gap };
-            if found.is_some() {
-                return (found, scan(scanned, gap));
-            }
+            found = self.within(from.at(piece), threshold);
+            gap = lesser(self.gap(piece, threshold), gap);
             piece += 1;
         }
-        (None, scan(scanned, gap))
+        (found, RestScan { pieces, nearest: gap / threshold })
     }
 
     #[inline(always)]
@@ -244,8 +243,8 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 }
 
 impl<N: Real> RecordForcing<'_, N> {
-    /// Distance of |a/g| from the threshold at the first sample, where a
-    /// block rests from there on and |a/g| does not rise; else the threshold.
+    /// Distance of |a/g| from the threshold at the first sample, if a block rests
+    /// from there on and |a/g| does not rise; otherwise the threshold.
     fn gap_at_start(&self, from: Moment<N>, threshold: N) -> N {
         let is_start = from.piece == 0 && from.offset == N::zero();
         let [first, second] = [0, 1].map(|i| self.sample(i).abs());
@@ -256,8 +255,8 @@ impl<N: Real> RecordForcing<'_, N> {
         }
     }
 
-    /// Distance of |a/g| from the threshold at the end of a piece; where it
-    /// rises on beyond, at the end of the next.
+    /// Distance of |a/g| from the threshold at the end of a piece; if it still
+    /// rises there, at the end of the next.
     #[inline(always)]
     fn gap(&self, piece: usize, threshold: N) -> N {
         let peak = self.sample(piece + 1).abs();
@@ -296,8 +295,7 @@ impl<N: Real> RecordForcing<'_, N> {
     }
 }
 
-/// A pulse: equal pieces of each smooth stretch, made where they are asked
-/// for.
+/// A pulse: equal pieces of each smooth stretch, made when they are needed.
 pub(crate) struct PulseForcing<N> {
     stretches: Vec<Stretch<N>>,
     p: N,
@@ -316,11 +314,9 @@ impl<N: Real> PulseForcing<N> {
 
     /// The stretch of a piece.
     fn of(&self, piece: usize) -> &Stretch<N> {
-        let later = self.stretches.iter().rev();
-        later
-            .into_iter()
-            .find(|s| s.first <= piece)
-            .unwrap_or(&self.stretches[0])
+        let mut later = self.stretches.iter().rev();
+        let found = later.find(|stretch| stretch.first <= piece);
+        found.unwrap_or(&self.stretches[0])
     }
 }
 
@@ -335,10 +331,6 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 
     fn length(&self, piece: usize) -> N {
         self.of(piece).length(self.p)
-    }
-
-    fn steps(&self) -> usize {
-        1
     }
 
     fn span(&self) -> f64 {
@@ -358,15 +350,13 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>) {
         let mut gap = threshold;
-        let scan =
-            |pieces, gap: N| RestScan { pieces, nearest: gap / threshold };
-        let mut scanned = 0;
+        let (mut found, mut pieces) = (None, 0);
         let mut piece = from.piece;
-        while piece < self.count() {
-            if scanned >= WALKED {
+        while piece < self.count() && found.is_none() {
+            if pieces >= WALKED {
                 let stretch = self.of(piece);
-                let (next, looked) = stretch.quiet(piece, threshold);
-                scanned += looked;
+                let (next, blocks) = stretch.quiet(piece, threshold);
+                pieces += blocks;
                 if next > piece {
                     if next == stretch.end {
                         gap = stretch.room(threshold, gap);
@@ -375,71 +365,72 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                     continue;
                 }
             }
-            scanned += 1;
-            let offset =
-                if piece == from.piece { from.offset } else { N::zero() };
-            let place = Moment { piece, offset };
+            pieces += 1;
+            let place = from.at(piece);
             let series: [N; F] = self.series(place);
-            let above = series[0].abs() > threshold;
-            // At the very first instant the block lifts at once; after it
-            // every pulse is continuous, and rounding cannot jump.
-            if above {
+            if series[0].abs() > threshold {
+                // At the very first instant the block lifts at once; after it
+                // every pulse is continuous, and rounding cannot jump.
                 let positive = series[0] > N::zero();
-                let crossing = offset > N::zero() || piece > 0;
-                let found = Exceedance { place, positive, crossing };
-                let beyond = self.beyond::<F>(place, threshold);
-                gap = if beyond < gap { beyond } else { gap };
-                return (Some(found), scan(scanned, gap));
-            }
-            let left = self.of(piece).length(self.p) - offset;
-            let crest = crest(&series, left, self.isa);
-            if let Some((_, top)) = crest {
-                let near = (top - threshold).abs();
-                gap = if near < gap { near } else { gap };
-            }
-            let near = self.gap_at_edges(place, &series, threshold);
-            gap = if near < gap { near } else { gap };
-            let mut first: Option<(N, bool)> = None;
-            for positive in [true, false] {
-                let mut gap = series;
-                for x in &mut gap {
-                    *x = if positive { -*x } else { *x };
+                let crossing = place.offset > N::zero() || piece > 0;
+                found = Some(Exceedance { place, positive, crossing });
+            } else {
+                let left = self.of(piece).length(self.p) - place.offset;
+                let crest = crest(&series, left, self.isa);
+                if let Some((_, top)) = crest {
+                    gap = lesser((top - threshold).abs(), gap);
                 }
-                gap[0] = gap[0] + threshold;
-                // What is met at the end belongs to the next piece.
-                let Some(tau) = first_descent(&gap, left, self.isa)
-                    .filter(|tau| *tau < left)
-                else {
-                    continue;
-                };
-                // A touch is no exceedance.
-                let touch = -threshold * N::from_f64(TOUCH * N::ROUNDOFF);
-                let passes = |at: N| value(&gap, at) < touch;
-                let passes_on_top =
-                    crest.is_some_and(|(at, _)| at > tau && passes(at));
-                if !(passes_on_top || passes(left)) {
-                    continue;
-                }
-                if first.is_none_or(|(best, _)| tau < best) {
-                    first = Some((tau, positive));
-                }
-            }
-            if let Some((tau, positive)) = first {
-                let place = Moment { piece, offset: offset + tau };
-                let found = Exceedance { place, positive, crossing: true };
-                let beyond = self.beyond::<F>(place, threshold);
-                gap = if beyond < gap { beyond } else { gap };
-                return (Some(found), scan(scanned, gap));
+                gap =
+                    lesser(self.gap_at_edges(place, &series, threshold), gap);
+                found = self.crossing(place, &series, threshold, left, crest);
             }
             piece += 1;
         }
-        (None, scan(scanned, gap))
+        if let Some(found) = &found {
+            gap = lesser(self.beyond::<F>(found.place, threshold), gap);
+        }
+        (found, RestScan { pieces, nearest: gap / threshold })
     }
 }
 
 impl<N: Real> PulseForcing<N> {
-    /// How far |a/g| rises beyond the threshold from a place on where it
-    /// passes it, looked at until it is far beyond.
+    /// First crossing of the threshold within `left` of a place, under the
+    /// series of a/g there and its crest. A touch is no crossing; a crossing at
+    /// the end belongs to the next piece.
+    fn crossing<const F: usize>(
+        &self,
+        place: Moment<N>,
+        series: &[N; F],
+        threshold: N,
+        left: N,
+        crest: Option<(N, N)>,
+    ) -> Option<Exceedance<N>> {
+        let touch = -threshold * N::from_f64(TOUCH * N::ROUNDOFF);
+        let mut first: Option<(N, bool)> = None;
+        for positive in [true, false] {
+            let mut gap = series.map(|x| if positive { -x } else { x });
+            gap[0] = gap[0] + threshold;
+            let Some(tau) = first_descent(&gap, left, self.isa) else {
+                continue;
+            };
+            let passes = |at: N| value(&gap, at) < touch;
+            let passes_on_top =
+                crest.is_some_and(|(at, _)| at > tau && passes(at));
+            if tau < left
+                && (passes_on_top || passes(left))
+                && first.is_none_or(|(best, _)| tau < best)
+            {
+                first = Some((tau, positive));
+            }
+        }
+        first.map(|(tau, positive)| {
+            let place = Moment { offset: place.offset + tau, ..place };
+            Exceedance { place, positive, crossing: true }
+        })
+    }
+
+    /// Largest excess of |a/g| over the threshold from a place at which it passes
+    /// the threshold, searched until the excess is large.
     fn beyond<const F: usize>(&self, from: Moment<N>, threshold: N) -> N
     where
         Self: Forcing<N, F>,
@@ -465,9 +456,9 @@ impl<N: Real> PulseForcing<N> {
     }
 
     /// Distance of |a/g| from the threshold at a place from which it does not
-    /// rise, or at the end of the pulse, where it is near; else the
-    /// threshold. Where |a/g| has a slope, rounding of the place's own time
-    /// takes a share of the distance.
+    /// rise, or at the end of the pulse, if it is near; otherwise the threshold.
+    /// If |a/g| has a slope, rounding of the time of the place takes a share of
+    /// the distance.
     fn gap_at_edges<const F: usize>(
         &self,
         place: Moment<N>,
@@ -491,8 +482,7 @@ impl<N: Real> PulseForcing<N> {
             let near = (c[0].abs() - threshold).abs();
             if !(near > threshold * N::from_f64(NEAR_THRESHOLD)) {
                 let share = N::one() + c[1].abs() * span / threshold;
-                let near = near / share;
-                gap = if near < gap { near } else { gap };
+                gap = lesser(near / share, gap);
             }
         }
         gap

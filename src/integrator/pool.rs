@@ -1,10 +1,11 @@
 //! Outcome and peak of many analyses under records at once.
 //!
 //! Slots hold runs, eight to a group. Whole samples in free flight are
-//! stepped in all lanes of a group together; a lane in which something may
-//! happen within the sample waits until eight of its kind do, whose steps
-//! are then solved together. What is rare is left to the scalar driver.
-//! Operations and their order are the same either way, and so are the bits.
+//! stepped in all lanes of a group together. A lane that may meet an event
+//! within the sample waits until eight lanes wait for the same kind of step;
+//! their steps are then solved together. Rare steps are left to the scalar
+//! driver. Both ways have the same operations in the same order, and so the
+//! same bits.
 //!
 //! # Proof P7
 //!
@@ -47,25 +48,24 @@ const GROUPS: usize = 16;
 /// Rotation to which the short sine and cosine are used.
 const SMALL: f64 = 0.785;
 
-/// Share by which the screens of the lanes are on the safe side: what they
-/// pass, the scalar screens or its root finder pass too.
+/// Safety factor of the screens of the lanes: a step that they pass is also
+/// passed by the scalar screens or the scalar root finder.
 const SAFETY: f64 = 1.001;
 
-/// Where analyses come from, and their responses go.
+/// Source of analyses and receiver of their responses.
 pub(crate) trait SceneSource<'a> {
-    /// What identifies an analysis.
+    /// Identifies an analysis.
     type Task;
 
-    /// The next analysis; none for now.
+    /// The next analysis; `None` if there is none now.
     fn take(&mut self) -> Option<(Self::Task, Scene<'a>, WorkLimit)>;
 
-    /// Takes the response of an analysis; none where its work passes its
-    /// limit.
+    /// Takes the response of an analysis; `None` if its work passed its limit.
     fn settle(&mut self, task: Self::Task, response: Option<&Response>);
 }
 
-/// The class of scenes that a pool takes at steps of `length` (in 1/p), at a
-/// fixed order if one is given; none where a sample takes more than one step.
+/// The class of scenes in a pool at steps of `length` (in 1/p), at a fixed order
+/// if one is given; `None` if a sample takes more than one step.
 pub(crate) fn class_of(
     model: Model,
     length: f64,
@@ -89,8 +89,8 @@ pub(crate) struct Tally {
     pub left: u64,
 }
 
-/// Makes the analyses of one class that a source gives, until it gives none;
-/// needs a [wide](Isa::is_wide) level.
+/// Makes the analyses of one class until the source has none left. Needs a
+/// [wide](Isa::is_wide) level.
 pub(crate) fn run<'a>(
     class: Class,
     isa: Isa,
@@ -115,11 +115,13 @@ fn go<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>(
     isa: Isa,
     source: &mut S,
 ) -> Tally {
-    Pool::<_, LEN, HARD>::new(class, isa, source).run()
+    let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
+    let tally = Tally::default();
+    Pool::<S, LEN, HARD> { class, isa, source, slots, busy: 0, tally }.run()
 }
 
-/// Runs in their slots, by series of `LEN` coefficients, and of `HARD` where
-/// those leave too much.
+/// Runs in their slots, by series of `LEN` coefficients, and of `HARD` if the
+/// truncation error of those is too large.
 struct Pool<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize> {
     class: Class,
     isa: Isa,
@@ -130,15 +132,9 @@ struct Pool<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize> {
     tally: Tally,
 }
 
-impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
-    Pool<'s, 'a, S, LEN, HARD>
+impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
+    Pool<'_, 'a, S, LEN, HARD>
 {
-    fn new(class: Class, isa: Isa, source: &'s mut S) -> Self {
-        let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
-        let tally = Tally::default();
-        Self { class, isa, source, slots, busy: 0, tally }
-    }
-
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
         let mut groups = Groups::default();
@@ -194,7 +190,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         }
     }
 
-    /// Gives empty slots something to do; true if something was settled.
+    /// Starts runs in empty slots; true if a run was settled.
     fn fill(&mut self, groups: &mut Groups<'a>) -> bool {
         let mut settled = false;
         for slot in 0..self.slots.len() {
@@ -228,8 +224,8 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         Some(Slot::new(task, driver, stage))
     }
 
-    /// Goes on, by the scalar driver, until the run is in free flight or
-    /// nothing is left for its slot; true if something was settled.
+    /// Continues by the scalar driver until the run in a slot is in free flight
+    /// or no run is left for the slot; true if a run was settled.
     fn proceed(&mut self, lane: Lane, groups: &mut Groups<'a>) -> bool {
         let mut settled = false;
         let k = lane.slot();
@@ -242,8 +238,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                 }
                 Stage::Flying(step)
                     if !step.at_threshold
-                        && step.place.offset
-                            < slot.driver.forcing().step() =>
+                        && step.place.offset < slot.driver.forcing.step() =>
                 {
                     groups[lane.group()].load(lane.lane(), slot);
                     break;
@@ -259,7 +254,8 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         settled
     }
 
-    /// Hands in what became of the run in a slot, and begins another there.
+    /// Hands the response of the run in a slot to the source and starts another
+    /// run there.
     fn settle(&mut self, k: usize, response: Option<&Response>) {
         if let Some(slot) = self.slots[k].take() {
             self.source.settle(slot.task, response);
@@ -270,7 +266,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         }
     }
 
-    /// Takes back what a batch solved; true if something was settled.
+    /// Returns the lanes of a batch to their groups; true if a run was settled.
     #[inline(always)]
     fn scatter(
         &mut self,
@@ -302,27 +298,19 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 let place = Moment {
                     piece: group.next[lane] as usize - 1,
-                    offset: group.offset[lane],
+                    offset: group.motion.offset[lane],
                 };
                 let (u, tau) = (solved.top[i], solved.turn[i]);
                 group.hand_screen(lane, slot);
                 slot.driver.raise_peak(u, place, tau);
-                group.peak[lane] = slot.driver.peak();
-                group.exit_from[lane] = slot.driver.exit_from();
+                group.fixed.peak[lane] = slot.driver.record.peak;
+                group.exit_from[lane] = slot.driver.exit_from as u64;
             }
-            group.u[lane] = solved.u[i];
-            group.w[lane] = solved.w[i];
-            group.uu[lane] = solved.uu[i];
-            group.uw[lane] = solved.uw[i];
-            group.ww[lane] = solved.ww[i];
-            group.here[lane] = solved.here[i];
-            group.offset[lane] = solved.offset[i];
-            group.amplitude[lane] = solved.amplitude[i];
+            group.motion.copy(lane, &solved.motion, i);
             group.extra[lane] += u64::from(solved.again >> i & 1);
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                group.doubt[lane] = solved.doubt[i];
                 let endless = group.impacts[lane] > group.most[lane];
                 if (solved.rested | solved.settled) & bit != 0 || endless {
                     let Some(slot) = &mut self.slots[id.slot()] else {
@@ -347,7 +335,7 @@ impl<'s, 'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
     }
 }
 
-/// One step of the groups in which something flies; true if any does.
+/// One step of the groups in which a lane flies; true if there is one.
 struct Sweep<'g, 'a, const LEN: usize, const HARD: usize> {
     model: Model,
     groups: &'g mut [LaneGroup<'a>],
@@ -361,7 +349,7 @@ impl<const LEN: usize, const HARD: usize> WithSimd
 
     #[inline(always)]
     fn run<V: Simd>(self) -> bool {
-        // The model, a constant here, is not asked for in the loop.
+        // The model is a constant here, so the loop does not test it.
         match self.model {
             Model::Linearized if LEN == LONGEST => {
                 self.step::<V>(Model::Linearized)
@@ -379,11 +367,10 @@ impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
         for (k, group) in self.groups.iter_mut().enumerate() {
             if !group.is_idle() {
                 moved = true;
-                let parked = group.step::<V, LEN, HARD>(model);
-                (stopped[k], hard[k]) = (parked.lanes, parked.hard);
+                (stopped[k], hard[k]) = group.step::<V, LEN, HARD>(model);
             }
         }
-        // All groups together: one branch that nobody can predict.
+        // All groups together: one unpredictable branch.
         self.waiting.park(stopped, hard);
         moved
     }

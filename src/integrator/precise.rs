@@ -6,7 +6,7 @@ use crate::integrator::driver::{Driver, Step};
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::Shaking;
 use crate::integrator::roots::MOST;
-use crate::integrator::run::{index_of, own_index};
+use crate::integrator::run::index_of;
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
 use crate::number::dispatch::Isa;
 use crate::number::{Real, SeriesWork};
@@ -64,9 +64,9 @@ pub fn respond_precise<N: Real>(
     respond_precisely(scene, observe, false, &|_| {})
 }
 
-/// [`respond_precise`] that ends, where `peak_only` is set, as soon as outcome
-/// and peak are surely known; `progress` is called with the time (s) in the
-/// scene.
+/// [`respond_precise`]; with `peak_only` it ends as soon as outcome and peak are
+/// surely known. Calls `progress` with the time (s) in the scene before each
+/// step.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
@@ -78,17 +78,12 @@ pub(crate) fn respond_precisely<N: Real>(
 ) -> Result<Response<N>, SceneError> {
     check(scene, observe)?;
     let number = PhantomData::<N>;
-    N::with_lengths(PreciseRunKernel {
-        scene,
-        observe,
-        peak_only,
-        progress,
-        number,
-    })
+    let run = PreciseRun { scene, observe, peak_only, progress, number };
+    N::with_lengths(run)
 }
 
 /// A run of a scene.
-struct PreciseRunKernel<'a, N> {
+struct PreciseRun<'a, N> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     peak_only: bool,
@@ -96,9 +91,9 @@ struct PreciseRunKernel<'a, N> {
     number: PhantomData<N>,
 }
 
-impl<N: Real> crate::number::sealed::Sealed for PreciseRunKernel<'_, N> {}
+impl<N: Real> crate::number::sealed::Sealed for PreciseRun<'_, N> {}
 
-impl<N: Real> SeriesWork for PreciseRunKernel<'_, N> {
+impl<N: Real> SeriesWork for PreciseRun<'_, N> {
     type Output = Result<Response<N>, SceneError>;
 
     fn run<const SHORT: usize, const LONG: usize>(self) -> Self::Output {
@@ -106,28 +101,30 @@ impl<N: Real> SeriesWork for PreciseRunKernel<'_, N> {
         let Self { scene, observe, peak_only, progress, .. } = self;
         let Scene { block, restitution, model, overturning, .. } = *scene;
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
-        let own = own_index(scene);
-        let isa = Isa::best();
-        let ground = Shaking::of(scene, index_of(scene, own.as_ref()), isa);
+        let (index, isa) = (index_of(scene), Isa::best());
+        let ground = Shaking::of(scene, index.as_deref(), isa);
         let short = match &ground {
             Shaking::Record(record) => is_short::<N>(record.step(), SHORT),
             Shaking::Pulse(_) | Shaking::Silence(_) => false,
         };
-        let driver = Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa)
-            .for_peak_if(peak_only);
+        let mut driver =
+            Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa);
+        if peak_only {
+            driver = driver.for_peak();
+        }
         let see = |driver: &Driver<N, _, LONG, LONG>, step: &Step<N>| {
             progress(driver.time_s(step.place).to_f64());
         };
         if short {
-            driver.run_seen::<SHORT>(scene, observe, see)
+            driver.run::<SHORT>(scene, observe, see)
         } else {
-            driver.run_seen::<LONG>(scene, observe, see)
+            driver.run::<LONG>(scene, observe, see)
         }
     }
 }
 
-/// True where a series of `length` coefficients leaves no more than the
-/// roundoff over a step (in 1/p), as for a motion whose coefficients don't
+/// True if the truncation error of a series of `length` coefficients is at most
+/// the roundoff over a step (in 1/p), for a motion whose coefficients do not
 /// grow.
 fn is_short<N: Real>(step: f64, length: usize) -> bool {
     libm::log(step) * (length as f64) < libm::log(N::ROUNDOFF)

@@ -2,10 +2,10 @@
 //!
 //! Signs at the ends of a step say nothing about what happens inside: two
 //! impacts can lie within one sample. Sign variations of the Bernstein
-//! coefficients bound the number of roots (Descartes); where more than one is
-//! possible the interval is halved until each is alone.
+//! coefficients bound the number of roots (Descartes). If more than one is
+//! possible, the interval is halved until each root is isolated.
 
-use crate::integrator::taylor::{slope, value};
+use crate::integrator::taylor::{size_at, slope, value};
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
 
@@ -16,8 +16,8 @@ fn depth<N: Real>() -> u32 {
     (-libm::ilogb(N::ROUNDOFF) - 5).unsigned_abs()
 }
 
-/// A derivative surely keeps its sign where its value at the start is below
-/// this many times what the other terms can add to it.
+/// A derivative surely keeps its sign if its value at the start is below this
+/// many times the largest sum of its other terms.
 pub(crate) const SURELY: f64 = -1.01;
 
 /// Share of its size below which the sign of an end is not certain.
@@ -52,20 +52,17 @@ pub(crate) fn first_descent<N: Real>(
     isolate(c, length, isa)
 }
 
-/// True where |c_1| L + |c_2| L^2 + ... cannot outweigh the terms that keep
-/// the polynomial positive.
+/// True if |c_1| L + |c_2| L^2 + ... cannot outweigh the terms that keep the
+/// polynomial positive.
 #[inline(always)]
 pub(crate) fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
-    let mut rest = N::zero();
-    for k in (2..c.len()).rev() {
-        rest = rest.mul_add(length, c[k].abs());
-    }
-    let [start, slope, ..] = *c else { return true };
+    let [start, slope, ref beyond @ ..] = *c else { return true };
+    let rest = size_at(beyond, length);
     let low = (-(-slope).positive_part()).mul_add(length, start);
     low - rest * length * length > N::zero()
 }
 
-/// Isolates the first root and refines it, with the level's instructions.
+/// Isolates the first root and refines it with the instructions of the level.
 #[inline(never)]
 fn isolate<N: Real>(c: &[N], length: N, isa: Isa) -> Option<N> {
     isa.run(Isolation { c, length })
@@ -81,51 +78,44 @@ impl<N: Real> Kernel for Isolation<'_, N> {
 
     #[inline(always)]
     fn run(self) -> Option<N> {
-        isolated(self.c, self.length)
-    }
-}
-
-#[inline(always)]
-fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
-    if let Some(below) = ends_below(c, length) {
-        return below.then(|| refine(c, N::zero(), length, guess(c)));
-    }
-    let n = c.len() - 1;
-    // Bernstein coefficients on [0, length]:
-    // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
-    let mut scaled = [N::zero(); MOST];
-    let mut power = N::one();
-    let mut binomial = N::one();
-    for k in 0..=n {
-        scaled[k] = c[k] * power / binomial;
-        power = power * length;
-        binomial = binomial * N::ratio((n - k) as i32, k as i32 + 1);
-    }
-    // Repeated differences turn scaled powers into Bernstein coefficients.
-    let mut b = scaled;
-    for round in 1..=n {
-        for j in (round..=n).rev() {
-            b[j] = b[j] + b[j - 1];
+        let Self { c, length } = self;
+        if let Some(below) = ends_below(c, length) {
+            return below.then(|| refine(c, N::zero(), length, guess(c)));
         }
+        let n = c.len() - 1;
+        // Bernstein coefficients on [0, length]:
+        // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
+        let mut b = [N::zero(); MOST];
+        let mut power = N::one();
+        let mut binomial = N::one();
+        for k in 0..=n {
+            b[k] = c[k] * power / binomial;
+            power = power * length;
+            binomial = binomial * N::ratio((n - k) as i32, k as i32 + 1);
+        }
+        // Repeated sums turn scaled powers into Bernstein coefficients.
+        for round in 1..=n {
+            for j in (round..=n).rev() {
+                b[j] = b[j] + b[j - 1];
+            }
+        }
+        let ends = (N::zero(), N::one());
+        let (low, high) = search(&mut b[..=n], ends, depth::<N>())?;
+        let (low, high) = (length * low, length * high);
+        // Isolation may have taken a near miss for a contact.
+        let is_root = !(value(c, high) > N::zero());
+        is_root.then(|| refine(c, low, high, guess(c)))
     }
-    let b = &mut b[..=n];
-    let (low, high) = search(b, N::zero(), N::one(), depth::<N>())?;
-    let (low, high) = (length * low, length * high);
-    if value(c, high) > N::zero() {
-        // Isolation saw a contact that is none.
-        return None;
-    }
-    Some(refine(c, low, high, guess(c)))
 }
 
-/// Where the first root is sought: that of the first three terms, moved by
-/// what the next two say there.
+/// Start of Newton's iteration: the root of the first three terms, corrected
+/// by the next two.
 #[inline(always)]
 pub(crate) fn guess<N: Real>(c: &[N]) -> N {
     let [start, slope, bend, ..] = *c else { return N::zero() };
     let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
     let tau = (start + start) / (root - slope);
-    // Where a start on the event was divided out there may be no fourth.
+    // If a start on the event was divided out, there may be no fourth term.
     let [_, _, _, third, ref beyond @ ..] = *c else { return tau };
     let fourth = beyond.first().copied().unwrap_or(N::zero());
     let beyond = fourth.mul_add(tau, third) * (tau * tau);
@@ -135,9 +125,9 @@ pub(crate) fn guess<N: Real>(c: &[N]) -> N {
     tau - beyond * tau / steep
 }
 
-/// Whether a polynomial that is positive at its start, and surely falls or
-/// is concave all the way, ends below zero; nothing where it may not be
-/// either, or ends too near to zero to tell.
+/// Whether a polynomial that is positive at its start and surely falls, or is
+/// surely concave, ends below zero. `None` if it may be neither, or ends too
+/// near to zero to tell.
 ///
 /// Below zero it has one root, and its ends enclose it.
 #[inline(always)]
@@ -170,30 +160,25 @@ pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
 /// end.
 fn search<N: Real>(
     b: &mut [N],
-    low: N,
-    high: N,
+    (low, high): (N, N),
     depth: u32,
 ) -> Option<(N, N)> {
     let zero = N::zero();
-    let variations = b
-        .iter()
-        .filter(|x| **x != zero)
-        .map(|x| *x > zero)
-        .fold((None, 0), |(last, count), sign| {
-            let changed = last.is_some_and(|before| before != sign);
-            (Some(sign), count + u32::from(changed))
-        })
-        .1;
+    let (mut variations, mut last) = (0, None);
+    for sign in b.iter().filter(|x| **x != zero).map(|x| *x > zero) {
+        let before = last.replace(sign);
+        variations += u32::from(before.is_some_and(|before| before != sign));
+    }
     let end = b[b.len() - 1];
-    if variations == 0 {
-        return (end == zero).then_some((low, high));
-    }
-    if variations == 1 {
+    let ends_here = match variations {
+        0 => end == zero,
         // One crossing; positive on the left, so the right end is below.
-        return Some((low, high));
-    }
-    if depth == 0 {
-        return (!(end > zero)).then_some((low, high));
+        1 => true,
+        _ if depth == 0 => !(end > zero),
+        _ => false,
+    };
+    if ends_here || variations == 0 || depth == 0 {
+        return ends_here.then_some((low, high));
     }
     // De Casteljau at the middle.
     let n = b.len() - 1;
@@ -207,10 +192,8 @@ fn search<N: Real>(
     }
     // `b[j]` now holds the diagonal from the middle to the end.
     let middle = half * (low + high);
-    if let Some(found) = search(&mut left[..=n], low, middle, depth - 1) {
-        return Some(found);
-    }
-    search(b, middle, high, depth - 1)
+    search(&mut left[..=n], (low, middle), depth - 1)
+        .or_else(|| search(b, (middle, high), depth - 1))
 }
 
 /// The root in [low, high] by Newton's iteration from a guess, inside a

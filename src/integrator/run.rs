@@ -1,10 +1,12 @@
 //! One run of a scene: its driver, by the kind of excitation and the class.
 
+use std::borrow::Cow;
+
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
-use crate::integrator::driver::{Again, Driver};
+use crate::integrator::driver::{Again, Driver, tolerance};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::{RecordForcing, Shaking};
+use crate::integrator::forcing::{Forcing, RecordForcing, Shaking};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
 use crate::number::dispatch::Kernel;
 
@@ -14,32 +16,17 @@ pub(super) fn run(
     solver: Solver,
     again: Again,
 ) -> Result<Response, SceneError> {
-    let own = own_index(scene);
-    let index = index_of(scene, own.as_ref());
+    let index = index_of(scene);
+    let index = index.as_deref();
     solver.isa.run(RunKernel { scene, observe, index, solver, again })
 }
 
-/// Index of a record that brings none.
-pub(super) fn own_index(scene: &Scene<'_>) -> Option<RecordIndex> {
-    match scene.excitation {
-        Excitation::Record(record) if record.index().is_none() => {
-            Some(RecordIndex::new(record.samples()))
-        }
-        Excitation::Record(_) | Excitation::Pulse(_) | Excitation::Free => {
-            None
-        }
-    }
-}
-
-/// The record's index, or its own; none without a record.
-pub(super) fn index_of<'a>(
-    scene: &Scene<'a>,
-    own: Option<&'a RecordIndex>,
-) -> Option<&'a RecordIndex> {
-    match scene.excitation {
-        Excitation::Record(record) => record.index().or(own),
-        Excitation::Pulse(_) | Excitation::Free => None,
-    }
+/// Index of the record of a scene, if there is one: that of the record, or a
+/// new one if it has none.
+pub(super) fn index_of<'a>(scene: &Scene<'a>) -> Option<Cow<'a, RecordIndex>> {
+    let Excitation::Record(record) = scene.excitation else { return None };
+    let new = || Cow::Owned(RecordIndex::new(record.samples()));
+    Some(record.index().map_or_else(new, Cow::Borrowed))
 }
 
 /// One run, compiled for each instruction-set level.
@@ -56,63 +43,53 @@ impl Kernel for RunKernel<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Scene { block, restitution, model, overturning, .. } = *self.scene;
-        let p = block.frequency_rad_s();
-        let dynamics =
-            Dynamics::<f64>::new(&block, restitution, model, overturning);
-        match (self.scene.excitation, self.index) {
-            (Excitation::Record(record), Some(index)) => {
-                let forcing = RecordForcing::new(record, index, p);
-                let class =
-                    Class::of(model, forcing.step(), self.solver.order);
-                match class {
-                    Class::Eight | Class::Fixed(Order::Eight) => {
-                        self.at::<9>(class, dynamics, forcing)
-                    }
-                    Class::Nine => self.at::<10>(class, dynamics, forcing),
-                    Class::Ten | Class::Fixed(Order::Ten) => {
-                        self.at::<11>(class, dynamics, forcing)
-                    }
-                    Class::Longest | Class::Linearized => {
-                        self.at::<LONGEST>(class, dynamics, forcing)
-                    }
-                    Class::Fixed(Order::Four) => {
-                        self.at::<5>(class, dynamics, forcing)
-                    }
-                    Class::Fixed(Order::Six) => {
-                        self.at::<7>(class, dynamics, forcing)
-                    }
-                }
+        let (Excitation::Record(record), Some(index)) =
+            (self.scene.excitation, self.index)
+        else {
+            let ground = Shaking::of(self.scene, None, self.solver.isa);
+            return self.at::<_, LONGEST, LONGEST>(tolerance::<f64>(), ground);
+        };
+        let p = self.scene.block.frequency_rad_s();
+        let forcing = RecordForcing::new(record, index, p);
+        let order = self.solver.order;
+        let class = Class::of(self.scene.model, forcing.step(), order);
+        let share = class.tolerance();
+        match class {
+            Class::Fixed(Order::Four) => self.at::<_, 2, 5>(share, forcing),
+            Class::Fixed(Order::Six) => self.at::<_, 2, 7>(share, forcing),
+            Class::Eight | Class::Fixed(Order::Eight) => {
+                self.at::<_, 2, 9>(share, forcing)
             }
-            (_, index) => {
-                let ground = Shaking::of(self.scene, index, self.solver.isa);
-                Driver::<_, _, LONGEST, LONGEST>::new(
-                    dynamics,
-                    ground,
-                    self.solver.isa,
-                )
-                .for_peak_if(self.solver.peak_only)
-                .again(self.again)
-                .run::<LONGEST>(self.scene, self.observe)
+            Class::Nine => self.at::<_, 2, 10>(share, forcing),
+            Class::Ten | Class::Fixed(Order::Ten) => {
+                self.at::<_, 2, 11>(share, forcing)
+            }
+            Class::Longest | Class::Linearized => {
+                self.at::<_, 2, LONGEST>(share, forcing)
             }
         }
     }
 }
 
 impl RunKernel<'_> {
-    /// By series of `LEN` coefficients, longer where they leave more than the
-    /// class allows.
+    /// The run by series of `LEN` coefficients, or longer ones if the
+    /// truncation error is larger than `tolerance`, as a share of the velocity.
     #[inline(always)]
-    fn at<const LEN: usize>(
+    fn at<G: Forcing<f64, F>, const F: usize, const LEN: usize>(
         &self,
-        class: Class,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
+        tolerance: f64,
+        forcing: G,
     ) -> Result<Response, SceneError> {
-        Driver::<_, _, 2, LONGEST>::new(dynamics, forcing, self.solver.isa)
-            .for_peak_if(self.solver.peak_only)
-            .again(self.again)
-            .within(class.tolerance())
-            .run::<LEN>(self.scene, self.observe)
+        let Scene { block, restitution, model, overturning, .. } = *self.scene;
+        let dynamics = Dynamics::new(&block, restitution, model, overturning);
+        let isa = self.solver.isa;
+        let mut driver =
+            Driver::<_, _, F, LONGEST>::new(dynamics, forcing, isa)
+                .within(tolerance);
+        driver.again = self.again;
+        if self.solver.peak_only {
+            driver = driver.for_peak();
+        }
+        driver.run::<LEN>(self.scene, self.observe, |_, _| {})
     }
 }

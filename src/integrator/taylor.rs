@@ -235,3 +235,23 @@ pub(crate) fn slope<N: Number>(c: &[N], tau: N) -> N {
     }
     sum
 }
+
+/// Sum of the sizes of the coefficients `c`, the last first.
+#[inline(always)]
+pub(crate) fn size<N: Number>(c: &[N]) -> N {
+    let mut sum = N::zero();
+    for k in (0..c.len()).rev() {
+        sum = sum + c[k].abs();
+    }
+    sum
+}
+
+/// Value at `tau` of the polynomial of the sizes of the coefficients `c`.
+#[inline(always)]
+pub(crate) fn size_at<N: Number>(c: &[N], tau: N) -> N {
+    let mut sum = N::zero();
+    for k in (0..c.len()).rev() {
+        sum = sum.mul_add(tau, c[k].abs());
+    }
+    sum
+}

@@ -191,26 +191,9 @@ impl Number for DoubleDouble {
         Self::from_f64(f64::from(i)) / Self::from_f64(f64::from(j))
     }
 
-    #[inline]
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
     /// sin x = x (1 - x^2/(2 3) (1 - x^2/(4 5) (...))), and the cosine alike.
     fn sin_cos_small(self) -> (Self, Self) {
         series::sin_cos(self, TERMS)
-    }
-}
-
-impl Real for DoubleDouble {
-    const ROUNDOFF: f64 = 0.5 * f64::EPSILON * f64::EPSILON;
-    // Its square is far below the roundoff: a root close to another one,
-    // where Newton's iteration squares with a large factor, is met too.
-    const NEWTON_STEP: f64 = 1e-20;
-
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self.hi
     }
 
     fn sqrt(self) -> Self {
@@ -229,20 +212,27 @@ impl Real for DoubleDouble {
     fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
     }
+}
+
+impl Real for DoubleDouble {
+    const ROUNDOFF: f64 = 0.5 * f64::EPSILON * f64::EPSILON;
+    // Its square is far below the roundoff: a root close to another one,
+    // where Newton's iteration squares with a large factor, is met too.
+    const NEWTON_STEP: f64 = 1e-20;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.hi
+    }
 
     fn sin_cos(self) -> (Self, Self) {
         if !self.hi.is_finite() {
             return (Self::from_f64(f64::NAN), Self::from_f64(f64::NAN));
         }
         let turns = (self.hi / RIGHT_ANGLE[0]).round();
-        let (s, c) = self.less(turns, RIGHT_ANGLE).sin_cos_small();
         // The angles of the model are a few turns at most.
-        match turns.rem_euclid(4.0) {
-            1.0 => (c, -s),
-            2.0 => (-s, -c),
-            3.0 => (-c, s),
-            _ => (s, c),
-        }
+        let rest = self.less(turns, RIGHT_ANGLE);
+        series::turned(rest.sin_cos_small(), turns)
     }
 
     fn exp(self) -> Self {
@@ -270,14 +260,8 @@ impl Real for DoubleDouble {
         start + step - step * step * Self::from_f64(0.5)
     }
 
-    /// From a double y near it: sin(asin x - y) = x cos y - sqrt(1 - x^2)
-    /// sin y, and the arc of that small sine.
     fn asin(self) -> Self {
-        let y = Self::from_f64(libm::asin(self.hi));
-        let (s, c) = y.sin_cos();
-        let room = (Self::one() - self) * (Self::one() + self);
-        let step = self * c - room.sqrt() * s;
-        y + step + step * step * step * Self::ratio(1, 6)
+        series::asin(self, 1)
     }
 
     fn right_angle() -> Self {

@@ -1,4 +1,5 @@
-//! Simd numbers at once, operation by operation as one.
+//! Eight numbers at once. Each operation gives every lane the bits of a scalar
+//! operation.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
@@ -26,17 +27,11 @@ pub trait Simd: Number {
     /// To memory.
     fn store(self, to: &mut Lanes);
 
-    /// Absolute values.
-    fn abs(self) -> Self;
-
     /// The larger numbers.
     fn max(self, other: Self) -> Self;
 
     /// The smaller numbers.
     fn min(self, other: Self) -> Self;
-
-    /// Square roots.
-    fn sqrt(self) -> Self;
 
     /// Lanes in which this is less than `other`.
     fn lt(self, other: Self) -> Self::Mask;
@@ -61,7 +56,10 @@ pub trait Mask<N>: Copy {
     fn bits(self) -> u8;
 
     /// Where it is false.
-    fn not(self) -> Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self::splat(true).but_not(self)
+    }
 
     /// Where both are true.
     fn and(self, other: Self) -> Self;
@@ -128,11 +126,6 @@ impl Simd for Lanes {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.map(f64::abs))
-    }
-
-    #[inline(always)]
     fn max(self, other: Self) -> Self {
         other.lt(self).select(self, other)
     }
@@ -140,11 +133,6 @@ impl Simd for Lanes {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         self.lt(other).select(self, other)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.map(f64::sqrt))
     }
 
     #[inline(always)]
@@ -201,11 +189,6 @@ impl Mask<Lanes> for LaneMask {
     }
 
     #[inline(always)]
-    fn not(self) -> Self {
-        Self(self.0.map(|x| !x))
-    }
-
-    #[inline(always)]
     fn and(self, other: Self) -> Self {
         Self(from_fn(|k| self.0[k] & other.0[k]))
     }
@@ -252,24 +235,11 @@ impl IndexMut<usize> for Lanes {
     }
 }
 
-macro_rules! lane_by_lane {
-    ($($operation:ident $method:ident $symbol:tt;)*) => {$(
-        impl $operation for Lanes {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(from_fn(|k| self.0[k] $symbol other.0[k]))
-            }
-        }
-    )*};
-}
-
-lane_by_lane! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-    Div div /;
+operators! { Lanes:
+    Add add |a, b| Self(from_fn(|k| a.0[k] + b.0[k]));
+    Sub sub |a, b| Self(from_fn(|k| a.0[k] - b.0[k]));
+    Mul mul |a, b| Self(from_fn(|k| a.0[k] * b.0[k]));
+    Div div |a, b| Self(from_fn(|k| a.0[k] / b.0[k]));
 }
 
 impl Neg for Lanes {
@@ -294,6 +264,16 @@ impl Number for Lanes {
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         Self(from_fn(|k| Number::mul_add(self.0[k], b.0[k], c.0[k])))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(f64::abs))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
     }
 }
 

@@ -334,8 +334,12 @@ impl Number for Octuple {
         Self::from_f64(f64::from(i)) / Self::from_f64(f64::from(j))
     }
 
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        self * b + c
+    fn sqrt(self) -> Self {
+        self.root()
+    }
+
+    fn abs(self) -> Self {
+        Self { negative: false, ..self }
     }
 
     fn sin_cos_small(self) -> (Self, Self) {

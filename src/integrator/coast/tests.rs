@@ -3,7 +3,7 @@ use super::{Coast, coast};
 use crate::block::{Block, Restitution};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::motion::{BlockMotion, RunTrace};
-use crate::integrator::{Side, WorkLimit};
+use crate::integrator::{Observe, Side};
 use crate::number::double::DoubleDouble;
 use crate::number::{Number, Real};
 
@@ -18,9 +18,8 @@ fn overturns(model: Model, eta: f64, u: f64, w: f64) -> Option<(f64, Side)> {
     let ask = Coast {
         dynamics: &dynamics,
         start_s: 0.0,
-        events: false,
+        observe: &Observe::default(),
         until_s: None,
-        limit: WorkLimit::default(),
     };
     let motion = BlockMotion { side: Side::Positive, u, w };
     coast(&ask, motion, &mut RunTrace::empty()).overturned

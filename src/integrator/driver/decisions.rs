@@ -1,4 +1,4 @@
-//! What a run decides, held against the error of its state.
+//! Decisions of a run, each compared with the error of the state.
 
 use crate::integrator::ImpactError;
 use crate::integrator::accuracy::{Accuracy, Leg};
@@ -11,28 +11,28 @@ use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Moment};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::PROPAGATION;
-use crate::integrator::taylor::{TaylorSeries, value};
+use crate::integrator::taylor::{TaylorSeries, size, value};
 use crate::number::Real;
 
-/// Ratio of a rotation beyond overturning to its error at which nothing more
-/// need be looked at.
+/// Ratio of a rotation beyond overturning to its error at which the search
+/// ends.
 const FAR_BEYOND: f64 = 1e4;
 
 /// Relative slack of bounds that are taken in double precision.
 const SLACK: f64 = 1e-14;
 
-/// A step as the tracked errors see it.
+/// A step whose errors are tracked.
 pub(super) struct Stride<N> {
-    /// Motion before and after, (u, w).
+    /// Motion before and after the step, (u, w).
     pub ends: [(N, N); 2],
-    /// Its length, in units of 1/p.
+    /// Length of the step, in units of 1/p.
     pub tau: N,
-    /// What its series leaves of the velocity.
+    /// Truncation error of the velocity.
     pub left: N,
 }
 
 impl<N: Real> RunTrace<N> {
-    /// What tracks errors.
+    /// The trackers of errors.
     pub fn trackers(&mut self) -> impl Iterator<Item = &mut Accuracy> {
         self.accuracy.iter_mut().chain(&mut self.inputs)
     }
@@ -41,9 +41,9 @@ impl<N: Real> RunTrace<N> {
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// Carries the errors over the part (0, `x`) of a step from a place, and
-    /// notes what is decided in flight: that the block does not touch its
-    /// base, and does not reach overturning.
+    /// Propagates the errors over the part (0, `x`) of a step from a place and
+    /// notes the decisions of the flight: that the block does not touch its
+    /// base and does not reach overturning.
     #[inline(always)]
     pub(super) fn assess<const LEN: usize>(
         &mut self,
@@ -135,22 +135,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if !(v[0] < N::zero()) {
             return false;
         }
-        let mut rest = N::zero();
-        for k in (2..LEN).rev() {
-            rest = rest + c[k].abs();
-        }
         let low = self.dynamics.alpha * N::from_f64(PROPAGATION);
-        if c[0] + c[1] > low + rest {
+        if c[0] + c[1] > low + size(&c[2..]) {
             return false;
         }
-        let mut variation = N::zero();
-        for k in (1..LEN).rev() {
-            variation = variation + v[k].abs();
-        }
-        !(v[0].abs() > variation)
+        !(v[0].abs() > size(&v[1..]))
     }
 
-    /// Takes the first lowest rotation of a step into the rough certificate.
+    /// Adds the first lowest rotation of a step to the rough certificate.
     #[inline(never)]
     pub(super) fn screen_turning<const LEN: usize>(
         &mut self,
@@ -167,8 +159,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.screen = Some(screen.miss(lowest));
     }
 
-    /// Takes free motion into the rough certificate, before which the peak
-    /// was another: energy carries the error to a higher one.
+    /// Adds free motion to the rough certificate. `before` is the peak before
+    /// it; energy carries the error to a higher peak.
     pub(super) fn screen_coast(&mut self, before: N) {
         let alpha = self.dynamics.alpha;
         let peak = self.record.peak;
@@ -180,9 +172,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// The rough certificate at the end of a run: what it decides last, if
-    /// it does, has some margin over alpha, and a block that stands never
-    /// came nearer to the other fate than `own`.
+    /// The rough certificate at the end of a run. `margin` is that of its last
+    /// decision, if there is one; a block that stands has kept a distance of
+    /// at least `own` from overturning. Both are ratios to alpha.
     pub(super) fn screened(
         &self,
         margin: Option<f64>,
@@ -196,13 +188,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if own.is_some() {
             screen = screen.stand(alpha);
         }
-        // Of it, at least so much is the error over all of alpha.
+        // At least this part of it is the error over the whole of alpha.
         let near = PROPAGATION / own.unwrap_or(1.0);
         let doubt = screen.doubt.to_f64();
         Some((doubt * near.mul_add(near, 1.0)).sqrt())
     }
 
-    /// A step as the errors see it.
+    /// Input of [`Accuracy::step`] for a step.
     fn flown(&self, step: &Stride<N>, drive: &Drive<N, F>) -> Leg {
         let Stride { ends: [from, to], tau, left } = step;
         let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
@@ -235,9 +227,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Notes an impact at `speed` with the accelerations u'' just before and
-    /// after it, `f` being the forcing on the new branch; returns bounds on
-    /// its errors.
+    /// Notes an impact at `speed`. `before` is the acceleration u'' just before
+    /// the impact and `f` the forcing on the new branch. Returns bounds on the
+    /// errors of the impact.
     #[inline(never)]
     pub(super) fn assess_impact(
         &mut self,
@@ -253,10 +245,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let note = |tracker: &mut Accuracy| {
             let speed = speed.to_f64();
             let errors = tracker.impact(eta, speed, accelerations, time_s);
-            if tracker.is_in_motion() {
-                let sure = self.surely_rests(place, speed, errors, f);
-                tracker.rest_surely(sure);
-            }
+            tracker.resting |=
+                !tracker.resting && self.surely_rests(place, speed, errors, f);
             errors
         };
         let mut own = self.record.accuracy?;
@@ -265,14 +255,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         inputs.as_mut().map(note);
         (self.record.accuracy, self.record.inputs) = (Some(own), inputs);
         let p = self.dynamics.p.to_f64();
-        own.certificate().is_clear().then(|| ImpactError {
+        own.certificate.is_clear().then(|| ImpactError {
             time_s: late / p + 2.0 * N::ROUNDOFF * time_s,
             speed_rad_s: met * p,
         })
     }
 
-    /// Whether the impacts after one at `speed` surely end in a rest within
-    /// the piece, the errors of its time and speed being what they are.
+    /// True if the impacts after one at `speed` surely end in a rest within
+    /// the piece, given the errors of its time and speed.
     fn surely_rests(
         &self,
         place: Moment<N>,
@@ -318,20 +308,20 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         });
     }
 
-    /// Takes in whether outcome and peak are surely known, for a block that
-    /// leaves its base at `w` where all below `fastest` need not be followed.
+    /// Notes whether outcome and peak are final for a block that leaves its
+    /// base at `w`: they are if `w` is surely below `fastest`.
     #[inline(never)]
     pub(super) fn assess_settled(&mut self, w: N, fastest: N) {
         let room = (fastest - w).to_f64();
         for tracker in self.record.trackers() {
             if room > CLEARANCE * tracker.bound([0.0, 1.0]) {
-                tracker.settle();
+                tracker.settled = true;
             }
         }
     }
 
-    /// Notes an overturning: how far beyond its limit the rotation gets, over
-    /// its error there.
+    /// Notes an overturning by the ratio of the rotation beyond its limit to
+    /// the error there.
     #[inline(never)]
     pub(super) fn assess_beyond(
         &mut self,

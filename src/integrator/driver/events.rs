@@ -1,26 +1,26 @@
-//! What happens within a step: the first impact or overturning, and the
-//! turning points before it.
+//! Events within a step: the first impact or overturning, and the turning
+//! points before it.
 
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::roots::first_descent;
-use crate::integrator::taylor::{TaylorSeries, value};
+use crate::integrator::taylor::{TaylorSeries, size, size_at, value};
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
 
-/// Pieces after a peak before it is asked whether what is left matters: most
-/// peaks are followed by a higher one, and the answer costs as much as some
-/// ten steps.
+/// Pieces from a peak to the next early-termination test. A higher peak follows
+/// most peaks, and the test costs as much as some ten steps.
 const PATIENCE: usize = 160;
 
-/// What happened in a step, and after which part of it.
+/// An event of a step, with the part of the step before it.
 pub(super) enum Event<N> {
     None,
     Impact(N),
     Overturning(N),
 }
+
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
@@ -31,10 +31,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         c: &[N; LEN],
     ) -> Event<N> {
         // Bound on |u - c_0 - c_1 x| / x over the step.
-        let mut rest = N::zero();
-        for k in (2..LEN).rev() {
-            rest = rest + c[k].abs();
-        }
+        let rest = size(&c[2..]);
         let (down, up) = (-(-c[1]).positive_part(), c[1].positive_part());
         let clear_of_base = is_clear_of_base([c[0], c[1]], down, rest);
         let clear_of_limit = c[0] + up + rest < self.dynamics.limit;
@@ -72,22 +69,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         step: (Moment<N>, N),
     ) {
         let TaylorSeries { c, v } = series;
-        let mut rest = N::zero();
-        for k in (2..LEN).rev() {
-            rest = rest.mul_add(x, c[k].abs());
-        }
         let rise = (c[1] * x).positive_part();
-        if !(c[0] + rise + rest * x * x > self.record.peak) {
-            return;
+        let rest = size_at(&c[2..], x) * x * x;
+        let may_rise = c[0] + rise + rest > self.record.peak;
+        if may_rise && !(v[0].abs() > size_at(&v[1..], x) * x) {
+            self.raise_by_turning(series, x, step);
         }
-        let mut variation = N::zero();
-        for k in (1..LEN).rev() {
-            variation = variation.mul_add(x, v[k].abs());
-        }
-        if v[0].abs() > variation * x {
-            return;
-        }
-        self.raise_by_turning(series, x, step);
     }
 
     #[inline(never)]
@@ -99,30 +86,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) {
         let isa = self.isa;
         isa.run(TurningKernel { driver: self, series, x, step });
-    }
-
-    #[inline(always)]
-    pub(super) fn locate_turning_points<const LEN: usize>(
-        &mut self,
-        series: &TaylorSeries<N, LEN>,
-        x: N,
-        (place, length): (Moment<N>, N),
-    ) {
-        let isa = self.isa;
-        let mut v = series.v;
-        let mut from = N::zero();
-        // At most LEN turning points lie in a step.
-        for _ in 0..LEN {
-            let Some((turn, rising)) = next_turning(&mut v, x - from, isa)
-            else {
-                return;
-            };
-            from = from + turn;
-            if rising {
-                let top = value(&series.c, from);
-                self.raise_peak(top, place, from * length);
-            }
-        }
     }
 
     /// Counts a turning point at `u`, `tau` after a place, if it is the
@@ -142,9 +105,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// How far an overturning is from none, over alpha: next turning value
-    /// of |theta| beyond it, less the rotation that counts; if the block
-    /// never turns, its velocity there.
+    /// Margin of an overturning, over alpha: the next turning value of |theta|
+    /// less the rotation that counts as overturned. If the block never turns,
+    /// its velocity there.
     #[inline(never)]
     pub(super) fn margin_beyond<const SIZE: usize>(
         &self,
@@ -153,46 +116,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) -> f64 {
         self.isa.run(Beyond::<_, _, SIZE, _, _> { driver: self, from, motion })
     }
-
-    #[inline(always)]
-    pub(super) fn turning_beyond<const SIZE: usize>(
-        &self,
-        from: Moment<N>,
-        motion: BlockMotion<N>,
-    ) -> f64 {
-        let BlockMotion { side, mut u, mut w } = motion;
-        let never = (w / self.dynamics.alpha).to_f64();
-        if self.dynamics.overturning == Overturning::HalfPi {
-            return never;
-        }
-        let mut offset = from.offset;
-        for piece in from.piece..self.forcing.pieces() {
-            let left = self.forcing.length(piece) - offset;
-            let f = self.oriented(Moment { piece, offset }, side, false);
-            let drive = self.dynamics.drive(f);
-            let series: TaylorSeries<N, SIZE> =
-                self.expand((u, w), left, &drive);
-            if let Some(x) = first_descent(&series.v, N::one(), self.isa) {
-                return self.beyond(value(&series.c, x));
-            }
-            (u, w) = series.end();
-            if !(u < N::right_angle()) {
-                return never;
-            }
-            offset = N::zero();
-        }
-        // Beyond the saddle and moving outwards, nothing turns it back.
-        never
-    }
-
-    pub(super) fn beyond(&self, u: N) -> f64 {
-        ((u - self.dynamics.alpha) / self.dynamics.alpha).to_f64()
-    }
 }
 
-/// Whether a polynomial that starts with c_0 + c_1 x surely stays above zero
-/// to x = 1: c_1 x adds `down` at the lowest, the other terms at most `rest`
-/// times x.
+/// True if a polynomial that starts with c_0 + c_1 x surely stays above zero up
+/// to x = 1. The least value of c_1 x is `down`; the other terms are at most
+/// `rest` times x.
 #[inline(always)]
 fn is_clear_of_base<N: Real>(
     [start, slope]: [N; 2],
@@ -209,17 +137,43 @@ struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
     motion: BlockMotion<N>,
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Kernel
-    for Beyond<'_, N, G, SIZE, F, HARD>
-where
+impl<
     N: Real,
     G: Forcing<N, F>,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> Kernel for Beyond<'_, N, G, SIZE, F, HARD>
 {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        self.driver.turning_beyond::<SIZE>(self.from, self.motion)
+        let Self { driver, from, motion } = self;
+        let BlockMotion { side, mut u, mut w } = motion;
+        let alpha = driver.dynamics.alpha;
+        let never = (w / alpha).to_f64();
+        if driver.dynamics.overturning == Overturning::HalfPi {
+            return never;
+        }
+        let mut offset = from.offset;
+        for piece in from.piece..driver.forcing.pieces() {
+            let left = driver.forcing.length(piece) - offset;
+            let f = driver.oriented(Moment { piece, offset }, side, false);
+            let drive = driver.dynamics.drive(f);
+            let series: TaylorSeries<N, SIZE> =
+                driver.expand((u, w), left, &drive);
+            if let Some(x) = first_descent(&series.v, N::one(), driver.isa) {
+                return ((value(&series.c, x) - alpha) / alpha).to_f64();
+            }
+            (u, w) = series.end();
+            if !(u < N::right_angle()) {
+                return never;
+            }
+            offset = N::zero();
+        }
+        // Beyond the saddle and moving outwards, nothing turns it back.
+        never
     }
 }
 
@@ -238,23 +192,36 @@ struct TurningKernel<
     step: (Moment<N>, N),
 }
 
-impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
-    for TurningKernel<'_, N, G, LEN, F, HARD>
-where
+impl<
     N: Real,
     G: Forcing<N, F>,
+    const LEN: usize,
+    const F: usize,
+    const HARD: usize,
+> Kernel for TurningKernel<'_, N, G, LEN, F, HARD>
 {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { driver, series, x, step } = self;
-        driver.locate_turning_points(series, x, step);
+        let Self { driver, series, x, step: (place, length) } = self;
+        let mut v = series.v;
+        let mut from = N::zero();
+        // At most LEN turning points lie in a step.
+        for _ in 0..LEN {
+            let next = next_turning(&mut v, x - from, driver.isa);
+            let Some((turn, rising)) = next else { return };
+            from = from + turn;
+            if rising {
+                let top = value(&series.c, from);
+                driver.raise_peak(top, place, from * length);
+            }
+        }
     }
 }
 
-/// The next turning point of a step of velocity `v` within `left`, and
-/// whether the rotation rises before it; moves the origin of `v` there.
+/// The next turning point, within `left`, of a step of velocity `v`, and whether
+/// the rotation rises before it. Moves the origin of `v` there.
 #[inline(always)]
 pub(super) fn next_turning<N: Real, const LEN: usize>(
     v: &mut [N; LEN],

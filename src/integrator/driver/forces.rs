@@ -26,34 +26,34 @@ use crate::number::dispatch::Kernel;
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
 
-/// Parts of a step at whose ends the forces are looked at.
+/// Parts of a step at whose ends the forces are evaluated.
 const PARTS: usize = 4;
 
 /// Narrowings of the place of an extreme within a step.
 const NARROWINGS: usize = 40;
 
-/// What the motion of a run asks of the pivot.
+/// Friction and normal force that a run needs at the pivot.
 ///
-/// Extremes over rest and flight; the impulses of impacts are not forces. They
-/// are found on the polynomials of the steps.
+/// Extremes over rest and flight, found on the polynomials of the steps. The
+/// impulses of impacts are not forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Forces {
-    /// Largest |H|/N: the block does not slide where the coefficient of
-    /// friction is above it. Infinite where N is not positive.
+    /// Largest |H|/N: the block does not slide if the coefficient of friction
+    /// is larger. Infinite if N is not positive.
     pub friction: f64,
-    /// When it was reached, s; none at rest.
+    /// Time of the largest |H|/N, s; `None` at rest.
     pub friction_time_s: Option<f64>,
-    /// Least N/(m g): the block leaves the ground where it is not positive.
+    /// Least N/(m g): the block leaves the ground if it is not positive.
     pub least_normal_over_weight: f64,
-    /// When it was reached, s; none at rest.
+    /// Time of the least N/(m g), s; `None` at rest.
     pub least_normal_time_s: Option<f64>,
 }
 
 impl Forces {
-    /// Before the first uplift of a scene. A block that is never released
-    /// rests under all of |a|/g up to the threshold.
+    /// Forces before the first uplift of a scene. A block that is never
+    /// released rests under every |a|/g up to the threshold.
     pub(crate) fn at_rest(scene: &Scene<'_>) -> Self {
         let pga_g = match scene.excitation {
             Excitation::Record(record) => {
@@ -86,7 +86,7 @@ impl Forces {
     }
 }
 
-/// |H|/N; infinite where the ground would have to pull.
+/// |H|/N; infinite if the ground would have to pull.
 #[inline(always)]
 fn ratio(horizontal: f64, normal: f64) -> f64 {
     if normal > 0.0 { horizontal.abs() / normal } else { f64::INFINITY }
@@ -113,8 +113,8 @@ fn at_pivot<N: Real>(
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// Forces within the part (0, `x`) of a step from a place, of some
-    /// length, under the series of f.
+    /// Takes in the forces within the part (0, `x`) of a step of `length` from a
+    /// place, under the series of f.
     #[inline(never)]
     pub(super) fn see_forces<const LEN: usize>(
         &mut self,
@@ -165,11 +165,11 @@ impl<N: Real, const LEN: usize, const F: usize> Kernel
         let span = (self.x * self.length).to_f64();
         let per_s = self.dynamics.p.to_f64();
         let time_s = |part: f64| self.start_s + part * span / per_s;
+        let end = |k: usize| k as f64 / PARTS as f64;
         let mut found = [(0.0, 0.0); PARTS + 1];
         for (k, forces) in found.iter_mut().enumerate() {
-            let part = k as f64 / PARTS as f64;
-            *forces = self.at(part);
-            seen.see(*forces, time_s(part));
+            *forces = self.at(end(k));
+            seen.see(*forces, time_s(end(k)));
         }
         for friction in [true, false] {
             let of = |forces: (f64, f64)| match friction {
@@ -181,9 +181,7 @@ impl<N: Real, const LEN: usize, const F: usize> Kernel
                     true => seen.friction,
                     false => -seen.least_normal_over_weight,
                 };
-                let three = [of(found[k - 1]), of(found[k]), of(found[k + 1])];
-                if crest(three) > best {
-                    let end = |k: usize| k as f64 / PARTS as f64;
+                if crest([k - 1, k, k + 1].map(|k| of(found[k]))) > best {
                     let ends = (end(k - 1), end(k + 1));
                     let top = highest(ends, |part| of(self.at(part)));
                     seen.see(self.at(top), time_s(top));
@@ -194,8 +192,8 @@ impl<N: Real, const LEN: usize, const F: usize> Kernel
     }
 }
 
-/// Height of the parabola through three values, and a little more, where the
-/// middle one is the highest; minus infinity otherwise.
+/// A little more than the height of the parabola through three values if the
+/// middle one is the highest, otherwise minus infinity.
 #[inline(always)]
 fn crest([before, here, after]: [f64; 3]) -> f64 {
     if !(here >= before && here >= after && here.is_finite()) {
@@ -206,7 +204,7 @@ fn crest([before, here, after]: [f64; 3]) -> f64 {
     here + 2.0 * rise
 }
 
-/// Where a function of one hump is highest between two ends.
+/// Place between two ends at which a function with one maximum is largest.
 #[inline(always)]
 fn highest((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..NARROWINGS {

@@ -57,7 +57,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             .record
             .accuracy
             .and_then(|_| self.assess_impact(step.place, speed, before, &f));
-        if self.events && positive(speed).is_some() {
+        if self.observe.events && positive(speed).is_some() {
             self.record.impacts.push(Impact {
                 time_s: self.time_s(step.place),
                 speed_before_rad_s: speed * self.dynamics.p,
@@ -165,7 +165,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         left: N,
     ) -> Option<Chatter<N>> {
         let chatter = self.accumulation(f, w, left)?;
-        let tail = if self.events {
+        let tail = if self.observe.events {
             tail_speed::<N>()
         } else if self.record.forces.is_some() {
             TAIL_OF_FORCES

@@ -8,7 +8,8 @@ use crate::number::Real;
 use crate::stop;
 
 impl<N: Real> RunTrace<N> {
-    /// True once the work passes the limit, which is seen first at a time.
+    /// True once the work has passed the limit; keeps the first time at which
+    /// that was noticed.
     #[inline(always)]
     pub fn exceeds(&mut self, limit: WorkLimit, time_s: N) -> bool {
         stop::point();
@@ -32,27 +33,21 @@ impl<N: Real> RunTrace<N> {
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// Impacts left before the run is refused.
-    #[inline(always)]
-    pub fn impacts_left(&self) -> u64 {
-        self.limit.impacts.saturating_sub(self.record.work.impacts)
-    }
-
-    /// Why a run that stands here is refused, if it is.
+    /// Why the run is refused at this stage, if it is.
     #[inline(always)]
     pub fn refusal(&mut self, stage: &Stage<N>) -> Option<SceneError> {
         stop::point();
         if let Stage::Flying(step) = stage {
             let Work { impacts, steps, .. } = self.record.work;
-            if impacts > self.limit.impacts || steps > self.limit.steps {
-                let time_s = self.time_s(step.place);
-                self.record.exceeds(self.limit, time_s);
+            let limit = self.observe.work_limit;
+            if impacts > limit.impacts || steps > limit.steps {
+                self.record.exceeds(limit, self.time_s(step.place));
             }
         }
         self.record.exceeded
     }
 
-    /// The answer after a flight, unless the work passes the limit.
+    /// The response after a flight, unless the work has passed the limit.
     #[inline(always)]
     pub fn within_limit(
         &mut self,
@@ -62,13 +57,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             Flight::Rest(_, time_s) | Flight::Overturned { time_s, .. } => {
                 *time_s
             }
-            Flight::Settled | Flight::End(_) | Flight::Doubtful => {
-                self.end_s()
-            }
             Flight::Stopped => self.until_s.unwrap_or(self.end_s()),
+            _ => self.end_s(),
         };
         let response = self.conclude(flight);
-        self.record.exceeds(self.limit, time_s);
+        self.record.exceeds(self.observe.work_limit, time_s);
         self.record.exceeded.map_or(Ok(response), Err)
     }
 }

@@ -1,4 +1,4 @@
-//! One step of the driver: its series, and how much that leaves.
+//! One step of the driver: its series and the truncation error of it.
 
 use crate::integrator::driver::decisions::Stride;
 use crate::integrator::driver::events::Event;
@@ -12,24 +12,13 @@ use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
 use crate::number::{Number, Real};
 
-/// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
-/// error estimate says what it leaves.
+/// Most halvings of a step. A part of 2^-12 is accepted as it is; the error
+/// estimate includes its truncation error.
 const HALVINGS: u32 = 12;
 
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// One step: to its end, or to the first event in it.
-    #[inline(always)]
-    pub(super) fn advance<const SIZE: usize>(
-        &mut self,
-        step: &mut Step<N>,
-        length: N,
-    ) -> Advance<N> {
-        self.attempt::<SIZE>(step, length)
-            .unwrap_or_else(|| self.advance_hard(step, length))
-    }
-
     /// A step whose truncation error under the short series is too large: a
     /// longer series, then a shorter step.
     #[inline(never)]
@@ -41,38 +30,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.isa.run(Hard { driver: self, step, length })
     }
 
-    #[inline(always)]
-    pub(super) fn lengthened(
-        &mut self,
-        step: &mut Step<N>,
-        length: N,
-    ) -> Advance<N> {
-        let mut part = length;
-        for halving in 0..=HALVINGS {
-            let last = halving == HALVINGS;
-            let tolerance = self.tolerance;
-            if last {
-                self.tolerance = N::one() / N::zero();
-            }
-            let done = self.attempt::<HARD>(step, part);
-            self.tolerance = tolerance;
-            match done {
-                // Short of the step's end: go on from there.
-                Some(Advance::Reached) if halving > 0 => {
-                    return Advance::Bounced;
-                }
-                Some(done) => return done,
-                None => part = part * N::ratio(1, 2),
-            }
-        }
-        // Nothing bounds a motion that is not a number.
-        let time_s = self.time_s(step.place).to_f64();
-        let error = SceneError::NotANumber { time_s };
-        self.record.exceeded.get_or_insert(error);
-        Advance::Ended(Flight::Stopped)
-    }
-
-    /// A step by a series of `LEN` coefficients, unless it leaves too much.
+    /// Makes a step by a series of `LEN` coefficients, to the end of the step or
+    /// to its first event. `None` if the truncation error is too large.
     #[inline(always)]
     pub(super) fn attempt<const LEN: usize>(
         &mut self,
@@ -100,16 +59,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         length: N,
     ) -> Option<Advance<N>> {
         let isa = self.isa;
-        isa.run(AssessedStepKernel::<_, _, LEN, _, _> {
-            driver: self,
-            step,
-            length,
-        })
+        let driver = self;
+        isa.run(AssessedStepKernel::<_, _, LEN, _, _> { driver, step, length })
     }
 
-    /// A step by its series, unless that leaves too much; with the forcing
-    /// and with sine and cosine of the rotation at its start, and with what it
-    /// leaves of the velocity where it is assessed.
+    /// Makes a step by its series. `None` if the truncation error is too large.
+    /// `small` is sine and cosine of the rotation at the start of the step;
+    /// `left` is the truncation error of the velocity, if the step is assessed.
     #[inline(always)]
     fn take<const LEN: usize>(
         &mut self,
@@ -135,7 +91,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if let Some(left) = left {
             let left = match event {
                 Event::None => left,
-                _ => left * power(x, LEN - 1),
+                _ => left * (1..LEN).fold(N::one(), |power, _| power * x),
             };
             let ends = [(u, w), (end_u, end_w)];
             let stepped = Stride { ends, tau, left };
@@ -152,34 +108,26 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         if self.watched {
             self.sample_step(series, (tau, length), step.place, side);
-            let oriented = self.oriented(step.place, side, step.at_threshold);
-            self.see_forces(series, &oriented, (x, length), step.place);
+            self.see_forces(series, &drive.f, (x, length), step.place);
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
-        match event {
-            Event::None => {
-                if self.screen.is_some() && self.may_miss(series) {
-                    self.screen_turning(series);
-                }
-                step.motion = BlockMotion { side, u: end_u, w: end_w };
-                Some(Advance::Reached)
-            }
-            Event::Overturning(_) => {
-                step.motion = BlockMotion { side, u: end_u, w: end_w };
-                Some(Advance::Overturned)
-            }
-            Event::Impact(_) => {
-                let before = slope(v, x) / length;
-                Some(
-                    self.impact(step, -end_w, before)
-                        .map_or(Advance::Bounced, Advance::Ended),
-                )
-            }
+        if let Event::Impact(_) = event {
+            let before = slope(v, x) / length;
+            let end = self.impact(step, -end_w, before);
+            return Some(end.map_or(Advance::Bounced, Advance::Ended));
         }
+        step.motion = BlockMotion { side, u: end_u, w: end_w };
+        if let Event::Overturning(_) = event {
+            return Some(Advance::Overturned);
+        }
+        if self.screen.is_some() && self.may_miss(series) {
+            self.screen_turning(series);
+        }
+        Some(Advance::Reached)
     }
 
-    /// The end of a flight whose step stands at its overturning.
+    /// The end of a flight at the place of its overturning.
     #[inline(always)]
     pub(super) fn overturned<const SIZE: usize>(
         &mut self,
@@ -207,7 +155,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         expand(model, (u, w), length, drive, self.sine_cosine(u))
     }
 
-    /// Sine and cosine of a rotation, as the model has them.
+    /// Sine and cosine of a rotation in the approximation of the model.
     #[inline(always)]
     fn sine_cosine(&self, u: N) -> (N, N) {
         match self.dynamics.model {
@@ -236,15 +184,15 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         series
     }
 
-    /// Error of the velocity that a step of `length` from a velocity `w` may
-    /// leave.
+    /// Truncation error of the velocity allowed in a step of `length` from a
+    /// velocity `w`.
     #[inline(always)]
     fn allowed(&self, w: N, length: N) -> N {
         self.tolerance * self.dynamics.alpha.mul_add(length, w.abs())
     }
 
-    /// Last coefficient of the velocity that leaves as much as is allowed
-    /// over a step of `length`, per unit of the velocity.
+    /// Largest last coefficient of the velocity, per unit of the velocity, whose
+    /// truncation error is allowed in a step of `length`.
     #[inline(always)]
     pub fn last_allowed(&self, length: N) -> N {
         self.tolerance / last_term(N::one(), length)
@@ -258,22 +206,40 @@ struct Hard<'d, N, G, const F: usize, const HARD: usize> {
     length: N,
 }
 
-impl<N, G, const F: usize, const HARD: usize> Kernel
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize> Kernel
     for Hard<'_, N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
 {
     type Output = Advance<N>;
 
     #[inline(always)]
     fn run(self) -> Advance<N> {
-        self.driver.lengthened(self.step, self.length)
+        let Self { driver, step, length: mut part } = self;
+        let tolerance = driver.tolerance;
+        for halving in 0..=HALVINGS {
+            if halving == HALVINGS {
+                driver.tolerance = N::one() / N::zero();
+            }
+            let done = driver.attempt::<HARD>(step, part);
+            driver.tolerance = tolerance;
+            match done {
+                // Short of the end of the step: go on from there.
+                Some(Advance::Reached) if halving > 0 => {
+                    return Advance::Bounced;
+                }
+                Some(done) => return done,
+                None => part = part * N::ratio(1, 2),
+            }
+        }
+        // Nothing bounds a motion that is not a number.
+        let time_s = driver.time_s(step.place).to_f64();
+        let error = SceneError::NotANumber { time_s };
+        driver.record.exceeded.get_or_insert(error);
+        Advance::Ended(Flight::Stopped)
     }
 }
 
 /// An assessed step, compiled for each instruction-set level. It expands the
-/// longest series, of which its own is the beginning.
+/// longest series; the series of the step is its beginning.
 struct AssessedStepKernel<
     'd,
     N,
@@ -287,11 +253,13 @@ struct AssessedStepKernel<
     length: N,
 }
 
-impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
-    for AssessedStepKernel<'_, N, G, LEN, F, HARD>
-where
+impl<
     N: Real,
     G: Forcing<N, F>,
+    const LEN: usize,
+    const F: usize,
+    const HARD: usize,
+> Kernel for AssessedStepKernel<'_, N, G, LEN, F, HARD>
 {
     type Output = Option<Advance<N>>;
 
@@ -318,23 +286,25 @@ where
     }
 }
 
-/// Estimate of the velocity error that a series leaves over a step: the next
-/// coefficient of the velocity is at most about a quarter of its last one
-/// (1/`LEN` for the motion alone; the rest allows for strong forcing).
+/// Estimated truncation error of the velocity over a step. The next coefficient
+/// of the velocity is at most about a quarter of the last one (1/`LEN` for the
+/// motion alone; the rest allows for strong forcing).
 #[inline(always)]
 fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
     last_term(v[LEN - 1].abs(), length)
 }
 
-/// That estimate from the size of the last coefficient.
+/// Estimated truncation error of the velocity, from the size of the last
+/// coefficient.
 #[inline(always)]
 pub(crate) fn last_term<N: Number>(last: N, length: N) -> N {
     N::ratio(1, 4) * last * length
 }
 
-/// That estimate where the last coefficient may be small by accident: under
-/// strong forcing a step from rest has a large one in three. An envelope of
-/// the last three goes on as it fell from the three before.
+/// Estimated truncation error of the velocity if the last coefficient may be
+/// small by accident: under strong forcing only one coefficient in three of a
+/// step from rest is large. The estimate extrapolates the envelope of the last
+/// three from that of the three before.
 fn surely_left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
     let few = (LEN / 2).min(3);
     let largest = |from: usize| {
@@ -346,9 +316,4 @@ fn surely_left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
     let next = N::from_f64(last * falls / (1.0 - falls));
     let left = left_by(v, length);
     if next > left { next } else { left }
-}
-
-/// x to the power `n`.
-fn power<N: Number>(x: N, n: usize) -> N {
-    (0..n).fold(N::one(), |power, _| power * x)
 }

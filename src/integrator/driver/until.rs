@@ -1,32 +1,31 @@
 //! The end of observation: what happens before it, and how surely.
 //!
-//! Uplift and overturning are compared with it as times, a rotation that it
-//! finds below overturning as a rotation. Free motion that it cuts is stepped
-//! to it; the closed form does for one whose outcome and peak are known well
-//! before.
+//! An uplift or an overturning is compared with the end as a time; a block in
+//! flight at the end is compared with overturning as a rotation. Free motion
+//! that the end cuts is stepped up to it. If outcome and peak are known well
+//! before the end, the closed form replaces the steps.
 
 use std::mem;
 
-use crate::integrator::HistoryPoint;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::certificate::CLEARANCE;
 use crate::integrator::coast::last;
 use crate::integrator::driver::{Driver, Flight, Stage, Step};
 use crate::integrator::forcing::{
-    Exceedance, Forcing, Moment, NEAR_THRESHOLD, Shaking,
+    Exceedance, Forcing, NEAR_THRESHOLD, Shaking,
 };
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
 use crate::number::Real;
 
-/// Time (in 1/p) by which what the closed form resolves lies before the end of
+/// Least time (in 1/p) from the last event of the closed form to the end of
 /// observation.
 const WELL_BEFORE: f64 = 1.0;
 
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// True where a time is observed.
+    /// True if a time lies before the end of observation.
     #[inline(always)]
     pub(super) fn observes(&self, time_s: N) -> bool {
         self.until_s.is_none_or(|until_s| time_s < until_s)
@@ -37,7 +36,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         [time_s * self.dynamics.p, time_s].map(Real::to_f64)
     }
 
-    /// The observation stops in flight: the rotation there counts.
+    /// Stops observation in flight: the rotation there counts.
     #[inline(never)]
     pub(super) fn stop(&mut self, step: &Step<N>) {
         let Some(until_s) = self.until_s else { return };
@@ -61,23 +60,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// The point of a history at the end of observation, which rounding may
-    /// place beyond the last step.
-    fn sample_end(&mut self, until_s: N, [theta, rate]: [N; 2]) {
-        let Some(interval_s) = self.interval_s else { return };
-        let time_s = self.record.history.len() as f64 * interval_s;
-        let time_s = N::from_f64(time_s);
-        if time_s <= until_s {
-            self.record.history.push(HistoryPoint {
-                time_s,
-                rotation_rad: theta,
-                velocity_rad_s: rate * self.dynamics.p,
-            });
-        }
-    }
-
-    /// Notes an uplift against the end of observation. It decides where the
-    /// block has not moved yet; a later one starts too slowly to be a peak.
+    /// Compares an uplift with the end of observation. Only a first uplift
+    /// decides something: a later one starts too slowly to be a peak.
     #[inline(never)]
     pub(super) fn assess_first_uplift(
         &mut self,
@@ -109,9 +93,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Notes an overturning at a step's place against the end of observation;
-    /// the rotation, over alpha, that the block passes between, if it is less
-    /// than a margin.
+    /// Compares an overturning at a step's place with the end of observation.
+    /// Returns the rotation, over alpha, that the block passes between the two
+    /// if it is less than a margin, otherwise the margin.
     #[inline(never)]
     pub(super) fn assess_overturned_by_end(
         &mut self,
@@ -130,9 +114,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if passed < margin { passed } else { margin }
     }
 
-    /// True where observation ends before free motion from `motion` on has
-    /// surely resolved outcome and peak. Notes the end against an overturning
-    /// that it has resolved.
+    /// True if observation ends before free motion from `motion` on has surely
+    /// resolved outcome and peak. Compares the end with an overturning if free
+    /// motion has resolved one.
     #[inline(never)]
     pub(super) fn cuts(&mut self, motion: BlockMotion<N>) -> bool {
         let Some(until_s) = self.until_s else { return false };
@@ -156,12 +140,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         false
     }
 
-    /// Steps through the free motion from `motion` on to its rest, to
-    /// overturning or to the end of observation.
+    /// Steps through the free motion from `motion` to rest, overturning or
+    /// the end of observation.
     #[inline(never)]
     pub(super) fn follow(&mut self, motion: BlockMotion<N>) -> Flight<N> {
         let mut free = self.free();
-        free.events = self.events;
         free.until_s = self.until_s;
         free.record = mem::replace(&mut self.record, RunTrace::empty());
         free.screen = self.screen;
@@ -171,13 +154,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         flight
     }
 
-    /// Adds the free motion from `motion` on, which the closed form has
+    /// Adds the free motion that starts at `motion`, which the closed form has
     /// decided, to history and forces.
     #[inline(never)]
     pub(super) fn trace(&mut self, motion: BlockMotion<N>) {
         let end_s = self.end_s();
         let mut free = self.free();
-        free.events = self.interval_s.is_some();
+        free.observe.events = self.observe.history_interval_s.is_some();
         free.until_s = self.until_s.or_else(|| {
             // Without restitution the motion never ends: show some of it.
             let horizon = N::from_f64(60.0) / self.dynamics.p;
@@ -194,27 +177,20 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.record.forces = free.record.forces;
     }
 
-    /// What steps through the free motion after the excitation.
+    /// A driver for the free motion after the excitation.
     fn free(&self) -> Driver<N, Shaking<'static, N>, HARD, HARD> {
         let silence = Shaking::endless(self.end_s(), self.dynamics.p);
         let mut free = Driver::new(self.dynamics, silence, self.isa);
-        free.interval_s = self.interval_s;
+        free.observe = self.observe;
         free.watched = self.watched;
-        free.limit = self.limit;
         free
     }
 }
 
 impl<N: Real, const LEN: usize> Driver<N, Shaking<'_, N>, LEN, LEN> {
-    /// Flies from the start on to the end of the flight, or to the limit of
-    /// work.
+    /// Flies from the start to the end of the flight or to the limit of work.
     fn fly_free(&mut self, motion: BlockMotion<N>) -> Flight<N> {
-        let mut stage = Stage::Flying(Step {
-            place: Moment { piece: 0, offset: N::zero() },
-            index: 0,
-            motion,
-            at_threshold: false,
-        });
+        let mut stage = Stage::Flying(Step::first(motion));
         loop {
             stage = match stage {
                 Stage::Landed(flight) => return flight,

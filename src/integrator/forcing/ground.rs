@@ -1,5 +1,5 @@
-//! Whatever moves the ground, or nothing, as one type: for runs in which the
-//! kind of excitation need not be known to the compiler.
+//! Every kind of ground motion, or none, as one type, for runs in which the
+//! compiler need not know the kind of excitation.
 
 use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::Scene;
@@ -22,7 +22,7 @@ pub(crate) enum Shaking<'a, N> {
 }
 
 impl<'a, N: Real> Shaking<'a, N> {
-    /// What moves the ground of a scene; a record comes with its index.
+    /// The ground motion of a scene. A record comes with its index.
     pub fn of(
         scene: &Scene<'a>,
         index: Option<&'a RecordIndex>,
@@ -40,7 +40,7 @@ impl<'a, N: Real> Shaking<'a, N> {
         }
     }
 
-    /// No piece at all: free motion is left to the closed form.
+    /// No piece: free motion is left to the closed form.
     pub fn nothing() -> Self {
         let (start_s, one) = (N::zero(), N::one());
         Self::Silence(Silence { pieces: 0, start_s, length: one, p: one })
@@ -62,13 +62,6 @@ pub(crate) struct Silence<N> {
     p: N,
 }
 
-impl<N: Real> Silence<N> {
-    fn start_s(&self, piece: usize) -> N {
-        let step = self.length / self.p;
-        N::from_f64(piece as f64).mul_add(step, self.start_s)
-    }
-}
-
 impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
     fn pieces(&self) -> usize {
         match self {
@@ -82,7 +75,9 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
         match self {
             Self::Record(record) => record.start_s(piece),
             Self::Pulse(pulse) => Forcing::<N, F>::start_s(pulse, piece),
-            Self::Silence(silence) => silence.start_s(piece),
+            Self::Silence(Silence { start_s, length, p, .. }) => {
+                N::from_f64(piece as f64).mul_add(*length / *p, *start_s)
+            }
         }
     }
 
@@ -91,14 +86,6 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
             Self::Record(record) => record.length(piece),
             Self::Pulse(pulse) => Forcing::<N, F>::length(pulse, piece),
             Self::Silence(silence) => silence.length,
-        }
-    }
-
-    fn inverse(&self, piece: usize) -> N {
-        match self {
-            Self::Record(record) => record.inverse(piece),
-            Self::Pulse(pulse) => Forcing::<N, F>::inverse(pulse, piece),
-            Self::Silence(silence) => N::one() / silence.length,
         }
     }
 

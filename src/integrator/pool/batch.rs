@@ -6,15 +6,17 @@
 
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Drive, Model, curvature};
-use crate::integrator::pool::chatter::{ChatterLanes, restoring};
-use crate::integrator::pool::group::LaneGroup;
+use crate::integrator::dynamics::{Drive, Model, curvature, restoring};
+use crate::integrator::pool::chatter::ChatterLanes;
+use crate::integrator::pool::group::{LaneConstants, LaneGroup, LaneMotion};
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, LaneQueue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
-use crate::integrator::screen::{Landing, PROPAGATION, Screen, ScreenLeg};
-use crate::integrator::taylor::{TaylorSeries, expand, total, value};
+use crate::integrator::screen::{Landing, PROPAGATION, ScreenLeg};
+use crate::integrator::taylor::{
+    TaylorSeries, expand, size, size_at, total, value,
+};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// A bit for each lane of a batch.
@@ -25,83 +27,58 @@ type Bits = u8;
 pub(super) struct LaneBatch {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
-    u: Lanes,
-    w: Lanes,
-    here: Lanes,
+    motion: LaneMotion,
+    fixed: LaneConstants,
     ahead: Lanes,
-    offset: Lanes,
-    amplitude: Lanes,
-    whole: Lanes,
-    inverse: Lanes,
-    threshold: Lanes,
-    sine: Lanes,
-    cosine: Lanes,
-    peak: Lanes,
-    limit: Lanes,
-    eta: Lanes,
-    alpha: Lanes,
     /// Velocity below which a block that leaves the base need not be followed.
     fastest: Lanes,
-    /// The rough certificates.
-    uu: Lanes,
-    uw: Lanes,
-    ww: Lanes,
-    doubt: Lanes,
 }
 
-/// What became of the lanes of a batch.
+/// Result of a batch.
 #[derive(Default)]
 pub(super) struct BatchSolution {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
-    /// Not solved: left to the scalar driver.
+    /// Lanes not solved: left to the scalar driver.
     pub left: Bits,
-    /// Not solved: for the longest series.
+    /// Lanes not solved: for the longest series.
     pub hard: Bits,
-    /// An impact; the others reach the end of the sample.
+    /// Lanes with an impact; the others reach the end of the sample.
     pub impact: Bits,
-    /// An impact with which the block comes to rest, `rest` after it.
+    /// Lanes whose block comes to rest `rest` after the impact.
     pub rested: Bits,
     pub rest: Lanes,
-    /// An impact after which outcome and peak are known.
+    /// Lanes whose outcome and peak are known after the impact.
     pub settled: Bits,
-    /// The short series was tried before the longest.
+    /// Lanes that tried the short series before the longest.
     pub again: Bits,
-    /// The block turned, at `top` after `turn`.
+    /// Lanes whose block turned, at `top` after `turn`.
     pub turned: Bits,
     pub turn: Lanes,
     pub top: Lanes,
-    pub u: Lanes,
-    pub w: Lanes,
-    pub here: Lanes,
-    pub offset: Lanes,
-    pub amplitude: Lanes,
+    /// Motion after the step.
+    pub motion: LaneMotion,
     /// Speed before the impact, and the forcing on the side before it.
     speed: Lanes,
     f: Lanes,
-    /// The rough certificates; their sums after impacts.
-    pub uu: Lanes,
-    pub uw: Lanes,
-    pub ww: Lanes,
-    pub doubt: Lanes,
 }
 
 /// A turning point of a step, after the part `x`.
 struct TurningLanes<V: Simd> {
-    /// There surely is a highest rotation, or a lowest.
+    /// Lanes with a sure highest rotation, or a sure lowest one.
     top: V::Mask,
     low: V::Mask,
     x: V,
-    /// It takes more to tell.
+    /// Lanes that the scalar driver must decide.
     unsure: V::Mask,
 }
 
 /// The first impact of a step.
 struct FirstImpact<V: Simd> {
-    /// There surely is one, after the part `x`.
+    /// Lanes with a sure impact, after the part `x`.
     found: V::Mask,
     x: V,
-    /// It takes more to tell.
+    /// Lanes that the scalar driver must decide.
     unsure: V::Mask,
     /// Lower bound of the rotation.
     lowest: V,
@@ -116,31 +93,13 @@ impl LaneBatch {
         slots: &mut [Option<Slot<'a, T>>],
     ) {
         (self.lanes, self.count) = queue.take();
-        let out = self;
-        let lanes = out.lanes;
-        for (i, id) in lanes.iter().take(out.count).enumerate() {
+        for (i, id) in self.lanes.iter().take(self.count).enumerate() {
             let (group, lane) = (&mut groups[id.group()], id.lane());
-            out.u[i] = group.u[lane];
-            out.w[i] = group.w[lane];
-            out.here[i] = group.here[lane];
-            out.ahead[i] = group.ahead(lane);
-            out.offset[i] = group.offset[lane];
-            out.amplitude[i] = group.amplitude[lane];
-            out.whole[i] = group.whole[lane];
-            out.inverse[i] = group.inverse[lane];
-            out.threshold[i] = group.threshold[lane];
-            out.sine[i] = group.sine[lane];
-            out.cosine[i] = group.cosine[lane];
-            out.peak[i] = group.peak[lane];
-            out.limit[i] = group.limit[lane];
-            out.eta[i] = group.eta[lane];
-            out.alpha[i] = group.alpha[lane];
-            out.uu[i] = group.uu[lane];
-            out.uw[i] = group.uw[lane];
-            out.ww[i] = group.ww[lane];
-            out.doubt[i] = group.doubt[lane];
+            self.motion.copy(i, &group.motion, lane);
+            self.fixed.copy(i, &group.fixed, lane);
+            self.ahead[i] = group.ahead(lane);
             let slot = slots[id.slot()].as_mut();
-            out.fastest[i] =
+            self.fastest[i] =
                 slot.map_or(0.0, |slot| group.fastest(lane, slot));
         }
     }
@@ -164,15 +123,16 @@ impl LaneBatch {
     ) {
         let zero = V::zero();
         let (all, none) = (V::Mask::splat(true), V::Mask::splat(false));
-        let (u, w) = (V::load(&self.u), V::load(&self.w));
-        let (here, ahead) = (V::load(&self.here), V::load(&self.ahead));
-        let (whole, offset) = (V::load(&self.whole), V::load(&self.offset));
+        let (u, w) = (V::load(&self.motion.u), V::load(&self.motion.w));
+        let (here, ahead) = (V::load(&self.motion.here), V::load(&self.ahead));
+        let (whole, offset) =
+            (V::load(&self.fixed.whole), V::load(&self.motion.offset));
         let h = whole - offset;
-        let rate = (ahead - here) * V::load(&self.inverse);
+        let rate = (ahead - here) * V::load(&self.fixed.inverse);
         let forcing = [rate.mul_add(offset, here), rate];
-        let threshold = V::load(&self.threshold);
-        let cosine = V::load(&self.cosine);
-        let sine = V::load(&self.sine);
+        let threshold = V::load(&self.fixed.threshold);
+        let cosine = V::load(&self.fixed.cosine);
+        let sine = V::load(&self.fixed.sine);
         let constants = (threshold, sine, cosine);
         let drive = Drive::new(model, constants, forcing);
         let small = match model {
@@ -181,22 +141,22 @@ impl LaneBatch {
         };
         let TaylorSeries { mut c, mut v }: TaylorSeries<V, SIZE> =
             expand(model, (u, w), h, &drive, small);
-        // Beyond it the driver takes other functions.
+        // Beyond this rotation the driver uses other functions.
         let large = match model {
             Model::Nonlinear => all.but_not(u.lt(V::from_f64(SMALL))),
             Model::Linearized => none,
         };
         let mut left = large;
         let (tolerance, alpha) =
-            (V::from_f64(tolerance), V::load(&self.alpha));
+            (V::from_f64(tolerance), V::load(&self.fixed.alpha));
         let allowed = tolerance * alpha.mul_add(h, w.abs());
         let last = last_term(v[LEN - 1].abs(), h);
         let again = allowed.lt(last);
-        // What is not a number is left to the driver.
+        // NaN is left to the driver.
         left = left.or(last.le(allowed).or(again).not());
         let mut hard = none;
         if SIZE > LEN {
-            // Where the class' own series is enough, it is it.
+            // Lanes for which the series of the class is enough keep it.
             for k in LEN..SIZE {
                 c[k] = again.select(c[k], zero);
                 v[k] = again.select(v[k], zero);
@@ -213,22 +173,16 @@ impl LaneBatch {
         out.again = if SIZE > LEN { again.bits() } else { 0 };
         hard = hard.but_not(large);
         out.hard = hard.bits();
-        let amplitude = V::load(&self.amplitude);
-        let screen = Screen {
-            uu: V::load(&self.uu),
-            uw: V::load(&self.uw),
-            ww: V::load(&self.ww),
-            ..Screen::at_rest()
-        };
+        let amplitude = V::load(&self.motion.amplitude);
+        let screen = self.motion.screen::<V>();
+        screen.doubt.store(&mut out.motion.doubt);
         let curvature = curvature(model, &drive, small);
         let size = alpha + forcing[0].abs();
         let last = is_fixed(LEN, HARD).then_some(v[LEN - 1]);
         let fly = |tau, (u, w), out: &mut BatchSolution| {
             let flown = ScreenLeg { tau, curvature, u, w, size, last };
             let there = screen.fly(&flown);
-            there.uu.store(&mut out.uu);
-            there.uw.store(&mut out.uw);
-            there.ww.store(&mut out.ww);
+            out.motion.set_covariance(all, &there, &screen);
         };
         if FREE {
             out.left = left.but_not(hard).bits();
@@ -237,11 +191,11 @@ impl LaneBatch {
             let end_w = total(&v);
             let end_u = total(&c);
             fly(h, (end_u, end_w), out);
-            end_u.store(&mut out.u);
-            end_w.store(&mut out.w);
-            ahead.store(&mut out.here);
-            amplitude.store(&mut out.amplitude);
-            zero.store(&mut out.offset);
+            end_u.store(&mut out.motion.u);
+            end_w.store(&mut out.motion.w);
+            ahead.store(&mut out.motion.here);
+            amplitude.store(&mut out.motion.amplitude);
+            zero.store(&mut out.motion.offset);
             return;
         }
 
@@ -262,14 +216,14 @@ impl LaneBatch {
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.lt(-end_w);
-        let eta = V::load(&self.eta);
+        let eta = V::load(&self.fixed.eta);
         let w = eta * fall.select(-end_w, zero);
         let there = offset + x * h;
         let rest = whole - there;
-        // Neither a step of no length nor an impact of no speed is one here.
+        // The driver makes steps of no length and impacts of no speed.
         let plain = there.lt(whole).and(zero.lt(w));
         left = left.or(impact.but_not(plain));
-        let peak = V::load(&self.peak);
+        let peak = V::load(&self.fixed.peak);
         let raised = turning.top.and(peak.lt(turn));
         let peak = raised.select(turn, peak);
         let settled = w.lt(V::load(&self.fastest)).but_not(raised);
@@ -297,40 +251,33 @@ impl LaneBatch {
         out.turned = turning.top.bits();
         (turning.x * h).store(&mut out.turn);
         turn.store(&mut out.top);
-        impact.select(zero, end_u).store(&mut out.u);
-        impact.select(w, end_w).store(&mut out.w);
-        impact.select(-here, ahead).store(&mut out.here);
-        impact.select(there, zero).store(&mut out.offset);
-        impact.select(-amplitude, amplitude).store(&mut out.amplitude);
+        impact.select(zero, end_u).store(&mut out.motion.u);
+        impact.select(w, end_w).store(&mut out.motion.w);
+        impact.select(-here, ahead).store(&mut out.motion.here);
+        impact.select(there, zero).store(&mut out.motion.offset);
+        impact.select(-amplitude, amplitude).store(&mut out.motion.amplitude);
     }
 
     /// The rough certificates after the impacts of what was solved.
     #[inline(always)]
     pub fn land<V: Simd>(&self, model: Model, out: &mut BatchSolution) {
         let (threshold, cosine) =
-            (V::load(&self.threshold), V::load(&self.cosine));
+            (V::load(&self.fixed.threshold), V::load(&self.fixed.cosine));
         let f = V::load(&out.f);
         let landing = Landing {
             speed: V::load(&out.speed),
             before: -restoring(model, threshold, cosine, f),
             after: -restoring(model, threshold, cosine, -f),
-            eta: V::load(&self.eta),
-            alpha: V::load(&self.alpha),
+            eta: V::load(&self.fixed.eta),
+            alpha: V::load(&self.fixed.alpha),
         };
-        let screen = Screen {
-            uu: V::load(&out.uu),
-            uw: V::load(&out.uw),
-            ww: V::load(&out.ww),
-            doubt: V::load(&self.doubt),
-            peak: V::zero(),
-        };
+        let screen = out.motion.screen();
         let there = screen.land(&landing);
-        there.doubt.store(&mut out.doubt);
         // The others have flown to the end of the sample.
         let impact = V::Mask::of(out.impact);
-        impact.select(there.uu, screen.uu).store(&mut out.uu);
-        impact.select(there.uw, screen.uw).store(&mut out.uw);
-        impact.select(there.ww, screen.ww).store(&mut out.ww);
+        let doubt = impact.select(there.doubt, screen.doubt);
+        doubt.store(&mut out.motion.doubt);
+        out.motion.set_covariance(impact, &there, &screen);
     }
 
     /// The first impact, as the driver and its root finder see it.
@@ -340,17 +287,14 @@ impl LaneBatch {
         c: &[V; SIZE],
     ) -> FirstImpact<V> {
         let (zero, one) = (V::zero(), V::one());
-        let mut rest = zero;
-        for k in (2..SIZE).rev() {
-            rest = rest + c[k].abs();
-        }
+        let rest = size(&c[2..]);
         let falling = c[1].lt(zero);
         let down = falling.select(c[1], zero);
         let up = falling.select(zero, c[1]);
         let at_base = c[0].eq(zero);
         let clear_of_base =
             rest.lt(c[0] + down).or(at_base.and(rest.lt(c[1])));
-        let clear_of_limit = (c[0] + up + rest).lt(V::load(&self.limit));
+        let clear_of_limit = (c[0] + up + rest).lt(V::load(&self.fixed.limit));
 
         // A start on the base is divided out.
         let mut q = *c;
@@ -381,17 +325,11 @@ impl LaneBatch {
         near: V::Mask,
     ) -> TurningLanes<V> {
         let zero = V::zero();
-        let (mut rest, mut variation) = (zero, zero);
-        for k in (1..SIZE).rev() {
-            if k > 1 {
-                rest = rest.mul_add(x, c[k].abs());
-            }
-            variation = variation.mul_add(x, v[k].abs());
-        }
+        let (rest, variation) = (size_at(&c[2..], x), size_at(&v[1..], x));
         let rise = zero.lt(c[1]).select(c[1] * x, zero);
         let high = c[0] + rise + rest * x * x;
         let goes_on = (variation * x).lt(v[0].abs());
-        let may = V::load(&self.peak).lt(high).but_not(goes_on);
+        let may = V::load(&self.fixed.peak).lt(high).but_not(goes_on);
         let sinking = v[0].lt(zero);
         let dips = near.and(sinking).but_not(goes_on);
         let asked = may.or(dips);

@@ -1,10 +1,10 @@
 //! The driver's proof that a chatter ends, in lanes: the same operations in
 //! the same order.
 
-use crate::integrator::dynamics::Model;
+use crate::integrator::dynamics::{Model, restoring};
 use crate::number::lanes::{Mask, Simd};
 
-/// Blocks just after an impact.
+/// Blocks in lanes just after an impact.
 pub(super) struct ChatterLanes<V> {
     pub model: Model,
     pub threshold: V,
@@ -23,7 +23,7 @@ pub(super) struct ChatterLanes<V> {
 
 impl<V: Simd> ChatterLanes<V> {
     /// The blocks of `which` whose impacts provably accumulate within the
-    /// sample, and the time in which they do.
+    /// sample, and the time that this takes.
     #[inline(always)]
     pub fn come_to_rest(&self, which: V::Mask) -> (V::Mask, V) {
         let (zero, one) = (V::zero(), V::one());
@@ -74,19 +74,5 @@ impl<V: Simd> ChatterLanes<V> {
     #[inline(always)]
     fn restoring(&self, f: V) -> V {
         restoring(self.model, self.threshold, self.cosine, f)
-    }
-}
-
-/// Downward acceleration at the base under forcing `f`.
-#[inline(always)]
-pub(super) fn restoring<V: Simd>(
-    model: Model,
-    threshold: V,
-    cosine: V,
-    f: V,
-) -> V {
-    match model {
-        Model::Nonlinear => (threshold + f) * cosine,
-        Model::Linearized => threshold + f,
     }
 }

@@ -8,7 +8,6 @@
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model, curvature};
-use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
 use crate::integrator::screen::{PROPAGATION, Screen, ScreenLeg};
@@ -19,9 +18,9 @@ use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 /// base.
 const STAYS: f64 = 1e-9;
 
-/// Motion and constants of the runs in the lanes of a group.
+/// Motions of blocks in lanes.
 #[derive(Default)]
-pub(super) struct LaneGroup<'a> {
+pub(super) struct LaneMotion {
     pub u: Lanes,
     pub w: Lanes,
     /// Forcing at the start of the sample, on the side of the rotation.
@@ -30,56 +29,119 @@ pub(super) struct LaneGroup<'a> {
     pub offset: Lanes,
     /// Amplitude with the sign of the side.
     pub amplitude: Lanes,
+    /// The rough certificates.
+    pub uu: Lanes,
+    pub uw: Lanes,
+    pub ww: Lanes,
+    pub doubt: Lanes,
+}
+
+impl LaneMotion {
+    /// Copies a lane of other motions.
+    #[inline(always)]
+    pub fn copy(&mut self, to: usize, from: &Self, lane: usize) {
+        self.u[to] = from.u[lane];
+        self.w[to] = from.w[lane];
+        self.here[to] = from.here[lane];
+        self.offset[to] = from.offset[lane];
+        self.amplitude[to] = from.amplitude[lane];
+        self.uu[to] = from.uu[lane];
+        self.uw[to] = from.uw[lane];
+        self.ww[to] = from.ww[lane];
+        self.doubt[to] = from.doubt[lane];
+    }
+
+    /// The rough certificates.
+    #[inline(always)]
+    pub fn screen<V: Simd>(&self) -> Screen<V> {
+        Screen {
+            uu: V::load(&self.uu),
+            uw: V::load(&self.uw),
+            ww: V::load(&self.ww),
+            doubt: V::load(&self.doubt),
+            peak: V::zero(),
+        }
+    }
+
+    /// Sets the covariances of the rough certificates to those of `screen` in
+    /// the lanes of `which`, to those of `other` elsewhere.
+    #[inline(always)]
+    pub fn set_covariance<V: Simd>(
+        &mut self,
+        which: V::Mask,
+        screen: &Screen<V>,
+        other: &Screen<V>,
+    ) {
+        which.select(screen.uu, other.uu).store(&mut self.uu);
+        which.select(screen.uw, other.uw).store(&mut self.uw);
+        which.select(screen.ww, other.ww).store(&mut self.ww);
+    }
+}
+
+/// Constants of the runs in lanes, or nearly so.
+#[derive(Default)]
+pub(super) struct LaneConstants {
     /// Length of the sample, and one over it.
     pub whole: Lanes,
     pub inverse: Lanes,
     pub threshold: Lanes,
     pub sine: Lanes,
     pub cosine: Lanes,
-    /// Largest last coefficient of the velocity that leaves little enough, in
-    /// units of |w| + `least`.
+    /// Largest rotation at a turning point so far.
+    pub peak: Lanes,
+    pub limit: Lanes,
+    pub eta: Lanes,
+    pub alpha: Lanes,
+}
+
+impl LaneConstants {
+    /// Copies a lane of other constants.
+    #[inline(always)]
+    pub fn copy(&mut self, to: usize, from: &Self, lane: usize) {
+        self.whole[to] = from.whole[lane];
+        self.inverse[to] = from.inverse[lane];
+        self.threshold[to] = from.threshold[lane];
+        self.sine[to] = from.sine[lane];
+        self.cosine[to] = from.cosine[lane];
+        self.peak[to] = from.peak[lane];
+        self.limit[to] = from.limit[lane];
+        self.eta[to] = from.eta[lane];
+        self.alpha[to] = from.alpha[lane];
+    }
+}
+
+/// Motion and constants of the runs in the lanes of a group.
+#[derive(Default)]
+pub(super) struct LaneGroup<'a> {
+    pub motion: LaneMotion,
+    pub fixed: LaneConstants,
+    /// Largest last coefficient of the velocity whose truncation error is
+    /// allowed, in units of |w| + `least`.
     last: Lanes,
     least: Lanes,
     /// Rotation that nothing may reach.
     ceiling: Lanes,
     /// Largest |u - alpha| up to it.
     tilt: Lanes,
-    /// Largest rotation at a turning point so far.
-    pub peak: Lanes,
-    pub limit: Lanes,
-    pub eta: Lanes,
-    pub alpha: Lanes,
-    /// The rough certificates.
-    pub uu: Lanes,
-    pub uw: Lanes,
-    pub ww: Lanes,
-    pub doubt: Lanes,
     /// Rotation above which a lowest rotation decides nothing.
     low: Lanes,
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
     pub next: [u64; WIDTH],
-    /// Sample at the end of the first step here.
+    /// Sample at the end of the first step in the lane.
     first: [u64; WIDTH],
-    /// Steps taken here beside one for each sample.
+    /// Steps made in the lane beside one for each sample.
     pub extra: [u64; WIDTH],
-    /// Impacts here.
+    /// Impacts in the lane.
     pub impacts: [u64; WIDTH],
-    /// Impacts here beyond which the run is refused.
+    /// Impacts in the lane beyond which the run is refused.
     pub most: [u64; WIDTH],
-    /// First sample from which the early-exit test is worth asking.
+    /// First sample from which the early-termination test is worth its time.
     pub exit_from: [u64; WIDTH],
-    /// Lanes on the other side than at their first step here, a bit each.
+    /// Lanes whose side differs from that of their first step, a bit each.
     pub turned: u8,
     /// Lanes that fly; the others are empty or wait.
     active: u8,
-}
-
-/// Lanes that did not take a step, a bit each.
-pub(super) struct WaitingLanes {
-    pub lanes: u8,
-    /// Those in which the series leaves too much and nothing happens.
-    pub hard: u8,
 }
 
 impl<'a> LaneGroup<'a> {
@@ -99,7 +161,7 @@ impl<'a> LaneGroup<'a> {
     #[inline(always)]
     pub fn ahead(&self, lane: usize) -> f64 {
         let sample = self.samples[lane].get(self.next[lane] as usize);
-        sample.map_or(f64::NAN, |sample| *sample * self.amplitude[lane])
+        sample.map_or(f64::NAN, |sample| *sample * self.motion.amplitude[lane])
     }
 
     /// Piece of the record in which a lane is.
@@ -126,29 +188,26 @@ impl<'a> LaneGroup<'a> {
     #[inline(always)]
     pub fn hand_screen<T>(&self, lane: usize, slot: &mut Slot<'a, T>) {
         let screen = slot.driver.screen();
-        *screen = Screen {
-            uu: self.uu[lane],
-            uw: self.uw[lane],
-            ww: self.ww[lane],
-            doubt: self.doubt[lane],
-            ..*screen
-        };
+        let LaneMotion { uu, uw, ww, doubt, .. } = &self.motion;
+        (screen.uu, screen.uw, screen.ww) = (uu[lane], uw[lane], ww[lane]);
+        screen.doubt = doubt[lane];
     }
 
     /// Gives a lane's motion back to its run.
     #[inline(always)]
     pub fn release<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let steps = self.next[lane] - self.first[lane] + self.extra[lane];
-        slot.driver.count_steps(steps);
-        slot.driver.count_impacts(self.impacts[lane]);
+        let work = &mut slot.driver.record.work;
+        work.steps += steps;
+        work.impacts += self.impacts[lane];
         self.hand_screen(lane, slot);
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
         let Stage::Flying(step) = &mut slot.stage else { return };
         step.place.piece = self.piece(lane);
-        step.place.offset = self.offset[lane];
-        step.motion.u = self.u[lane];
-        step.motion.w = self.w[lane];
+        step.place.offset = self.motion.offset[lane];
+        step.motion.u = self.motion.u[lane];
+        step.motion.w = self.motion.w[lane];
         if self.turned >> lane & 1 == 1 {
             step.motion.side = step.motion.side.flipped();
         }
@@ -161,61 +220,65 @@ impl<'a> LaneGroup<'a> {
         let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;
         };
-        let dynamics = driver.dynamics();
-        let forcing = driver.forcing();
+        let (dynamics, forcing) = (&driver.dynamics, &driver.forcing);
         let h = forcing.step();
         let amplitude = forcing.amplitude() * step.motion.side.sign();
         let samples = forcing.samples();
         let piece = step.place.piece;
-        (self.u[lane], self.w[lane]) = (step.motion.u, step.motion.w);
+        (self.motion.u[lane], self.motion.w[lane]) =
+            (step.motion.u, step.motion.w);
         self.turned &= !(1 << lane);
-        self.here[lane] = samples[piece] * amplitude;
-        self.amplitude[lane] = amplitude;
-        self.offset[lane] = step.place.offset;
-        self.whole[lane] = h;
-        self.inverse[lane] = forcing.inverse(piece);
-        self.threshold[lane] = dynamics.threshold;
-        (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
+        self.motion.here[lane] = samples[piece] * amplitude;
+        self.motion.amplitude[lane] = amplitude;
+        self.motion.offset[lane] = step.place.offset;
+        self.fixed.whole[lane] = h;
+        self.fixed.inverse[lane] = forcing.inverse;
+        self.fixed.threshold[lane] = dynamics.threshold;
+        (self.fixed.sine[lane], self.fixed.cosine[lane]) =
+            dynamics.sine_cosine();
         self.samples[lane] = samples;
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;
         (self.extra[lane], self.impacts[lane]) = (0, 0);
-        self.most[lane] = driver.impacts_left();
-        self.exit_from[lane] = driver.exit_from();
+        let most = driver.observe.work_limit.impacts;
+        self.most[lane] = most.saturating_sub(driver.record.work.impacts);
+        self.exit_from[lane] = driver.exit_from as u64;
         self.last[lane] = driver.last_allowed(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;
         let ceiling = dynamics.limit.min(SMALL);
         self.ceiling[lane] = ceiling;
         self.tilt[lane] = dynamics.alpha.max(ceiling - dynamics.alpha);
-        self.peak[lane] = driver.peak();
-        self.limit[lane] = dynamics.limit;
-        self.eta[lane] = dynamics.eta;
-        self.alpha[lane] = dynamics.alpha;
+        self.fixed.peak[lane] = driver.record.peak;
+        self.fixed.limit[lane] = dynamics.limit;
+        self.fixed.eta[lane] = dynamics.eta;
+        self.fixed.alpha[lane] = dynamics.alpha;
         self.low[lane] = dynamics.alpha * PROPAGATION * SAFETY;
-        (self.uu[lane], self.uw[lane]) = (screen.uu, screen.uw);
-        (self.ww[lane], self.doubt[lane]) = (screen.ww, screen.doubt);
+        (self.motion.uu[lane], self.motion.uw[lane]) = (screen.uu, screen.uw);
+        (self.motion.ww[lane], self.motion.doubt[lane]) =
+            (screen.ww, screen.doubt);
         self.active |= 1 << lane;
     }
 
-    /// One step, to the end of the sample, in every lane that is clear of
-    /// events.
+    /// Makes one step, to the end of the sample, in every lane that is clear of
+    /// events. Returns, one bit each, the lanes that made none, and those of
+    /// them that meet no event but need a longer series.
     #[inline(always)]
     pub fn step<V: Simd, const LEN: usize, const HARD: usize>(
         &mut self,
         model: Model,
-    ) -> WaitingLanes {
+    ) -> (u8, u8) {
         let ahead = V::gather(std::array::from_fn(|lane| {
             let sample = self.samples[lane].get(self.next[lane] as usize);
             sample.unwrap_or(&f64::NAN)
         }));
-        let ahead = ahead * V::load(&self.amplitude);
-        let (u, w) = (V::load(&self.u), V::load(&self.w));
-        let here = V::load(&self.here);
-        let rate = (ahead - here) * V::load(&self.inverse);
-        let offset = V::load(&self.offset);
-        let h = V::load(&self.whole) - offset;
+        let ahead = ahead * V::load(&self.motion.amplitude);
+        let (u, w) = (V::load(&self.motion.u), V::load(&self.motion.w));
+        let here = V::load(&self.motion.here);
+        let rate = (ahead - here) * V::load(&self.fixed.inverse);
+        let offset = V::load(&self.motion.offset);
+        let h = V::load(&self.fixed.whole) - offset;
         let forcing = [rate.mul_add(offset, here), rate];
-        let Self { threshold, sine, cosine, .. } = self;
+        let LaneConstants { threshold, sine, cosine, .. } = &self.fixed;
         let constants = (V::load(threshold), V::load(sine), V::load(cosine));
         let drive = Drive::new(model, constants, forcing);
         let small = match model {
@@ -230,32 +293,25 @@ impl<'a> LaneGroup<'a> {
         let enough = series.v[LEN - 1].abs().lt(V::load(&self.last) * size);
         let active = V::Mask::of(self.active);
         let clear = active.and(free).and(enough);
-        clear.select(end.0, u).store(&mut self.u);
-        clear.select(end.1, w).store(&mut self.w);
-        let screen = Screen {
-            uu: V::load(&self.uu),
-            uw: V::load(&self.uw),
-            ww: V::load(&self.ww),
-            ..Screen::at_rest()
-        };
+        clear.select(end.0, u).store(&mut self.motion.u);
+        clear.select(end.1, w).store(&mut self.motion.w);
+        let screen = self.motion.screen();
         let flown = ScreenLeg {
             tau: h,
             curvature: curvature(model, &drive, small),
             u: end.0,
             w: end.1,
-            size: V::load(&self.alpha) + forcing[0].abs(),
+            size: V::load(&self.fixed.alpha) + forcing[0].abs(),
             last: is_fixed(LEN, HARD).then_some(series.v[LEN - 1]),
         };
         let there = screen.fly(&flown);
-        clear.select(there.uu, screen.uu).store(&mut self.uu);
-        clear.select(there.uw, screen.uw).store(&mut self.uw);
-        clear.select(there.ww, screen.ww).store(&mut self.ww);
-        clear.select(ahead, here).store(&mut self.here);
-        clear.select(V::zero(), offset).store(&mut self.offset);
+        self.motion.set_covariance(clear, &there, &screen);
+        clear.select(ahead, here).store(&mut self.motion.here);
+        clear.select(V::zero(), offset).store(&mut self.motion.offset);
         clear.count(&mut self.next);
         let lanes = self.active & !clear.bits();
         self.active = clear.bits();
-        WaitingLanes { lanes, hard: lanes & free.bits() }
+        (lanes, lanes & free.bits())
     }
 
     /// Lanes in which a step under forcing `f`, which ends at `ahead`, to
@@ -274,7 +330,7 @@ impl<'a> LaneGroup<'a> {
         h: V,
         end: (V, V),
     ) -> V::Mask {
-        let (u, w) = (V::load(&self.u), V::load(&self.w));
+        let (u, w) = (V::load(&self.motion.u), V::load(&self.motion.w));
         let eighth = h * V::from_f64(0.125 * SAFETY);
         // Linear in time, so largest at an end.
         let push = f.abs().max(ahead.abs());
@@ -299,7 +355,7 @@ impl<'a> LaneGroup<'a> {
         let above_base = low.lt(u.min(end.0)).or(goes_on.and(stays));
         let top = u.max(end.0) + sag;
         let below_limit = top.lt(V::load(&self.ceiling));
-        let below_peak = top.lt(V::load(&self.peak)).or(goes_on);
+        let below_peak = top.lt(V::load(&self.fixed.peak)).or(goes_on);
         above_base.and(below_limit).and(below_peak)
     }
 }

@@ -5,7 +5,7 @@ use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::forcing::RecordForcing;
 use crate::number::dispatch::{Isa, Kernel};
 
-/// What drives a run.
+/// Driver of a run.
 pub(super) type Run<'a> = Driver<f64, RecordForcing<'a, f64>, 2, LONGEST>;
 
 /// A run in its slot.
@@ -24,18 +24,18 @@ impl<'a, T> Slot<'a, T> {
         Self { task, driver, stage, exit_from: usize::MAX, seen: 0.0 }
     }
 
-    /// Comes to rest, some time after an impact.
+    /// Brings the block to rest `after` an impact.
     pub fn rest(&mut self, after: f64) {
         if let Stage::Flying(step) = &self.stage {
             self.stage = self.driver.rest(step.place, step.motion.w, after);
         }
     }
 
-    /// First piece from which on nothing that is left could raise the peak
-    /// of a block at rest.
+    /// First piece from which the rest of the record cannot raise the peak of a
+    /// block at rest.
     #[inline(always)]
     pub fn exit_from(&mut self) -> u64 {
-        let peak = self.driver.peak();
+        let peak = self.driver.record.peak;
         if self.seen < peak {
             self.seen = peak;
             self.driver.see_peak();
@@ -44,7 +44,7 @@ impl<'a, T> Slot<'a, T> {
         self.exit_from as u64
     }
 
-    /// A step by the scalar driver, by a series of `LEN` coefficients.
+    /// Makes a step by the scalar driver, by a series of `LEN` coefficients.
     pub fn advance<const LEN: usize>(&mut self, step: Step<f64>, isa: Isa) {
         let alone = Alone::<LEN> { driver: &mut self.driver, step };
         self.stage = isa.run(alone);

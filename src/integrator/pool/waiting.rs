@@ -3,7 +3,7 @@
 use crate::integrator::pool::GROUPS;
 use crate::number::lanes::WIDTH;
 
-/// What lanes wait for.
+/// Kind of step for which a lane waits.
 #[derive(Clone, Copy)]
 pub(super) enum WaitKind {
     /// The longest series, clear of events.
@@ -15,8 +15,8 @@ pub(super) enum WaitKind {
 }
 
 impl WaitKind {
-    /// How many waiting lanes start a batch. For rare kinds a part-filled
-    /// batch is cheaper than waiting.
+    /// Number of waiting lanes that starts a batch. For rare kinds a partly
+    /// filled batch is cheaper than waiting.
     pub fn worth(self) -> usize {
         match self {
             Self::LongSeries => 5,
@@ -32,8 +32,8 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    /// Takes the lanes that stopped, a bit each, a byte a group; what happens
-    /// in those that are not hard is to be seen.
+    /// Queues the lanes that stopped, one bit each, one byte a group: hard ones
+    /// for the longest series, the others for roots.
     #[inline(always)]
     pub fn park(&mut self, stopped: [u8; GROUPS], hard: [u8; GROUPS]) {
         const { assert!(GROUPS * WIDTH == u128::BITS as usize) };
@@ -42,7 +42,7 @@ impl Waiting {
         while left != 0 {
             let slot = left.trailing_zeros() as usize;
             left &= left - 1;
-            // An index, not a branch: nobody can predict it.
+            // An index, not a branch, which no processor could predict.
             let kind = 1 - (hard >> slot & 1) as usize;
             self.queues[kind].push(Lane::of(slot));
         }

@@ -34,24 +34,11 @@ macro_rules! both {
     }};
 }
 
-macro_rules! operators {
-    ($($operation:ident $method:ident $instruction:ident;)*) => {$(
-        impl $operation for RegisterPair {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                both!(RegisterPair, |x, y| $instruction(x, y), self, other)
-            }
-        }
-    )*};
-}
-
-operators! {
-    Add add _mm256_add_pd;
-    Sub sub _mm256_sub_pd;
-    Mul mul _mm256_mul_pd;
-    Div div _mm256_div_pd;
+operators! { RegisterPair:
+    Add add |a, b| both!(RegisterPair, |x, y| _mm256_add_pd(x, y), a, b);
+    Sub sub |a, b| both!(RegisterPair, |x, y| _mm256_sub_pd(x, y), a, b);
+    Mul mul |a, b| both!(RegisterPair, |x, y| _mm256_mul_pd(x, y), a, b);
+    Div div |a, b| both!(RegisterPair, |x, y| _mm256_div_pd(x, y), a, b);
 }
 
 impl RegisterPair {
@@ -96,6 +83,20 @@ impl Number for RegisterPair {
             _mm256_fmadd_pd(self.1, b.1, c.1),
         ))
     }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        both!(
+            RegisterPair,
+            |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x),
+            self
+        )
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        both!(RegisterPair, |x| _mm256_sqrt_pd(x), self)
+    }
 }
 
 impl Simd for RegisterPair {
@@ -139,15 +140,6 @@ impl Simd for RegisterPair {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        both!(
-            RegisterPair,
-            |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x),
-            self
-        )
-    }
-
-    #[inline(always)]
     fn max(self, other: Self) -> Self {
         both!(RegisterPair, |x, y| _mm256_max_pd(x, y), self, other)
     }
@@ -155,11 +147,6 @@ impl Simd for RegisterPair {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         both!(RegisterPair, |x, y| _mm256_min_pd(x, y), self, other)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        both!(RegisterPair, |x| _mm256_sqrt_pd(x), self)
     }
 
     #[inline(always)]
@@ -216,11 +203,6 @@ impl Mask<RegisterPair> for PairMask {
         let [low, high] =
             level!([_mm256_movemask_pd(self.0), _mm256_movemask_pd(self.1)]);
         (low | high << 4) as u8
-    }
-
-    #[inline(always)]
-    fn not(self) -> Self {
-        Self::of(u8::MAX).but_not(self)
     }
 
     #[inline(always)]

@@ -28,24 +28,11 @@ impl Eight {
     }
 }
 
-macro_rules! operators {
-    ($($operation:ident $method:ident $instruction:ident;)*) => {$(
-        impl $operation for Eight {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(level!($instruction(self.0, other.0)))
-            }
-        }
-    )*};
-}
-
-operators! {
-    Add add _mm512_add_pd;
-    Sub sub _mm512_sub_pd;
-    Mul mul _mm512_mul_pd;
-    Div div _mm512_div_pd;
+operators! { Eight:
+    Add add |a, b| Self(level!(_mm512_add_pd(a.0, b.0)));
+    Sub sub |a, b| Self(level!(_mm512_sub_pd(a.0, b.0)));
+    Mul mul |a, b| Self(level!(_mm512_mul_pd(a.0, b.0)));
+    Div div |a, b| Self(level!(_mm512_div_pd(a.0, b.0)));
 }
 
 impl Neg for Eight {
@@ -70,6 +57,16 @@ impl Number for Eight {
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         Self(level!(_mm512_fmadd_pd(self.0, b.0, c.0)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(level!(_mm512_abs_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(level!(_mm512_sqrt_pd(self.0)))
     }
 }
 
@@ -103,11 +100,6 @@ impl Simd for Eight {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(level!(_mm512_abs_pd(self.0)))
-    }
-
-    #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self(level!(_mm512_max_pd(self.0, other.0)))
     }
@@ -115,11 +107,6 @@ impl Simd for Eight {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self(level!(_mm512_min_pd(self.0, other.0)))
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(level!(_mm512_sqrt_pd(self.0)))
     }
 
     #[inline(always)]
@@ -156,11 +143,6 @@ impl Mask<Eight> for EightMask {
     #[inline(always)]
     fn bits(self) -> u8 {
         self.0
-    }
-
-    #[inline(always)]
-    fn not(self) -> Self {
-        Self(!self.0)
     }
 
     #[inline(always)]

@@ -61,6 +61,20 @@ impl Octuple {
         let power = self.exponent.div_euclid(2);
         (Self { exponent: self.exponent.rem_euclid(2), ..self }, power)
     }
+
+    /// Square root by Newton's iteration.
+    pub(super) fn root(self) -> Self {
+        if self.is_zero() || self.negative || !self.is_finite() {
+            return if self.negative { Self::NAN } else { self };
+        }
+        let (square, power) = self.split();
+        let mut root = Self::from_f64(square.to_f64().sqrt());
+        // 53, 106, 212 and all bits.
+        for _ in 0..3 {
+            root = (root + square / root).scaled(-1);
+        }
+        root.scaled(power)
+    }
 }
 
 impl Real for Octuple {
@@ -89,26 +103,6 @@ impl Real for Octuple {
         let up = rest > half || (rest == half && kept & 1 == 1);
         let kept = kept + u64::from(up);
         sign * libm::scalbn(kept as f64, exponent + 1 - bits)
-    }
-
-    fn sqrt(self) -> Self {
-        if self.is_zero() || self.is_nan() || self.negative {
-            return if self.negative { Self::NAN } else { self };
-        }
-        if self.is_infinite() {
-            return self;
-        }
-        let (square, power) = self.split();
-        let mut root = Self::from_f64(square.to_f64().sqrt());
-        // 53, 106, 212 and all bits.
-        for _ in 0..3 {
-            root = (root + square / root).scaled(-1);
-        }
-        root.scaled(power)
-    }
-
-    fn abs(self) -> Self {
-        Self { negative: false, ..self }
     }
 
     fn sin_cos(self) -> (Self, Self) {
@@ -166,22 +160,9 @@ impl Real for Octuple {
         y
     }
 
-    /// From a double y near it: sin(asin x - y) = x cos y - sqrt(1 - x^2)
-    /// sin y, and the arc of that small sine.
     fn asin(self) -> Self {
-        if self.exponent < TINY / 2 {
-            return self;
-        }
-        let room = (Self::one() - self) * (Self::one() + self);
-        let cosine = room.sqrt();
-        let mut y = Self::from_f64(libm::asin(self.to_f64()));
-        // 53 bits, or half of them where x is near 1, then all.
-        for _ in 0..2 {
-            let (s, c) = y.sin_cos();
-            let step = self * c - cosine * s;
-            y = y + step + step * step * step * Self::ratio(1, 6);
-        }
-        y
+        // 53 bits, or half of them if x is near 1, then all.
+        if self.exponent < TINY / 2 { self } else { series::asin(self, 2) }
     }
 
     fn right_angle() -> Self {

@@ -55,7 +55,7 @@ fn positive_excludes_zero_and_what_is_no_number() {
 fn an_impact_without_speed_rests_up_to_the_threshold() {
     for model in [Model::Nonlinear, Model::Linearized] {
         let driver = driver(model, 0.9, ALPHA);
-        let threshold = driver.dynamics().threshold;
+        let threshold = driver.dynamics.threshold;
         for (f, rests) in [
             (0.0, true),
             (threshold, true),

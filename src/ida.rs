@@ -25,7 +25,7 @@ use crate::number::dispatch::Isa;
 pub use batch::{Batch, curves, for_each_curve};
 use climb::Climb;
 pub use curve::{BracketEnd, FirstOverturning, IdaCurve, IdaPoint};
-use levels::ImLevels;
+use levels::{ImLevels, positive};
 pub use resolution::{Resolution, ResolutionCounts};
 
 /// Intensities at which a curve is sampled.
@@ -42,6 +42,16 @@ pub enum Grid {
         /// Step in PGA/(g tan alpha).
         step: f64,
     },
+}
+
+impl Grid {
+    /// Step in IM of a block with an uplift threshold, in multiples of gravity.
+    fn step_im(self, threshold: f64) -> f64 {
+        match self {
+            Self::Pga { step_g } => step_g / threshold,
+            Self::Im { step } => step,
+        }
+    }
 }
 
 named! {
@@ -74,21 +84,20 @@ pub struct Analysis {
     pub adjust: Adjust,
     /// Width in IM to which the first overturning bracket is bisected.
     pub refine: Option<f64>,
-    /// Where levels end if the block does not overturn (IM).
+    /// Highest level (IM) if the block does not overturn.
     pub highest_im: f64,
-    /// Levels above the first overturning are looked at up to here.
+    /// End of the levels above the first overturning; `None`: no such levels.
     pub resurrections: Option<Resurrections>,
-    /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
-    /// as each step needs for double precision. The estimate that flags
+    /// Fixed order of Eq. 1, whatever the truncation error. `None`: the order
+    /// that each step needs for double precision. The estimate that flags
     /// analyses includes the truncation error of a fixed order.
     pub order: Option<Order>,
-    /// Whether analyses that double precision cannot resolve run again in
-    /// the arithmetic that resolves them (see
-    /// [`certify`](crate::integrator::certify)); the curve goes on from
-    /// that result. Otherwise they are flagged. Ignored at a fixed order,
-    /// whose own result was asked for.
+    /// True if analyses that double precision cannot resolve run again in the
+    /// arithmetic that resolves them (see
+    /// [`certify`](crate::integrator::certify)); the curve continues from that
+    /// result. Otherwise they are flagged. Ignored at a fixed order.
     pub certify: bool,
-    /// Work beyond which a level is refused.
+    /// Work limit of a level.
     pub work_limit: WorkLimit,
 }
 
@@ -101,7 +110,7 @@ pub enum Resurrections {
     To(f64),
 }
 
-/// Where curves end that never overturn, by default (IM).
+/// Default highest level (IM) of curves that never overturn.
 pub const HIGHEST_IM: f64 = 100.0;
 
 /// Default width in IM to which the first overturning bracket is bisected.
@@ -240,8 +249,8 @@ fn curve_at(
 /// Engineering demand parameter at one intensity, whatever happens below it:
 /// peak |theta|/alpha, infinite when overturned.
 ///
-/// A stripe with the no-resurrection rule is infinite from the first
-/// overturning on; the caller has the curve to know.
+/// Under the no-resurrection rule a stripe is infinite from the first
+/// overturning on. Only the curve shows where that is.
 ///
 /// # Errors
 /// As [`curve`].
@@ -251,9 +260,7 @@ pub fn demand_at(
     im: f64,
 ) -> Result<IdaPoint, IdaError> {
     let levels = ImLevels::new(record, analysis)?;
-    if !(im > 0.0 && im.is_finite()) {
-        return Err(IdaError::NotPositive { what: "intensity", found: im });
-    }
+    positive("intensity", im)?;
     levels.at(im)?.run(Isa::best())
 }
 
@@ -286,9 +293,7 @@ pub fn forces_at(
     analysis: &Analysis,
     im: f64,
 ) -> Result<Forces, IdaError> {
-    if !(im > 0.0 && im.is_finite()) {
-        return Err(IdaError::NotPositive { what: "intensity", found: im });
-    }
+    positive("intensity", im)?;
     ImLevels::new(record, analysis)?.at(im)?.forces()
 }
 

@@ -21,17 +21,17 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
 use crate::ida::levels::ImLevel;
-use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_at};
+use crate::ida::{Analysis, IdaCurve, IdaError, IdaPoint, curve_at};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
 use crate::integrator::{Response, Scene, WorkLimit, uplift_threshold};
 use crate::number::dispatch::Isa;
 
-/// How many curves are made. The default uses the machine's best
-/// instruction-set level and reports nothing.
+/// Options of [`curves`]. Default: the best instruction-set level of the
+/// machine, no progress callback.
 #[derive(Clone, Copy)]
 pub struct Batch<'a> {
-    /// Instruction-set level. It changes the speed alone.
+    /// Instruction-set level. It changes only the speed.
     pub isa: Isa,
     /// Called after each curve, from any thread.
     pub progress: &'a (dyn Fn() + Sync),
@@ -89,15 +89,15 @@ pub fn curves(
     Ok(all.into_iter().map(row).collect())
 }
 
-/// [`curves`], each handed to `sink(a, r, curve)` as soon as it is finished:
-/// memory does not grow with finished curves.
+/// As [`curves`], but passes each curve to `sink(a, r, curve)` as soon as it is
+/// finished, so memory does not grow with finished curves.
 ///
 /// `sink` is called once for each analysis `a` and record `r`, from any
 /// thread and in any order; the curves are the same for any number of
 /// threads.
 ///
 /// # Errors
-/// As [`curves`]. `sink` has then had some of the curves.
+/// As [`curves`]. `sink` has then received some of the curves.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicUsize, Ordering};
@@ -143,13 +143,12 @@ pub fn for_each_curve(
             });
         }
     });
-    match watch.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some((_, error)) => Err(error),
-        None => Ok(()),
-    }
+    let first = watch.error.into_inner();
+    let first = first.unwrap_or_else(PoisonError::into_inner);
+    first.map_or(Ok(()), |(_, error)| Err(error))
 }
 
-/// One curve to be made.
+/// One curve to make.
 #[derive(Clone, Copy)]
 struct CurveJob<'a> {
     /// Place among the results.
@@ -160,13 +159,13 @@ struct CurveJob<'a> {
     work: f64,
 }
 
-/// The curves of a class; without a class, each is made alone.
+/// The curves of a class. Curves without a class are made one by one.
 struct CurveQueue<'a> {
     class: Option<Class>,
     book: Mutex<Book<'a>>,
 }
 
-/// What is to be made, what is being made, and what was.
+/// Curves that wait, curves in progress, and finished curves.
 struct Book<'a> {
     /// In the order of their start, the next one last.
     jobs: Vec<CurveJob<'a>>,
@@ -175,7 +174,7 @@ struct Book<'a> {
     finished: Vec<(usize, Result<IdaCurve, IdaError>)>,
 }
 
-/// A curve in the making, and how many of its analyses are being made.
+/// A curve in progress, and the number of its levels that are being run.
 struct Active<'a> {
     climb: Climb<'a>,
     out: u64,
@@ -189,20 +188,17 @@ struct Task<'a> {
     level: ImLevel<'a>,
 }
 
-/// Takes finished curves: its analysis, its record, and the curve.
-type Sink<'a> = &'a (dyn Fn(usize, usize, IdaCurve) + Sync);
-
-/// Whoever takes finished curves.
+/// Receiver of finished curves, of progress and of the first error.
 struct Watch<'a> {
     batch: &'a Batch<'a>,
     records: usize,
-    sink: Sink<'a>,
+    sink: &'a (dyn Fn(usize, usize, IdaCurve) + Sync),
     /// The first error in the order of the curves.
     error: Mutex<Option<(usize, IdaError)>>,
 }
 
 impl Watch<'_> {
-    /// Hands a curve over, and reports it.
+    /// Hands a curve to the sink and reports progress.
     fn done(&self, (index, result): (usize, Result<IdaCurve, IdaError>)) {
         match result {
             Ok(curve) => {
@@ -219,7 +215,7 @@ impl Watch<'_> {
     }
 }
 
-/// Locks; what a thread that panicked left is whole.
+/// Locks a mutex. Data of a thread that panicked are whole.
 fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -245,13 +241,13 @@ impl<'a> CurveQueue<'a> {
 /// A thread at a queue.
 struct Desk<'q, 'a> {
     queue: &'q CurveQueue<'a>,
-    /// Curve whose analysis it settled last.
+    /// Curve of the analysis settled last.
     last: Option<usize>,
     watch: &'q Watch<'q>,
 }
 
 impl<'a> Book<'a> {
-    /// The next analysis of a curve in the making, if it has one now.
+    /// The next analysis of a curve in progress, if it has one now.
     fn next(&mut self, index: usize, ahead: bool) -> Option<Task<'a>> {
         let active = self.climbs.get_mut(&index)?;
         match active.climb.next(ahead) {
@@ -267,8 +263,8 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// The next analysis of whatever curve: of this one, of a new one, or
-    /// ahead of those being made.
+    /// The next analysis: of the last curve, of a new one, or ahead of the curves
+    /// in progress.
     fn take(&mut self, last: Option<usize>) -> Option<Task<'a>> {
         last.and_then(|index| self.next(index, false))
             .or_else(|| self.start())
@@ -276,30 +272,23 @@ impl<'a> Book<'a> {
     }
 
     fn start(&mut self) -> Option<Task<'a>> {
-        while let Some(CurveJob { index, analysis, record, .. }) =
-            self.jobs.pop()
-        {
-            let climb = match Climb::start(record, analysis) {
-                Ok(climb) => climb,
-                Err(error) => {
-                    self.finished.push((index, Err(error)));
-                    continue;
+        while let Some(job) = self.jobs.pop() {
+            let index = job.index;
+            match Climb::start(job.record, job.analysis) {
+                Ok(climb) if !climb.is_done() => {
+                    self.climbs.insert(index, Active { climb, out: 0 });
+                    let task = self.next(index, false);
+                    if task.is_some() {
+                        return task;
+                    }
                 }
-            };
-            if climb.is_done() {
-                self.finished.push((index, Ok(climb.finish())));
-                continue;
-            }
-            self.climbs.insert(index, Active { climb, out: 0 });
-            let task = self.next(index, false);
-            if task.is_some() {
-                return task;
+                done => self.finished.push((index, done.map(Climb::finish))),
             }
         }
         None
     }
 
-    /// An analysis of the curve that is furthest from being filled.
+    /// An analysis of the curve with the fewest analyses in progress.
     fn ahead(&mut self) -> Option<Task<'a>> {
         let mut order: Vec<(u64, usize)> = self
             .climbs
@@ -357,8 +346,8 @@ impl<'a> pool::SceneSource<'a> for Desk<'_, 'a> {
         let last = self.last;
         let task = self.with_book(|book| book.take(last));
         task.map(|task| {
-            let (scene, limit) = (task.level.scene, task.level.work_limit);
-            (task, scene, limit)
+            let ImLevel { scene, of, .. } = task.level;
+            (task, scene, of.analysis.work_limit)
         })
     }
 
@@ -366,7 +355,7 @@ impl<'a> pool::SceneSource<'a> for Desk<'_, 'a> {
         self.last = Some(task.index);
         let point = match response {
             Some(response) => task.level.point(response),
-            // Alone, it says where it passes its limit.
+            // A run alone says when it passes its limit.
             None => task.level.run(Isa::best()),
         };
         self.with_book(|book| book.settle(&task, point));
@@ -381,18 +370,16 @@ fn queues<'a>(
 ) -> Vec<CurveQueue<'a>> {
     let mut classes: BTreeMap<Option<Class>, Vec<CurveJob<'a>>> =
         BTreeMap::new();
-    let mut index = 0;
-    for analysis in analyses {
-        for record in records {
-            let p = analysis.block.frequency_rad_s();
-            let length = record.dt_s() * p;
-            let class = pool::class_of(analysis.model, length, analysis.order)
-                .filter(|_| isa.is_wide());
-            let work = work(record, analysis);
-            let job = CurveJob { index, analysis, record, work };
-            classes.entry(class).or_default().push(job);
-            index += 1;
-        }
+    let pairs =
+        |analysis| records.iter().map(move |record| (analysis, record));
+    let pairs = analyses.iter().flat_map(pairs);
+    for (index, (analysis, record)) in pairs.enumerate() {
+        let length = record.dt_s() * analysis.block.frequency_rad_s();
+        let class = pool::class_of(analysis.model, length, analysis.order)
+            .filter(|_| isa.is_wide());
+        let work = work(record, analysis);
+        let job = CurveJob { index, analysis, record, work };
+        classes.entry(class).or_default().push(job);
     }
     classes
         .into_iter()
@@ -409,12 +396,8 @@ fn queues<'a>(
 /// intensity that falls with p PGV/PGA.
 fn work(record: &NormalisedRecord, analysis: &Analysis) -> f64 {
     let p = analysis.block.frequency_rad_s();
-    let levels = match analysis.grid {
-        Grid::Pga { step_g } => {
-            uplift_threshold(&analysis.block, analysis.model) / step_g
-        }
-        Grid::Im { step } => 1.0 / step,
-    };
+    let threshold = uplift_threshold(&analysis.block, analysis.model);
+    let step_im = analysis.grid.step_im(threshold);
     let reach = 1.0 / (p * record.velocity_ratio_s());
-    record.samples().len() as f64 * levels * reach
+    record.samples().len() as f64 * reach / step_im
 }

@@ -1,9 +1,9 @@
-//! A curve in the making: which analyses it still needs, in which order.
+//! A curve in progress: the analyses that it still needs, in their order.
 //!
-//! Levels rise to the first overturning; its bracket is bisected and levels
-//! above it are looked at, as asked. Rising levels may be made ahead of the
-//! ones below them: what lies above the first overturning is dropped, so
-//! that the curve is the same.
+//! Levels rise to the first overturning. If the analysis says so, its bracket
+//! is bisected and levels above it are run. A rising level may be run before
+//! the levels below it. Levels above the first overturning are then dropped, so
+//! the curve is the same.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::ida::{
     ResolutionCounts, Resurrections,
 };
 
-/// What an analysis is made for.
+/// Purpose of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Aim {
     /// A rising level.
@@ -25,7 +25,7 @@ pub(super) enum Aim {
     Above(u64),
 }
 
-/// A curve in the making.
+/// A curve in progress.
 pub(super) struct Climb<'a> {
     levels: ImLevels<'a>,
     stage: ClimbStage,
@@ -37,21 +37,21 @@ pub(super) struct Climb<'a> {
 }
 
 enum ClimbStage {
-    /// Levels below `given` are handed out, those below `due` are settled;
-    /// `early` waits for the ones below it.
+    /// Levels below `given` are handed out and levels below `due` are settled;
+    /// points in `early` wait for lower levels.
     Rising {
         given: u64,
         due: u64,
         early: BTreeMap<u64, IdaPoint>,
     },
-    /// The bracket; `asked` while its middle is being made.
+    /// The bracket; `asked` while its middle is being run.
     Bisecting {
         low: f64,
         high: IdaPoint,
         asked: bool,
     },
-    /// Levels from `given` to the intensity `end` are to be made; `due` is
-    /// how many of those handed out are not settled.
+    /// Levels from `given` to the intensity `end` are left to run; `due` levels
+    /// are handed out and not settled.
     Above {
         given: u64,
         end: f64,
@@ -82,13 +82,13 @@ impl<'a> Climb<'a> {
         Ok(climb)
     }
 
-    /// True when nothing is left to make.
+    /// True when no level is left to run.
     pub fn is_done(&self) -> bool {
         matches!(self.stage, ClimbStage::Done)
     }
 
-    /// The next analysis that is surely part of the curve, if none is being
-    /// made; with `ahead`, a rising level above those being made too.
+    /// The next level that is surely part of the curve, unless one is being run;
+    /// with `ahead`, also a rising level above those being run.
     pub fn next(
         &mut self,
         ahead: bool,
@@ -132,8 +132,8 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// How many levels may be made ahead of the lowest one not settled: few
-    /// at first, for most of them may lie above the first overturning.
+    /// Number of levels that may be run ahead of the lowest one not settled: few
+    /// at first, because most of them may lie above the first overturning.
     pub fn reach(&self) -> u64 {
         match self.stage {
             ClimbStage::Rising { .. } => 2 + self.points.len() as u64 / 4,
@@ -142,7 +142,7 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// Takes what was made.
+    /// Takes a point.
     pub fn accept(&mut self, aim: Aim, point: IdaPoint) {
         match (&mut self.stage, aim) {
             (ClimbStage::Rising { early, .. }, Aim::Rising(level)) => {
@@ -165,7 +165,7 @@ impl<'a> Climb<'a> {
                 self.above.insert(level, point);
                 self.look_above();
             }
-            // Made ahead, above the first overturning.
+            // Run ahead, above the first overturning.
             _ => {}
         }
     }
@@ -194,8 +194,7 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// Goes on with a bracket: a standing intensity and an overturned
-    /// analysis.
+    /// Continues with a bracket: a standing intensity and an overturned point.
     fn bisect(&mut self, low: f64, high: IdaPoint) {
         if let Some(tolerance) = self.levels.analysis.refine {
             let middle = 0.5 * (low + high.im);
@@ -209,7 +208,8 @@ impl<'a> Climb<'a> {
                 overturning.standing_im = low;
             }
         }
-        self.stage = match (self.overturning, self.reach_above()) {
+        let resurrections = self.levels.analysis.resurrections;
+        self.stage = match (self.overturning, resurrections) {
             (Some(first), Some(reach)) => ClimbStage::Above {
                 given: self.levels.first() + self.points.len() as u64,
                 end: match reach {
@@ -221,10 +221,6 @@ impl<'a> Climb<'a> {
             _ => ClimbStage::Done,
         };
         self.look_above();
-    }
-
-    fn reach_above(&self) -> Option<Resurrections> {
-        self.levels.analysis.resurrections
     }
 
     fn look_above(&mut self) {

@@ -1,13 +1,13 @@
-//! Levels of a curve: their intensities, their scenes, what a response
-//! makes of them.
+//! Levels of a curve: their intensities, their scenes, and the points of their
+//! responses.
 
 use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::resolution::{Resolution, WORTH_ASSESSING};
 use crate::ida::{Adjust, Analysis, Grid, IdaError, IdaPoint, Resurrections};
 use crate::integrator::{
-    self, Certify, DOUBTFUL, Forces, Model, Observe, Order, Outcome, Response,
-    Scene, SceneError, Solver, WorkLimit, certify, uplift_threshold,
+    self, Certify, DOUBTFUL, Forces, Model, Observe, Outcome, Response, Scene,
+    SceneError, Solver, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -19,17 +19,14 @@ pub(super) struct ImLevels<'a> {
     threshold: f64,
 }
 
-/// An analysis about to be made.
+/// One level of an analysis.
 #[derive(Clone, Copy)]
 pub(super) struct ImLevel<'a> {
-    pub im: f64,
+    pub of: ImLevels<'a>,
+    im: f64,
     /// PGA applied, multiples of gravity.
     pga_g: f64,
     pub scene: Scene<'a>,
-    pub work_limit: WorkLimit,
-    order: Option<Order>,
-    certify: bool,
-    record: &'a str,
 }
 
 impl<'a> ImLevels<'a> {
@@ -48,12 +45,7 @@ impl<'a> ImLevels<'a> {
         match self.analysis.grid {
             Grid::Pga { step_g } => {
                 // k/100 is the nearest double to the level, k 0.01 is not.
-                let parts = (1.0 / step_g).round();
-                if (parts * step_g - 1.0).abs() < 1e-12 {
-                    k / parts
-                } else {
-                    k * step_g
-                }
+                parts_of(step_g).map_or(k * step_g, |parts| k / parts)
             }
             Grid::Im { .. } => self.im(level) * self.threshold,
         }
@@ -64,12 +56,9 @@ impl<'a> ImLevels<'a> {
         match self.analysis.grid {
             Grid::Pga { .. } => self.pga_g(level) / self.threshold,
             Grid::Im { step } => {
-                let parts = (1.0 / step).round();
-                if (parts * step - 1.0).abs() < 1e-12 {
-                    1.0 + level as f64 / parts
-                } else {
-                    (level as f64).mul_add(step, 1.0)
-                }
+                let k = level as f64;
+                let by_step = || k.mul_add(step, 1.0);
+                parts_of(step).map_or_else(by_step, |parts| 1.0 + k / parts)
             }
         }
     }
@@ -149,135 +138,121 @@ impl<'a> ImLevels<'a> {
             initial_ratio: 0.0,
         };
         integrator::check(&scene, &Observe::default())?;
-        Ok(ImLevel {
-            im,
-            pga_g: amplitude,
-            scene,
-            work_limit: analysis.work_limit,
-            order: analysis.order,
-            certify: analysis.certify && analysis.order.is_none(),
-            record: self.record.name(),
-        })
+        Ok(ImLevel { of: *self, im, pga_g: amplitude, scene })
     }
 }
 
 impl ImLevel<'_> {
-    /// The analysis, made alone.
+    /// Runs the level alone.
     pub fn run(&self, isa: Isa) -> Result<IdaPoint, IdaError> {
-        let Self { scene, work_limit, order, .. } = *self;
+        let Analysis { work_limit, order, .. } = *self.of.analysis;
         let observe = Observe { work_limit, ..Observe::default() };
         let solver = Solver { order, isa, peak_only: true };
-        let response = solver.respond(&scene, &observe);
+        let response = solver.respond(&self.scene, &observe);
         self.point(&response.map_err(|error| self.refused(error))?)
     }
 
-    /// What the motion asks of the pivot, by a whole run at a free order.
+    /// Friction and normal force that the motion needs at the pivot, by a whole
+    /// run at a free order.
     pub fn forces(&self) -> Result<Forces, IdaError> {
-        let Self { scene, work_limit, .. } = *self;
+        let (scene, work_limit) = (&self.scene, self.of.analysis.work_limit);
         let observe =
             Observe { forces: true, work_limit, ..Observe::default() };
-        let response = Solver::default().respond_once(&scene, &observe);
+        let response = Solver::default().respond_once(scene, &observe);
         let response = response.map_err(|error| self.refused(error))?;
-        Ok(response.forces.unwrap_or_else(|| Forces::at_rest(&scene)))
+        Ok(response.forces.unwrap_or_else(|| Forces::at_rest(scene)))
     }
 
-    /// Which level a scene that is refused belongs to.
-    fn refused(&self, error: SceneError) -> IdaError {
-        match error {
+    /// Adds record and intensity to an error of the run.
+    fn refused(&self, source: SceneError) -> IdaError {
+        match source {
             SceneError::Work { .. } | SceneError::NotANumber { .. } => {
-                IdaError::Work {
-                    record: self.record.to_owned(),
-                    im: self.im,
-                    source: error,
-                }
+                let record = self.of.record.name().to_owned();
+                IdaError::Work { record, im: self.im, source }
             }
             other => other.into(),
         }
     }
 
-    /// The point that the level's response makes.
+    /// The point of the level, from its response.
     pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
-        let most = if self.certify { WORTH_ASSESSING } else { DOUBTFUL };
-        // Not a number is doubtful.
+        let Analysis { certify, order, work_limit, .. } = *self.of.analysis;
+        let certify = certify && order.is_none();
+        let most = if certify { WORTH_ASSESSING } else { DOUBTFUL };
+        // NaN is doubtful.
         let clear = response.doubt.is_some_and(|doubt| doubt < most);
-        let (outcome, fate_margin) = (response.outcome, response.fate_margin);
-        if clear || !self.certify {
-            return Ok(self.made(
-                outcome,
-                fate_margin,
-                Resolution::roughly(clear),
-            ));
-        }
-        let work_limit = self.work_limit;
-        let ask = Certify { work_limit, ..Certify::default() };
-        let fate =
-            certify(&self.scene, &ask).map_err(|error| self.refused(error))?;
-        let resolution = Resolution {
-            by: Some(fate.by),
-            resolved: fate.resolved,
-            wrong_in_double: fate.wrong_in_double(),
-            for_inputs: fate.resolved_for_inputs,
+        let (outcome, fate_margin, resolution) = if clear || !certify {
+            let resolution = Resolution::roughly(clear);
+            (response.outcome, response.fate_margin, resolution)
+        } else {
+            let ask = Certify { work_limit, ..Certify::default() };
+            let fate = integrator::certify(&self.scene, &ask);
+            let fate = fate.map_err(|error| self.refused(error))?;
+            let resolution = Resolution {
+                by: Some(fate.by),
+                resolved: fate.resolved,
+                wrong_in_double: fate.wrong_in_double(),
+                for_inputs: fate.resolved_for_inputs,
+            };
+            (fate.outcome, fate.margin, resolution)
         };
-        Ok(self.made(fate.outcome, fate.margin, resolution))
-    }
-
-    fn made(
-        &self,
-        outcome: Outcome,
-        fate_margin: f64,
-        resolution: Resolution,
-    ) -> IdaPoint {
-        IdaPoint {
+        Ok(IdaPoint {
             im: self.im,
             pga_g: self.pga_g,
             slenderness_rad: self.scene.block.slenderness_rad(),
             outcome,
             fate_margin,
             resolution,
-        }
+        })
     }
 }
 
-/// Levels of a curve up to its highest intensity, at most.
+/// Number of steps in 1, if it is a whole number.
+fn parts_of(step: f64) -> Option<f64> {
+    let parts = (1.0 / step).round();
+    ((parts * step - 1.0).abs() < 1e-12).then_some(parts)
+}
+
+/// Most levels of a curve up to its highest intensity.
 const MOST_LEVELS: f64 = 1e7;
 
 fn check(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<(), IdaError> {
-    let positive = |what, found: f64| {
-        if found > 0.0 && found.is_finite() {
-            Ok(())
-        } else {
-            Err(IdaError::NotPositive { what, found })
-        }
-    };
     match analysis.grid {
         Grid::Pga { step_g } => positive("step in g", step_g)?,
         Grid::Im { step } => positive("step in IM", step)?,
     }
     positive("highest IM", analysis.highest_im)?;
-    let step_im = match analysis.grid {
-        Grid::Pga { step_g } => {
-            step_g / uplift_threshold(&analysis.block, analysis.model)
-        }
-        Grid::Im { step } => step,
-    };
-    let levels = analysis.highest_im / step_im;
+    let threshold = uplift_threshold(&analysis.block, analysis.model);
+    let levels = analysis.highest_im / analysis.grid.step_im(threshold);
     if !(levels <= MOST_LEVELS) {
         return Err(IdaError::Levels { found: levels, most: MOST_LEVELS });
     }
     if let Some(tolerance) = analysis.refine {
         positive("refinement", tolerance)?;
     }
-    match analysis.resurrections {
-        Some(Resurrections::Multiple(x)) => positive("resurrections", x)?,
-        Some(Resurrections::To(x)) => positive("resurrections", x)?,
-        None => {}
+    if let Some(Resurrections::Multiple(x) | Resurrections::To(x)) =
+        analysis.resurrections
+    {
+        positive("resurrections", x)?;
     }
     if record.pga_g() > 0.0 {
         Ok(())
     } else {
         Err(IdaError::Silent { record: record.name().to_owned() })
+    }
+}
+
+/// Refuses a number that is not positive and finite.
+pub(super) fn positive(
+    what: &'static str,
+    found: f64,
+) -> Result<(), IdaError> {
+    if found > 0.0 && found.is_finite() {
+        Ok(())
+    } else {
+        Err(IdaError::NotPositive { what, found })
     }
 }

@@ -4,7 +4,7 @@ use crate::ida::IdaPoint;
 use crate::integrator::Arithmetic;
 
 /// Rough estimate (see [`DOUBTFUL`](crate::integrator::DOUBTFUL)) above which
-/// an analysis has its decisions assessed one by one, where fates are
+/// the decisions of an analysis are assessed one by one, if the curve is
 /// certified.
 pub(crate) const WORTH_ASSESSING: f64 = 5e-4;
 
@@ -13,21 +13,21 @@ pub(crate) const WORTH_ASSESSING: f64 = 5e-4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Resolution {
-    /// Which arithmetic assessed every decision, the widest if several did;
-    /// none where the rough estimate of the run was enough.
+    /// The widest arithmetic that assessed every decision; `None` if the rough
+    /// estimate of the run was enough.
     pub by: Option<Arithmetic>,
-    /// False where outcome and peak are not known: the error of the run may
-    /// have turned one of its decisions.
+    /// False if outcome and peak are not known: the error of the run may have
+    /// turned one of its decisions.
     pub resolved: bool,
-    /// True where double precision gives another fate.
+    /// True if double precision gives another outcome.
     pub wrong_in_double: bool,
-    /// False where other inputs that round to the same doubles may have
-    /// another outcome.
+    /// False if other inputs that round to the same doubles may have another
+    /// outcome.
     pub for_inputs: bool,
 }
 
 impl Resolution {
-    /// By the rough estimate.
+    /// Resolution by the rough estimate.
     pub(crate) fn roughly(resolved: bool) -> Self {
         Self {
             by: None,
@@ -55,7 +55,7 @@ pub struct ResolutionCounts {
     pub resolved_by_octuple: u64,
     /// Analyses whose outcome and peak are not known.
     pub unresolved: u64,
-    /// Analyses that have another fate in double precision.
+    /// Analyses with another outcome in double precision.
     pub wrong_in_double: u64,
     /// Analyses resolved for the doubles given, but not for all inputs that
     /// round to them.
@@ -63,7 +63,7 @@ pub struct ResolutionCounts {
 }
 
 impl ResolutionCounts {
-    /// Takes an analysis in.
+    /// Counts an analysis.
     pub(crate) fn count(&mut self, point: &IdaPoint) {
         let Resolution { by, resolved, wrong_in_double, for_inputs } =
             point.resolution;

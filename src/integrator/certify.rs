@@ -1,4 +1,4 @@
-//! Fates resolved in the arithmetic that they need.
+//! Outcomes resolved in the arithmetic that they need.
 
 use std::fmt;
 
@@ -28,8 +28,8 @@ named! {
 /// rough estimate flags a peak from a standard deviation of a quarter of it.
 const PEAK_ERROR: f64 = 1e-6;
 
-/// How a fate is asked for. The default is that of the whole run, within the
-/// default limit of work, without a word on the way.
+/// Options of [`certify`]. Default: the whole run, the default work limit, no
+/// progress callback.
 ///
 /// ```
 /// use rocking::{Block, Excitation, Restitution, Scene};
@@ -51,9 +51,9 @@ const PEAK_ERROR: f64 = 1e-6;
 /// ```
 #[derive(Clone, Copy)]
 pub struct Certify<'a> {
-    /// Stop at this time (s) instead of when nothing more can happen.
+    /// Stop at this time (s) instead of at the last possible event.
     pub until_s: Option<f64>,
-    /// Work beyond which a run is refused, of each of up to three.
+    /// Work limit of each of up to three runs.
     pub work_limit: WorkLimit,
     /// Called before each step of a run in wider arithmetic than double
     /// precision, with that arithmetic and the time (s) in the scene.
@@ -76,27 +76,27 @@ impl fmt::Debug for Certify<'_> {
     }
 }
 
-/// A fate and the evidence for it.
+/// An outcome and the evidence for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CertifiedFate {
-    /// What became of the block, in the arithmetic `by`.
+    /// Outcome in the arithmetic `by`.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome,
-    /// Distance from the other fate, in units of the slenderness angle.
+    /// Distance from the other outcome, in units of the slenderness angle.
     pub margin: f64,
-    /// Bound on the error of the peak ratio; none where it is unresolved.
+    /// Bound on the error of the peak ratio; `None` if it is unresolved.
     pub error: Option<f64>,
     /// The least clear decision of the run.
     pub least: Clearance,
-    /// False where a decision is not clear in the widest arithmetic, or the
+    /// False if a decision is not clear in the widest arithmetic, or if the
     /// error of the peak ratio of a block that stands may be above 1e-6.
     pub resolved: bool,
-    /// False where other inputs that round to the same doubles may have
-    /// another outcome: the fate is that of these doubles alone.
+    /// False if other inputs that round to the same doubles may have another
+    /// outcome. The outcome then holds only for these doubles.
     pub resolved_for_inputs: bool,
-    /// The arithmetic that resolved the fate, or the widest one.
+    /// The arithmetic that resolved the outcome, or the widest one.
     pub by: Arithmetic,
     /// Outcome in double precision.
     pub double: Outcome,
@@ -131,19 +131,19 @@ impl CertifiedFate {
         }
     }
 
-    /// Whether double precision gives another fate than `outcome`.
+    /// True if overturning in double precision differs from `outcome`.
     #[must_use]
     pub fn wrong_in_double(&self) -> bool {
         self.outcome.is_overturned() != self.double.is_overturned()
     }
 }
 
-/// Resolves outcome and peak of a run: in double precision where every
-/// decision is clear of its error and the error of the peak ratio of a block
-/// that stands is at most 1e-6, else in double-double, else in octuple
-/// precision. Where that does not hold even then, the run is unresolved.
+/// Resolves outcome and peak of a run in the least of double, double-double and
+/// octuple precision that is enough. An arithmetic is enough if every decision
+/// is clear of its error and the error of the peak ratio of a block that stands
+/// is at most 1e-6. If none is enough, the run is unresolved.
 ///
-/// The result holds for the doubles given. `resolved_for_inputs` says whether
+/// The result holds for the given doubles. `resolved_for_inputs` says whether
 /// it holds for all inputs that round to them. An end of observation is one
 /// of the decisions.
 ///
@@ -175,7 +175,7 @@ pub fn certify(
     scene: &Scene<'_>,
     ask: &Certify<'_>,
 ) -> Result<CertifiedFate, SceneError> {
-    let Certify { until_s, work_limit, progress } = *ask;
+    let Certify { until_s, work_limit, .. } = *ask;
     let accuracy = true;
     let observe =
         Observe { accuracy, until_s, work_limit, ..Observe::default() };
@@ -187,18 +187,25 @@ pub fn certify(
     }
     let double = quick.outcome;
     let by = Arithmetic::DoubleDouble;
-    let report = |time_s| progress(by, time_s);
-    let wide =
-        respond_precisely::<DoubleDouble>(scene, &observe, true, &report)?;
-    let wide = CertifiedFate::of(&wide, by);
+    let wide = fate_in::<DoubleDouble>(scene, &observe, ask, by)?;
     if wide.resolved {
         return Ok(CertifiedFate { double, ..wide });
     }
     let by = Arithmetic::Octuple;
-    let report = |time_s| progress(by, time_s);
-    let widest = respond_precisely::<Octuple>(scene, &observe, true, &report)?;
-    let widest = CertifiedFate::of(&widest, by);
+    let widest = fate_in::<Octuple>(scene, &observe, ask, by)?;
     Ok(CertifiedFate { double, ..widest })
+}
+
+/// The fate in a wider arithmetic than double precision.
+fn fate_in<N: Real>(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    ask: &Certify<'_>,
+    by: Arithmetic,
+) -> Result<CertifiedFate, SceneError> {
+    let report = |time_s| (ask.progress)(by, time_s);
+    let response = respond_precisely::<N>(scene, observe, true, &report)?;
+    Ok(CertifiedFate::of(&response, by))
 }
 
 #[cfg(test)]

@@ -114,7 +114,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         from: Moment<N>,
         motion: BlockMotion<N>,
     ) -> f64 {
-        self.isa.run(Beyond::<_, _, SIZE, _, _> { driver: self, from, motion })
+        self.isa.run(Beyond::<_, _, SIZE> { driver: self, from, motion })
     }
 }
 
@@ -131,19 +131,17 @@ fn is_clear_of_base<N: Real>(
 }
 
 /// The margin of an overturning, compiled for each instruction-set level.
-struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
-    driver: &'d Driver<N, G, F, HARD>,
+struct Beyond<D, N, const SIZE: usize> {
+    driver: D,
     from: Moment<N>,
     motion: BlockMotion<N>,
 }
 
-impl<
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Kernel
+    for Beyond<&Driver<N, G, F, HARD>, N, SIZE>
+where
     N: Real,
     G: Forcing<N, F>,
-    const SIZE: usize,
-    const F: usize,
-    const HARD: usize,
-> Kernel for Beyond<'_, N, G, SIZE, F, HARD>
 {
     type Output = f64;
 
@@ -178,27 +176,18 @@ impl<
 }
 
 /// Turning points of a step, compiled for each instruction-set level.
-struct TurningKernel<
-    'd,
-    N,
-    G,
-    const LEN: usize,
-    const F: usize,
-    const HARD: usize,
-> {
-    driver: &'d mut Driver<N, G, F, HARD>,
+struct TurningKernel<'d, D, N, const LEN: usize> {
+    driver: D,
     series: &'d TaylorSeries<N, LEN>,
     x: N,
     step: (Moment<N>, N),
 }
 
-impl<
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
+    for TurningKernel<'_, &mut Driver<N, G, F, HARD>, N, LEN>
+where
     N: Real,
     G: Forcing<N, F>,
-    const LEN: usize,
-    const F: usize,
-    const HARD: usize,
-> Kernel for TurningKernel<'_, N, G, LEN, F, HARD>
 {
     type Output = ();
 

@@ -60,7 +60,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) -> Option<Advance<N>> {
         let isa = self.isa;
         let driver = self;
-        isa.run(AssessedStepKernel::<_, _, LEN, _, _> { driver, step, length })
+        isa.run(AssessedStepKernel::<_, _, LEN> { driver, step, length })
     }
 
     /// Makes a step by its series. `None` if the truncation error is too large.
@@ -240,26 +240,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize> Kernel
 
 /// An assessed step, compiled for each instruction-set level. It expands the
 /// longest series; the series of the step is its beginning.
-struct AssessedStepKernel<
-    'd,
-    N,
-    G,
-    const LEN: usize,
-    const F: usize,
-    const HARD: usize,
-> {
-    driver: &'d mut Driver<N, G, F, HARD>,
+struct AssessedStepKernel<'d, D, N, const LEN: usize> {
+    driver: D,
     step: &'d mut Step<N>,
     length: N,
 }
 
-impl<
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
+    for AssessedStepKernel<'_, &mut Driver<N, G, F, HARD>, N, LEN>
+where
     N: Real,
     G: Forcing<N, F>,
-    const LEN: usize,
-    const F: usize,
-    const HARD: usize,
-> Kernel for AssessedStepKernel<'_, N, G, LEN, F, HARD>
 {
     type Output = Option<Advance<N>>;
 

@@ -10,11 +10,7 @@ pub use name::{NameError, SuiteNameError, result_name, suite_names};
 
 /// Mean of samples, summed in their order.
 pub fn mean(samples: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for sample in samples {
-        sum += sample;
-    }
-    sum / samples.len() as f64
+    samples.iter().fold(0.0, |sum, x| sum + x) / samples.len() as f64
 }
 
 /// Why a sequence of samples is no accelerogram.

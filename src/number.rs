@@ -107,7 +107,7 @@ pub trait SeriesWork: sealed::Sealed {
 }
 
 /// A scalar: comparison and the elementary functions on top of arithmetic.
-pub trait Real: Number + PartialOrd + std::fmt::Debug {
+pub trait Real: Number + PartialOrd + Default + std::fmt::Debug {
     /// Half the distance from 1 to the next number: the unit roundoff.
     const ROUNDOFF: f64;
 

@@ -1,4 +1,5 @@
-//! Skipping what cannot lift a resting block, and what cannot move it enough.
+//! Index of a record, by which runs skip the parts that cannot lift a block at
+//! rest, and those that cannot move a block enough.
 //!
 //! # Proof P9
 //!
@@ -12,33 +13,28 @@ pub(crate) const RUN: usize = 32;
 const WINDOWS: [usize; 16] =
     [2, 3, 4, 5, 6, 7, 9, 11, 13, 17, 21, 25, 33, 41, 49, 65];
 
-/// Largest absolute sample of each run of 32 intervals, so that a resting
-/// block skips whole runs, and how fast and how far the ground still moves
-/// from there on. Made once a record, shared by all levels and blocks.
+/// Largest absolute sample of each run of 32 intervals, by which a block at rest
+/// skips whole runs, and bounds on the motion of the ground from each run on.
+/// It is made once for a record; all levels and blocks share it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RecordIndex {
     /// Largest absolute sample of each run.
     peaks: Vec<f64>,
-    /// What is left from each run on.
+    /// Bounds on the motion from each run on.
     left: Vec<Remaining<f64>>,
     /// `sway[w][i]`: largest range of ground displacement in any window of
     /// length `w` that starts at run `i` or later.
     sway: Vec<Vec<f64>>,
 }
 
-/// What is left of a record from some place on, its velocity being zero at
-/// the end.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Bounds on the motion of the ground from some place on, if its velocity is
+/// zero at the end. The default is that after the last sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Remaining<N> {
     /// Bound of the absolute velocity.
     pub speed: N,
     /// Bound of the integral of the absolute velocity.
     pub travel: N,
-}
-
-impl Remaining<f64> {
-    /// The value after the last sample.
-    const NOTHING: Self = Self { speed: 0.0, travel: 0.0 };
 }
 
 /// A length of windows.
@@ -59,18 +55,18 @@ impl RecordIndex {
         let runs = intervals.div_ceil(RUN);
         let mut left = Vec::with_capacity(runs);
         let mut spans = Vec::with_capacity(runs);
-        let (mut end, mut sum) = (0.0_f64, Remaining::NOTHING);
+        let (mut end, mut sum) = (0.0_f64, Remaining::<f64>::default());
         let mut place = 0.0;
         let mut span = Span::at(place);
         for interval in (0..intervals).rev() {
             let [from, to] = [samples[interval], samples[interval + 1]];
             let start = end - 0.5 * (from + to);
-            // The velocity is a parabola: so far from its chord at most.
+            // The velocity is a parabola, at most this far from its chord.
             let bow = 0.125 * (to - from).abs();
             let (one, other) = (start.abs(), end.abs());
             sum.speed = sum.speed.max(one.max(other) + bow);
             sum.travel += 0.5 * (one + other) + bow;
-            // And so far is the place from its own.
+            // The displacement is at most this far from its chord.
             let bow = 0.125 * from.abs().max(to.abs());
             let last = place;
             place -= start + 0.5 * from + (to - from) / 6.0;
@@ -87,11 +83,11 @@ impl RecordIndex {
         Self { peaks, left, sway: sway(spans) }
     }
 
-    /// What is left from the run of `interval` on, in units of samples and
-    /// intervals.
+    /// Bounds on the motion from the run of `interval` on, in units of samples
+    /// and intervals.
     #[inline(always)]
     pub(crate) fn left(&self, interval: usize) -> Remaining<f64> {
-        *self.left.get(interval / RUN).unwrap_or(&Remaining::NOTHING)
+        self.left.get(interval / RUN).copied().unwrap_or_default()
     }
 
     /// Number of runs.
@@ -100,23 +96,23 @@ impl RecordIndex {
         self.left.len()
     }
 
-    /// The shortest window that holds whatever starts in its first run and
-    /// lasts that many intervals.
+    /// The shortest window that contains every motion of `intervals` intervals
+    /// that starts in its first run.
     #[inline(always)]
     pub(crate) fn window(intervals: f64) -> Option<Window> {
         let holds = |runs: &usize| intervals <= (RUN * (runs - 1)) as f64;
         WINDOWS.iter().position(holds).map(Window)
     }
 
-    /// How far apart the ground's places within a window are at most, from
-    /// the run of `interval` on, in units of samples and squared intervals.
+    /// Largest range of ground displacement in a window from the run of
+    /// `interval` on, in units of samples and squared intervals.
     #[inline(always)]
     pub(crate) fn sway(&self, interval: usize, Window(k): Window) -> f64 {
         *self.sway[k].get(interval / RUN).unwrap_or(&0.0)
     }
 
-    /// First interval after the run that starts at `interval`, if no sample
-    /// of the run exceeds `bound`; nothing if `interval` starts no run.
+    /// First interval after the run that starts at `interval`, if no sample of
+    /// the run exceeds `bound`; `None` if `interval` starts no run.
     pub(crate) fn skip(&self, interval: usize, bound: f64) -> Option<usize> {
         let starts = interval.is_multiple_of(RUN);
         let low = starts && self.peaks[interval / RUN] <= bound;

@@ -48,6 +48,7 @@ pub(crate) struct Coast<'a, N> {
 }
 
 /// Last decision of a run.
+#[derive(Default)]
 pub(crate) struct CoastEnd<N> {
     pub overturned: Option<(N, Side)>,
     /// Smallest distance from the other outcome, if the saddle decides the

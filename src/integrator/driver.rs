@@ -152,7 +152,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             dynamics,
             forcing,
             isa,
-            record: RunTrace::empty(),
+            record: RunTrace::default(),
             observe: Observe::default(),
             watched: false,
             until_s: None,

@@ -137,7 +137,7 @@ pub(crate) fn steps_of(length: f64) -> usize {
 /// A record: one piece for each interval between samples.
 #[derive(Clone, Copy)]
 pub(crate) struct RecordForcing<'a, N> {
-    record: ScaledRecord<'a>,
+    pub record: ScaledRecord<'a>,
     index: &'a RecordIndex,
     factor: N,
     length: N,
@@ -166,18 +166,6 @@ impl<'a, N: Real> RecordForcing<'a, N> {
     /// Length of a step in units of 1/p.
     pub fn step(&self) -> f64 {
         self.length.to_f64() / self.steps as f64
-    }
-
-    /// Samples before scaling.
-    #[inline(always)]
-    pub fn samples(&self) -> &'a [f64] {
-        self.record.samples()
-    }
-
-    /// Factor on every sample.
-    #[inline(always)]
-    pub fn amplitude(&self) -> f64 {
-        self.record.amplitude()
     }
 
     #[inline(always)]
@@ -334,7 +322,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
     }
 
     fn span(&self) -> f64 {
-        let end_s = self.stretches.last().map_or(0.0, Stretch::end_s);
+        let end_s = self.stretches.last().map_or(0.0, |stretch| stretch.end_s);
         end_s * self.p.to_f64()
     }
 

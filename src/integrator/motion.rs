@@ -1,4 +1,4 @@
-//! State of a block in motion, and what a run gathers.
+//! State of a block in motion, and the results of a run so far.
 
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::{
@@ -15,7 +15,8 @@ pub(crate) struct BlockMotion<N> {
     pub w: N,
 }
 
-/// What a run gathers.
+/// Results of a run so far.
+#[derive(Default)]
 pub(crate) struct RunTrace<N> {
     pub peak: N,
     pub peak_time_s: Option<N>,
@@ -25,40 +26,20 @@ pub(crate) struct RunTrace<N> {
     pub history: Vec<HistoryPoint<N>>,
     pub forces: Option<Forces>,
     pub work: Work,
-    /// Why the run is refused, once its work passes the limit.
+    /// Why the run is refused, once its work has passed the limit.
     pub exceeded: Option<SceneError>,
-    /// Bounds of the errors of the times of rest and of overturning, s.
+    /// Bounds on the errors of the times of rest and of overturning, s.
     pub rest_error_s: Option<f64>,
     pub overturning_error_s: Option<f64>,
-    /// Errors by this arithmetic, and, where that is wider than the inputs'
-    /// own precision, by the inputs.
+    /// Errors of the arithmetic, and, if it is wider than double precision,
+    /// of the inputs.
     pub accuracy: Option<Accuracy>,
     pub inputs: Option<Accuracy>,
 }
 
-impl<N: Real> RunTrace<N> {
-    pub fn empty() -> Self {
-        Self {
-            peak: N::zero(),
-            peak_time_s: None,
-            uplift_time_s: None,
-            rest_time_s: None,
-            impacts: Vec::new(),
-            history: Vec::new(),
-            forces: None,
-            work: Work::default(),
-            exceeded: None,
-            rest_error_s: None,
-            overturning_error_s: None,
-            accuracy: None,
-            inputs: None,
-        }
-    }
-}
-
-/// Post-impact speed over alpha p below which an observer of events lets the
-/// geometric tail of the impacts stand for the rest of them: the tail's own
-/// error is of second order in it (over the square of the least downward
+/// Post-impact speed over alpha p below which a geometric series replaces the
+/// remaining impacts when events are observed. The error of that series is of
+/// second order in the speed (over the square of the least downward
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < DoubleDouble::ROUNDOFF {

@@ -11,7 +11,7 @@
 //!
 //! Lanes repeat the driver operation by operation. `chatter` repeats
 //! `accumulation` and `prove`; `roots` repeats `surely_positive`,
-//! `ends_below`, `guess` and `refine`; `batch` repeats `attempt`,
+//! `ends_below` and `refine`; `batch` repeats `attempt`,
 //! `first_event`, `turning_points`, `screen_turning` and `impact`. A change of
 //! one side is a change of both; otherwise the golden hash of
 //! `tests/reproducibility.rs` fails.
@@ -169,20 +169,13 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                 while waiting.queue(kind).count >= enough {
                     let line = waiting.queue(kind);
                     batch.gather(line, &mut groups, &mut self.slots);
-                    let done = isa.run_wide(Solve::<LEN, HARD> {
+                    isa.run_wide(Solve::<LEN, HARD> {
                         model,
                         kind,
                         tolerance: self.class.tolerance(),
                         batch: &batch,
                         solved: &mut solved,
                     });
-                    if done.is_none() {
-                        return self.tally;
-                    }
-                    if solved.impact != 0 {
-                        let (batch, solved) = (&batch, &mut solved);
-                        isa.run_wide(Land { model, batch, solved });
-                    }
                     self.tally.batches[kind as usize] += 1;
                     fresh |= self.scatter(&mut groups, &mut waiting, &solved);
                 }
@@ -329,7 +322,7 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
             } else {
                 group.next[lane] += 1;
             }
-            group.resume(lane);
+            group.active |= 1 << lane;
         }
         settled
     }
@@ -365,7 +358,7 @@ impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
         let mut moved = false;
         let (mut stopped, mut hard) = ([0; GROUPS], [0; GROUPS]);
         for (k, group) in self.groups.iter_mut().enumerate() {
-            if !group.is_idle() {
+            if group.active != 0 {
                 moved = true;
                 (stopped[k], hard[k]) = group.step::<V, LEN, HARD>(model);
             }
@@ -376,23 +369,7 @@ impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
     }
 }
 
-/// The rough certificates of a batch.
-struct Land<'b> {
-    model: Model,
-    batch: &'b LaneBatch,
-    solved: &'b mut BatchSolution,
-}
-
-impl WithSimd for Land<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Simd>(self) {
-        self.batch.land::<V>(self.model, self.solved);
-    }
-}
-
-/// The steps of a batch.
+/// The steps of a batch, and the rough certificates after its impacts.
 struct Solve<'b, const LEN: usize, const HARD: usize> {
     model: Model,
     kind: WaitKind,
@@ -426,6 +403,9 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
                     model, tolerance, solved,
                 );
             }
+        }
+        if solved.impact != 0 {
+            batch.land::<V>(model, solved);
         }
     }
 }

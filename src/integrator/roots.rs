@@ -6,8 +6,8 @@
 //! possible, the interval is halved until each root is isolated.
 
 use crate::integrator::taylor::{size_at, slope, value};
-use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
+use crate::number::{Number, Real};
 
 /// Depth at which a pair of roots that halving could not tell apart counts
 /// as contact without crossing: 48 in double precision, a few bits short of
@@ -111,7 +111,7 @@ impl<N: Real> Kernel for Isolation<'_, N> {
 /// Start of Newton's iteration: the root of the first three terms, corrected
 /// by the next two.
 #[inline(always)]
-pub(crate) fn guess<N: Real>(c: &[N]) -> N {
+pub(crate) fn guess<N: Number>(c: &[N]) -> N {
     let [start, slope, bend, ..] = *c else { return N::zero() };
     let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
     let tau = (start + start) / (root - slope);
@@ -135,14 +135,7 @@ pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
     if c.len() < 3 {
         return None;
     }
-    let (mut steep, mut bent) = (N::zero(), N::zero());
-    for k in (2..c.len()).rev() {
-        let slope = c[k].abs() * N::ratio(k as i32, 1);
-        steep = steep.mul_add(length, slope);
-        if k > 2 {
-            bent = bent.mul_add(length, slope * N::ratio(k as i32 - 1, 1));
-        }
-    }
+    let (steep, bent) = bends(c, length);
     let falls = c[1] < steep * length * N::from_f64(SURELY);
     let twice = c[2] + c[2];
     if !(falls || twice < bent * length * N::from_f64(SURELY)) {
@@ -154,6 +147,22 @@ pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
         return None;
     }
     Some(end < N::zero())
+}
+
+/// Sizes, at `length`, of the terms that bend the derivative of a polynomial and
+/// its second derivative: sums of k |c_k| length^(k-2) from k = 2, and of
+/// k (k-1) |c_k| length^(k-3) from k = 3.
+#[inline(always)]
+pub(crate) fn bends<N: Number>(c: &[N], length: N) -> (N, N) {
+    let (mut steep, mut bent) = (N::zero(), N::zero());
+    for k in (2..c.len()).rev() {
+        let slope = c[k].abs() * N::ratio(k as i32, 1);
+        steep = steep.mul_add(length, slope);
+        if k > 2 {
+            bent = bent.mul_add(length, slope * N::ratio(k as i32 - 1, 1));
+        }
+    }
+    (steep, bent)
 }
 
 /// Leftmost isolating interval in units of the whole, positive at its left

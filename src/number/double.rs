@@ -21,7 +21,7 @@ use super::{Number, Real, series};
 /// assert_eq!(third.hi(), 1.0 / 3.0);
 /// assert_eq!(third.lo(), 1.850371707708594e-17);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct DoubleDouble {
     // The order of the fields is the order of comparison.
     hi: f64,

@@ -24,7 +24,10 @@ pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let factors = a.abs() < LARGEST_FACTOR && b.abs() < LARGEST_FACTOR;
     let product_fits = (LEAST..LARGEST).contains(&product.abs());
     if factors && product_fits && c.abs() < LARGEST {
-        return odd(a, b, c, product);
+        let low = error_of_product(a, b, product);
+        let (above, below) = two_sum(c, low);
+        let (high, middle) = two_sum(product, above);
+        return high + sum_to_odd(below, middle);
     }
     // Nothing is rounded before the sum where a factor is zero.
     if a == 0.0 || b == 0.0 {
@@ -33,19 +36,11 @@ pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     library(a, b, c)
 }
 
-/// Keeps the call out of the loops into which the rest is inlined.
+/// The call of the library, out of line.
 #[cold]
 #[inline(never)]
 fn library(a: f64, b: f64, c: f64) -> f64 {
     a.mul_add(b, c)
-}
-
-#[inline(always)]
-fn odd(a: f64, b: f64, c: f64, product: f64) -> f64 {
-    let low = error_of_product(a, b, product);
-    let (above, below) = two_sum(c, low);
-    let (high, middle) = two_sum(product, above);
-    high + sum_to_odd(below, middle)
 }
 
 /// The error of a product, by Dekker's halves of the factors.

@@ -213,6 +213,12 @@ impl Octuple {
     }
 }
 
+impl Default for Octuple {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
 impl PartialEq for Octuple {
     fn eq(&self, other: &Self) -> bool {
         self.partial_cmp(other) == Some(Ordering::Equal)
@@ -317,12 +323,11 @@ impl Number for Octuple {
         if x == 0.0 {
             return Self::ZERO;
         }
-        if !x.is_finite() {
-            return if x.is_nan() {
-                Self::NAN
-            } else {
-                Self::infinite(negative)
-            };
+        if x.is_nan() {
+            return Self::NAN;
+        }
+        if x.is_infinite() {
+            return Self::infinite(negative);
         }
         let exponent = libm::ilogb(x);
         let leading = libm::scalbn(x.abs(), 63 - exponent);

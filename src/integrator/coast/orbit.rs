@@ -69,15 +69,12 @@ pub(super) fn hop<N: Real>(d: &Dynamics<N>, level: Energy<N>) -> N {
         Model::Linearized => {
             // v = speed/alpha, (1 + v)/(1 - v) - 1 = 2 v (1 + v)/(1 - v^2).
             let v = level.speed() / d.alpha;
-            let room = two_over_square(level.below_saddle, d.alpha);
+            let q = level.below_saddle;
+            // 2 q/alpha^2 = 1 - v^2, without cancellation near the saddle.
+            let room = (q + q) / (d.alpha * d.alpha);
             half * ((v + v) * (N::one() + v) / room).ln_1p()
         }
     }
-}
-
-/// 2 q / alpha^2 = 1 - v^2, without cancellation near the saddle.
-fn two_over_square<N: Real>(q: N, alpha: N) -> N {
-    (q + q) / (alpha * alpha)
 }
 
 /// A place on an orbit: rotation and absolute velocity. Near a turning point

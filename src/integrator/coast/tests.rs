@@ -22,7 +22,7 @@ fn overturns(model: Model, eta: f64, u: f64, w: f64) -> Option<(f64, Side)> {
         until_s: None,
     };
     let motion = BlockMotion { side: Side::Positive, u, w };
-    coast(&ask, motion, &mut RunTrace::empty()).overturned
+    coast(&ask, motion, &mut RunTrace::default()).overturned
 }
 
 /// On the saddle's own stable line the block neither passes nor comes back:

@@ -199,8 +199,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let Stride { ends: [from, to], tau, left } = step;
         let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
         let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
-        let (u, w) = (to.0.to_f64(), to.1.to_f64());
-        let tau = tau.to_f64();
+        let (u, w, tau) = (to.0.to_f64(), to.1.to_f64(), tau.to_f64());
         let (curvature, size, acceleration) = match self.dynamics.model {
             Model::Nonlinear => {
                 let (s, c) = (libm::sin(u0), libm::cos(u0));

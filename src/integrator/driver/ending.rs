@@ -71,17 +71,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
 
     /// The response, from the end of a flight.
     pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
-        let undecided =
-            CoastEnd { overturned: None, margin: None, nearest: None };
         let end = match *flight {
             Flight::Rest(_, time_s) => {
                 if self.record.work.impacts > 0 && self.observes(time_s) {
                     self.record.rest_time_s = Some(time_s);
                 }
                 self.sample_rest(self.until_s.unwrap_or(self.end_s()));
-                undecided
+                CoastEnd::default()
             }
-            Flight::Settled | Flight::Stopped | Flight::Doubtful => undecided,
+            Flight::Settled | Flight::Stopped | Flight::Doubtful => {
+                CoastEnd::default()
+            }
             Flight::Overturned { time_s, side, margin } => {
                 CoastEnd::overturned(&mut self.record, time_s, side, margin)
             }

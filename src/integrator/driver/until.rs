@@ -14,7 +14,7 @@ use crate::integrator::driver::{Driver, Flight, Stage, Step};
 use crate::integrator::forcing::{
     Exceedance, Forcing, NEAR_THRESHOLD, Shaking,
 };
-use crate::integrator::motion::{BlockMotion, RunTrace};
+use crate::integrator::motion::BlockMotion;
 use crate::integrator::screen::Screen;
 use crate::number::Real;
 
@@ -146,7 +146,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     pub(super) fn follow(&mut self, motion: BlockMotion<N>) -> Flight<N> {
         let mut free = self.free();
         free.until_s = self.until_s;
-        free.record = mem::replace(&mut self.record, RunTrace::empty());
+        free.record = mem::take(&mut self.record);
         free.screen = self.screen;
         let flight = free.fly_free(motion);
         self.record = free.record;

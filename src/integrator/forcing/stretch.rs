@@ -4,10 +4,10 @@ use crate::excitation::{Pulse, PulseShape};
 use crate::integrator::forcing::{LONGEST_PHASE, LONGEST_STEP};
 use crate::number::Real;
 
-/// Share of the uplift threshold within which a bound says nothing.
+/// Relative distance from the uplift threshold within which a bound is useless.
 const NEAR: f64 = 1e-12;
 
-/// Relative rounding of a time and of a phase, and much more.
+/// A large bound on the relative rounding of a time and of a phase.
 const ROUNDING: f64 = 1e-14;
 
 /// A smooth stretch of a pulse.
@@ -16,7 +16,7 @@ pub(super) struct Stretch<N> {
     pub first: usize,
     pub end: usize,
     start_s: N,
-    end_s: f64,
+    pub end_s: f64,
     /// Length of a piece in s.
     share: N,
     pub shape: PulseShape<N>,
@@ -24,7 +24,7 @@ pub(super) struct Stretch<N> {
     rough: PulseShape<f64>,
 }
 
-/// Pieces into which a stretch of some seconds is cut, as a number.
+/// Number of pieces of a stretch of some seconds.
 fn count<N: Real>(
     shape: &PulseShape<N>,
     seconds: f64,
@@ -43,7 +43,7 @@ fn count<N: Real>(
     libm::ceil(by_block.max(by_phase)).max(1.0)
 }
 
-/// Pieces into which a pulse is cut.
+/// Number of pieces of a pulse.
 pub(crate) fn pieces_of(pulse: &Pulse, frequency_rad_s: f64) -> f64 {
     let mut start = 0.0;
     let stretches = pulse.stretches::<f64>();
@@ -87,13 +87,8 @@ impl<N: Real> Stretch<N> {
         self.share.mul_add(k, self.start_s)
     }
 
-    /// End in s.
-    pub fn end_s(&self) -> f64 {
-        self.end_s
-    }
-
-    /// The least of a gap and the distance of its summit, where that is
-    /// known, from the threshold.
+    /// The lesser of a gap and the distance of the summit, if it is known, from
+    /// the threshold.
     pub fn room(&self, threshold: N, gap: N) -> N {
         let own = self.shape.summit().map_or(gap, |most| threshold - most);
         if own < gap { own.abs() } else { gap }
@@ -104,9 +99,9 @@ impl<N: Real> Stretch<N> {
         self.share * p
     }
 
-    /// First piece, from `piece` on, in which |a/g| may reach the threshold,
-    /// and the number of blocks of pieces looked at. Blocks double while
-    /// they stay below it, and are halved where they may not.
+    /// First piece from `piece` on in which |a/g| may reach the threshold, and
+    /// the number of blocks of pieces scanned. Blocks double while they stay
+    /// below the threshold and are halved if they may not.
     pub fn quiet(&self, piece: usize, threshold: N) -> (usize, u64) {
         if self.shape.summit().is_some_and(|most| !(most > threshold)) {
             return (self.end, 1);

@@ -141,22 +141,10 @@ pub(super) struct LaneGroup<'a> {
     /// Lanes whose side differs from that of their first step, a bit each.
     pub turned: u8,
     /// Lanes that fly; the others are empty or wait.
-    active: u8,
+    pub active: u8,
 }
 
 impl<'a> LaneGroup<'a> {
-    /// True when no lane flies.
-    #[inline(always)]
-    pub fn is_idle(&self) -> bool {
-        self.active == 0
-    }
-
-    /// Lets a lane fly.
-    #[inline(always)]
-    pub fn resume(&mut self, lane: usize) {
-        self.active |= 1 << lane;
-    }
-
     /// Sample ahead of a lane, scaled; not a number beyond the record.
     #[inline(always)]
     pub fn ahead(&self, lane: usize) -> f64 {
@@ -222,8 +210,8 @@ impl<'a> LaneGroup<'a> {
         };
         let (dynamics, forcing) = (&driver.dynamics, &driver.forcing);
         let h = forcing.step();
-        let amplitude = forcing.amplitude() * step.motion.side.sign();
-        let samples = forcing.samples();
+        let amplitude = forcing.record.amplitude() * step.motion.side.sign();
+        let samples = forcing.record.samples();
         let piece = step.place.piece;
         (self.motion.u[lane], self.motion.w[lane]) =
             (step.motion.u, step.motion.w);

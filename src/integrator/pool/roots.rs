@@ -1,39 +1,30 @@
 //! The scalar root finder's plain cases, in lanes: the same operations in
 //! the same order.
 
-use crate::integrator::roots::{NEAR_END, NEWTON_LIMIT, SURELY};
-use crate::integrator::taylor::{slope, value};
+use crate::integrator::roots::{NEAR_END, NEWTON_LIMIT, SURELY, bends, guess};
+use crate::integrator::taylor::{size_at, slope, value};
 use crate::number::Real;
 use crate::number::lanes::{Mask, Simd};
 
-/// First descent of polynomials over a length, where it is certain.
+/// First descents of polynomials over a length, if they are certain.
 pub(super) struct Descent<T> {
-    /// There is none.
+    /// Lanes without a descent.
     pub none: T,
-    /// There is one, within.
+    /// Lanes with one descent.
     pub one: T,
-    /// The polynomial falls all the way.
+    /// Lanes whose polynomial falls all the way.
     pub falls: T,
 }
 
-/// First descents, where nothing need be isolated.
+/// First descents that need no isolation.
 #[inline(always)]
 pub(super) fn descent<V: Simd, const SIZE: usize>(
     q: &[V; SIZE],
     length: V,
 ) -> Descent<V::Mask> {
     let zero = V::zero();
-    let (mut rest, mut steep, mut bent) = (zero, zero, zero);
-    for k in (2..SIZE).rev() {
-        let size = q[k].abs();
-        rest = rest.mul_add(length, size);
-        let slope = size * V::ratio(k as i32, 1);
-        steep = steep.mul_add(length, slope);
-        if k > 2 {
-            let bend = slope * V::ratio(k as i32 - 1, 1);
-            bent = bent.mul_add(length, bend);
-        }
-    }
+    let rest = size_at(&q[2..], length);
+    let (steep, bent) = bends(q, length);
     let begins = zero.lt(q[0]);
     let falling = q[1].lt(zero).select(q[1], zero);
     let low = falling.mul_add(length, q[0]);
@@ -64,17 +55,7 @@ pub(super) fn refine<V: Simd, const SIZE: usize>(
     let half = V::ratio(1, 2);
     let zero = V::zero();
     let (mut low, mut high) = (zero, high);
-    let root = (q[1] * q[1] - V::from_f64(4.0) * q[0] * q[2]).sqrt();
-    let mut guess = (q[0] + q[0]) / (root - q[1]);
-    if SIZE > 3 {
-        let (third, fourth) = (q[3], if SIZE > 4 { q[4] } else { zero });
-        let beyond = fourth.mul_add(guess, third) * (guess * guess);
-        let steep = fourth
-            .mul_add(V::from_f64(4.0) * guess, V::from_f64(3.0) * third)
-            .mul_add(guess, q[2] + q[2])
-            .mul_add(guess, q[1]);
-        guess = guess - beyond * guess / steep;
-    }
+    let guess = guess(q);
     let inside = low.lt(guess).and(guess.lt(high));
     let mut tau = inside.select(guess, half * (low + high));
     let mut open = which;

@@ -1,9 +1,9 @@
-//! What moves the ground: a scaled record or an analytic pulse.
+//! Ground motions: a scaled record or an analytic pulse.
 //!
 //! A further kind of excitation is a variant of [`Excitation`], an `impl` of
 //! `Forcing`, and an arm in each method of `integrator::forcing::ground`.
 //! Without a `remainder` no run under it ends early (proof P1 of the
-//! integrator); with one, P9 must hold. The pool takes records alone.
+//! integrator); with one, P9 must hold. The pool takes only records.
 
 mod pulse;
 mod record_index;
@@ -29,32 +29,30 @@ pub enum Excitation<'a> {
 
 /// A record scaled to an amplitude.
 ///
-/// Sample i acts as `amplitude * samples[i]` in multiples of gravity. Where
-/// the samples are normalised by their peak the amplitude *is* the peak
-/// ground acceleration, to the last bit: a block whose uplift threshold
-/// equals it does not move.
+/// Sample i acts as `amplitude * samples[i]` in multiples of gravity. If the
+/// samples are normalised by their peak, the amplitude *is* the peak ground
+/// acceleration, to the last bit: a block whose uplift threshold equals it does
+/// not move.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaledRecord<'a> {
     samples: &'a [f64],
     dt_s: f64,
     amplitude: f64,
-    /// What every sample is to be divided by: 1, or gravity in m/s2. Kept
-    /// apart because the quotient is rounded in the precision of the run.
+    /// Divisor of every sample: 1, or gravity in m/s2. It is separate because
+    /// the quotient is rounded in the precision of the run.
     divisor: f64,
     index: Option<&'a RecordIndex>,
 }
 
 impl<'a> ScaledRecord<'a> {
+    fn of(samples: &'a [f64], dt_s: f64, amplitude: f64) -> Self {
+        Self { samples, dt_s, amplitude, divisor: 1.0, index: None }
+    }
+
     /// The record as it is, times `factor`.
     #[must_use]
     pub fn by_factor(record: &'a Accelerogram, factor: f64) -> Self {
-        Self {
-            samples: record.samples_g(),
-            dt_s: record.dt_s(),
-            amplitude: factor,
-            divisor: 1.0,
-            index: None,
-        }
+        Self::of(record.samples_g(), record.dt_s(), factor)
     }
 
     /// Samples in m/s2, each `dt_s` after the other, under gravity in m/s2.
@@ -79,26 +77,16 @@ impl<'a> ScaledRecord<'a> {
         if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
             return Err(AccelerogramError::Gravity(gravity_m_s2));
         }
-        Ok(Self {
-            samples: samples_m_s2,
-            dt_s,
-            amplitude: 1.0,
-            divisor: gravity_m_s2,
-            index: None,
-        })
+        let divisor = gravity_m_s2;
+        Ok(Self { divisor, ..Self::of(samples_m_s2, dt_s, 1.0) })
     }
 
     /// The record scaled to a peak ground acceleration in multiples of
     /// gravity.
     #[must_use]
     pub fn to_pga(record: &'a NormalisedRecord, pga_g: f64) -> Self {
-        Self {
-            samples: &record.samples,
-            dt_s: record.dt_s,
-            amplitude: pga_g,
-            divisor: 1.0,
-            index: Some(&record.index),
-        }
+        let index = Some(&record.index);
+        Self { index, ..Self::of(&record.samples, record.dt_s, pga_g) }
     }
 
     /// Samples before scaling.
@@ -113,7 +101,7 @@ impl<'a> ScaledRecord<'a> {
         self.dt_s
     }
 
-    /// Index of the samples, where one was made.
+    /// Index of the samples, if there is one.
     #[must_use]
     pub(crate) fn index(&self) -> Option<&'a RecordIndex> {
         self.index

@@ -24,8 +24,8 @@ use kind::{PulseForm, Velocity};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     kind: PulseKind,
-    /// What the amplitude is to be divided by: 1, or gravity in m/s2. Kept
-    /// apart because the quotient is rounded in the precision of the run.
+    /// Divisor of the amplitude: 1, or gravity in m/s2. It is separate because
+    /// the quotient is rounded in the precision of the run.
     divisor: f64,
 }
 
@@ -67,8 +67,8 @@ impl Pulse {
         Ok(Self { kind, divisor: 1.0 })
     }
 
-    /// A pulse with its acceleration in m/s2, or its velocity in m/s, where
-    /// `kind` has multiples of gravity.
+    /// A pulse whose amplitude is in m/s2 (a velocity: m/s) instead of multiples
+    /// of gravity.
     ///
     /// # Errors
     /// As [`Pulse::try_new`], and [`PulseError::Gravity`] unless gravity is
@@ -106,8 +106,8 @@ impl Pulse {
         Self::try_new(kind.with_amplitude(kind.amplitude() * factor))
     }
 
-    /// The same pulse scaled to a peak ground acceleration over g; where the
-    /// amplitude is the peak, to the last bit.
+    /// The same pulse scaled to a peak ground acceleration over g: to the last
+    /// bit if the amplitude is the peak.
     ///
     /// # Errors
     /// [`PulseError::Parameter`] if the amplitude is not finite, as for a
@@ -127,7 +127,7 @@ impl Pulse {
         self.kind.form(N::from_f64(self.kind.amplitude()) / gravity)
     }
 
-    /// Smooth stretches: where each ends (s) and its shape.
+    /// Smooth stretches: the end of each (s) and its shape.
     pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, PulseShape<N>)> {
         self.form().stretches
     }

@@ -74,10 +74,10 @@ const SURELY: f64 = 1.001;
 /// Largest V (M + V) for which hops are bounded.
 const STEADY: f64 = 1.0 / 64.0;
 
-/// What the peak and what is left of a record say of each other.
+/// The peak so far, and the bounds on the rest of a record that follow from it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Barrier<N> {
-    /// The peak that it is for.
+    /// The peak of the barrier.
     peak: N,
     /// M^2, and M.
     height: N,
@@ -90,7 +90,7 @@ pub(crate) struct Barrier<N> {
 }
 
 impl<N: Real> Barrier<N> {
-    /// No peak at all.
+    /// The barrier of no peak.
     pub fn none() -> Self {
         let zero = N::zero();
         Self {
@@ -103,7 +103,7 @@ impl<N: Real> Barrier<N> {
         }
     }
 
-    /// Takes a peak in.
+    /// Raises the barrier to a peak.
     #[inline(always)]
     pub fn raise(
         &mut self,
@@ -140,15 +140,15 @@ impl<N: Real> Barrier<N> {
         self.travel = remainder.left(self.calm).travel;
     }
 
-    /// Velocity below which a block may leave the base and surely never
-    /// reaches its peak again, with that much left of the excitation; not
-    /// positive if there is none.
+    /// Velocity below which a block that leaves the base surely never reaches
+    /// its peak again under the rest of the excitation; not positive if there
+    /// is none.
     #[inline(always)]
     pub fn fastest(&self, dynamics: &Dynamics<N>, left: Remaining<N>) -> N {
         self.square(dynamics, left).positive_part().sqrt() - left.speed
     }
 
-    /// True where a block at rest surely never reaches its peak again.
+    /// True if a block at rest surely never reaches its peak again.
     #[inline(always)]
     pub fn is_above_rest(
         &self,
@@ -158,7 +158,7 @@ impl<N: Real> Barrier<N> {
         left.speed * left.speed < self.square(dynamics, left)
     }
 
-    /// Twice the energy below which it does not.
+    /// Twice the energy below which a block surely never reaches its peak again.
     #[inline(always)]
     fn square(&self, dynamics: &Dynamics<N>, left: Remaining<N>) -> N {
         let Remaining { speed, travel } = left;
@@ -176,7 +176,7 @@ impl<N: Real> Barrier<N> {
 /// The largest s c.
 #[inline(always)]
 fn lean<N: Real>(dynamics: &Dynamics<N>) -> N {
-    let (sine, cosine) = dynamics.sine_cosine();
+    let Dynamics { sine, cosine, .. } = *dynamics;
     match dynamics.model {
         Model::Nonlinear if sine < cosine => sine * cosine,
         Model::Nonlinear => N::ratio(1, 2),
@@ -184,7 +184,7 @@ fn lean<N: Real>(dynamics: &Dynamics<N>) -> N {
     }
 }
 
-/// Hops below a peak.
+/// Bounds on hops below a peak.
 struct BarrierHop<N> {
     alpha: N,
     eta: N,
@@ -215,8 +215,8 @@ impl<N: Real> BarrierHop<N> {
         Self { alpha, eta, lean: lean(dynamics), peak, height, speed, time }
     }
 
-    /// S^2 for a ground of that speed and sway, if every impact takes more
-    /// than it can give.
+    /// S^2 for a ground of speed `v` and a sway, if every impact takes more
+    /// energy than a hop can give.
     fn safe(&self, v: N, sway: N) -> Option<N> {
         let Self { alpha, eta, lean, peak, height, speed, time } = *self;
         let one = N::one();
@@ -257,7 +257,7 @@ fn least_potential<N: Real>(dynamics: &Dynamics<N>, u: N) -> N {
     let half = u * N::ratio(1, 2);
     match dynamics.model {
         Model::Nonlinear => {
-            let (sine, cosine) = dynamics.sine_cosine();
+            let Dynamics { sine, cosine, .. } = *dynamics;
             u * (sine - half * (cosine + u * N::ratio(1, 3) * sine))
         }
         Model::Linearized => u * (dynamics.alpha - half),

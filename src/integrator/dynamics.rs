@@ -55,8 +55,9 @@ pub(crate) struct Dynamics<N> {
     pub limit: N,
     pub p: N,
     pub eta: N,
-    sine: N,
-    cosine: N,
+    /// Sine and cosine of alpha.
+    pub sine: N,
+    pub cosine: N,
 }
 
 /// Threshold of uplift over gravity: tan(alpha) for Eq. 1, alpha for Eq. 2.
@@ -163,12 +164,6 @@ impl<N: Real> Dynamics<N> {
     #[inline(always)]
     pub fn drive<const F: usize>(&self, f: [N; F]) -> Drive<N, F> {
         Drive::new(self.model, (self.threshold, self.sine, self.cosine), f)
-    }
-
-    /// Sine and cosine of alpha.
-    #[inline(always)]
-    pub fn sine_cosine(&self) -> (N, N) {
-        (self.sine, self.cosine)
     }
 
     /// Downward acceleration at the base under forcing f: B at u = 0.

@@ -1,11 +1,11 @@
 //! Run-time choice of the instruction set.
 //!
 //! Every fused multiply-add in a result path is explicit, so all levels give
-//! the same bits; the level decides the speed alone (a fused operation is a
-//! library call where the instruction set has none). An [`Isa`] is made by
-//! detection only, which is what makes the `unsafe` calls here sound: of the
-//! levels' functions, and of the instructions by which lanes are registers.
-//! This file and its two children are the only ones of the crate with `unsafe`.
+//! the same bits and the level changes only the speed (without an instruction
+//! for it, a fused operation is a library call). Only detection makes an
+//! [`Isa`]; this makes the `unsafe` calls sound: those of the functions of a
+//! level, and those of the instructions by which lanes are registers. This file
+//! and its two children are the only ones of the crate with `unsafe`.
 //!
 //! A further instruction set needs its `Level` here (`available`, `name`,
 //! `run`, `run_wide`), and a file beside `dispatch/avx2.rs` (two registers) or
@@ -130,7 +130,7 @@ impl Isa {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of either level exists only where detection
             // found the features. The wider one gains nothing here.
-            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2::run(work) },
         }
     }
 
@@ -146,28 +146,10 @@ impl Isa {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of this level exists only where detection
             // found the features.
-            IsaLevel::Avx2 => Some(unsafe { avx2_wide(work) }),
+            IsaLevel::Avx2 => Some(unsafe { avx2::run_wide(work) }),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.
-            IsaLevel::Avx512 => Some(unsafe { avx512(work) }),
+            IsaLevel::Avx512 => Some(unsafe { avx512::run_wide(work) }),
         }
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn avx2<W: Kernel>(work: W) -> W::Output {
-    work.run()
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn avx2_wide<W: WithSimd>(work: W) -> W::Output {
-    work.run::<avx2::RegisterPair>()
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
-fn avx512<W: WithSimd>(work: W) -> W::Output {
-    work.run::<avx512::Eight>()
 }

@@ -21,16 +21,6 @@ const FAR_BEYOND: f64 = 1e4;
 /// Relative slack of bounds that are taken in double precision.
 const SLACK: f64 = 1e-14;
 
-/// A step whose errors are tracked.
-pub(super) struct Stride<N> {
-    /// Motion before and after the step, (u, w).
-    pub ends: [(N, N); 2],
-    /// Length of the step, in units of 1/p.
-    pub tau: N,
-    /// Truncation error of the velocity.
-    pub left: N,
-}
-
 impl<N: Real> RunTrace<N> {
     /// The trackers of errors.
     pub fn trackers(&mut self) -> impl Iterator<Item = &mut Accuracy> {
@@ -41,24 +31,22 @@ impl<N: Real> RunTrace<N> {
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// Propagates the errors over the part (0, `x`) of a step from a place and
-    /// notes the decisions of the flight: that the block does not touch its
-    /// base and does not reach overturning.
+    /// Propagates the errors over the part (0, `x`) of a step from a place, of
+    /// length `tau`, and notes the decisions of the flight: that the block does
+    /// not touch its base and does not reach overturning.
     #[inline(always)]
     pub(super) fn assess<const LEN: usize>(
         &mut self,
         series: &TaylorSeries<N, LEN>,
-        x: N,
-        step: &Stride<N>,
-        drive: &Drive<N, F>,
+        (x, tau): (N, N),
+        flown: &Leg,
         place: Moment<N>,
     ) {
-        let flown = self.flown(step, drive);
-        let end = Moment { offset: place.offset + step.tau, ..place };
+        let end = Moment { offset: place.offset + tau, ..place };
         let time_s = self.time_s(end).to_f64();
         let mut worst = 0.0_f64;
         for tracker in self.record.trackers() {
-            tracker.step(&flown);
+            tracker.step(flown);
             worst = worst.max(CLEARANCE * tracker.fly(time_s));
         }
         if self.may_turn_near(series, x.to_f64(), worst) {
@@ -194,9 +182,15 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Some((doubt * near.mul_add(near, 1.0)).sqrt())
     }
 
-    /// Input of [`Accuracy::step`] for a step.
-    fn flown(&self, step: &Stride<N>, drive: &Drive<N, F>) -> Leg {
-        let Stride { ends: [from, to], tau, left } = step;
+    /// Input of [`Accuracy::step`] for a step of length `tau` between two motions
+    /// (u, w), with the truncation error `left` of the velocity.
+    pub(super) fn flown(
+        &self,
+        [from, to]: [(N, N); 2],
+        tau: N,
+        drive: &Drive<N, F>,
+        left: N,
+    ) -> Leg {
         let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
         let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
         let (u, w, tau) = (to.0.to_f64(), to.1.to_f64(), tau.to_f64());
@@ -368,9 +362,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let series: TaylorSeries<N, HARD> =
                 self.expand((u, w), tau, &drive);
             let end = series.end();
-            let left = N::zero();
-            let step = Stride { ends: [(u, w), end], tau, left };
-            tracker.step(&self.flown(&step, &drive));
+            let ends = [(u, w), end];
+            tracker.step(&self.flown(ends, tau, &drive, N::zero()));
             (u, w) = end;
             let mut v = series.v;
             let turning = next_turning(&mut v, N::one(), self.isa);

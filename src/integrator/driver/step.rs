@@ -1,6 +1,5 @@
 //! One step of the driver: its series and the truncation error of it.
 
-use crate::integrator::driver::decisions::Stride;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Advance, Driver, Flight, Step};
 use crate::integrator::dynamics::{Drive, Model, curvature};
@@ -94,8 +93,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 _ => left * (1..LEN).fold(N::one(), |power, _| power * x),
             };
             let ends = [(u, w), (end_u, end_w)];
-            let stepped = Stride { ends, tau, left };
-            self.assess(series, x, &stepped, drive, step.place);
+            let flown = self.flown(ends, tau, drive, left);
+            self.assess(series, (x, tau), &flown, step.place);
         }
         self.turning_points(series, x, (step.place, length));
         if let Some(screen) = &mut self.screen {

@@ -222,8 +222,8 @@ impl<'a> LaneGroup<'a> {
         self.fixed.whole[lane] = h;
         self.fixed.inverse[lane] = forcing.inverse;
         self.fixed.threshold[lane] = dynamics.threshold;
-        (self.fixed.sine[lane], self.fixed.cosine[lane]) =
-            dynamics.sine_cosine();
+        self.fixed.sine[lane] = dynamics.sine;
+        self.fixed.cosine[lane] = dynamics.cosine;
         self.samples[lane] = samples;
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;

@@ -7,10 +7,23 @@ use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::number::Number;
+use crate::number::dispatch::{Kernel, WithSimd};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
-/// Made only in work that runs at the level [`avx2`](super::avx2_wide):
-/// nothing outside `super` can name it. The lower four lanes come first.
+/// Does work on one number at a time.
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn run<W: Kernel>(work: W) -> W::Output {
+    work.run()
+}
+
+/// Does work on lanes.
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn run_wide<W: WithSimd>(work: W) -> W::Output {
+    work.run::<RegisterPair>()
+}
+
+/// Made only in [`run_wide`]; nothing outside `super` can name it. The lower
+/// four lanes come first.
 #[derive(Clone, Copy)]
 pub(super) struct RegisterPair(pub __m256d, pub __m256d);
 

@@ -7,11 +7,17 @@ use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::number::Number;
+use crate::number::dispatch::WithSimd;
 use crate::number::dispatch::avx2::RegisterPair;
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
-/// Made only in work that runs at the level [`avx512`](super::avx512):
-/// nothing outside `super` can name it.
+/// Does work on lanes.
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
+pub(super) fn run_wide<W: WithSimd>(work: W) -> W::Output {
+    work.run::<Eight>()
+}
+
+/// Made only in [`run_wide`]; nothing outside `super` can name it.
 #[derive(Clone, Copy)]
 pub(super) struct Eight(__m512d);
 

@@ -1,5 +1,5 @@
 //! One component of ground acceleration, checked once, and the names that
-//! results can carry.
+//! results can contain.
 
 mod name;
 
@@ -17,7 +17,7 @@ pub fn mean(samples: &[f64]) -> f64 {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AccelerogramError {
-    /// Results carry the name.
+    /// Results contain the name.
     #[error(transparent)]
     Name(#[from] NameError),
     /// At least two samples are needed for a duration.
@@ -34,7 +34,7 @@ pub enum AccelerogramError {
     NotFinite {
         /// Zero-based index of the sample.
         index: usize,
-        /// What was found.
+        /// The sample.
         value: f64,
     },
     /// Gravity must be positive and finite.
@@ -70,7 +70,7 @@ impl Accelerogram {
     /// # Errors
     /// [`AccelerogramError`] for fewer than two samples, an interval that is
     /// not positive and finite, a sample that is not finite, or a name that
-    /// results cannot carry ([`result_name`]).
+    /// results cannot contain ([`result_name`]).
     pub fn try_new(
         name: impl Into<String>,
         dt_s: f64,
@@ -80,7 +80,7 @@ impl Accelerogram {
         Self { name: String::new(), dt_s, samples_g }.named(name)
     }
 
-    /// What makes samples an accelerogram, whatever their unit.
+    /// Checks samples of any unit.
     pub fn check(dt_s: f64, samples: &[f64]) -> Result<(), AccelerogramError> {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return Err(AccelerogramError::SamplingInterval(dt_s));
@@ -105,7 +105,7 @@ impl Accelerogram {
     /// The same motion under another name.
     ///
     /// # Errors
-    /// [`AccelerogramError::Name`] for one that results cannot carry.
+    /// [`AccelerogramError::Name`] for a name that results cannot contain.
     pub fn named(
         self,
         name: impl Into<String>,

@@ -2,11 +2,11 @@
 //!
 //! The impact law is one number, eta. A further law changes [`Restitution`],
 //! `Dynamics::new`, `Driver::impact`, the impacts of `coast` (`after_impact`,
-//! `last`, `hops`), `trace`, `Accuracy::impact`, `Screen::land`, `BarrierHop::safe`,
-//! and the lanes (`pool`: `group`, `batch`, `chatter`). It needs the proofs P1
-//! to P5, P7 and P10 of the integrator anew. `Once::Restitution` and `moved`
-//! make the condition number of eta; `trace` and `hops` take eta < 1 for a
-//! motion that ends.
+//! `last`, `hops`), `trace`, `Accuracy::impact`, `Screen::land`,
+//! `BarrierHop::safe`, and the lanes (`pool`: `group`, `batch`, `chatter`). It
+//! needs the proofs P1 to P5, P7 and P10 of the integrator anew.
+//! `Once::Restitution` and `moved` make the condition number of eta; `trace`
+//! and `hops` take eta < 1 for a motion that ends.
 
 use thiserror::Error;
 
@@ -162,8 +162,8 @@ impl Block {
 /// Coefficient of restitution: ratio of angular velocities after and before
 /// an impact (Eq. 3), in (0, 1].
 ///
-/// Housner's r is a ratio of kinetic energies, the square of this; a number
-/// of that kind enters by [`Restitution::from_energy_ratio`] alone.
+/// Housner's r is a ratio of kinetic energies, the square of this number; use
+/// [`Restitution::from_energy_ratio`] for it.
 ///
 /// ```
 /// use rocking::block::Restitution;
@@ -176,7 +176,7 @@ impl Block {
 pub struct Restitution(f64);
 
 impl Restitution {
-    /// Constant coefficient eta, whatever the block.
+    /// Constant coefficient eta for any block.
     ///
     /// # Errors
     /// [`BlockError::Restitution`] unless 0 < eta <= 1.
@@ -192,8 +192,8 @@ impl Restitution {
     /// of angular momentum about the new pivot.
     ///
     /// # Errors
-    /// [`BlockError::Restitution`] when alpha exceeds about 0.955 rad, where
-    /// the formula turns non-positive.
+    /// [`BlockError::Restitution`] if alpha exceeds about 0.955 rad, because
+    /// the formula is not positive there.
     ///
     /// ```
     /// use rocking::block::{Block, Restitution};

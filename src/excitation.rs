@@ -31,8 +31,8 @@ pub enum Excitation<'a> {
 ///
 /// Sample i acts as `amplitude * samples[i]` in multiples of gravity. If the
 /// samples are normalised by their peak, the amplitude *is* the peak ground
-/// acceleration, to the last bit: a block whose uplift threshold equals it does
-/// not move.
+/// acceleration, to the last bit: a block whose uplift threshold equals it
+/// does not move.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaledRecord<'a> {
     samples: &'a [f64],

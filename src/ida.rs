@@ -45,7 +45,8 @@ pub enum Grid {
 }
 
 impl Grid {
-    /// Step in IM of a block with an uplift threshold, in multiples of gravity.
+    /// Step in IM of a block with an uplift threshold, in multiples of
+    /// gravity.
     fn step_im(self, threshold: f64) -> f64 {
         match self {
             Self::Pga { step_g } => step_g / threshold,
@@ -55,7 +56,7 @@ impl Grid {
 }
 
 named! {
-    /// What is adjusted to reach a level's intensity.
+    /// Quantity adjusted to reach the intensity of a level.
     pub enum Adjust: "adjustment" {
         /// The record is scaled; the block stays.
         RecordScaling = "record-scaling",
@@ -80,7 +81,7 @@ pub struct Analysis {
     pub overturning: Overturning,
     /// Levels.
     pub grid: Grid,
-    /// What is adjusted to reach a level.
+    /// Quantity adjusted to reach a level.
     pub adjust: Adjust,
     /// Width in IM to which the first overturning bracket is bisected.
     pub refine: Option<f64>,
@@ -101,7 +102,7 @@ pub struct Analysis {
     pub work_limit: WorkLimit,
 }
 
-/// How far up resurrections are sought.
+/// Upper end of the search for resurrections.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resurrections {
     /// To a multiple of the first overturning level.
@@ -147,7 +148,7 @@ pub enum IdaError {
     NotPositive {
         /// The quantity.
         what: &'static str,
-        /// What was given.
+        /// The given number.
         found: f64,
     },
     /// Steps so small that a curve would have no end.
@@ -183,7 +184,7 @@ pub enum IdaError {
         record: String,
         /// The level.
         im: f64,
-        /// What was wrong.
+        /// The error of the slenderness.
         #[source]
         source: BlockError,
     },

@@ -2,7 +2,7 @@
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
 //! Eq. 1 is stepped by its Taylor polynomial, order 8 to 13, one step a sample
-//! (several where p dt exceeds 0.1);
+//! (several if p dt exceeds 0.1);
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
@@ -105,9 +105,9 @@ pub(crate) use screen::DOUBTFUL;
 
 /// Integrates a scene.
 ///
-/// Every run carries a rough estimate of error over margin. Where that is not
-/// small, every decision of the run is assessed, whether `observe` asks for
-/// it or not: [`Response::assessment`] then is not `NotAssessed`.
+/// Every run has a rough estimate of error over margin. If it is not small,
+/// every decision of the run is assessed, even without [`Observe::accuracy`]:
+/// [`Response::assessment`] then is not `NotAssessed`.
 ///
 /// # Errors
 /// [`SceneError`] for an initial rotation outside [0, 1), an amplitude that
@@ -139,7 +139,7 @@ pub fn respond(
 }
 
 named! {
-    /// Order of the Taylor polynomial under a record, where it is fixed.
+    /// Fixed order of the Taylor polynomial under a record.
     #[derive(PartialOrd, Ord)]
     pub enum Order: "order" {
         /// Order 4.
@@ -153,8 +153,8 @@ named! {
     }
 }
 
-/// How a scene is integrated in double precision. The default is what
-/// [`respond`] does.
+/// Options of an integration in double precision. The default is that of
+/// [`respond`].
 /// ```
 /// use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
 /// use rocking::excitation::{NormalisedRecord, ScaledRecord};
@@ -183,16 +183,15 @@ named! {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Solver {
-    /// Eq. 1 under a record is stepped at this order, one step a sample,
-    /// whatever a step leaves. None: as high as each step needs for double
-    /// precision. Other scenes run as they always do.
+    /// Fixed order of Eq. 1 under a record, one step a sample, whatever the
+    /// truncation error. `None`: the order that each step needs for double
+    /// precision. Other scenes ignore it.
     pub order: Option<Order>,
-    /// Instruction-set level. It changes the speed alone.
+    /// Instruction-set level. It changes only the speed.
     pub isa: Isa,
     /// The run ends as soon as nothing can change outcome or peak. Outcome,
     /// fate margin, peak with its time, and first uplift are those of a whole
-    /// run, to the last bit. Impacts, rest and history end where the run
-    /// does.
+    /// run, to the last bit. Impacts, rest and history end with the run.
     pub peak_only: bool,
 }
 
@@ -212,8 +211,8 @@ impl Solver {
         scene: &Scene<'_>,
         observe: &Observe,
     ) -> Result<Response, SceneError> {
-        // A fixed order's own result was asked for; a run that is asked for
-        // its peak alone has its estimate read by the caller.
+        // The result of a fixed order is kept; the caller of a run for only
+        // the peak reads its estimate.
         if observe.accuracy || self.order.is_some() || self.peak_only {
             return self.respond_once(scene, observe);
         }
@@ -226,7 +225,7 @@ impl Solver {
         run(scene, &assessed, *self, Again::Now)
     }
 
-    /// The run without a second look.
+    /// The run, never repeated.
     pub(crate) fn respond_once(
         &self,
         scene: &Scene<'_>,

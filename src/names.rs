@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-/// A text that names none of the choices.
+/// A text that is not the name of a choice.
 ///
 /// ```
 /// use rocking::integrator::Model;
@@ -15,7 +15,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{what} {found:?}: expected one of {}", expected.join(", "))]
 pub struct UnknownName {
-    /// What was to be named.
+    /// Kind of choice.
     pub what: &'static str,
     /// The text.
     pub found: String,
@@ -96,8 +96,8 @@ macro_rules! as_text {
     ($type:ty) => {};
 }
 
-/// Serialises a type as the text of its `Display`, which its `FromStr` reads;
-/// with `write` before the type it is only written.
+/// Serialises a type as the text of its `Display`, and reads it by its
+/// `FromStr`; with `write` before the type, it only serialises.
 #[cfg(feature = "serde")]
 #[macro_export]
 macro_rules! as_text {

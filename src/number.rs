@@ -1,10 +1,9 @@
 //! Arithmetic that has the same bits everywhere.
 //!
-//! One trait for the few operations that the model needs, so that the same
-//! source runs in double precision and in others. There is no constructor
-//! from a rounded constant: inputs enter by [`Number::from_f64`], exactly,
-//! and coefficients by [`Number::ratio`], rounded in the type's own
-//! precision.
+//! One trait has the few operations that the model needs, so that the same
+//! source runs in double and in other precisions. There is no constructor from
+//! a rounded constant: [`Number::from_f64`] takes inputs exactly, and
+//! [`Number::ratio`] rounds coefficients in the precision of the type.
 
 /// Implements operators of two numbers of one type.
 macro_rules! operators {
@@ -34,8 +33,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Seals the traits of numbers, to which any release may add methods.
 pub mod sealed {
-    /// Whoever implements this for a number of their own accepts that it may
-    /// not compile with the next release.
+    /// An implementation outside this crate may not compile with the next
+    /// release.
     pub trait Sealed {}
 }
 
@@ -49,11 +48,12 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Whether loops over the coefficients of a step are written out, so that
-    /// these stay in registers: worth it where an operation is an instruction.
+    /// Whether loops over the coefficients of a step are unrolled by hand, so
+    /// that the coefficients stay in registers. This pays if an operation is
+    /// one instruction.
     const WRITTEN_OUT: bool = false;
 
-    /// The number that `x` is, exactly.
+    /// `x`, exactly.
     fn from_f64(x: f64) -> Self;
 
     /// The quotient `i / j`, rounded in this type's precision; as given here,
@@ -96,9 +96,9 @@ pub trait Number:
     }
 }
 
-/// Something to be done with Taylor series of some lengths. It is sealed.
+/// Work with Taylor series of some lengths. It is sealed.
 pub trait SeriesWork: sealed::Sealed {
-    /// What the work gives.
+    /// Result of the work.
     type Output;
 
     /// Does the work with series of `SHORT` coefficients for short steps and
@@ -111,13 +111,13 @@ pub trait Real: Number + PartialOrd + Default + std::fmt::Debug {
     /// Half the distance from 1 to the next number: the unit roundoff.
     const ROUNDOFF: f64;
 
-    /// Relative step at which Newton's iteration, which squares it, is done.
+    /// Relative step at which Newton's iteration, which squares it, ends.
     const NEWTON_STEP: f64;
 
     /// Nearest double.
     fn to_f64(self) -> f64;
 
-    /// The number itself where it is positive, zero elsewhere.
+    /// The number itself if it is positive, otherwise zero.
     #[inline(always)]
     fn positive_part(self) -> Self {
         if self > Self::zero() { self } else { Self::zero() }
@@ -138,9 +138,9 @@ pub trait Real: Number + PartialOrd + Default + std::fmt::Debug {
     /// pi/2.
     fn right_angle() -> Self;
 
-    /// Does some work with series as long as this precision needs: of the
-    /// longer ones, at steps of a tenth of 1/p, the next coefficient is below
-    /// the roundoff.
+    /// Does some work with series as long as this precision needs. The next
+    /// coefficient of the longer series is below the roundoff at steps of a
+    /// tenth of 1/p.
     fn with_lengths<W: SeriesWork>(work: W) -> W::Output {
         work.run::<20, 28>()
     }

@@ -1,11 +1,11 @@
 //! Long work that is stopped before its end.
 //!
-//! [`Stop::run`] does work on threads of its own. What takes long in this
-//! crate calls [`point`] every few milliseconds; once a stop is requested,
-//! the next such call ends its thread's work by unwinding the stack, silently.
-//! A parallel iterator of rayon whose items call it has a `panic_fuse`, or
-//! each of its items would unwind. A program that is compiled to abort at a
-//! panic can stop no work.
+//! [`Stop::run`] does work on new threads. Long work in this crate calls
+//! [`point`] every few milliseconds. Once a stop is requested, the next such
+//! call ends the work of its thread by unwinding the stack, silently. A
+//! parallel iterator of rayon whose items call it has a `panic_fuse`; without
+//! one, each of its items would unwind. A program compiled to abort at a panic
+//! can stop no work.
 
 use std::cell::OnceCell;
 #[cfg(feature = "threads")]
@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
 
-/// Threads per processor beyond which more only cost time.
+/// Most useful threads per processor.
 #[cfg(feature = "threads")]
 pub const MOST_THREADS_A_PROCESSOR: usize = 8;
 
@@ -28,7 +28,7 @@ pub fn most_threads() -> usize {
     MOST_THREADS_A_PROCESSOR * processors.map_or(1, NonZeroUsize::get)
 }
 
-/// A stop that may be requested, from any thread and once for all.
+/// A stop that any thread may request, once for all.
 ///
 /// ```
 /// use rocking::stop::{Stop, StopError, point};
@@ -59,7 +59,7 @@ pub enum StopError {
     },
 }
 
-/// What a stack is unwound with.
+/// Payload of the unwinding.
 struct StopSignal;
 
 thread_local! {
@@ -79,14 +79,14 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Does `work` on `threads` threads of its own, which heed this stop: 0 is
-    /// one per processor, and at most [`most_threads`] are started.
+    /// Does `work` on `threads` new threads, which heed this stop. 0 means one
+    /// per processor; at most [`most_threads`] are started.
     ///
     /// Results have the same bits for any number of threads, and whether or
     /// not there is a stop to heed.
     ///
     /// # Errors
-    /// [`StopError`] where the work was stopped, or the threads could not be
+    /// [`StopError`] if the work was stopped or the threads could not be
     /// started.
     #[cfg(feature = "threads")]
     pub fn run<T: Send>(
@@ -113,7 +113,7 @@ impl Stop {
                 threads,
                 reason: error.to_string(),
             })?;
-        // What was under way is dropped with the stack.
+        // Unfinished work is dropped with the stack.
         let done = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
         done.map_err(|cause| match cause.is::<StopSignal>() {
             true => StopError::Stopped,
@@ -131,8 +131,7 @@ impl From<Arc<AtomicBool>> for Stop {
 
 /// Ends the work of this thread here if it heeds a stop that was requested.
 ///
-/// For the long loops of whatever [`Stop::run`] does: a call takes some
-/// nanoseconds.
+/// For the long loops of work in [`Stop::run`]: a call takes some nanoseconds.
 #[inline]
 pub fn point() {
     if HEEDED.with(|heeded| heeded.get().is_some_and(Stop::is_requested)) {

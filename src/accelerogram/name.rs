@@ -7,7 +7,7 @@ use std::fmt::{self, Write as _};
 
 use thiserror::Error;
 
-/// A name that a result cannot carry as it is.
+/// A name that a result cannot contain.
 ///
 /// A control character breaks a line, or acts on a terminal. A text that
 /// begins with `=`, `+`, `-` or `@` and is no number is a formula for a
@@ -16,11 +16,11 @@ use thiserror::Error;
 #[error("name {0:?}: expected {EXPECTED}")]
 pub struct NameError(String);
 
-/// What every result can carry.
+/// Rule for the names in results.
 pub const EXPECTED: &str = "no control character, and no =, +, - or @ at the start, which makes a spreadsheet compute the cell";
 
-/// The name of a record, or a cell of an index, if every result can carry
-/// it: without a control character, and no formula for a spreadsheet.
+/// The name of a record, or a cell of an index, if every result can contain
+/// it: without a control character, and not a formula for a spreadsheet.
 ///
 /// # Errors
 /// [`NameError`] with the text.
@@ -35,7 +35,7 @@ pub const EXPECTED: &str = "no control character, and no =, +, - or @ at the sta
 /// ```
 pub fn result_name(text: &str) -> Result<&str, NameError> {
     let computed = text.starts_with(['=', '+', '-', '@'])
-        // A dash stands for nothing, and a number for itself.
+        // Dashes mark an empty cell, and a number is no formula.
         && text.contains(|c: char| !matches!(c, '-' | ' '))
         && text.parse::<f64>().is_err();
     match computed || text.contains(char::is_control) {

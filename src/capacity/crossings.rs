@@ -3,7 +3,7 @@
 use super::{CapacityError, ResponseCurve};
 use crate::names::named;
 
-/// An intensity that reaches a level, or the statement that none did.
+/// An intensity that reaches a level, or a lower bound if none does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Capacity {
     /// The intensity.
@@ -95,8 +95,8 @@ impl Crossings {
 }
 
 impl ResponseCurve {
-    /// All crossings of an EDP level; an infinite one is crossed by the first
-    /// overturning alone.
+    /// All crossings of an EDP level; only the first overturning crosses an
+    /// infinite level.
     ///
     /// # Errors
     /// [`CapacityError::Level`] unless the level is positive.

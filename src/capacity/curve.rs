@@ -51,7 +51,7 @@ pub enum CapacityError {
     Beyond {
         /// Place of the curve, from 1.
         number: usize,
-        /// The intensity asked for.
+        /// The requested intensity.
         im: f64,
     },
     /// Levels are positive.
@@ -161,10 +161,9 @@ impl ResponseCurve {
         self.vertices.iter().copied()
     }
 
-    /// EDP at an intensity, by the curve: 0 up to the onset, infinite from
-    /// the first overturning on (nothing stands again), linear between
-    /// vertices, and none where the curve says nothing (beyond its last
-    /// vertex, or not a number).
+    /// EDP of the curve at an intensity: 0 up to the onset, infinite from the
+    /// first overturning on (no resurrection), linear between vertices, and
+    /// `None` if it is unknown (beyond the last vertex, or NaN).
     ///
     /// ```
     /// use rocking::capacity::ResponseCurve;

@@ -67,8 +67,8 @@ impl Pulse {
         Ok(Self { kind, divisor: 1.0 })
     }
 
-    /// A pulse whose amplitude is in m/s2 (a velocity: m/s) instead of multiples
-    /// of gravity.
+    /// A pulse whose amplitude is in m/s2 (a velocity: m/s) instead of
+    /// multiples of gravity.
     ///
     /// # Errors
     /// As [`Pulse::try_new`], and [`PulseError::Gravity`] unless gravity is
@@ -121,7 +121,7 @@ impl Pulse {
         Self::try_new(kind.with_amplitude(pga_g.copysign(kind.amplitude())))
     }
 
-    /// The pulse as the core computes it.
+    /// The pulse in the form for computation.
     fn form<N: Real>(&self) -> PulseForm<N> {
         let gravity = N::from_f64(self.divisor);
         self.kind.form(N::from_f64(self.kind.amplitude()) / gravity)

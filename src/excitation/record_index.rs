@@ -13,9 +13,9 @@ pub(crate) const RUN: usize = 32;
 const WINDOWS: [usize; 16] =
     [2, 3, 4, 5, 6, 7, 9, 11, 13, 17, 21, 25, 33, 41, 49, 65];
 
-/// Largest absolute sample of each run of 32 intervals, by which a block at rest
-/// skips whole runs, and bounds on the motion of the ground from each run on.
-/// It is made once for a record; all levels and blocks share it.
+/// Largest absolute sample of each run of 32 intervals, by which a block at
+/// rest skips whole runs, and bounds on the motion of the ground from each run
+/// on. It is made once for a record; all levels and blocks share it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RecordIndex {
     /// Largest absolute sample of each run.

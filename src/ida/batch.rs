@@ -5,14 +5,14 @@
 //! class after class. `climb` says which analyses a curve still needs;
 //! `levels` makes the scene of a level and the point of its response. The pool
 //! has 128 slots in 16 groups of eight lanes. A sweep steps all groups
-//! (`LaneGroup::step`). Lanes that surely meet no event (`free_of_events`) move on
-//! to the next sample of their record; `Waiting::park` queues the others. When
-//! enough lanes wait (`WaitKind::worth`), `LaneBatch::gather` takes up to eight,
-//! `solve` makes their steps, `land` carries the rough estimate over their
-//! impacts, and `Pool::scatter` puts them back. The driver makes the steps
-//! that a batch cannot (`Slot::advance`). `Desk::settle` hands the response to
-//! its `Climb`. Where p dt exceeds 0.1, or the machine has no wide
-//! instructions, `ida::curve` runs each intensity level alone.
+//! (`LaneGroup::step`). Lanes that surely meet no event (`free_of_events`)
+//! move on to the next sample of their record; `park` queues the
+//! others. When enough lanes wait (`WaitKind::worth`), `LaneBatch::gather`
+//! takes up to eight, `solve` makes their steps, `land` carries the rough
+//! estimate over their impacts, and `Pool::scatter` puts them back. The driver
+//! makes the steps that a batch cannot (`Slot::advance`). `Desk::settle` hands
+//! the response to its `Climb`. Where p dt exceeds 0.1, or the machine has no
+//! wide instructions, `ida::curve` runs each intensity level alone.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -89,8 +89,8 @@ pub fn curves(
     Ok(all.into_iter().map(row).collect())
 }
 
-/// As [`curves`], but passes each curve to `sink(a, r, curve)` as soon as it is
-/// finished, so memory does not grow with finished curves.
+/// As [`curves`], but passes each curve to `sink(a, r, curve)` as soon as it
+/// is finished, so memory does not grow with finished curves.
 ///
 /// `sink` is called once for each analysis `a` and record `r`, from any
 /// thread and in any order; the curves are the same for any number of
@@ -263,8 +263,8 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// The next analysis: of the last curve, of a new one, or ahead of the curves
-    /// in progress.
+    /// The next analysis: of the last curve, of a new one, or ahead of the
+    /// curves in progress.
     fn take(&mut self, last: Option<usize>) -> Option<Task<'a>> {
         last.and_then(|index| self.next(index, false))
             .or_else(|| self.start())

@@ -2,8 +2,8 @@
 //!
 //! Levels rise to the first overturning. If the analysis says so, its bracket
 //! is bisected and levels above it are run. A rising level may be run before
-//! the levels below it. Levels above the first overturning are then dropped, so
-//! the curve is the same.
+//! the levels below it. Levels above the first overturning are then dropped,
+//! so the curve is the same.
 
 use std::collections::BTreeMap;
 
@@ -50,8 +50,8 @@ enum ClimbStage {
         high: IdaPoint,
         asked: bool,
     },
-    /// Levels from `given` to the intensity `end` are left to run; `due` levels
-    /// are handed out and not settled.
+    /// Levels from `given` to the intensity `end` are left to run; `due`
+    /// levels are handed out and not settled.
     Above {
         given: u64,
         end: f64,
@@ -87,8 +87,8 @@ impl<'a> Climb<'a> {
         matches!(self.stage, ClimbStage::Done)
     }
 
-    /// The next level that is surely part of the curve, unless one is being run;
-    /// with `ahead`, also a rising level above those being run.
+    /// The next level that is surely part of the curve, unless one is being
+    /// run; with `ahead`, also a rising level above those being run.
     pub fn next(
         &mut self,
         ahead: bool,
@@ -132,8 +132,8 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// Number of levels that may be run ahead of the lowest one not settled: few
-    /// at first, because most of them may lie above the first overturning.
+    /// Number of levels that may be run ahead of the lowest one not settled:
+    /// few at first, because most of them may lie above the first overturning.
     pub fn reach(&self) -> u64 {
         match self.stage {
             ClimbStage::Rising { .. } => 2 + self.points.len() as u64 / 4,

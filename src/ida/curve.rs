@@ -14,9 +14,9 @@ pub struct IdaPoint {
     pub pga_g: f64,
     /// Slenderness of the block analysed, rad.
     pub slenderness_rad: f64,
-    /// What became of it.
+    /// Outcome of the run.
     pub outcome: Outcome,
-    /// Margin to the other fate.
+    /// Margin to the other outcome.
     pub fate_margin: f64,
     /// Whether outcome and peak are resolved.
     pub resolution: Resolution,
@@ -36,7 +36,7 @@ impl IdaPoint {
 pub struct FirstOverturning {
     /// Level of the grid that overturned first, IM.
     pub scanned_im: f64,
-    /// Upper end of the bisected bracket, where one was asked for.
+    /// Upper end of the bisected bracket, if there is one.
     pub refined: Option<IdaPoint>,
     /// Highest intensity below it found standing.
     pub standing_im: f64,
@@ -60,14 +60,14 @@ pub struct IdaCurve {
     pub record_pga_g: f64,
     /// PGV/PGA of the record in s.
     pub velocity_ratio_s: f64,
-    /// Onset of rocking: IM = 1, EDP = 0. It is known and was not run.
+    /// Onset of rocking: IM = 1, EDP = 0. It is known and needs no run.
     pub onset: IdaPoint,
     /// Analyses in rising intensity, the first overturned one last; levels
     /// at or below the uplift threshold are not run.
     pub points: Vec<IdaPoint>,
-    /// First overturning; none within the highest level otherwise.
+    /// First overturning, if there is one up to the highest level.
     pub overturning: Option<FirstOverturning>,
-    /// Levels above the first overturning, where resurrections were sought.
+    /// Levels above the first overturning, if resurrections were sought.
     pub above: Vec<IdaPoint>,
     /// How many analyses each arithmetic resolved.
     pub resolution: ResolutionCounts,
@@ -80,7 +80,7 @@ pub struct IdaCurve {
 pub enum BracketEnd {
     /// The level of the grid that overturned first.
     Scanned,
-    /// The upper end of the bisected bracket where there is one, else the
+    /// The upper end of the bisected bracket if there is one, otherwise the
     /// level.
     Refined,
 }
@@ -92,7 +92,7 @@ impl IdaCurve {
     /// # Errors
     /// None for a curve that [`curve`](crate::ida::curve) or
     /// [`curves`](crate::ida::curves) made; [`CapacityError`]
-    /// for fields set otherwise.
+    /// for fields with other values.
     ///
     /// ```
     /// use rocking::{Block, Restitution};

@@ -152,8 +152,8 @@ impl ImLevel<'_> {
         self.point(&response.map_err(|error| self.refused(error))?)
     }
 
-    /// Friction and normal force that the motion needs at the pivot, by a whole
-    /// run at a free order.
+    /// Friction and normal force that the motion needs at the pivot, by a
+    /// whole run at a free order.
     pub fn forces(&self) -> Result<Forces, IdaError> {
         let (scene, work_limit) = (&self.scene, self.of.analysis.work_limit);
         let observe =

@@ -29,7 +29,7 @@ const COVERAGE: f64 = 32.0;
 const ONCE: f64 = 2.0;
 
 /// Relative error, in units in the last place, of the ground acceleration
-/// and of the uplift threshold where a block at rest lifts.
+/// and of the uplift threshold when a block at rest lifts.
 const AT_REST: f64 = 4.0;
 
 /// Relative error, in units in the last place, of the difference between a
@@ -176,7 +176,8 @@ impl Accuracy {
 
     /// Propagates the errors over an impact at `speed` (before the impact),
     /// with the accelerations u'' just before and just after it, each on its
-    /// own branch. Returns bounds on the errors of the impact's time and speed.
+    /// own branch. Returns bounds on the errors of the impact's time and
+    /// speed.
     ///
     /// The impact is certain if its speed is clear of the error of that speed.
     /// The order of events is certain if the time of the next hop is clear of

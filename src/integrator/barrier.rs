@@ -56,8 +56,8 @@
 //!
 //! A run for the peak alone ends early, and a certificate is closed
 //! (`assess_settled`), where the bounds above exclude a higher peak. They rest
-//! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `BarrierHop`), on an
-//! impact that leaves -eta y - (1 - eta) v c of y with a constant eta of at
+//! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `BarrierHop`), on
+//! an impact that leaves -eta y - (1 - eta) v c of y with a constant eta of at
 //! most 1, and on a peak below the saddle. Under another impact law,
 //! `Driver::for_peak` and `Driver::observe` take no barrier until P1 is proved
 //! for it. (`Barrier::none` is no substitute: it is a barrier that a run
@@ -74,7 +74,8 @@ const SURELY: f64 = 1.001;
 /// Largest V (M + V) for which hops are bounded.
 const STEADY: f64 = 1.0 / 64.0;
 
-/// The peak so far, and the bounds on the rest of a record that follow from it.
+/// The peak so far, and the bounds on the rest of a record that follow from
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Barrier<N> {
     /// The peak of the barrier.
@@ -158,7 +159,8 @@ impl<N: Real> Barrier<N> {
         left.speed * left.speed < self.square(dynamics, left)
     }
 
-    /// Twice the energy below which a block surely never reaches its peak again.
+    /// Twice the energy below which a block surely never reaches its peak
+    /// again.
     #[inline(always)]
     fn square(&self, dynamics: &Dynamics<N>, left: Remaining<N>) -> N {
         let Remaining { speed, travel } = left;

@@ -1,9 +1,9 @@
-//! What a run decided, and how clearly.
+//! The decisions of a run, and how clear they are.
 //!
 //! A run under impacts takes discrete decisions: the block lifts or not, it
 //! meets its base or misses it, its impacts end in rest or not, it reaches
 //! overturning or turns before. Rounding moves the state by a tracked error.
-//! Where that error could turn a decision, nothing that follows is known. A
+//! If that error could turn a decision, nothing after it is known. A
 //! certificate keeps, for each kind of decision, the least ratio of a
 //! decision's margin to the error of that margin.
 
@@ -11,9 +11,9 @@ use crate::names::named;
 
 /// Ratio of margin to error from which on a decision is clear.
 ///
-/// Errors are bounds of 32 standard deviations, propagated linearly; the
-/// ratio leaves room for what the linear propagation leaves out. Measured on
-/// random scenes: see the declared cases of the certificate.
+/// Errors are bounds of 32 standard deviations, propagated linearly. The ratio
+/// leaves room for the terms that the linear propagation omits. It was
+/// measured on random scenes: see the reference cases of the certificate.
 pub const CLEARANCE: f64 = 4.0;
 
 /// Error of the rotation, over the slenderness angle, above which its linear
@@ -51,16 +51,15 @@ named! {
 pub struct Clearance {
     /// Kind of the decision.
     pub decision: Decision,
-    /// Its margin over the error of the margin; infinite where there was no
-    /// such decision or no error.
+    /// Margin over the error of the margin; infinite if there was no such
+    /// decision or no error.
     pub ratio: f64,
-    /// When it was taken, s.
+    /// Time of the decision, s.
     pub time_s: f64,
 }
 
 impl Clearance {
-    /// True where the error cannot turn the decision. Not a number is not
-    /// clear.
+    /// True if the error cannot turn the decision. NaN is not clear.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.ratio >= CLEARANCE
@@ -124,13 +123,13 @@ impl Certificate {
         })
     }
 
-    /// True where the error can turn no decision.
+    /// True if the error can turn no decision.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.least.iter().all(Clearance::is_clear)
     }
 
-    /// Takes a decision in.
+    /// Notes a decision.
     pub(crate) fn note(
         &mut self,
         decision: Decision,

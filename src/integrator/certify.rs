@@ -138,10 +138,10 @@ impl CertifiedFate {
     }
 }
 
-/// Resolves outcome and peak of a run in the least of double, double-double and
-/// octuple precision that is enough. An arithmetic is enough if every decision
-/// is clear of its error and the error of the peak ratio of a block that stands
-/// is at most 1e-6. If none is enough, the run is unresolved.
+/// Resolves outcome and peak of a run in the least of double, double-double
+/// and octuple precision that is enough. An arithmetic is enough if every
+/// decision is clear of its error and the error of the peak ratio of a block
+/// that stands is at most 1e-6. If none is enough, the run is unresolved.
 ///
 /// The result holds for the given doubles. `resolved_for_inputs` says whether
 /// it holds for all inputs that round to them. An end of observation is one

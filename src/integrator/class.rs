@@ -1,12 +1,12 @@
-//! Which series a scene under a record is stepped by.
+//! The series by which a scene under a record is stepped.
 
 use crate::integrator::Order;
 use crate::integrator::driver::tolerance;
 use crate::integrator::dynamics::Model;
 
-/// Coefficients of the longest series, order 13: that of pulses, of Eq. 2
-/// (whose series is the exponential's), of long steps, and of any step that a
-/// shorter series leaves too much of.
+/// Coefficients of the longest series, order 13. It serves pulses, Eq. 2
+/// (whose series is that of the exponential), long steps, and every step at
+/// which the truncation error of a shorter series is too large.
 pub(crate) const LONGEST: usize = 14;
 
 /// Largest p dt for the series of orders 8, 9 and 10. Below it the truncation
@@ -18,10 +18,11 @@ const LONGEST_STEPS: [f64; 3] = [0.0075, 0.015, 0.045];
 /// Tolerance for a p dt that rounding put just above a limit.
 const GUARD: f64 = 1.0 + 1e-9;
 
-/// What scenes under records have in common: equation and order.
+/// Equation and order of scenes under records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
-    /// Eq. 1 at order 8, at the longest where that leaves too much of a step.
+    /// Eq. 1 at order 8; at the longest series if the truncation error of a
+    /// step is too large.
     Eight,
     /// Likewise, order 9.
     Nine,
@@ -31,12 +32,12 @@ pub(crate) enum Class {
     Longest,
     /// Eq. 2.
     Linearized,
-    /// Eq. 1 at an order that is kept whatever a step leaves.
+    /// Eq. 1 at an order that is kept whatever the truncation error.
     Fixed(Order),
 }
 
-/// Whether series of `len` coefficients keep that length, where others go on
-/// to `hard` coefficients: those of [`Class::Fixed`].
+/// True if series of `len` coefficients never change to `hard` coefficients:
+/// those of [`Class::Fixed`].
 pub(crate) const fn is_fixed(len: usize, hard: usize) -> bool {
     len == hard && len < LONGEST
 }
@@ -60,7 +61,7 @@ impl Class {
         }
     }
 
-    /// Truncation allowed in a step, as a share of the velocity.
+    /// Truncation error allowed in a step, as a share of the velocity.
     pub fn tolerance(self) -> f64 {
         match self {
             Self::Fixed(_) => f64::INFINITY,
@@ -68,7 +69,7 @@ impl Class {
         }
     }
 
-    /// Its equation of motion.
+    /// Equation of motion of the class.
     pub fn model(self) -> Model {
         match self {
             Self::Linearized => Model::Linearized,

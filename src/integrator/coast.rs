@@ -9,9 +9,9 @@
 //!
 //! # Proofs P3 and P10
 //!
-//! P3: the fate follows from the energy alone. It is constant in flight and
-//! falls by eta^2 at an impact; the ground is at rest; the saddle alone
-//! separates the fates.
+//! P3: the outcome follows from only the energy. It is constant in flight and
+//! falls by eta^2 at an impact; the ground is at rest; only the saddle
+//! separates the outcomes.
 //!
 //! P10: `last` lets the closed form replace a motion that observation cuts
 //! later. No hop after the second is higher, since eta is at most 1, and a

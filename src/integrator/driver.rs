@@ -8,10 +8,10 @@
 //! series; if the series leaves too much (`left_by`), `advance_hard` takes the
 //! longest one and then halves the step. `first_event` finds the first impact
 //! or overturning, and `turning_points` raises the peak. `impact` multiplies
-//! the speed by eta and changes the side; a run for the peak alone ends there
+//! the speed by eta and changes the side; a run for only the peak ends there
 //! if nothing can change the answer (`is_settled`), and the block rests if the
 //! impacts provably end within the piece (`chatter`). If the excitation ends
-//! in flight, `conclude` calls `coast`, or `follow` where observation ends too
+//! in flight, `conclude` calls `coast`, or `follow` if observation ends too
 //! early for it (`cuts`). `answer` makes the `Response`. If its rough estimate
 //! (`doubt`) is not small, `Solver::respond` runs once more with every
 //! decision assessed; the first run ends at the impact that makes this sure

@@ -83,16 +83,19 @@ pub(crate) struct Drive<N, const F: usize> {
     /// Sine and cosine of alpha.
     pub sine: N,
     pub cosine: N,
+    /// Sine and cosine of the rotation at its start.
+    pub start: (N, N),
 }
 
 impl<N: Number, const F: usize> Drive<N, F> {
-    /// From the series of f, the uplift threshold, and sine and cosine of
-    /// alpha.
+    /// The drive from the uplift threshold, sine and cosine of alpha, the series
+    /// of f, and sine and cosine of the rotation at the start.
     #[inline(always)]
     pub fn new(
         model: Model,
         (threshold, sine, cosine): (N, N, N),
         f: [N; F],
+        start: (N, N),
     ) -> Self {
         let (a, b) = match model {
             Model::Nonlinear => {
@@ -100,17 +103,26 @@ impl<N: Number, const F: usize> Drive<N, F> {
             }
             Model::Linearized => (N::one(), threshold + f[0]),
         };
-        Self { a, b, f, sine, cosine }
+        Self { a, b, f, sine, cosine, start }
     }
 }
 
-/// Derivative of u'' by u, from sine and cosine of u.
+/// Sine and cosine of a rotation up to pi/4, in the approximation of the model.
+#[inline(always)]
+pub(crate) fn sine_cosine<N: Number>(model: Model, u: N) -> (N, N) {
+    match model {
+        Model::Nonlinear => u.sin_cos_small(),
+        Model::Linearized => (u, N::one()),
+    }
+}
+
+/// Derivative of u'' by u at the start of a step.
 #[inline(always)]
 pub(crate) fn curvature<N: Number, const F: usize>(
     model: Model,
     drive: &Drive<N, F>,
-    (sine, cosine): (N, N),
 ) -> N {
+    let (sine, cosine) = drive.start;
     match model {
         Model::Nonlinear => drive.a.mul_add(cosine, drive.b * sine),
         Model::Linearized => N::one(),
@@ -158,12 +170,6 @@ impl<N: Real> Dynamics<N> {
             sine,
             cosine,
         }
-    }
-
-    /// The drive of a step under the series of f.
-    #[inline(always)]
-    pub fn drive<const F: usize>(&self, f: [N; F]) -> Drive<N, F> {
-        Drive::new(self.model, (self.threshold, self.sine, self.cosine), f)
     }
 
     /// Downward acceleration at the base under forcing f: B at u = 0.

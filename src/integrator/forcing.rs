@@ -66,7 +66,7 @@ fn lesser<N: Real>(a: N, b: N) -> N {
     if a < b { a } else { b }
 }
 
-/// Where a resting block lifts.
+/// Uplift of a block at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exceedance<N> {
     pub place: Moment<N>,
@@ -108,8 +108,8 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Series of a/g about a place.
     fn series(&self, place: Moment<N>) -> [N; F];
 
-    /// First place from `from` on at which |a/g| exceeds `threshold`, and the scan
-    /// up to it.
+    /// First place from `from` on at which |a/g| exceeds `threshold`, and the
+    /// scan up to it.
     fn exceedance(
         &self,
         from: Moment<N>,
@@ -231,8 +231,8 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 }
 
 impl<N: Real> RecordForcing<'_, N> {
-    /// Distance of |a/g| from the threshold at the first sample, if a block rests
-    /// from there on and |a/g| does not rise; otherwise the threshold.
+    /// Distance of |a/g| from the threshold at the first sample, if a block
+    /// rests from there on and |a/g| does not rise; otherwise the threshold.
     fn gap_at_start(&self, from: Moment<N>, threshold: N) -> N {
         let is_start = from.piece == 0 && from.offset == N::zero();
         let [first, second] = [0, 1].map(|i| self.sample(i).abs());
@@ -262,9 +262,9 @@ impl<N: Real> RecordForcing<'_, N> {
         let here = self.series(from)[0];
         if here.abs() > threshold {
             let positive = here > N::zero();
-            // A crossing computed elsewhere may be off by rounding; from
-            // rest the block cannot be above the threshold inside an
-            // interval unless it crossed there.
+            // A crossing computed elsewhere may be off by rounding. From rest
+            // the acceleration cannot be above the threshold inside an
+            // interval unless it crossed it there.
             let crossing = from.offset > N::zero();
             return Some(Exceedance { place: from, positive, crossing });
         }
@@ -383,8 +383,8 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
 
 impl<N: Real> PulseForcing<N> {
     /// First crossing of the threshold within `left` of a place, under the
-    /// series of a/g there and its crest. A touch is no crossing; a crossing at
-    /// the end belongs to the next piece.
+    /// series of a/g there and its crest. A touch is no crossing; a crossing
+    /// at the end belongs to the next piece.
     fn crossing<const F: usize>(
         &self,
         place: Moment<N>,
@@ -417,8 +417,8 @@ impl<N: Real> PulseForcing<N> {
         })
     }
 
-    /// Largest excess of |a/g| over the threshold from a place at which it passes
-    /// the threshold, searched until the excess is large.
+    /// Largest excess of |a/g| over the threshold from a place at which it
+    /// passes the threshold, searched until the excess is large.
     fn beyond<const F: usize>(&self, from: Moment<N>, threshold: N) -> N
     where
         Self: Forcing<N, F>,
@@ -444,9 +444,9 @@ impl<N: Real> PulseForcing<N> {
     }
 
     /// Distance of |a/g| from the threshold at a place from which it does not
-    /// rise, or at the end of the pulse, if it is near; otherwise the threshold.
-    /// If |a/g| has a slope, rounding of the time of the place takes a share of
-    /// the distance.
+    /// rise, or at the end of the pulse, if it is near; otherwise the
+    /// threshold. If |a/g| has a slope, rounding of the time of the place
+    /// takes a share of the distance.
     fn gap_at_edges<const F: usize>(
         &self,
         place: Moment<N>,

@@ -10,10 +10,11 @@ use crate::integrator::{Observe, Scene};
 /// (0.1/p) from the next.
 const MOST_PIECES: f64 = 1e15;
 
-/// Work of a run beyond which it is refused with [`SceneError::Work`].
+/// Limit of the work of a run, beyond which it is refused with
+/// [`SceneError::Work`].
 ///
-/// A block that loses nothing, or hardly anything, at impact, or that lifts
-/// again and again, may hit the base without end.
+/// A block that loses little or no energy at impacts, or that lifts again and
+/// again, may hit the base without end.
 ///
 /// ```
 /// use rocking::block::{Block, Restitution};
@@ -73,9 +74,9 @@ pub enum SceneError {
     /// Intervals and horizons must be positive.
     #[error("{what} {found} s: expected a positive number")]
     Time {
-        /// What the time is for.
+        /// Use of the time.
         what: &'static str,
-        /// What was given.
+        /// The given time.
         found: f64,
     },
     /// A pulse must not be so long that rounding of the time reaches a step.
@@ -96,12 +97,12 @@ pub enum SceneError {
          the limit of work, which can be raised"
     )]
     Work {
-        /// What was counted: impacts, steps, or history points, which the
+        /// Counted quantity: impacts, steps, or history points, which the
         /// limit of steps bounds.
         what: &'static str,
         /// The limit.
         limit: u64,
-        /// When in the scene it was passed, s.
+        /// Time in the scene at which the limit was passed, s.
         time_s: f64,
     },
     /// Rotation or velocity went beyond the largest number.
@@ -110,12 +111,12 @@ pub enum SceneError {
          accelerations and times within the range of double precision"
     )]
     NotANumber {
-        /// When in the scene that happened, s.
+        /// Time in the scene, s.
         time_s: f64,
     },
 }
 
-/// What is no scene, or a scene that is asked for what cannot be.
+/// Rejects invalid scenes and impossible requests.
 pub(crate) fn check(
     scene: &Scene<'_>,
     observe: &Observe,

@@ -36,7 +36,7 @@ use crate::stop;
 use batch::{BatchSolution, LaneBatch};
 use group::LaneGroup;
 use slot::Slot;
-use waiting::{Lane, LaneQueue, WaitKind, Waiting};
+use waiting::{Lane, LaneQueue, WaitKind, Waiting, park};
 
 /// All lanes.
 type Groups<'a> = [LaneGroup<'a>; GROUPS];
@@ -64,8 +64,8 @@ pub(crate) trait SceneSource<'a> {
     fn settle(&mut self, task: Self::Task, response: Option<&Response>);
 }
 
-/// The class of scenes in a pool at steps of `length` (in 1/p), at a fixed order
-/// if one is given; `None` if a sample takes more than one step.
+/// The class of scenes in a pool at steps of `length` (in 1/p), at a fixed
+/// order if one is given; `None` if a sample takes more than one step.
 pub(crate) fn class_of(
     model: Model,
     length: f64,
@@ -138,7 +138,7 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
         let mut groups = Groups::default();
-        let mut waiting = Waiting { queues: [LaneQueue::EMPTY; 3] };
+        let mut waiting = [LaneQueue::EMPTY; 3];
         let mut batch = LaneBatch::default();
         let mut solved = BatchSolution::default();
         // A response may give the source something to do.
@@ -166,8 +166,8 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
                 WaitKind::LongSeriesAndRoots,
             ] {
                 let enough = kind.worth().min(most);
-                while waiting.queue(kind).count >= enough {
-                    let line = waiting.queue(kind);
+                while waiting[kind as usize].count >= enough {
+                    let line = &mut waiting[kind as usize];
                     batch.gather(line, &mut groups, &mut self.slots);
                     isa.run_wide(Solve::<LEN, HARD> {
                         model,
@@ -217,8 +217,8 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         Some(Slot::new(task, driver, stage))
     }
 
-    /// Continues by the scalar driver until the run in a slot is in free flight
-    /// or no run is left for the slot; true if a run was settled.
+    /// Continues by the scalar driver until the run in a slot is in free
+    /// flight or no run is left for the slot; true if a run was settled.
     fn proceed(&mut self, lane: Lane, groups: &mut Groups<'a>) -> bool {
         let mut settled = false;
         let k = lane.slot();
@@ -247,8 +247,8 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         settled
     }
 
-    /// Hands the response of the run in a slot to the source and starts another
-    /// run there.
+    /// Hands the response of the run in a slot to the source and starts
+    /// another run there.
     fn settle(&mut self, k: usize, response: Option<&Response>) {
         if let Some(slot) = self.slots[k].take() {
             self.source.settle(slot.task, response);
@@ -259,7 +259,8 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         }
     }
 
-    /// Returns the lanes of a batch to their groups; true if a run was settled.
+    /// Returns the lanes of a batch to their groups; true if a run was
+    /// settled.
     #[inline(always)]
     fn scatter(
         &mut self,
@@ -283,7 +284,7 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
             }
             if solved.hard & bit != 0 {
                 self.tally.passed += 1;
-                waiting.queue(WaitKind::LongSeriesAndRoots).push(id);
+                waiting[WaitKind::LongSeriesAndRoots as usize].push(id);
                 continue;
             }
             self.tally.solved += 1;
@@ -364,7 +365,7 @@ impl<const LEN: usize, const HARD: usize> Sweep<'_, '_, LEN, HARD> {
             }
         }
         // All groups together: one unpredictable branch.
-        self.waiting.park(stopped, hard);
+        park(self.waiting, stopped, hard);
         moved
     }
 }
@@ -384,7 +385,7 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
     #[inline(always)]
     fn run<V: Simd>(self) {
         let Self { kind, tolerance, batch, solved, .. } = self;
-        // Shorter series are for Eq. 1 alone.
+        // Shorter series are only for Eq. 1.
         let model = if LEN == LONGEST { self.model } else { Model::Nonlinear };
         match kind {
             WaitKind::LongSeries => {
@@ -397,7 +398,7 @@ impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
                     model, tolerance, solved,
                 );
             }
-            // No lane waits for both where there is no longer series.
+            // No lane waits for both if there is no longer series.
             WaitKind::Roots | WaitKind::LongSeriesAndRoots => {
                 batch.solve::<V, LEN, HARD, LEN, false>(
                     model, tolerance, solved,

@@ -64,9 +64,9 @@ pub fn respond_precise<N: Real>(
     respond_precisely(scene, observe, false, &|_| {})
 }
 
-/// [`respond_precise`]; with `peak_only` it ends as soon as outcome and peak are
-/// surely known. Calls `progress` with the time (s) in the scene before each
-/// step.
+/// [`respond_precise`]; with `peak_only` it ends as soon as outcome and peak
+/// are surely known. Calls `progress` with the time (s) in the scene before
+/// each step.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
@@ -123,9 +123,9 @@ impl<N: Real> SeriesWork for PreciseRun<'_, N> {
     }
 }
 
-/// True if the truncation error of a series of `length` coefficients is at most
-/// the roundoff over a step (in 1/p), for a motion whose coefficients do not
-/// grow.
+/// True if the truncation error of a series of `length` coefficients is at
+/// most the roundoff over a step (in 1/p), for a motion whose coefficients do
+/// not grow.
 fn is_short<N: Real>(step: f64, length: usize) -> bool {
     libm::log(step) * (length as f64) < libm::log(N::ROUNDOFF)
 }

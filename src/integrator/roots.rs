@@ -149,8 +149,8 @@ pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
     Some(end < N::zero())
 }
 
-/// Sizes, at `length`, of the terms that bend the derivative of a polynomial and
-/// its second derivative: sums of k |c_k| length^(k-2) from k = 2, and of
+/// Sizes, at `length`, of the terms that bend the derivative of a polynomial
+/// and its second derivative: sums of k |c_k| length^(k-2) from k = 2, and of
 /// k (k-1) |c_k| length^(k-3) from k = 3.
 #[inline(always)]
 pub(crate) fn bends<N: Number>(c: &[N], length: N) -> (N, N) {

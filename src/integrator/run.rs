@@ -73,7 +73,8 @@ impl Kernel for RunKernel<'_> {
 
 impl RunKernel<'_> {
     /// The run by series of `LEN` coefficients, or longer ones if the
-    /// truncation error is larger than `tolerance`, as a share of the velocity.
+    /// truncation error is larger than `tolerance`, as a share of the
+    /// velocity.
     #[inline(always)]
     fn at<G: Forcing<f64, F>, const F: usize, const LEN: usize>(
         &self,

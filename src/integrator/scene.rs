@@ -11,13 +11,13 @@ use crate::names::named;
 pub struct Scene<'a> {
     /// The block.
     pub block: Block,
-    /// What an impact leaves of the angular velocity.
+    /// Share of the angular velocity that an impact leaves.
     pub restitution: Restitution,
     /// Equation of motion.
     pub model: Model,
     /// When the block counts as overturned.
     pub overturning: Overturning,
-    /// What moves the ground.
+    /// Ground motion.
     pub excitation: Excitation<'a>,
     /// Initial rotation over the slenderness angle, released at rest; in
     /// [0, 1).
@@ -25,8 +25,9 @@ pub struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// A block under an excitation as the paper has it: Eq. 1, overturning
-    /// where |theta| exceeds alpha, from rest. Other choices are fields.
+    /// A block at rest under an excitation, as in the paper: Eq. 1,
+    /// overturning when |theta| exceeds alpha. Set the fields for other
+    /// choices.
     ///
     /// ```
     /// use rocking::{Block, Excitation, Restitution, Scene};
@@ -58,39 +59,39 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// What to record beyond outcome and peak; each costs what it needs.
+/// Results to record beside outcome and peak. Each costs time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Observe {
     /// Impacts and the time of coming to rest.
     pub events: bool,
     /// Error estimate and condition number.
     pub accuracy: bool,
-    /// Rotation every so many seconds.
+    /// Interval of a history of the rotation, s.
     pub history_interval_s: Option<f64>,
     /// Forces at the pivot; every impact is followed for them.
     pub forces: bool,
-    /// Stop at this time (s) instead of when nothing more can happen. What
-    /// happens before it is a decision, [`Decision::End`].
+    /// Stop at this time (s) instead of at the last possible event. Whether an
+    /// event lies before it is a decision, [`Decision::End`].
     ///
     /// [`Decision::End`]: crate::integrator::Decision::End
     pub until_s: Option<f64>,
-    /// Work beyond which the run is refused.
+    /// Work limit of the run.
     pub work_limit: WorkLimit,
 }
 
-/// What became of the block.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome<N = f64> {
     /// The ground acceleration never exceeded the uplift threshold.
     NoUplift,
-    /// It rocked and stands.
+    /// The block rocked and stands.
     Rocked {
         /// Peak |theta|/alpha.
         peak_ratio: N,
     },
-    /// It overturned.
+    /// The block overturned.
     Overturned {
-        /// When the criterion was met, s.
+        /// Time at which the criterion was met, s.
         time_s: N,
         /// Sign of the rotation.
         side: Side,
@@ -128,8 +129,8 @@ impl<N> Outcome<N> {
     }
 }
 
-/// The outcome by its name as `counts_as` (what it counts as in statistics,
-/// whether or not its decisions are clear), the EDP, time and side.
+/// The outcome by its name as `counts_as` (its class in statistics, whether or
+/// not its decisions are clear), the EDP, time and side.
 #[cfg(feature = "serde")]
 impl<N: serde::Serialize> serde::Serialize for Outcome<N> {
     fn serialize<S: serde::Serializer>(
@@ -194,8 +195,8 @@ pub struct Impact<N = f64> {
     pub time_s: N,
     /// Absolute angular velocity just before it, rad/s.
     pub speed_before_rad_s: N,
-    /// Bounds on the errors of both; recorded with accuracy, none where a
-    /// decision before it is not clear.
+    /// Bounds on the errors of both; recorded with accuracy, `None` if an
+    /// earlier decision is not clear.
     pub error: Option<ImpactError>,
 }
 
@@ -204,9 +205,9 @@ pub struct Impact<N = f64> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ImpactError {
-    /// Of its time, s.
+    /// Error of the time, s.
     pub time_s: f64,
-    /// Of the angular velocity before it, rad/s.
+    /// Error of the angular velocity before the impact, rad/s.
     pub speed_rad_s: f64,
 }
 
@@ -222,7 +223,7 @@ pub struct HistoryPoint<N = f64> {
     pub velocity_rad_s: N,
 }
 
-/// How much was computed.
+/// Work counters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -235,22 +236,22 @@ pub struct Work {
     pub turning_points: u64,
     /// Uplifts from rest.
     pub uplifts: u64,
-    /// Intervals (or blocks of intervals) looked at while at rest.
+    /// Intervals (or blocks of intervals) scanned at rest.
     pub rest_scans: u64,
 }
 
-/// The answer to a scene, in the numbers of the run.
+/// The response to a scene, in the numbers of the run.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Response<N = f64> {
-    /// What became of the block, by this run.
+    /// Outcome of this run.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome<N>,
     /// Largest |theta|/alpha reached before overturning, before the end of
     /// observation, or at all.
     pub peak_ratio: N,
-    /// When the peak was reached, s.
+    /// Time of the peak, s.
     pub peak_time_s: Option<N>,
     /// First uplift, s.
     pub uplift_time_s: Option<N>,
@@ -259,11 +260,11 @@ pub struct Response<N = f64> {
     pub rest_time_s: Option<N>,
     /// Impacts in order; recorded with events.
     pub impacts: Vec<Impact<N>>,
-    /// Distance of the run from the other fate, in units of the slenderness
-    /// angle (see the design of the criterion in [`Overturning`]).
+    /// Distance of the run from the other outcome, in units of the slenderness
+    /// angle (see the criterion in [`Overturning`]).
     pub fate_margin: f64,
-    /// Bound on the error of the peak ratio; recorded with accuracy, none
-    /// where a decision is not clear.
+    /// Bound on the error of the peak ratio; recorded with accuracy, `None` if
+    /// a decision is not clear.
     pub error_estimate: Option<f64>,
     /// Bound on the error of the final coming to rest, s; likewise.
     pub rest_error_s: Option<f64>,
@@ -282,8 +283,8 @@ pub struct Response<N = f64> {
     )]
     pub input_certificate: Option<Certificate>,
     /// Estimated worst ratio of error to margin over all decisions. Only runs
-    /// that observe the peak alone compute it; a large value means that the
-    /// full certificate should be computed.
+    /// that observe nothing but the peak compute it; a large value means that
+    /// the full certificate should be computed.
     #[cfg_attr(
         feature = "serde",
         serde(skip_serializing_if = "Option::is_none")
@@ -291,19 +292,20 @@ pub struct Response<N = f64> {
     pub doubt: Option<f64>,
     /// Work counters.
     pub work: Work,
-    /// Signed rotation in time; recorded when asked for.
+    /// History of the signed rotation; recorded with an interval.
     #[cfg_attr(
         feature = "serde",
         serde(skip_serializing_if = "Vec::is_empty")
     )]
     pub history: Vec<HistoryPoint<N>>,
-    /// What the motion asks of the pivot; recorded when asked for.
+    /// Friction and normal force that the motion needs at the pivot; recorded
+    /// with forces.
     pub forces: Option<Forces>,
 }
 
 impl<N> Response<N> {
-    /// The name of the outcome; `unresolved` where the error of the run may
-    /// have turned a decision, or nobody looked.
+    /// The name of the outcome; `unresolved` if the error of the run may have
+    /// turned a decision or was not assessed.
     #[must_use]
     pub fn outcome_name(&self) -> &'static str {
         match self.assessment() {
@@ -312,9 +314,9 @@ impl<N> Response<N> {
         }
     }
 
-    /// Whether the rough estimate is not small, or not known.
+    /// True if the rough estimate is not small or not known.
     pub(crate) fn is_doubtful(&self) -> bool {
-        // Not a number is doubtful.
+        // NaN is doubtful.
         !self.doubt.is_some_and(|doubt| doubt < DOUBTFUL)
     }
 
@@ -336,6 +338,6 @@ pub enum Assessment {
     Clear,
     /// The error of the run may have turned one of its decisions.
     Unresolved,
-    /// Nobody looked.
+    /// No error was assessed.
     NotAssessed,
 }

@@ -5,7 +5,7 @@
 //! (u, w) by first-order steps, each with its own curvature: in a long flight
 //! the curvature decides which error is forgotten and which error grows. The
 //! estimate adds the squares of error over margin of all decisions, so it is
-//! no less than the largest ratio. Lanes and a run alone give the same bits.
+//! no less than the largest ratio. Lanes and single runs give the same bits.
 //!
 //! It includes rounding and, if the order is fixed, the truncation error that
 //! the last term of a series shows. At a free order that error is smaller than
@@ -22,25 +22,25 @@
 
 use crate::number::{Number, Real};
 
-/// Largest rough estimate of error over margin at which an analysis is
-/// taken for clear in double precision.
+/// Largest rough estimate of error over margin at which an analysis counts as
+/// clear in double precision.
 ///
-/// A certificate is clear where 32 standard deviations are at most a quarter
-/// of every margin, which is 8e-3 here. The estimate leaves out what a
-/// certificate also takes in: the truncation of a series of free order, and
-/// constants that are rounded once. So the threshold is lower, by a factor of
+/// A certificate is clear if 32 standard deviations are at most a quarter of
+/// every margin, which is 8e-3 here. A certificate also includes the
+/// truncation error of a series of free order and constants that are rounded
+/// once; the estimate does not. So the threshold is lower, by a factor of
 /// three that was chosen on whole suites: see `tests/trials`.
 pub(crate) const DOUBTFUL: f64 = 2.5e-3;
 
-/// Share of the slenderness angle that the error is held against: above it
-/// the linear propagation is not trusted.
+/// Largest error, as a share of the slenderness angle, at which the linear
+/// propagation is trusted.
 ///
-/// So it is also the rotation, over the slenderness angle, below which a
-/// lowest rotation above the base is a decision that the estimate takes in.
-/// One above it has a larger margin than the error itself is allowed.
+/// It is also the share of the slenderness angle below which the estimate
+/// includes a lowest rotation above the base as a decision. A larger one has a
+/// larger margin than the error may have.
 pub(crate) const PROPAGATION: f64 = 0.01;
 
-/// Share of the slenderness angle that the error of a peak is held against.
+/// Margin of the error of a peak, as a share of the slenderness angle.
 const PEAK: f64 = 1e-4;
 
 /// The estimate of a run, in units of 1/p.
@@ -56,13 +56,13 @@ pub(crate) struct Screen<N> {
     pub peak: N,
 }
 
-/// A step in flight, as the estimate sees it.
+/// Input of [`Screen::fly`].
 pub(crate) struct ScreenLeg<N> {
-    /// Its length.
+    /// Length of the step.
     pub tau: N,
-    /// Derivative of u'' by u at its start.
+    /// Derivative of u'' by u at the start of the step.
     pub curvature: N,
-    /// Motion at its end.
+    /// Motion at the end of the step.
     pub u: N,
     pub w: N,
     /// Size of the terms of the acceleration: alpha, and the forcing's.
@@ -71,9 +71,9 @@ pub(crate) struct ScreenLeg<N> {
     pub last: Option<N>,
 }
 
-/// An impact, as the estimate sees it.
+/// Input of [`Screen::land`].
 pub(crate) struct Landing<N> {
-    /// Speed before it, and the accelerations before and after it.
+    /// Speed before the impact, and the accelerations before and after it.
     pub speed: N,
     pub before: N,
     pub after: N,
@@ -82,33 +82,34 @@ pub(crate) struct Landing<N> {
 }
 
 impl<N: Number> Screen<N> {
-    /// Of a block at rest.
+    /// The estimate of a block at rest.
     pub fn at_rest() -> Self {
         let zero = N::zero();
         Self { uu: zero, uw: zero, ww: zero, doubt: zero, peak: zero }
     }
 
-    /// Lifts.
+    /// Adds an uplift.
     #[inline(always)]
     pub fn start(self) -> Self {
         let Self { doubt, peak, .. } = self;
         Self { doubt, peak, ..Self::at_rest() }
     }
 
-    /// Flies a step: its push first, then its length at the new velocity.
+    /// Adds a step in flight: first the change of the velocity, then the path
+    /// at the new velocity.
     ///
-    /// It rounds the rotation, the velocity, and the change of the velocity.
-    /// The change is a difference of terms as large as `size`, however slow
-    /// the block is.
+    /// The step rounds the rotation, the velocity, and the change of the
+    /// velocity. The change is a difference of terms as large as `size`,
+    /// however slow the block is.
     ///
-    /// A series of `n` coefficients whose last one, for the velocity, is `last`
-    /// has the truncation error `last` tau/n in the rotation, its next term,
-    /// and about as much in the velocity; up to an impact within the step it
-    /// has less. The errors of many steps in a row may have one sign. By the
-    /// Cauchy-Schwarz inequality the square of such a sum is at most the sum
-    /// of the squares, each over its share of the time: in a time T (in 1/p)
-    /// a step counts as a variance of (`last` tau/n)^2 T/tau. T = n^2, 25 or
-    /// more, makes this `last`^2 tau.
+    /// A series of `n` coefficients whose last one, for the velocity, is
+    /// `last` has the truncation error `last` tau/n in the rotation, its next
+    /// term, and about as much in the velocity; up to an impact within the
+    /// step it has less. The errors of many steps in a row may have one sign.
+    /// By the Cauchy-Schwarz inequality the square of such a sum is at most
+    /// the sum of the squares, each over its share of the time: in a time T
+    /// (in 1/p) a step counts as a variance of (`last` tau/n)^2 T/tau. T =
+    /// n^2, 25 or more, makes this `last`^2 tau.
     #[inline(always)]
     pub fn fly(self, step: &ScreenLeg<N>) -> Self {
         let Self { uu, uw, ww, .. } = self;
@@ -129,15 +130,16 @@ impl<N: Number> Screen<N> {
         Self { uu, uw, ww, ..self }
     }
 
-    /// The largest peak so far, a time after the start of a step.
+    /// Notes the largest peak so far, `tau` after the start of a step.
     #[inline(always)]
     pub fn top(self, tau: N) -> Self {
         let drift = tau.mul_add(self.ww, self.uw + self.uw);
         Self { peak: tau.mul_add(drift, self.uu), ..self }
     }
 
-    /// An impact: its speed against the error of that, the hop after it
-    /// against the error of its time, and whether errors are small.
+    /// Adds an impact. It compares the speed with its error, the time of the
+    /// next hop with the error of the time of the impact, and the errors with
+    /// their limit.
     #[inline(always)]
     pub fn land(self, at: &Landing<N>) -> Self {
         let Landing { speed, before, after, eta, alpha } = *at;
@@ -168,15 +170,15 @@ impl<N: Number> Screen<N> {
         }
     }
 
-    /// A lowest rotation above the base.
+    /// Adds a lowest rotation above the base.
     #[inline(always)]
     pub fn miss(self, lowest: N) -> Self {
         let doubt = self.doubt + self.uu / (lowest * lowest);
         Self { doubt, ..self }
     }
 
-    /// Comes to rest, some time after an impact that leaves a speed, and
-    /// another before the chatter would have had to end.
+    /// Adds a rest: `after` the last impact, after which the block moves at
+    /// `w`, and `before` the latest end of the chatter.
     #[inline(always)]
     pub fn rest(self, w: N, after: N, before: N) -> Self {
         let met = (after * after).mul_add(self.ww, self.uu);
@@ -185,8 +187,8 @@ impl<N: Number> Screen<N> {
         Self { doubt, ..self }
     }
 
-    /// The last decision, of some margin about a quantity that changes as u
-    /// and w do, and whether errors are small there.
+    /// Adds the last decision, by the margin of a quantity that changes as u
+    /// and w do, and compares the errors with their limit.
     #[inline(always)]
     pub fn end(self, margin: N, alpha: N) -> Self {
         let square = self.uu + self.ww;
@@ -198,14 +200,14 @@ impl<N: Number> Screen<N> {
 }
 
 impl<N: Real> Screen<N> {
-    /// True where the estimate of a run will not be below [`DOUBTFUL`],
-    /// whatever follows. Not a number is doubtful.
+    /// True if the estimate of the run will not be below [`DOUBTFUL`],
+    /// whatever follows. NaN is doubtful.
     #[inline(always)]
     pub fn is_surely_doubtful(&self) -> bool {
         !(self.doubt < N::from_f64(2.0 * DOUBTFUL * DOUBTFUL))
     }
 
-    /// Adds that the largest peak has an error.
+    /// Adds the error of the largest peak.
     #[inline(always)]
     pub fn stand(self, alpha: N) -> Self {
         let room = N::from_f64(1.0 / PEAK) / alpha;
@@ -344,8 +346,8 @@ mod tests {
         flight.fly(&ScreenLeg { w: speed, ..step }).land(&at).doubt.sqrt()
     }
 
-    /// At rest there is no error. So all of that of a first hop is what the
-    /// hop itself has rounded.
+    /// The error is zero at rest, so after the first hop all of it is that
+    /// hop's rounding.
     #[test]
     fn a_flight_that_ends_slowly_is_rounded_as_fast_as_it_was() {
         // The error of the time of the impact is that of the hop after it.

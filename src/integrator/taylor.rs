@@ -3,9 +3,10 @@
 use crate::integrator::dynamics::{Drive, Model};
 use crate::number::Number;
 
-/// A loop from 1 that is written out for double precision, alone and in lanes:
-/// compilers do not unroll loops of this length, and then coefficients do not
-/// stay in registers. A run alone takes 0.7 of the time at order 8.
+/// A loop from 1 that is unrolled for double precision, in single runs and in
+/// lanes. Compilers do not unroll loops of this length, and the coefficients
+/// then do not stay in registers. A single run takes 0.7 of the time at order
+/// 8.
 macro_rules! written_out {
     (1..$end:expr, |$k:ident| $body:expr) => {
         written_out!(@ $end, $k, $body, 1 2 3 4 5 6 7 8 9 10 11 12);
@@ -49,10 +50,9 @@ pub(crate) fn expand<N: Number, const LEN: usize, const F: usize>(
     (u, w): (N, N),
     h: N,
     drive: &Drive<N, F>,
-    sine_cosine: (N, N),
 ) -> TaylorSeries<N, LEN> {
     match model {
-        Model::Nonlinear => nonlinear((u, w), h, drive, sine_cosine),
+        Model::Nonlinear => nonlinear((u, w), h, drive),
         Model::Linearized => linearized((u, w), h, drive),
     }
 }
@@ -62,9 +62,8 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     motion: (N, N),
     h: N,
     drive: &Drive<N, F>,
-    (sine, cosine): (N, N),
 ) -> TaylorSeries<N, LEN> {
-    let (a, b) = (drive.a, drive.b);
+    let Drive { a, b, start: (sine, cosine), .. } = *drive;
     let (across, along) = (drive.sine, drive.cosine);
     let sine_0 = (-cosine).mul_add(across, sine * along);
     let cosine_0 = sine.mul_add(across, cosine * along);
@@ -190,7 +189,7 @@ impl<N: Number, const LEN: usize> TaylorSeries<N, LEN> {
         self.c[k + 1] = self.v[k] * step;
     }
 
-    /// The series of the first coefficients, to a shorter length.
+    /// The first coefficients of the series.
     #[inline(always)]
     pub fn beginning<const SHORT: usize>(&self) -> TaylorSeries<N, SHORT> {
         let of = |all: &[N; LEN]| std::array::from_fn(|k| all[k]);

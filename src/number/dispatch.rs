@@ -4,8 +4,8 @@
 //! the same bits and the level changes only the speed (without an instruction
 //! for it, a fused operation is a library call). Only detection makes an
 //! [`Isa`]; this makes the `unsafe` calls sound: those of the functions of a
-//! level, and those of the instructions by which lanes are registers. This file
-//! and its two children are the only ones of the crate with `unsafe`.
+//! level, and those of the instructions by which lanes are registers. This
+//! file and its two children are the only ones of the crate with `unsafe`.
 //!
 //! A further instruction set needs its `Level` here (`available`, `name`,
 //! `run`, `run_wide`), and a file beside `dispatch/avx2.rs` (two registers) or
@@ -19,7 +19,8 @@
 #[cfg(target_arch = "x86_64")]
 macro_rules! level {
     ($call:expr) => {
-        // SAFETY: the registers of a level exist only where it was found.
+        // SAFETY: a register of a level exists only if detection found the
+        // level.
         unsafe { $call }
     };
 }
@@ -51,7 +52,7 @@ enum IsaLevel {
 /// Everything that `run` calls on its hot path must be `#[inline(always)]`:
 /// code that is not inlined keeps the baseline instruction set.
 pub trait Kernel {
-    /// What the work gives.
+    /// Result of the work.
     type Output;
 
     /// Does the work.
@@ -61,7 +62,7 @@ pub trait Kernel {
 /// A piece of work that [`Isa::run_wide`] compiles once for each level, with
 /// the level's own numbers in lanes.
 pub trait WithSimd {
-    /// What the work gives.
+    /// Result of the work.
     type Output;
 
     /// Does the work.
@@ -114,7 +115,7 @@ impl Isa {
         }
     }
 
-    /// True where several numbers at once are faster than one by one.
+    /// True if lanes are faster than single numbers.
     #[must_use]
     pub fn is_wide(self) -> bool {
         // Without fused operations nothing is gained by lanes.
@@ -128,14 +129,14 @@ impl Isa {
         match self.0 {
             IsaLevel::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]
-            // SAFETY: an `Isa` of either level exists only where detection
-            // found the features. The wider one gains nothing here.
+            // SAFETY: an `Isa` of either level exists only if detection found
+            // the features. The wider level gains nothing here.
             IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2::run(work) },
         }
     }
 
-    /// Runs `work` on several numbers at once with this level's
-    /// instructions; none where that [is not faster](Self::is_wide).
+    /// Runs `work` on lanes with this level's instructions; `None` if lanes
+    /// are [not faster](Self::is_wide).
     #[inline]
     pub fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
@@ -144,8 +145,8 @@ impl Isa {
             #[cfg(any(target_arch = "x86_64", target_family = "wasm"))]
             IsaLevel::Baseline => None,
             #[cfg(target_arch = "x86_64")]
-            // SAFETY: an `Isa` of this level exists only where detection
-            // found the features.
+            // SAFETY: an `Isa` of this level exists only if detection found
+            // the features.
             IsaLevel::Avx2 => Some(unsafe { avx2::run_wide(work) }),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.

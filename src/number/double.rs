@@ -57,7 +57,7 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { hi, lo: (a - (hi - part)) + (b - part) }
 }
 
-/// The same where |a| is at least |b|, or a is zero.
+/// [`two_sum`] if |a| is at least |b| or a is zero.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
@@ -84,7 +84,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// What the nearest double leaves.
+    /// The number less the nearest double.
     #[must_use]
     pub fn lo(self) -> f64 {
         self.lo
@@ -216,8 +216,8 @@ impl Number for DoubleDouble {
 
 impl Real for DoubleDouble {
     const ROUNDOFF: f64 = 0.5 * f64::EPSILON * f64::EPSILON;
-    // Its square is far below the roundoff: a root close to another one,
-    // where Newton's iteration squares with a large factor, is met too.
+    // Its square is far below the roundoff, so that a root close to another
+    // one, at which Newton's iteration squares with a large factor, converges.
     const NEWTON_STEP: f64 = 1e-20;
 
     #[inline]

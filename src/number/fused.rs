@@ -3,8 +3,8 @@
 //!
 //! Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved
 //! algorithms using rounding to odd" (IEEE Transactions on Computers 57,
-//! 2008, Fig. 5). The proof asks that nothing overflows and that the error of
-//! the product is a double; outside that range the library answers.
+//! 2008, Fig. 5). The proof needs that nothing overflows and that the error of
+//! the product is a double; outside that range the library is called.
 
 /// Largest factor that Dekker's product may split: 2^990.
 const LARGEST_FACTOR: f64 = f64::from_bits((990 + 1023) << 52);
@@ -29,7 +29,7 @@ pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
         let (high, middle) = two_sum(product, above);
         return high + sum_to_odd(below, middle);
     }
-    // Nothing is rounded before the sum where a factor is zero.
+    // If a factor is zero, nothing is rounded before the sum.
     if a == 0.0 || b == 0.0 {
         return product + c;
     }
@@ -68,7 +68,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The sum; where it is not a double, that neighbour of it which is odd.
+/// The sum if it is a double, otherwise its odd neighbour.
 #[inline(always)]
 fn sum_to_odd(a: f64, b: f64) -> f64 {
     let (sum, error) = two_sum(a, b);

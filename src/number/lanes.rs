@@ -6,11 +6,11 @@ use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::number::Number;
 
-/// Numbers in as many lanes.
+/// Number of lanes.
 pub const WIDTH: usize = 8;
 
-/// Numbers in lanes, on which every operation acts one by one: each has the
-/// bits that it would have alone.
+/// Numbers in lanes. Every operation gives each lane the bits of a scalar
+/// operation.
 pub trait Simd: Number {
     /// A truth in every lane.
     type Mask: Mask<Self>;
@@ -55,25 +55,25 @@ pub trait Mask<N>: Copy {
     /// A bit for each lane.
     fn bits(self) -> u8;
 
-    /// Where it is false.
+    /// Lanes in which it is false.
     #[inline(always)]
     fn not(self) -> Self {
         Self::splat(true).but_not(self)
     }
 
-    /// Where both are true.
+    /// Lanes in which both are true.
     fn and(self, other: Self) -> Self;
 
-    /// Where either is true.
+    /// Lanes in which either is true.
     fn or(self, other: Self) -> Self;
 
-    /// Where this is true and `other` is not.
+    /// Lanes in which this is true and `other` is not.
     fn but_not(self, other: Self) -> Self;
 
-    /// `yes` where it is true, `no` where it is not.
+    /// `yes` in true lanes, `no` in false ones.
     fn select(self, yes: N, no: N) -> N;
 
-    /// Counts the lanes in which it is true.
+    /// Adds one to the counts of true lanes.
     fn count(self, counts: &mut [u64; WIDTH]);
 
     /// The same truth in every lane.
@@ -82,14 +82,14 @@ pub trait Mask<N>: Copy {
         Self::of(if truth { u8::MAX } else { 0 })
     }
 
-    /// True if any lane's is.
+    /// True if any lane is true.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0
     }
 }
 
-/// Numbers in lanes where no instruction set is known to have them.
+/// Numbers in lanes as an array, for any instruction set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes(pub [f64; WIDTH]);

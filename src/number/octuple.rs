@@ -2,10 +2,10 @@
 //! 256 bits, about 77 digits.
 //!
 //! Sums, products, quotients and ratios are rounded to the nearest number,
-//! ties to even; the elementary functions are good to a few units in the
-//! last place. Numbers reach from 2^-(2^30) to 2^(2^30) without subnormal ones:
-//! what leaves that range becomes zero or infinite. Infinities and
-//! NaN behave as those of a double; there is one zero.
+//! ties to even; the elementary functions are good to a few units in the last
+//! place. Numbers reach from 2^-(2^30) to 2^(2^30) without subnormal ones; a
+//! result outside that range becomes zero or infinite. Infinities and NaN
+//! behave as those of a double; there is one zero.
 
 mod division;
 mod functions;
@@ -46,8 +46,8 @@ pub struct Octuple {
     negative: bool,
     /// Of the leading bit: the number is 1.xxx times 2 to this power.
     exponent: i32,
-    /// The leading bit is set but in zero and infinities, where none is, and
-    /// NaN, where another one is.
+    /// The leading bit is set, except in zero and infinities, which have no
+    /// bit, and in NaN, which has another one.
     limbs: [u64; LIMBS],
 }
 
@@ -98,7 +98,7 @@ impl Octuple {
             for k in (1..=LIMBS).rev() {
                 bits[k] = bits[k] << zeros | bits[k - 1] >> (LIMB - zeros);
             }
-            // Where the last bit is set there are two zeros at most: it stays
+            // If the last bit is set, there are at most two zeros: it stays
             // below the half.
             bits[0] <<= zeros;
             exponent -= i64::from(zeros);
@@ -118,7 +118,7 @@ impl Octuple {
         Self::ranged(negative, exponent, limbs)
     }
 
-    /// The number, or zero or an infinity where its exponent is out of range.
+    /// The number, or zero or an infinity if its exponent is out of range.
     fn ranged(negative: bool, exponent: i64, limbs: [u64; LIMBS]) -> Self {
         match i32::try_from(exponent) {
             Ok(exponent) if exponent > OF_ZERO && exponent < SPECIAL => {

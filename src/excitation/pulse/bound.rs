@@ -1,4 +1,4 @@
-//! Bounds of a shape over a time, for which nothing is expanded.
+//! Bounds of a shape over a time, without an expansion.
 //!
 //! # Proof P8
 //!
@@ -16,8 +16,8 @@ const GAUSS_SLOPE: f64 = 3.0;
 const TAIL: f64 = 1.8;
 
 impl<N: Real> PulseShape<N> {
-    /// Largest |a/g| at any time, where rounding cannot pass it: of one sine,
-    /// or of a constant.
+    /// Largest |a/g| at any time, if rounding cannot exceed it: that of one
+    /// sine or of a constant.
     pub(crate) fn summit(&self) -> Option<N> {
         match self {
             Self::Sines([only, others @ ..]) => others
@@ -39,8 +39,8 @@ impl PulseShape<f64> {
         let at = |t_s: f64| self.at(t_s).abs();
         match self {
             Self::Sines(sines) => {
-                // Seen from the first sine's phase, the others turn slowly
-                // where the rates are near to each other.
+                // Relative to the phase of the first sine, the others turn
+                // slowly if the rates are close together.
                 let carrier = sines[0].rate_rad_s;
                 let (mut fast, mut slow) = (0.0, 0.0);
                 let (mut real, mut imaginary) = (0.0, 0.0);

@@ -1,5 +1,5 @@
-//! The pulses: a row and two arms for each, which have all that is known of
-//! it, and the parameters that they take.
+//! The pulses and their parameters. A row and an arm of `form` have everything
+//! about a pulse.
 //!
 //! No pulse here has a jump between stretches (`PulseForcing::exceedance`),
 //! and its pieces have equal length (`Driver::time`). A further [`Shape`]
@@ -37,8 +37,8 @@ named! {
 }
 
 impl PulseParameter {
-    /// Quantity, SI unit, and name where accelerations are multiples of
-    /// gravity, as in Python.
+    /// Quantity, SI unit, and name if accelerations are multiples of gravity,
+    /// as in Python.
     const fn row(self) -> [&'static str; 3] {
         match self {
             Self::Amplitude => ["peak acceleration", "m/s2", "amplitude_g"],
@@ -59,19 +59,19 @@ impl PulseParameter {
         self.row()[0]
     }
 
-    /// Its SI unit; empty where it has none.
+    /// SI unit; empty if there is none.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         self.row()[1]
     }
 
-    /// Its name where accelerations are multiples of gravity.
+    /// Name if accelerations are multiples of gravity.
     #[must_use]
     pub const fn name_over_gravity(self) -> &'static str {
         self.row()[2]
     }
 
-    /// Its value where none is given, if it has one.
+    /// Default value, if there is one.
     #[must_use]
     pub const fn default_value(self) -> Option<f64> {
         match self {
@@ -275,7 +275,7 @@ pub enum PulseError {
         what: &'static str,
         /// The value.
         found: f64,
-        /// What the number has to be.
+        /// Expected kind of number.
         expected: &'static str,
     },
     /// Gravity must be positive and finite.
@@ -283,9 +283,10 @@ pub enum PulseError {
     Gravity(f64),
 }
 
-/// A pulse as the core computes it; accelerations are multiples of gravity.
+/// A pulse in the form for computation; accelerations are multiples of
+/// gravity.
 pub(super) struct PulseForm<N> {
-    /// Where each smooth stretch ends (s), and its shape.
+    /// End (s) and shape of each smooth stretch.
     pub stretches: Vec<(N, PulseShape<N>)>,
     /// True if the amplitude is the peak ground acceleration.
     pub is_peak: bool,
@@ -321,7 +322,7 @@ impl PulseKind {
         self
     }
 
-    /// What the core computes of the pulse with this amplitude over g.
+    /// The form of the pulse with this amplitude over g.
     pub(super) fn form<N: Real>(&self, amplitude: N) -> PulseForm<N> {
         let size = amplitude.to_f64();
         let half = N::ratio(1, 2);

@@ -1,12 +1,11 @@
-//! An orbit of free motion: its level of energy, where it turns, and how long
-//! it takes from place to place, in closed form.
+//! An orbit of free motion in closed form: its level of energy, its turning
+//! points, and the time between two places.
 
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::number::Real;
 
-/// A level of energy: above the base, and below the saddle. Both are kept,
-/// because near the saddle their sum is known and their difference is what
-/// matters.
+/// A level of energy, above the base and below the saddle. Both are kept,
+/// because near the saddle the depth would be lost in a difference.
 #[derive(Clone, Copy)]
 pub(super) struct Energy<N> {
     pub above_base: N,
@@ -78,8 +77,8 @@ pub(super) fn hop<N: Real>(d: &Dynamics<N>, level: Energy<N>) -> N {
 }
 
 /// A place on an orbit: rotation and absolute velocity. Near a turning point
-/// the velocity cannot be had from the rotation without losing half of the
-/// digits, so it is carried along.
+/// half of the digits of the velocity would be lost if it were computed from
+/// the rotation.
 #[derive(Clone, Copy)]
 pub(super) struct OrbitPlace<N> {
     pub u: N,
@@ -129,8 +128,8 @@ pub(super) fn transit<N: Real>(
 /// difference of ln(y + w).
 fn linear_stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let dy = y1 - y2;
-    // w^2 - y^2 is constant; at a turning point the velocity is the better
-    // known of the two.
+    // w^2 - y^2 is constant; at a turning point the velocity is the more
+    // accurate of the two.
     let dw = if w2 == N::zero() { w1 } else { dy * (y1 + y2) / (w1 + w2) };
     if !(dw > N::zero()) {
         return N::zero();
@@ -151,8 +150,8 @@ fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let (s1, c1) = (half * y1).sin_cos();
     let (s2, c2) = (half * y2).sin_cos();
     let (r1, r2) = (half * w1, half * w2);
-    // sin^2(y1/2) - sin^2(y2/2); where one end is the turning point, from the
-    // velocity, which is the better known there.
+    // sin^2(y1/2) - sin^2(y2/2); if one end is the turning point, from the
+    // velocity, which is more accurate there.
     let width = if w2 == N::zero() {
         r1 * r1
     } else {

@@ -11,7 +11,7 @@ use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Moment};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::PROPAGATION;
-use crate::integrator::taylor::{TaylorSeries, size, value};
+use crate::integrator::taylor::{TaylorSeries, expand, size, value};
 use crate::number::Real;
 
 /// Ratio of a rotation beyond overturning to its error at which the search
@@ -32,8 +32,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
     /// Propagates the errors over the part (0, `x`) of a step from a place, of
-    /// length `tau`, and notes the decisions of the flight: that the block does
-    /// not touch its base and does not reach overturning.
+    /// length `tau`, and notes the decisions of the flight: that the block
+    /// does not touch its base and does not reach overturning.
     #[inline(always)]
     pub(super) fn assess<const LEN: usize>(
         &mut self,
@@ -182,8 +182,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Some((doubt * near.mul_add(near, 1.0)).sqrt())
     }
 
-    /// Input of [`Accuracy::step`] for a step of length `tau` between two motions
-    /// (u, w), with the truncation error `left` of the velocity.
+    /// Input of [`Accuracy::step`] for a step of length `tau` between two
+    /// motions (u, w), with the truncation error `left` of the velocity.
     pub(super) fn flown(
         &self,
         [from, to]: [(N, N); 2],
@@ -220,9 +220,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Notes an impact at `speed`. `before` is the acceleration u'' just before
-    /// the impact and `f` the forcing on the new branch. Returns bounds on the
-    /// errors of the impact.
+    /// Notes an impact at `speed`. `before` is the acceleration u'' just
+    /// before the impact and `f` the forcing on the new branch. Returns bounds
+    /// on the errors of the impact.
     #[inline(never)]
     pub(super) fn assess_impact(
         &mut self,
@@ -357,10 +357,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let part = N::from_f64(LONGEST_STEP);
             let (tau, whole) =
                 if part < left { (part, false) } else { (left, true) };
-            let f = self.oriented(Moment { piece, offset }, side, false);
-            let drive = self.dynamics.drive(f);
+            let place = Moment { piece, offset };
+            let drive = self.drive(place, (side, u), false);
             let series: TaylorSeries<N, HARD> =
-                self.expand((u, w), tau, &drive);
+                expand(self.dynamics.model, (u, w), tau, &drive);
             let end = series.end();
             let ends = [(u, w), end];
             tracker.step(&self.flown(ends, tau, &drive, N::zero()));

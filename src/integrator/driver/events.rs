@@ -6,12 +6,12 @@ use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::roots::first_descent;
-use crate::integrator::taylor::{TaylorSeries, size, size_at, value};
+use crate::integrator::taylor::{TaylorSeries, expand, size, size_at, value};
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
 
-/// Pieces from a peak to the next early-termination test. A higher peak follows
-/// most peaks, and the test costs as much as some ten steps.
+/// Pieces from a peak to the next early-termination test. A higher peak
+/// follows most peaks, and the test costs as much as some ten steps.
 const PATIENCE: usize = 160;
 
 /// An event of a step, with the part of the step before it.
@@ -118,9 +118,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 }
 
-/// True if a polynomial that starts with c_0 + c_1 x surely stays above zero up
-/// to x = 1. The least value of c_1 x is `down`; the other terms are at most
-/// `rest` times x.
+/// True if a polynomial that starts with c_0 + c_1 x surely stays above zero
+/// up to x = 1. The least value of c_1 x is `down`; the other terms are at
+/// most `rest` times x.
 #[inline(always)]
 fn is_clear_of_base<N: Real>(
     [start, slope]: [N; 2],
@@ -157,10 +157,10 @@ where
         let mut offset = from.offset;
         for piece in from.piece..driver.forcing.pieces() {
             let left = driver.forcing.length(piece) - offset;
-            let f = driver.oriented(Moment { piece, offset }, side, false);
-            let drive = driver.dynamics.drive(f);
+            let place = Moment { piece, offset };
+            let drive = driver.drive(place, (side, u), false);
             let series: TaylorSeries<N, SIZE> =
-                driver.expand((u, w), left, &drive);
+                expand(driver.dynamics.model, (u, w), left, &drive);
             if let Some(x) = first_descent(&series.v, N::one(), driver.isa) {
                 return ((value(&series.c, x) - alpha) / alpha).to_f64();
             }
@@ -209,8 +209,8 @@ where
     }
 }
 
-/// The next turning point, within `left`, of a step of velocity `v`, and whether
-/// the rotation rises before it. Moves the origin of `v` there.
+/// The next turning point, within `left`, of a step of velocity `v`, and
+/// whether the rotation rises before it. Moves the origin of `v` there.
 #[inline(always)]
 pub(super) fn next_turning<N: Real, const LEN: usize>(
     v: &mut [N; LEN],

@@ -113,8 +113,8 @@ fn at_pivot<N: Real>(
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// Takes in the forces within the part (0, `x`) of a step of `length` from a
-    /// place, under the series of f.
+    /// Takes in the forces within the part (0, `x`) of a step of `length` from
+    /// a place, under the series of f.
     #[inline(never)]
     pub(super) fn see_forces<const LEN: usize>(
         &mut self,

@@ -14,19 +14,19 @@ use crate::integrator::motion::{BlockMotion, tail_speed};
 use crate::integrator::screen::Landing;
 use crate::number::Real;
 
-/// The threshold for the output of forces. Forces depend on the square of the
-/// speed, so the threshold may be larger.
+/// As [`tail_speed`], if only forces are observed. They depend on the square
+/// of the speed, so the threshold may be larger.
 const TAIL_OF_FORCES: f64 = 1e-5;
 
-/// Rotation over alpha up to which a barrier is raised where larger ones do
-/// not end a run.
+/// Largest rotation over alpha to which a barrier is raised if larger
+/// rotations do not end a run.
 const BELOW_SADDLE: f64 = 0.98;
 
 /// Impacts that accumulate.
 pub(crate) struct Chatter<N> {
-    /// Time (in 1/p) in which they do.
+    /// Time (in 1/p) from the first impact to the rest.
     pub time: N,
-    /// Relative bound of what varying accelerations change in it.
+    /// Relative bound on the change of `time` by varying accelerations.
     pub spread: N,
 }
 
@@ -39,8 +39,8 @@ fn positive<N: Real>(x: N) -> Option<N> {
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// The impact at a step's place, `speed` before it; rest if it ends
-    /// there.
+    /// Makes the impact at a step's place, with `speed` and acceleration
+    /// `before` it. Returns the end of the flight if the impact ends it.
     #[inline(always)]
     pub(super) fn impact(
         &mut self,
@@ -92,9 +92,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Some(Flight::Rest(place, time_s))
     }
 
-    /// True where what is left of the excitation from a piece on can neither
-    /// overturn the block nor raise its peak, if it is asked for nothing else
-    /// and moves at `w` on the base.
+    /// True if only outcome and peak are needed and the rest of the excitation
+    /// from a piece on can change neither, for a block that moves at `w` on
+    /// the base.
     #[inline(always)]
     pub(super) fn is_settled(&mut self, piece: usize, w: N) -> bool {
         if piece < self.exit_from {
@@ -108,7 +108,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.ends_early && w < fastest
     }
 
-    /// Takes the peak so far for the barrier that it is.
+    /// Raises the barrier to the peak so far.
     #[inline(always)]
     pub fn see_peak(&mut self) {
         if let Some(barrier) = &mut self.barrier
@@ -139,8 +139,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         fastest().unwrap_or(N::zero())
     }
 
-    /// First piece from which on a block at rest need not be followed, looked
-    /// for about a guess; the guess where that is not known.
+    /// First piece from which on a block at rest need not be followed. The
+    /// search starts at a guess, which is the result if there is no barrier.
     #[inline(always)]
     pub fn first_exit(&self, guess: usize) -> usize {
         let first = || {

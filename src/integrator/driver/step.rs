@@ -2,7 +2,9 @@
 
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Advance, Driver, Flight, Step};
-use crate::integrator::dynamics::{Drive, Model, curvature};
+use crate::integrator::dynamics::{
+    Drive, Dynamics, Model, curvature, sine_cosine,
+};
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::screen::ScreenLeg;
@@ -29,8 +31,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.isa.run(Hard { driver: self, step, length })
     }
 
-    /// Makes a step by a series of `LEN` coefficients, to the end of the step or
-    /// to its first event. `None` if the truncation error is too large.
+    /// Makes a step by a series of `LEN` coefficients, to the end of the step
+    /// or to its first event. `None` if the truncation error is too large.
     #[inline(always)]
     pub(super) fn attempt<const LEN: usize>(
         &mut self,
@@ -41,13 +43,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             return self.attempt_assessed::<LEN>(step, length);
         }
         let BlockMotion { side, u, w } = step.motion;
-        let oriented = self.oriented(step.place, side, step.at_threshold);
-        let drive = self.dynamics.drive(oriented);
-        let small = self.sine_cosine(u);
+        let drive = self.drive(step.place, (side, u), step.at_threshold);
         let model = self.dynamics.model;
         let series: TaylorSeries<N, LEN> =
-            expand(model, (u, w), length, &drive, small);
-        self.take(step, length, &series, (&drive, small), None)
+            expand(model, (u, w), length, &drive);
+        self.take(step, length, &series, &drive, None)
     }
 
     /// [`Self::attempt`] with its decisions assessed.
@@ -62,16 +62,16 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         isa.run(AssessedStepKernel::<_, _, LEN> { driver, step, length })
     }
 
-    /// Makes a step by its series. `None` if the truncation error is too large.
-    /// `small` is sine and cosine of the rotation at the start of the step;
-    /// `left` is the truncation error of the velocity, if the step is assessed.
+    /// Makes a step by its series. `None` if the truncation error is too
+    /// large. `left` is the truncation error of the velocity, if the step is
+    /// assessed.
     #[inline(always)]
     fn take<const LEN: usize>(
         &mut self,
         step: &mut Step<N>,
         length: N,
         series: &TaylorSeries<N, LEN>,
-        (drive, small): (&Drive<N, F>, (N, N)),
+        drive: &Drive<N, F>,
         left: Option<N>,
     ) -> Option<Advance<N>> {
         let BlockMotion { side, u, w } = step.motion;
@@ -98,7 +98,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         self.turning_points(series, x, (step.place, length));
         if let Some(screen) = &mut self.screen {
-            let curvature = curvature(self.dynamics.model, drive, small);
+            let curvature = curvature(self.dynamics.model, drive);
             let size = self.dynamics.alpha + drive.f[0].abs();
             let (u, w) = (end_u, end_w);
             let last = self.fixed.then_some(v[LEN - 1]);
@@ -142,27 +142,23 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Flight::Overturned { time_s, side: motion.side, margin }
     }
 
-    /// Taylor polynomial of the motion.
+    /// Drive of a step from a place, at a rotation `u` on a side; `exact` means
+    /// that the forcing is exactly at the uplift threshold.
     #[inline(always)]
-    pub(super) fn expand<const LEN: usize>(
+    pub(super) fn drive(
         &self,
-        (u, w): (N, N),
-        length: N,
-        drive: &Drive<N, F>,
-    ) -> TaylorSeries<N, LEN> {
-        let model = self.dynamics.model;
-        expand(model, (u, w), length, drive, self.sine_cosine(u))
-    }
-
-    /// Sine and cosine of a rotation in the approximation of the model.
-    #[inline(always)]
-    fn sine_cosine(&self, u: N) -> (N, N) {
-        match self.dynamics.model {
+        place: Moment<N>,
+        (side, u): (Side, N),
+        exact: bool,
+    ) -> Drive<N, F> {
+        let Dynamics { model, threshold, sine, cosine, .. } = self.dynamics;
+        let f = self.oriented(place, side, exact);
+        let start = match model {
             // Beyond pi/4 the short polynomials lose digits.
             Model::Nonlinear if u > N::ratio(785, 1000) => u.sin_cos(),
-            Model::Nonlinear => u.sin_cos_small(),
-            Model::Linearized => (u, N::one()),
-        }
+            _ => sine_cosine(model, u),
+        };
+        Drive::new(model, (threshold, sine, cosine), f, start)
     }
 
     /// Series of s a/g about a place.
@@ -190,8 +186,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.tolerance * self.dynamics.alpha.mul_add(length, w.abs())
     }
 
-    /// Largest last coefficient of the velocity, per unit of the velocity, whose
-    /// truncation error is allowed in a step of `length`.
+    /// Largest last coefficient of the velocity, per unit of the velocity,
+    /// whose truncation error is allowed in a step of `length`.
     #[inline(always)]
     pub fn last_allowed(&self, length: N) -> N {
         self.tolerance / last_term(N::one(), length)
@@ -257,12 +253,10 @@ where
     fn run(self) -> Self::Output {
         let Self { driver, step, length } = self;
         let BlockMotion { side, u, w } = step.motion;
-        let oriented = driver.oriented(step.place, side, step.at_threshold);
-        let drive = driver.dynamics.drive(oriented);
-        let small = driver.sine_cosine(u);
+        let drive = driver.drive(step.place, (side, u), step.at_threshold);
         let model = driver.dynamics.model;
         let long: TaylorSeries<N, HARD> =
-            expand(model, (u, w), length, &drive, small);
+            expand(model, (u, w), length, &drive);
         let series: TaylorSeries<N, LEN> = long.beginning();
         let mut left = surely_left_by(&long.v, length);
         if LEN < HARD {
@@ -272,13 +266,13 @@ where
             let most = if by_u > by_w { by_u } else { by_w };
             left = most + left;
         }
-        driver.take(step, length, &series, (&drive, small), Some(left))
+        driver.take(step, length, &series, &drive, Some(left))
     }
 }
 
-/// Estimated truncation error of the velocity over a step. The next coefficient
-/// of the velocity is at most about a quarter of the last one (1/`LEN` for the
-/// motion alone; the rest allows for strong forcing).
+/// Estimated truncation error of the velocity over a step. The next
+/// coefficient of the velocity is at most about a quarter of the last one
+/// (1/`LEN` for the motion alone; the rest allows for strong forcing).
 #[inline(always)]
 fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
     last_term(v[LEN - 1].abs(), length)

@@ -5,8 +5,8 @@ use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 
-/// Where the polynomial `c` is first stationary within (0, `length`), and its
-/// absolute value there; none where it is monotone.
+/// First stationary point of the polynomial `c` within (0, `length`), and the
+/// absolute value there; `None` if the polynomial is monotone.
 pub(super) fn crest<N: Real, const F: usize>(
     c: &[N; F],
     length: N,

@@ -44,9 +44,9 @@ impl<'a, N: Real> Remainder<'a, N> {
         N::from_f64(self.index.sway(piece, window)) * self.way
     }
 
-    /// First piece of the first run from which on a condition holds. The search
-    /// starts at the piece `guess`. The condition must hold at the end, and from
-    /// every run after one from which it holds.
+    /// First piece of the first run from which on a condition holds. The
+    /// search starts at the piece `guess`. The condition must hold at the end,
+    /// and from every run after one from which it holds.
     #[inline(always)]
     pub fn first(&self, guess: usize, holds: impl Fn(usize) -> bool) -> usize {
         let end = self.index.runs();

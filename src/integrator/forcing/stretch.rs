@@ -4,7 +4,8 @@ use crate::excitation::{Pulse, PulseShape};
 use crate::integrator::forcing::{LONGEST_PHASE, LONGEST_STEP};
 use crate::number::Real;
 
-/// Relative distance from the uplift threshold within which a bound is useless.
+/// Relative distance from the uplift threshold within which a bound is
+/// useless.
 const NEAR: f64 = 1e-12;
 
 /// A large bound on the relative rounding of a time and of a phase.
@@ -87,8 +88,8 @@ impl<N: Real> Stretch<N> {
         self.share.mul_add(k, self.start_s)
     }
 
-    /// The lesser of a gap and the distance of the summit, if it is known, from
-    /// the threshold.
+    /// The lesser of a gap and the distance of the summit, if it is known,
+    /// from the threshold.
     pub fn room(&self, threshold: N, gap: N) -> N {
         let own = self.shape.summit().map_or(gap, |most| threshold - most);
         if own < gap { own.abs() } else { gap }

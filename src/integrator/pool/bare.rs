@@ -1,4 +1,4 @@
-//! Steps with nothing around them: what the lanes cannot go below.
+//! Bare steps: a lower bound on the time of the lanes.
 
 use crate::block::Block;
 use crate::integrator::taylor::total;
@@ -8,9 +8,10 @@ use crate::number::lanes::{Lanes, Simd, WIDTH};
 /// Lanes of eight that are stepped in turn.
 const GROUPS: usize = 16;
 
-/// Free flights by Eq. 1 in lanes, in steps of order 8 written by hand: it
-/// looks for no event and tests no truncation error. A benchmark holds the
-/// time of [`curves`](crate::ida::curves) against its time.
+/// Free flights by Eq. 1 in lanes, in steps of order 8 written by hand,
+/// without a search for events and without a test of the truncation error. A
+/// benchmark compares the time of [`curves`](crate::ida::curves) with that of
+/// these flights.
 ///
 /// ```
 /// use rocking::Block;
@@ -40,8 +41,8 @@ pub struct BareSteps<'a> {
 
 impl BareSteps<'_> {
     /// Rotation (rad) and velocity (rad, per 1/p) at the end of the last of
-    /// some flights through the samples, each of [`Self::LANES`] blocks; none
-    /// where lanes are not faster than single numbers.
+    /// `flights` flights through the samples, each of [`Self::LANES`] blocks;
+    /// `None` if lanes are not faster than single numbers.
     #[must_use]
     pub fn fly(&self, isa: Isa, flights: u32) -> Option<[f64; 2]> {
         isa.run_wide(Bare { of: *self, flights })
@@ -100,7 +101,7 @@ struct BareGroup {
     next: [usize; WIDTH],
 }
 
-/// What is written out for each order: compilers do not unroll such loops.
+/// Code for each order: compilers do not unroll such loops.
 macro_rules! orders {
     ($k:ident: $($order:literal)* => $body:block) => {$({
         let $k: usize = $order;

@@ -6,7 +6,9 @@
 
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Drive, Model, curvature, restoring};
+use crate::integrator::dynamics::{
+    Drive, Model, curvature, restoring, sine_cosine,
+};
 use crate::integrator::pool::chatter::ChatterLanes;
 use crate::integrator::pool::group::{LaneConstants, LaneGroup, LaneMotion};
 use crate::integrator::pool::roots::{descent, refine};
@@ -134,13 +136,10 @@ impl LaneBatch {
         let cosine = V::load(&self.fixed.cosine);
         let sine = V::load(&self.fixed.sine);
         let constants = (threshold, sine, cosine);
-        let drive = Drive::new(model, constants, forcing);
-        let small = match model {
-            Model::Nonlinear => u.sin_cos_small(),
-            Model::Linearized => (u, V::one()),
-        };
+        let start = sine_cosine(model, u);
+        let drive = Drive::new(model, constants, forcing, start);
         let TaylorSeries { mut c, mut v }: TaylorSeries<V, SIZE> =
-            expand(model, (u, w), h, &drive, small);
+            expand(model, (u, w), h, &drive);
         // Beyond this rotation the driver uses other functions.
         let large = match model {
             Model::Nonlinear => all.but_not(u.lt(V::from_f64(SMALL))),
@@ -176,7 +175,7 @@ impl LaneBatch {
         let amplitude = V::load(&self.motion.amplitude);
         let screen = self.motion.screen::<V>();
         screen.doubt.store(&mut out.motion.doubt);
-        let curvature = curvature(model, &drive, small);
+        let curvature = curvature(model, &drive);
         let size = alpha + forcing[0].abs();
         let last = is_fixed(LEN, HARD).then_some(v[LEN - 1]);
         let fly = |tau, (u, w), out: &mut BatchSolution| {

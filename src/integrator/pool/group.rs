@@ -7,7 +7,7 @@
 
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::Stage;
-use crate::integrator::dynamics::{Drive, Model, curvature};
+use crate::integrator::dynamics::{Drive, Model, curvature, sine_cosine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
 use crate::integrator::screen::{PROPAGATION, Screen, ScreenLeg};
@@ -247,9 +247,9 @@ impl<'a> LaneGroup<'a> {
         self.active |= 1 << lane;
     }
 
-    /// Makes one step, to the end of the sample, in every lane that is clear of
-    /// events. Returns, one bit each, the lanes that made none, and those of
-    /// them that meet no event but need a longer series.
+    /// Makes one step, to the end of the sample, in every lane that is clear
+    /// of events. Returns, one bit each, the lanes that made none, and those
+    /// of them that meet no event but need a longer series.
     #[inline(always)]
     pub fn step<V: Simd, const LEN: usize, const HARD: usize>(
         &mut self,
@@ -268,13 +268,9 @@ impl<'a> LaneGroup<'a> {
         let forcing = [rate.mul_add(offset, here), rate];
         let LaneConstants { threshold, sine, cosine, .. } = &self.fixed;
         let constants = (V::load(threshold), V::load(sine), V::load(cosine));
-        let drive = Drive::new(model, constants, forcing);
-        let small = match model {
-            Model::Nonlinear => u.sin_cos_small(),
-            Model::Linearized => (u, V::one()),
-        };
-        let series: TaylorSeries<V, LEN> =
-            expand(model, (u, w), h, &drive, small);
+        let start = sine_cosine(model, u);
+        let drive = Drive::new(model, constants, forcing, start);
+        let series: TaylorSeries<V, LEN> = expand(model, (u, w), h, &drive);
         let end = series.end();
         let free = self.free_of_events(forcing, ahead, h, end);
         let size = w.abs() + V::load(&self.least);
@@ -286,7 +282,7 @@ impl<'a> LaneGroup<'a> {
         let screen = self.motion.screen();
         let flown = ScreenLeg {
             tau: h,
-            curvature: curvature(model, &drive, small),
+            curvature: curvature(model, &drive),
             u: end.0,
             w: end.1,
             size: V::load(&self.fixed.alpha) + forcing[0].abs(),

@@ -31,8 +31,8 @@ impl<'a, T> Slot<'a, T> {
         }
     }
 
-    /// First piece from which the rest of the record cannot raise the peak of a
-    /// block at rest.
+    /// First piece from which the rest of the record cannot raise the peak of
+    /// a block at rest.
     #[inline(always)]
     pub fn exit_from(&mut self) -> u64 {
         let peak = self.driver.record.peak;

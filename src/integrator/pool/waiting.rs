@@ -27,29 +27,25 @@ impl WaitKind {
 }
 
 /// Lanes that wait for others of their [`WaitKind`], in the order of kinds.
-pub(super) struct Waiting {
-    pub queues: [LaneQueue; 3],
-}
+pub(super) type Waiting = [LaneQueue; 3];
 
-impl Waiting {
-    /// Queues the lanes that stopped, one bit each, one byte a group: hard ones
-    /// for the longest series, the others for roots.
-    #[inline(always)]
-    pub fn park(&mut self, stopped: [u8; GROUPS], hard: [u8; GROUPS]) {
-        const { assert!(GROUPS * WIDTH == u128::BITS as usize) };
-        let mut left = u128::from_le_bytes(stopped);
-        let hard = u128::from_le_bytes(hard);
-        while left != 0 {
-            let slot = left.trailing_zeros() as usize;
-            left &= left - 1;
-            // An index, not a branch, which no processor could predict.
-            let kind = 1 - (hard >> slot & 1) as usize;
-            self.queues[kind].push(Lane::of(slot));
-        }
-    }
-
-    pub fn queue(&mut self, kind: WaitKind) -> &mut LaneQueue {
-        &mut self.queues[kind as usize]
+/// Queues the lanes that stopped, one bit each, one byte a group: hard ones for
+/// the longest series, the others for roots.
+#[inline(always)]
+pub(super) fn park(
+    waiting: &mut Waiting,
+    stopped: [u8; GROUPS],
+    hard: [u8; GROUPS],
+) {
+    const { assert!(GROUPS * WIDTH == u128::BITS as usize) };
+    let mut left = u128::from_le_bytes(stopped);
+    let hard = u128::from_le_bytes(hard);
+    while left != 0 {
+        let slot = left.trailing_zeros() as usize;
+        left &= left - 1;
+        // An index, not a branch, which no processor could predict.
+        let kind = 1 - (hard >> slot & 1) as usize;
+        waiting[kind].push(Lane::of(slot));
     }
 }
 

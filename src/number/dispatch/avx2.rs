@@ -27,11 +27,11 @@ pub(super) fn run_wide<W: WithSimd>(work: W) -> W::Output {
 #[derive(Clone, Copy)]
 pub(super) struct RegisterPair(pub __m256d, pub __m256d);
 
-/// All bits of a lane are set where it is true, none where it is false.
+/// All bits of a true lane are set, no bit of a false one.
 #[derive(Clone, Copy)]
 pub(super) struct PairMask(__m256d, __m256d);
 
-/// The same on both halves.
+/// One instruction on both halves.
 macro_rules! both {
     ($out:ident, |$x:ident| $call:expr, $a:expr) => {{
         let $x = $a.0;
@@ -143,7 +143,7 @@ impl Simd for RegisterPair {
 
     #[inline(always)]
     fn store(self, to: &mut Lanes) {
-        // Volatile: a selection stored where it was loaded would else become a
+        // Volatile: a selection stored at the place of its load would become a
         // masked store, which takes many cycles on some processors.
         let place: *mut __m256d = to.0.as_mut_ptr().cast();
         level!({

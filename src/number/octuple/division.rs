@@ -14,8 +14,8 @@ impl Octuple {
             next = 0;
         }
         bits[0] |= u64::from(rest != [0; LIMBS]);
-        // The first bit of the digits stands for a half of the quotient of
-        // the halved dividend.
+        // The first bit of the digits is a half of the quotient of the halved
+        // dividend.
         let exponent = i64::from(self.exponent) - i64::from(other.exponent);
         Self::nearest(self.negative != other.negative, exponent, bits)
     }

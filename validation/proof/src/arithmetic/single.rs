@@ -10,7 +10,7 @@ use super::wide::{forward, functions};
 /// let third = wide(Single::ratio(1, 3));
 /// assert_eq!(third.hi(), f64::from(1.0_f32 / 3.0));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Single(f32);
 
 forward!(Single: Add add, Sub sub, Mul mul, Div div);
@@ -30,6 +30,8 @@ impl Number for Single {
         Self(self.0.mul_add(b.0, c.0))
     }
 
+    functions!(sqrt f32::sqrt, abs f32::abs);
+
     fn sin_cos_small(self) -> (Self, Self) {
         self.sin_cos()
     }
@@ -43,10 +45,7 @@ impl Real for Single {
         f64::from(self.0)
     }
 
-    functions!(
-        sqrt f32::sqrt, abs f32::abs, exp libm::expf, ln_1p libm::log1pf,
-        asin libm::asinf
-    );
+    functions!(exp libm::expf, ln_1p libm::log1pf, asin libm::asinf);
 
     fn sin_cos(self) -> (Self, Self) {
         (Self(libm::sinf(self.0)), Self(libm::cosf(self.0)))

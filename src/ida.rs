@@ -188,8 +188,7 @@ pub enum IdaError {
         #[source]
         source: BlockError,
     },
-    /// A level's run passed the limit of its work, or ended in what is not a
-    /// number.
+    /// The run of a level passed its work limit or ended in NaN.
     #[error("record {record} at IM {im}: {source}")]
     Work {
         /// The record.

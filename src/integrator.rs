@@ -1,4 +1,4 @@
-//! Integration of a scene: block, excitation, model, and what to record.
+//! Integration of a scene: block, excitation, model, and results to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
 //! Eq. 1 is stepped by its Taylor polynomial, order 8 to 13, one step a sample
@@ -19,7 +19,7 @@
 //! |---|---|---|
 //! | P1 | `barrier` | the rest of a record cannot raise the peak |
 //! | P2 | `driver::impact` | a series of impacts ends in rest |
-//! | P3 | `coast` | the fate after the excitation |
+//! | P3 | `coast` | the outcome after the excitation |
 //! | P4 | `accuracy` | the error of a run |
 //! | P5 | `screen` | the rough estimate of that error |
 //! | P6 | `pool::group` | a step of a lane meets no event |

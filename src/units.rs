@@ -4,8 +4,8 @@ use std::fmt;
 
 /// Standard gravity in m/s2 (CGPM 1901).
 ///
-/// The paper's Table 1 and the reference values use 9.81; a caller who
-/// needs that passes it, nothing here assumes it.
+/// The paper's Table 1 and the reference values use 9.81. A caller who needs
+/// that value passes it.
 ///
 /// ```
 /// assert_eq!(rocking::units::STANDARD_GRAVITY_M_S2, 9.80665);
@@ -24,7 +24,7 @@ pub enum AccelerationUnit {
 }
 
 impl AccelerationUnit {
-    /// Reads a unit as people write it: `g`, `m/s2`, `cm/s2`, `gal`.
+    /// Reads a unit in a usual spelling: `g`, `m/s2`, `cm/s2`, `gal`.
     ///
     /// ```
     /// use rocking::units::AccelerationUnit;

@@ -90,7 +90,7 @@ pub fn suite_names<'a>(
     }
 }
 
-/// Whether the names are the places that [`suite_names`] gives records
+/// True if the names are the places that [`suite_names`] gives to records
 /// without a name.
 pub fn are_places<S: AsRef<str>>(names: &[S]) -> bool {
     let is_place =

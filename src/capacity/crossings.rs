@@ -73,7 +73,7 @@ impl Crossings {
             InversionRule::First => c[0],
             InversionRule::Last => c[c.len() - 1],
             InversionRule::Monotone => {
-                // From the far end: each pair adds a length, none cancels.
+                // Each pair adds a length, so nothing cancels.
                 let pairs = c[1..].as_chunks::<2>().0;
                 pairs.iter().fold(c[0], |sum, [down, up]| sum + (up - down))
             }

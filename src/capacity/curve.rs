@@ -65,8 +65,9 @@ pub enum CapacityError {
 /// EDP against IM of one record: linear between vertices, which begin at the
 /// onset of rocking (EDP 0), up to the intensity of first overturning.
 ///
-/// Overturning is no EDP: nothing is interpolated towards it. A record that
-/// never overturned within the intensities run is censored there.
+/// Overturning is no value of the EDP, so the curve does not interpolate
+/// towards it. A record that never overturned is censored at its last
+/// intensity.
 ///
 /// ```
 /// use rocking::capacity::{InversionRule, ResponseCurve};
@@ -150,7 +151,7 @@ impl ResponseCurve {
         self.vertices[self.vertices.len() - 1].0
     }
 
-    /// Intensity of first overturning; none if the record never overturned.
+    /// Intensity of first overturning; `None` if the record never overturned.
     #[must_use]
     pub fn overturning_im(&self) -> Option<f64> {
         self.overturning_im

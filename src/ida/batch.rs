@@ -2,13 +2,13 @@
 //! threads.
 //!
 //! `ida::curves` sorts the curves by class. Each thread calls `pool::run`,
-//! class after class. `climb` says which analyses a curve still needs;
+//! class after class. `climb` has the analyses that a curve still needs;
 //! `levels` makes the scene of a level and the point of its response. The pool
 //! has 128 slots in 16 groups of eight lanes. A sweep steps all groups
 //! (`LaneGroup::step`). Lanes that surely meet no event (`free_of_events`)
 //! move on to the next sample of their record; `park` queues the
 //! others. When enough lanes wait (`WaitKind::worth`), `LaneBatch::gather`
-//! takes up to eight, `solve` makes their steps, `land` carries the rough
+//! takes up to eight, `solve` makes their steps, `land` propagates the rough
 //! estimate over their impacts, and `Pool::scatter` puts them back. The driver
 //! makes the steps that a batch cannot (`Slot::advance`). `Desk::settle` hands
 //! the response to its `Climb`. Where p dt exceeds 0.1, or the machine has no

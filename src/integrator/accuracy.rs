@@ -1,9 +1,10 @@
-//! How far rounding, truncation and the inputs' own uncertainty move a run.
+//! Errors of a run by rounding, truncation and the uncertainty of the inputs.
 //!
-//! The variational equation carries, beside the state (u, w): the covariance
-//! of the accumulated rounding, which is different in every step; the
-//! derivatives by what is rounded once and acts in all of them; and, for the
-//! condition number, the fundamental matrix since the last uplift from rest.
+//! The variational equation propagates, beside the state (u, w): the
+//! covariance of the accumulated rounding, which differs in every step; the
+//! derivatives by quantities that are rounded once and act in all steps; and,
+//! for the condition number, the fundamental matrix since the last uplift from
+//! rest.
 //! At an impact the saltation matrix applies; rest forgets everything, and
 //! whether a rest is one is a decision. Second-order accuracy is plenty: one
 //! digit is needed.
@@ -310,8 +311,8 @@ impl Accuracy {
         self.take_peak(u, self.error(), moved / u);
     }
 
-    /// Notes the error at a peak `u` reached in free motion from (u0, w0):
-    /// energy carries the errors there. `slope` is dE/du at the state and
+    /// Notes the error at a peak `u` reached in free motion from (u0, w0), by
+    /// the error of the energy. `slope` is dE/du at the state and
     /// `at_peak` at the peak; `differed` is the energy from which that of the
     /// peak's hop was taken as a difference.
     pub fn peak_by_energy(

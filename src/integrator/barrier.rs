@@ -1,5 +1,5 @@
-//! The peak so far as a barrier: when what is left of a record can surely
-//! not lift a block over it.
+//! The peak so far as a barrier: when the rest of a record can surely not lift
+//! a block over it.
 //!
 //! Let v and d be the ground's velocity and place, v zero at the record's
 //! end, both seen from the pivot, x = alpha - u, c = cos x and s = sin x (for

@@ -30,14 +30,14 @@ named! {
         /// The block meets its base, or turns just above it: the speed of the
         /// impact, or the lowest rotation without one.
         Contact = "contact",
-        /// The impacts that a run takes for a rest end in one: the time that
-        /// is left for it.
+        /// The impacts that a run counts as a rest end in one: the time left
+        /// for it.
         Rest = "rest",
         /// The block reaches the rotation of overturning, or turns before it.
         Overturning = "overturning",
-        /// Observation ends before the first uplift or after it, before an
-        /// overturning or after it: the time between, or the rotation that is
-        /// left to overturning.
+        /// Observation ends before or after the first uplift, before or after
+        /// an overturning: the time between, or the rotation left to
+        /// overturning.
         End = "end",
         /// The error is small enough for its linear propagation.
         Propagation = "propagation",
@@ -73,8 +73,8 @@ pub struct Certificate {
     least: [Clearance; Decision::ALL.len()],
 }
 
-/// Whether it is clear, from which ratio on, the least clear decision, and the
-/// least clear one of each kind.
+/// Clarity, the ratio from which a decision is clear, the least clear
+/// decision, and the least clear one of each kind.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Certificate {
     fn serialize<S: serde::Serializer>(

@@ -88,8 +88,8 @@ pub(crate) struct Drive<N, const F: usize> {
 }
 
 impl<N: Number, const F: usize> Drive<N, F> {
-    /// The drive from the uplift threshold, sine and cosine of alpha, the series
-    /// of f, and sine and cosine of the rotation at the start.
+    /// The drive from the uplift threshold, sine and cosine of alpha, the
+    /// series of f, and sine and cosine of the rotation at the start.
     #[inline(always)]
     pub fn new(
         model: Model,
@@ -107,7 +107,8 @@ impl<N: Number, const F: usize> Drive<N, F> {
     }
 }
 
-/// Sine and cosine of a rotation up to pi/4, in the approximation of the model.
+/// Sine and cosine of a rotation up to pi/4, in the approximation of the
+/// model.
 #[inline(always)]
 pub(crate) fn sine_cosine<N: Number>(model: Model, u: N) -> (N, N) {
     match model {

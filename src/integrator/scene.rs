@@ -1,4 +1,4 @@
-//! A scene and its answer.
+//! A scene and its response.
 
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;
@@ -6,7 +6,7 @@ use crate::integrator::screen::DOUBTFUL;
 use crate::integrator::{Certificate, Forces, Model, Overturning, WorkLimit};
 use crate::names::named;
 
-/// A scene: what is integrated.
+/// Input of an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
     /// The block.

@@ -77,17 +77,12 @@ impl Isa {
         let mut levels = vec![Isa(IsaLevel::Baseline)];
         #[cfg(target_arch = "x86_64")]
         {
-            let avx2 = std::arch::is_x86_feature_detected!("avx2")
-                && std::arch::is_x86_feature_detected!("fma");
-            if avx2 {
+            use std::arch::is_x86_feature_detected as has;
+            if has!("avx2") && has!("fma") {
                 levels.push(Isa(IsaLevel::Avx2));
-            }
-            if avx2
-                && std::arch::is_x86_feature_detected!("avx512f")
-                && std::arch::is_x86_feature_detected!("avx512vl")
-                && std::arch::is_x86_feature_detected!("avx512dq")
-            {
-                levels.push(Isa(IsaLevel::Avx512));
+                if has!("avx512f") && has!("avx512vl") && has!("avx512dq") {
+                    levels.push(Isa(IsaLevel::Avx512));
+                }
             }
         }
         levels
@@ -118,7 +113,7 @@ impl Isa {
     /// True if lanes are faster than single numbers.
     #[must_use]
     pub fn is_wide(self) -> bool {
-        // Without fused operations nothing is gained by lanes.
+        // Without fused operations lanes gain nothing.
         cfg!(not(any(target_arch = "x86_64", target_family = "wasm")))
             || self.0 != IsaLevel::Baseline
     }

@@ -54,8 +54,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Whether a turning point of a step may lie within the error of the
-    /// base, of overturning, or of the peak.
+    /// True if a turning point of a step may lie within the error of the base,
+    /// of overturning, or of the peak.
     fn may_turn_near<const LEN: usize>(
         &self,
         series: &TaylorSeries<N, LEN>,
@@ -113,7 +113,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Whether a step that sinks may turn near its base.
+    /// True if a step that sinks may turn near the base.
     #[inline(always)]
     pub(super) fn may_miss<const LEN: usize>(
         &self,
@@ -205,7 +205,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let threshold = self.dynamics.threshold.to_f64();
         let rate = drive.f.get(1).map_or(0.0, |rate| rate.to_f64());
         let shift = rate * self.forcing.span();
-        // The forcing itself carries a roundoff: the threshold's size.
+        // The forcing itself has a roundoff of the size of the threshold.
         let size = size + threshold + shift.abs();
         Leg {
             tau,

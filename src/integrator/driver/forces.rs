@@ -1,9 +1,9 @@
 //! Forces at the pivot: how much friction a motion needs, and whether the
 //! block stays on the ground.
 //!
-//! The pivot carries what moves the centre of mass, which lies at distance
-//! R = 3 g/(4 p^2) (a rectangle) from it. With u = |theta|, phi = alpha - u,
-//! primes for derivatives by p t, and f = s a/g,
+//! The force at the pivot moves the centre of mass, which lies at distance R =
+//! 3 g/(4 p^2) (a rectangle) from the pivot. With u = |theta|, phi = alpha -
+//! u, primes for derivatives by p t, and f = s a/g,
 //!
 //! ```text
 //! s H/(m g) = f + 3/4 [ u'' cos phi + u'^2 sin phi ]

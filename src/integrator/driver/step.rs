@@ -142,8 +142,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         Flight::Overturned { time_s, side: motion.side, margin }
     }
 
-    /// Drive of a step from a place, at a rotation `u` on a side; `exact` means
-    /// that the forcing is exactly at the uplift threshold.
+    /// Drive of a step from a place, at a rotation `u` on a side; `exact`
+    /// means that the forcing is exactly at the uplift threshold.
     #[inline(always)]
     pub(super) fn drive(
         &self,

@@ -1,4 +1,4 @@
-//! The end of observation: what happens before it, and how surely.
+//! The end of observation: the events before it, and how certain they are.
 //!
 //! An uplift or an overturning is compared with the end as a time; a block in
 //! flight at the end is compared with overturning as a rotation. Free motion

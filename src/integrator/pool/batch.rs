@@ -1,8 +1,8 @@
-//! Eight lanes in whose steps something may happen, solved together.
+//! Eight lanes whose steps may meet an event, solved together.
 //!
 //! The decisions are those of the scalar driver and its root finder, by the
-//! same operations in the same order; a lane whose step needs more than one
-//! plain impact is left to them.
+//! same operations in the same order. A lane whose step needs more than one
+//! plain impact is left to the scalar driver.
 
 use crate::integrator::class::is_fixed;
 use crate::integrator::driver::last_term;
@@ -87,7 +87,7 @@ struct FirstImpact<V: Simd> {
 }
 
 impl LaneBatch {
-    /// Takes up to eight lanes out of a queue; those beyond have no meaning.
+    /// Takes up to eight lanes out of a queue; unused entries have no meaning.
     pub fn gather<'a, T>(
         &mut self,
         queue: &mut LaneQueue,
@@ -257,7 +257,7 @@ impl LaneBatch {
         impact.select(-amplitude, amplitude).store(&mut out.motion.amplitude);
     }
 
-    /// The rough certificates after the impacts of what was solved.
+    /// Adds the impacts of a solution to its rough certificates.
     #[inline(always)]
     pub fn land<V: Simd>(&self, model: Model, out: &mut BatchSolution) {
         let (threshold, cosine) =

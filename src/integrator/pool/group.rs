@@ -119,7 +119,7 @@ pub(super) struct LaneGroup<'a> {
     /// allowed, in units of |w| + `least`.
     last: Lanes,
     least: Lanes,
-    /// Rotation that nothing may reach.
+    /// Rotation that a free step may not reach.
     ceiling: Lanes,
     /// Largest |u - alpha| up to it.
     tilt: Lanes,

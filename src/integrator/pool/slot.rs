@@ -1,4 +1,4 @@
-//! A run in its slot, and what the scalar driver does with it.
+//! A run in its slot, and its steps by the scalar driver.
 
 use crate::integrator::class::LONGEST;
 use crate::integrator::driver::{Driver, Stage, Step};

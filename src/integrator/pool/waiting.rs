@@ -29,8 +29,8 @@ impl WaitKind {
 /// Lanes that wait for others of their [`WaitKind`], in the order of kinds.
 pub(super) type Waiting = [LaneQueue; 3];
 
-/// Queues the lanes that stopped, one bit each, one byte a group: hard ones for
-/// the longest series, the others for roots.
+/// Queues the lanes that stopped, one bit each, one byte a group: hard ones
+/// for the longest series, the others for roots.
 #[inline(always)]
 pub(super) fn park(
     waiting: &mut Waiting,

@@ -1,7 +1,7 @@
 //! Eight numbers in two registers of AVX2.
 //!
-//! As plain arrays they would be taken apart into single numbers: a sweep
-//! costs twice as much then, and takes a hundred times as long to compile.
+//! The compiler would split plain arrays into single numbers. A sweep would
+//! then cost twice as much and take a hundred times as long to compile.
 
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,7 +1,7 @@
 //! Eight numbers in one register of AVX-512.
 //!
-//! Compilers make such code of loops over arrays, too, but may take them
-//! apart again with the next change.
+//! Compilers also make such code of loops over arrays, but another version may
+//! not.
 
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -86,7 +86,7 @@ impl Simd for Eight {
 
     #[inline(always)]
     fn gather(from: [&f64; WIDTH]) -> Self {
-        // Fewer steps than what compilers make of single numbers.
+        // Fewer steps than compilers make of single numbers.
         Self::of(RegisterPair::gather(from))
     }
 

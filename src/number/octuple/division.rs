@@ -21,8 +21,9 @@ impl Octuple {
     }
 }
 
-/// Next digit of a quotient, and what it leaves: the integer part of the
-/// remainder, followed by the next limb of the dividend, over the divisor.
+/// Next digit of a quotient: the integer part of the remainder, followed by
+/// the next limb of the dividend, over the divisor. Leaves the new remainder
+/// in `rest`.
 ///
 /// By the two leading limbs over the divisor's leading one the digit is too
 /// large by two at most (Knuth, The Art of Computer Programming 2, 4.3.1).

@@ -37,8 +37,8 @@ const LN_2: [Octuple; 2] = [
 /// below 2^-264 of the sum.
 pub(super) const TERMS: i32 = 56;
 
-/// Exponent below which a function is its argument: the next term is smaller
-/// by that argument at least.
+/// Exponent below which a function equals its argument: the next term is
+/// smaller by at least a factor of the argument.
 const TINY: i32 = -264;
 
 /// Whole numbers up to here count turns and powers of two.

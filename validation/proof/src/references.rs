@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use anyhow::{Error, Result, anyhow};
 use rocking::excitation::{PulseName, PulseParameter as P};
 use rocking::number::double::DoubleDouble;
-use rocking::number::{Number as _, Real as _};
+use rocking::number::Number as _;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail};
 use rayon::prelude::*;
-use rocking::number::Real as _;
+use rocking::number::{Number as _, Real as _};
 use rocking::number::double::DoubleDouble;
 use rocking_statistics::streams::Streams;
 

@@ -3,7 +3,7 @@
 //! known.
 
 use anyhow::{Result, anyhow};
-use rocking::number::Real;
+use rocking::number::{Number as _, Real};
 use rocking::number::double::DoubleDouble;
 use rocking_score::{
     Answers, CodeVerdict, Diagnosis, Item, OwnResponse, Problem,

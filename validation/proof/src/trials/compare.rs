@@ -3,7 +3,7 @@
 use rocking::integrator::{
     Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
 };
-use rocking::number::Real;
+use rocking::number::{Number as _, Real};
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 

@@ -11,8 +11,8 @@
 //! takes up to eight, `solve` makes their steps, `land` propagates the rough
 //! estimate over their impacts, and `Pool::scatter` puts them back. The driver
 //! makes the steps that a batch cannot (`Slot::advance`). `Desk::settle` hands
-//! the response to its `Climb`. Where p dt exceeds 0.1, or the machine has no
-//! wide instructions, `ida::curve` runs each intensity level alone.
+//! the response to its `Climb`. If p dt exceeds 0.1, or the machine has no
+//! wide instructions, `ida::curve` runs the levels one by one.
 
 use std::collections::BTreeMap;
 use std::fmt;

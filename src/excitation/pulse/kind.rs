@@ -355,11 +355,9 @@ impl PulseKind {
             };
             let shape =
                 PulseShape::Gauss { scale, polynomial, rate, centre_s };
-            PulseForm {
-                stretches: vec![(end, shape)],
-                is_peak: false,
-                velocity: Velocity::At(Box::new(velocity)),
-            }
+            let velocity = Velocity::At(Box::new(velocity));
+            let stretches = vec![(end, shape)];
+            PulseForm { stretches, is_peak: false, velocity }
         };
         match *self {
             Self::OneSine { omega_rad_s, .. } => {
@@ -438,14 +436,10 @@ impl PulseKind {
                     let envelope = 1.0 + libm::cos(w * u / g);
                     0.5 * size * envelope * libm::cos(w * u + nu)
                 };
-                PulseForm {
-                    stretches: vec![(
-                        gamma / frequency,
-                        PulseShape::Sines(terms),
-                    )],
-                    is_peak: false,
-                    velocity: Velocity::At(Box::new(velocity)),
-                }
+                let velocity = Velocity::At(Box::new(velocity));
+                let shape = PulseShape::Sines(terms);
+                let stretches = vec![(gamma / frequency, shape)];
+                PulseForm { stretches, is_peak: false, velocity }
             }
         }
     }

@@ -125,10 +125,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) {
         let Some(seen) = self.record.forces else { return };
         let start_s = self.time_s(place).to_f64();
-        let (isa, dynamics) = (self.isa, &self.dynamics);
+        let dynamics = &self.dynamics;
         let step =
             ForceKernel { dynamics, series, f, x, length, start_s, seen };
-        self.record.forces = Some(isa.run(step));
+        self.record.forces = Some(self.isa.run(step));
     }
 }
 

@@ -117,13 +117,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             // Below the saddle, which other rotations may exceed.
             let most = self.dynamics.alpha * N::from_f64(BELOW_SADDLE);
             let peak = self.record.peak;
-            let height = if self.dynamics.overturning == Overturning::HalfPi
-                && peak > most
-            {
-                most
-            } else {
-                peak
-            };
+            let is_beyond = self.dynamics.overturning == Overturning::HalfPi
+                && peak > most;
+            let height = if is_beyond { most } else { peak };
             barrier.raise(height, &self.dynamics, &remainder);
         }
     }
@@ -143,16 +139,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// search starts at a guess, which is the result if there is no barrier.
     #[inline(always)]
     pub fn first_exit(&self, guess: usize) -> usize {
-        let first = || {
-            let (barrier, remainder) =
-                (self.barrier.as_ref()?, self.forcing.remainder()?);
-            let is_calm = |piece| {
-                let left = remainder.left(piece);
-                barrier.is_above_rest(&self.dynamics, left)
-            };
-            Some(remainder.first(guess, is_calm))
+        let (Some(barrier), Some(remainder)) =
+            (&self.barrier, self.forcing.remainder())
+        else {
+            return guess;
         };
-        first().unwrap_or(guess)
+        remainder.first(guess, |piece| {
+            barrier.is_above_rest(&self.dynamics, remainder.left(piece))
+        })
     }
 
     /// The chatter after an impact that leaves speed `w`, if it provably ends
@@ -189,8 +183,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         w: N,
         left: N,
     ) -> Option<Chatter<N>> {
-        let threshold = self.dynamics.threshold;
-        let margin = threshold - f[0].abs();
+        let margin = self.dynamics.threshold - f[0].abs();
         if w == N::zero() {
             let chatter = Chatter { time: N::zero(), spread: N::zero() };
             return (!(margin < N::zero())).then_some(chatter);

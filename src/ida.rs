@@ -233,7 +233,7 @@ pub fn curve(
     curve_at(record, analysis, Isa::best())
 }
 
-/// [`curve`] at an instruction-set level.
+/// [`curve()`] at an instruction-set level.
 fn curve_at(
     record: &NormalisedRecord,
     analysis: &Analysis,
@@ -253,7 +253,7 @@ fn curve_at(
 /// overturning on. Only the curve shows where that is.
 ///
 /// # Errors
-/// As [`curve`].
+/// As [`curve()`].
 pub fn demand_at(
     record: &NormalisedRecord,
     analysis: &Analysis,

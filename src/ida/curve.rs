@@ -90,7 +90,7 @@ impl IdaCurve {
     /// the onset (1, 0), the standing analyses, and the first overturning.
     ///
     /// # Errors
-    /// None for a curve that [`curve`](crate::ida::curve) or
+    /// None for a curve that [`curve`](crate::ida::curve()) or
     /// [`curves`](crate::ida::curves) made; [`CapacityError`]
     /// for fields with other values.
     ///

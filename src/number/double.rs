@@ -46,18 +46,7 @@ const LN_2: [f64; 3] = [
 /// below 1e-34 of the sum.
 const TERMS: i32 = 30;
 
-/// The sum of two doubles and its rounding error.
-#[inline]
-fn two_sum(a: f64, b: f64) -> DoubleDouble {
-    let hi = a + b;
-    if !hi.is_finite() {
-        return DoubleDouble { hi, lo: 0.0 };
-    }
-    let part = hi - a;
-    DoubleDouble { hi, lo: (a - (hi - part)) + (b - part) }
-}
-
-/// [`two_sum`] if |a| is at least |b| or a is zero.
+/// [`DoubleDouble::sum`] if |a| is at least |b| or a is zero.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
@@ -97,9 +86,15 @@ impl DoubleDouble {
     /// let sum = DoubleDouble::sum(1.0, 1e-20);
     /// assert_eq!((sum.hi(), sum.lo()), (1.0, 1e-20));
     /// ```
+    #[inline]
     #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
-        two_sum(a, b)
+        let hi = a + b;
+        if !hi.is_finite() {
+            return Self { hi, lo: 0.0 };
+        }
+        let part = hi - a;
+        Self { hi, lo: (a - (hi - part)) + (b - part) }
     }
 
     /// Product with a power of two, exactly.
@@ -128,8 +123,8 @@ impl Add for DoubleDouble {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        let s = two_sum(self.hi, other.hi);
-        let t = two_sum(self.lo, other.lo);
+        let s = Self::sum(self.hi, other.hi);
+        let t = Self::sum(self.lo, other.lo);
         let v = quick_two_sum(s.hi, s.lo + t.hi);
         quick_two_sum(v.hi, t.lo + v.lo)
     }

@@ -2,7 +2,7 @@
 //! about a pulse.
 //!
 //! No pulse here has a jump between stretches (`PulseForcing::exceedance`),
-//! and its pieces have equal length (`Driver::time`). A further [`Shape`]
+//! and its pieces have equal length (`Driver::time`). A further [`PulseShape`]
 //! needs `at`, a bound (`bound`, proof P8), and its `shape_series` and `count`
 //! in `integrator::forcing`.
 

@@ -10,14 +10,12 @@ use rocking_report::evidence::Proof;
 use rocking_report::law::LawCells;
 use rocking_report::output::{AnswerRow, first_table};
 use rocking_report::timings::Timings;
-use rocking_study::kept::findings_of;
 
 use super::compare::{accepting, committed};
 use super::house::{read, root};
 
 /// The pages.
-const PAGES: [&str; 4] =
-    ["README.md", "docs/tour.md", "docs/theory.md", "paper.md"];
+const PAGES: [&str; 3] = ["README.md", "docs/theory.md", "paper.md"];
 
 /// What opens a mark, before its name, and what closes it, behind it.
 const OPENS: [&str; 2] = ["<!-- results: ", " -->"];
@@ -45,15 +43,6 @@ fn renewed(
         let new = match name {
             "answers" => answers(findings, proof)?,
             "accuracy" => Timings::kept()?.error(),
-            "contents" => {
-                let recorded = findings_of(&findings.settings)?;
-                let recorded = recorded.context("other settings")?;
-                format!(
-                    "\nRecorded motions:\n{}\nEmbedded motions:\n{}",
-                    listed(&recorded, name)?,
-                    listed(findings, name)?
-                )
-            }
             "law" => law()?,
             "law-parts" => {
                 let table = LawCells::kept()?.parts();
@@ -90,13 +79,6 @@ fn law() -> anyhow::Result<String> {
         markdown(&table),
         table.reading
     ))
-}
-
-/// The answer to a question beyond the paper, a list of its sentences.
-fn listed(findings: &Findings, id: &str) -> anyhow::Result<String> {
-    let own = findings.questions.iter().find(|question| question.id == id);
-    let own = own.with_context(|| format!("findings without {id}"))?;
-    Ok(format!("\n- {}\n", own.answer.replace(". ", ".\n- ")))
 }
 
 fn markdown(table: &PlainTable) -> String {

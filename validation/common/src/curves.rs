@@ -1,12 +1,12 @@
-//! How many curves are made: in lanes at an instruction-set level, or one
-//! analysis at a time. Results are the same bits.
+//! Execution of many curves: in lanes at an instruction-set level, or one
+//! analysis at a time. The bits of the results are equal.
 
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, IdaCurve, IdaError, curve, curves};
 use rocking::number::dispatch::Isa;
 
-/// The way curves are made.
+/// Execution of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Execution {
     /// Chains in lanes, by instructions of this level.
@@ -22,8 +22,8 @@ impl Default for Execution {
 }
 
 impl Execution {
-    /// The curves of every record under every analysis, as
-    /// [`rocking::ida::curves`] gives them; `done` is called after each.
+    /// The curves of every record under every analysis, equal to those of
+    /// [`rocking::ida::curves`]. `done` is called after each curve.
     ///
     /// # Errors
     /// As [`rocking::ida::curves`].

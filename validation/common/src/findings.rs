@@ -1,8 +1,8 @@
-//! The findings of a study in their types: `findings.json` holds them, and the
-//! terminal and the comparison of two studies read them.
+//! Typed findings of a study. `findings.json` contains them; the terminal and the
+//! comparison of two studies read them.
 //!
-//! The file is one object of [`Findings`]. Numbers have nine significant
-//! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
+//! The file is one object of [`Findings`]. Numbers have nine significant digits.
+//! An infinite number is `"inf"` or `"-inf"`, a missing one `null`.
 
 mod claims;
 mod effect;
@@ -32,11 +32,11 @@ pub use claims::{
 /// its meaning.
 pub const SCHEMA: u32 = 7;
 
-/// Everything that a study found.
+/// The results of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Findings {
-    /// [`SCHEMA`] of the program that wrote it.
+    /// [`SCHEMA`] of the program that wrote the file.
     pub schema: u32,
     /// Version of that program.
     pub version: String,
@@ -44,7 +44,7 @@ pub struct Findings {
     pub settings: StudySettings,
     /// The suites, and the work on them.
     pub suites: Vec<SuiteSummary>,
-    /// The paper's claims and what was found about them.
+    /// The paper's claims with their results.
     pub claims: Vec<Claim>,
     /// The numbers that claims and figures rest on.
     pub tables: Vec<FindingsTable>,
@@ -56,7 +56,7 @@ pub struct Findings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudySettings {
-    /// Arms of the intensity grid.
+    /// The intensity grids.
     pub arms: Vec<Arm>,
     /// Coefficient of restitution.
     #[serde(with = "nine")]
@@ -93,12 +93,12 @@ pub struct SuiteSummary {
     pub kind: SuiteKind,
     /// Where the records come from.
     pub source: String,
-    /// Which component of a pair is used.
+    /// Rule by which the component of a pair is chosen.
     pub component_rule: String,
     /// Number of records.
     pub records: usize,
-    /// Number of earthquakes; none where they are not known, and each record
-    /// counts as one.
+    /// Number of earthquakes; `None` if they are unknown, and each record counts
+    /// as one.
     pub earthquakes: Option<usize>,
     /// SHA-256 over the records.
     pub sha256: String,
@@ -106,7 +106,7 @@ pub struct SuiteSummary {
     pub list: Vec<RecordName>,
     /// Records whose histories are shown.
     pub shown_alone: Vec<String>,
-    /// Remarks on records, where there are some.
+    /// Remarks on records, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub remarks: Option<String>,
     /// Files that were set aside when the suite was read, by reason.
@@ -114,11 +114,11 @@ pub struct SuiteSummary {
     pub set_aside: Vec<AsideFiles>,
     /// Analyses made.
     pub analyses: u64,
-    /// Analyses whose peak or fate double precision does not resolve.
+    /// Analyses whose peak or outcome double precision does not resolve.
     pub unresolved: usize,
     /// First overturnings among the unresolved analyses.
     pub first_overturnings_reevaluated: Reevaluation,
-    /// Largest shift of an overturning quantile if all open fates flipped.
+    /// Largest shift of an overturning quantile if all open outcomes flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
 }
@@ -145,8 +145,8 @@ pub struct RecordName {
     pub sha256: String,
 }
 
-/// First overturnings that ran again with every decision assessed, by the
-/// arithmetic that resolved them.
+/// First overturnings that were evaluated again with every decision assessed, by
+/// the arithmetic that resolved them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reevaluation {
@@ -160,12 +160,11 @@ pub struct Reevaluation {
     pub resolved_by_octuple: usize,
     /// Resolved by none of these.
     pub unresolved: usize,
-    /// Fates that were wrong in double precision.
+    /// Outcomes that were wrong in double precision.
     pub wrong_in_double: usize,
 }
 
-/// What a table is about, in the order of consequence: what an engineer acts
-/// on first.
+/// Topic of a table, in the order of consequence for an engineer.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
 )]
@@ -188,8 +187,8 @@ pub enum Topic {
 }
 
 impl Topic {
-    /// The smallest effect of interest of a quantity of such a table: 5 % of
-    /// a response ratio, else that of its unit.
+    /// The smallest effect of interest of a quantity of this table: 5 % of a
+    /// response ratio, else the effect of its unit.
     pub fn smallest_effect(self, unit: Unit) -> Option<Effect> {
         match (self, unit) {
             (Self::SlendernessAdjustment | Self::SingleRecords, Unit::One) => {
@@ -199,7 +198,7 @@ impl Topic {
         }
     }
 
-    /// The topic in words.
+    /// Words of the topic.
     pub fn words(self) -> &'static str {
         match self {
             Self::AcceptedShares => "lognormality along the demand",
@@ -217,7 +216,7 @@ impl Topic {
 
 /// Rows of some quantities at different places.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, try_from = "Columns")]
+#[serde(deny_unknown_fields)]
 pub struct FindingsTable {
     /// Its topic.
     pub topic: Topic,
@@ -227,32 +226,20 @@ pub struct FindingsTable {
     pub rows: Vec<TableRow>,
 }
 
-/// A [`FindingsTable`] as it is read.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Columns {
-    topic: Topic,
-    quantities: Vec<Quantity>,
-    rows: Vec<TableRow>,
-}
-
-impl TryFrom<Columns> for FindingsTable {
-    type Error = String;
-
-    fn try_from(columns: Columns) -> Result<Self, String> {
-        let Columns { topic, quantities, rows } = columns;
-        let expected = quantities.len();
-        for (k, row) in rows.iter().enumerate() {
-            let found = row.values.len();
-            if found != expected {
-                return Err(format!(
-                    "{}, row {}: {found} values, expected {expected}",
-                    topic.words(),
-                    k + 1
-                ));
-            }
-        }
-        Ok(Self { topic, quantities, rows })
+impl FindingsTable {
+    /// Refuses a row without a value for each quantity.
+    fn check(&self) -> Result<(), String> {
+        let (topic, expected) = (self.topic.words(), self.quantities.len());
+        let found = self.rows.iter().map(|row| row.values.len());
+        let mut found = (1..).zip(found);
+        found.find(|(_, found)| *found != expected).map_or(
+            Ok(()),
+            |(row, found)| {
+                Err(format!(
+                    "{topic}, row {row}: {found} values, expected {expected}"
+                ))
+            },
+        )
     }
 }
 
@@ -268,7 +255,7 @@ pub struct Quantity {
     pub unit: Unit,
 }
 
-/// One place, and what was measured there.
+/// One place and its values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableRow {
@@ -286,7 +273,7 @@ pub struct RowPlace {
     /// Suite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suite: Option<SuiteKind>,
-    /// Arm of the intensity grid.
+    /// Intensity grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<Arm>,
     /// Intensity measure.
@@ -360,8 +347,7 @@ impl Findings {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// Whether a file's text is the findings of a study, of whatever
-    /// [`SCHEMA`].
+    /// Whether a file's text is the findings of a study, of any [`SCHEMA`].
     ///
     /// ```
     /// use rocking_common::findings::Findings;
@@ -383,8 +369,8 @@ impl Findings {
     /// Findings from a file's text.
     ///
     /// # Errors
-    /// What the reader found instead, with line and column; findings of
-    /// another [`SCHEMA`].
+    /// A text of another form, with line and column; findings of another
+    /// [`SCHEMA`].
     ///
     /// ```
     /// use rocking_common::findings::Findings;
@@ -407,7 +393,10 @@ impl Findings {
                  by one version of the program"
             ));
         }
-        serde_json::from_str(text).map_err(|e| e.to_string())
+        let found: Self =
+            serde_json::from_str(text).map_err(|e| e.to_string())?;
+        found.tables.iter().try_for_each(FindingsTable::check)?;
+        Ok(found)
     }
 
     /// The table of a topic, if there is one.
@@ -472,8 +461,9 @@ mod tests {
         let text = r#"{"topic":"overturning",
             "quantities":[{"name":"a","words":"b","unit":"1"}],
             "rows":[{"at":{"p_rad_s":1.0},"values":[]}]}"#;
-        let error = serde_json::from_str::<FindingsTable>(text).unwrap_err();
-        assert!(error.to_string().contains("row 1: 0 values, expected 1"));
+        let table: FindingsTable = serde_json::from_str(text).unwrap();
+        let error = table.check().unwrap_err();
+        assert!(error.contains("row 1: 0 values, expected 1"), "{error}");
     }
 
     #[test]

@@ -1,12 +1,12 @@
-//! Numbers of the data files in JSON, which tell infinity. The command line
-//! prints `null` for what is infinite or not a number, as `json!` does.
+//! Numbers of the data files in JSON, with infinities. The command line prints
+//! `null` for an infinite number or NaN, like `json!`.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::words;
 
-/// A number as data files hold it, with all its digits.
+/// A number of a data file, with all its digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extended(pub f64);
 
@@ -22,7 +22,7 @@ impl<'de> Deserialize<'de> for Extended {
     }
 }
 
-/// A number as data files hold it: `"inf"` or `"-inf"` for infinities,
+/// A number in the form of data files: `"inf"` or `"-inf"` for infinities,
 /// `null` for NaN.
 pub fn extended(x: f64) -> Value {
     match Value::from(x) {
@@ -32,14 +32,14 @@ pub fn extended(x: f64) -> Value {
     }
 }
 
-/// A number rounded to nine significant digits: what a bound supports, and
-/// no more than a reader compares.
+/// A number rounded to nine significant digits: as many as a bound supports, and
+/// enough for a comparison.
 pub fn rounded(x: f64) -> Value {
     extended(words::rounded(x, 9))
 }
 
-/// Numbers of nine significant digits in serialized types: as [`rounded`]
-/// writes them, and read back.
+/// Numbers of nine significant digits in serialized types, in the form of
+/// [`rounded`].
 pub mod nine {
     use serde::de::Error as _;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -59,7 +59,7 @@ pub mod nine {
     /// Reads a number.
     ///
     /// # Errors
-    /// For what is no number, `"inf"`, `"-inf"` or `null`.
+    /// For anything but a number, `"inf"`, `"-inf"` or `null`.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<f64, D::Error> {

@@ -1,5 +1,5 @@
-//! Constants of the paper: blocks, gravity, restitution, stripes, demand
-//! levels, arms of the grid, intensity measures and its sections.
+//! Constants of the paper: blocks, gravity, restitution, stripes, demand levels,
+//! intensity grids, intensity measures and sections.
 
 use std::fmt;
 
@@ -26,8 +26,8 @@ pub const GRAVITY_M_S2: f64 = 9.81;
 /// Position of the reference slenderness, 0.10 rad.
 pub const REFERENCE: usize = 1;
 
-/// Stripe levels on offer; those are used at which at least
-/// [`LEAST_USABLE`] ratios are well defined.
+/// Candidate levels of the stripes. A level is used if at least [`LEAST_USABLE`]
+/// ratios are well defined there.
 pub const STRIPES: [f64; 16] = [
     1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0,
     25.0, 30.0,
@@ -81,7 +81,7 @@ pub fn demand_index(demand: f64) -> usize {
 }
 
 named! {
-    /// Arm of the intensity grid.
+    /// Intensity grid.
     #[derive(PartialOrd, Ord, Hash)]
     pub enum Arm: "arm" {
         /// The paper's 0.01 g steps, not refined.
@@ -94,7 +94,7 @@ named! {
 }
 
 impl Arm {
-    /// The letter and its meaning.
+    /// Letter and meaning of the grid.
     pub fn words(self) -> &'static str {
         match self {
             Self::A => "A: steps of 0.01 g",
@@ -104,8 +104,8 @@ impl Arm {
     }
 }
 
-/// Where the paper says a thing: a section, and the table or the figures
-/// that show it.
+/// A place in the paper: a section, and the table or the figures that show the
+/// statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PaperSection {
@@ -115,11 +115,11 @@ pub struct PaperSection {
     pub shown: Exhibit,
 }
 
-/// Part of the paper that shows a claim.
+/// Part of the paper that shows a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exhibit {
-    /// The text alone.
+    /// Only the text.
     Text,
     /// A table.
     Table(u8),

@@ -1,5 +1,4 @@
-//! Tables: as CSV text, which [`rocking_exchange::table`] writes, and as a
-//! page shows them.
+//! Tables: as CSV text by [`rocking_exchange::table`], and as a page shows them.
 
 pub use rocking_exchange::columns;
 pub use rocking_exchange::table::{
@@ -13,7 +12,7 @@ pub struct PlainTable {
     pub name: String,
     /// Title: `Table 1. The 15 blocks`.
     pub title: String,
-    /// How it is read, in a sentence.
+    /// Explanation of the table, in a sentence.
     pub reading: String,
     /// Column heads with units.
     pub header: Vec<String>,

@@ -1,9 +1,9 @@
-//! Numbers and names as people read them.
+//! Numbers and names in words for people.
 
 use std::borrow::Cow;
 
-/// A text of lines as a terminal may show it: other control characters as
-/// `\u001b`, which JSON reads back.
+/// A text that is safe on a terminal: control characters other than line break
+/// and tab become escapes like `\u001b`, which JSON reads back.
 ///
 /// ```
 /// use rocking_common::words::printable;
@@ -21,7 +21,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
-/// A number for people: four decimals, "none" where there is none.
+/// A number for people: four decimals, "none" for NaN.
 pub fn rounded_text(x: f64) -> String {
     if x.is_nan() { "none".into() } else { format!("{x:.4}") }
 }
@@ -37,7 +37,7 @@ pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
 }
 
-/// A share in percent; a dash where there are no data.
+/// A share in percent; a dash for NaN.
 pub fn percent(share: f64, decimals: usize) -> String {
     if share.is_nan() {
         "–".into()
@@ -63,8 +63,8 @@ pub fn capital(word: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// Rows of cells as lines: two spaces between columns, each as wide as its
-/// widest cell; where `is_right`, the cells of a column end at one place.
+/// Rows of cells as lines: two spaces between columns, each as wide as its widest
+/// cell. The cells of a column that `is_right` are aligned to the right.
 ///
 /// ```
 /// use rocking_common::words::columns;

@@ -79,7 +79,6 @@ fn empty(source: &SuiteSource) -> StudyResults {
         single: Vec::new(),
         stripes: Vec::new(),
         adjusted: Vec::new(),
-        contents: Vec::new(),
     };
     StudyResults {
         plan: plan(Execution::default()),

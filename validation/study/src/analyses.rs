@@ -1,4 +1,4 @@
-//! All analyses of a study, in a fixed order for any number of threads.
+//! All analyses of a study, in the same order for any number of threads.
 
 mod plan;
 mod single;
@@ -17,14 +17,13 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use crate::contents::{Furnishing, items};
 use crate::distributions::suite_distributions;
 use crate::facts::{Facts, facts};
 use crate::runs::curves_of;
-use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S};
+use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 
-/// Study components as analyses take them.
+/// The study components, prepared for analyses.
 pub(crate) fn normalised(suite: &StudySuite) -> Vec<NormalisedRecord> {
     let motions = suite.motions.iter();
     motions.map(|m| NormalisedRecord::new(&m.study)).collect()
@@ -34,7 +33,7 @@ impl Plan {
     /// Runs everything for one suite.
     ///
     /// # Errors
-    /// Where an analysis cannot be done.
+    /// If an analysis fails.
     pub fn run_suite(
         &self,
         suite: &StudySuite,
@@ -46,24 +45,11 @@ impl Plan {
         let chains = |blocks: &[Block], arms: &[_], adjust| {
             self.setup.chains(blocks, &records, arms, adjust, progress)
         };
-        let scaling = Adjust::RecordScaling;
-        let (arms, work) = chains(&BLOCKS, &self.arms, scaling)?;
-        let shapes: Vec<Block> =
-            items().iter().map(Furnishing::block).collect::<Result<_, _>>()?;
-        let (contents, _) = chains(&shapes, &[self.common()], scaling)?;
+        let (arms, work) = chains(&BLOCKS, &self.arms, Adjust::RecordScaling)?;
         let common = curves_of(&arms, self.common())?;
         let chosen = single::shown_alone(common, &facts);
-        let single = (0..FREQUENCIES_RAD_S.len())
-            .map(|k| {
-                single::single_records(
-                    &self.setup,
-                    k,
-                    &records,
-                    common,
-                    chosen,
-                )
-            })
-            .collect::<Result<_, _>>()?;
+        let single =
+            single::single_records(&self.setup, &records, common, chosen)?;
         let adjusting = Adjust::SlendernessAdjustment;
         let (adjusted, _) =
             chains(&stripes::references(), &self.drawn(), adjusting)?;
@@ -88,7 +74,6 @@ impl Plan {
             single,
             stripes,
             adjusted,
-            contents: contents.into_iter().flat_map(|a| a.curves).collect(),
         })
     }
 }

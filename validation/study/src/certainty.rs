@@ -1,6 +1,6 @@
-//! Counts of unresolved analyses, first overturnings among them evaluated
-//! again in wider arithmetic, and a bound on the effect of wrong ones on
-//! capacities.
+//! Counts of unresolved analyses. First overturnings among them are evaluated
+//! again in wider arithmetic, and the effect of wrong ones on capacities is
+//! bounded.
 
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
@@ -41,7 +41,7 @@ fn count(out: &mut Reevaluation, fate: &CertifiedFate) {
 /// first overturnings among them again in wider arithmetic.
 ///
 /// # Errors
-/// Where a level cannot be run again.
+/// If a level cannot be run again.
 pub fn certainty(
     analyses: &[Analysis],
     records: &[NormalisedRecord],
@@ -54,8 +54,8 @@ pub fn certainty(
         let open: Vec<(usize, IdaPoint)> = curves
             .iter()
             .enumerate()
-            .flat_map(|(r, curve)| ends(curve).map(move |p| (r, p)))
-            .filter(|(_, point)| is_open(point))
+            .flat_map(|(r, curve)| levels(curve).map(move |p| (r, p)))
+            .filter(|(_, p)| is_open(p) && p.outcome.is_overturned())
             .collect();
         let fates: Vec<CertifiedFate> = open
             .par_iter()
@@ -87,12 +87,7 @@ fn levels(curve: &IdaCurve) -> impl Iterator<Item = IdaPoint> {
     curve.points.iter().copied().chain(refined)
 }
 
-/// The first overturning of a curve, scanned and refined.
-fn ends(curve: &IdaCurve) -> impl Iterator<Item = IdaPoint> {
-    levels(curve).filter(|point| point.outcome.is_overturned())
-}
-
-/// The level in the precision that it needs.
+/// The outcome of a level in the precision that it needs.
 fn again(
     analysis: &Analysis,
     record: &NormalisedRecord,

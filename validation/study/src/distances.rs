@@ -2,15 +2,16 @@
 //! which his test accepts one, over all subsets of the records.
 //!
 //! Levels of a block share records, and so do blocks. Both numbers are
-//! therefore inferred from subsets without two earthquakes; a draw with
+//! therefore inferred from subsets without two earthquakes. A draw with
 //! replacement would tie values, and ties break the test.
 
 use libm::log;
 use rocking_statistics::acceptance::distances;
 use rocking_statistics::lilliefors::{LillieforsTable, LillieforsTest};
 
-use crate::distributions::{BlockSamples, average_factors, factors, scaled};
+use crate::distributions::{average_factors, factors, least, scaled};
 use crate::estimates::mean;
+use crate::facts::Facts;
 use crate::inference::{Replicates, Resample, Resamples};
 use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
 use crate::results::StudyResults;
@@ -26,54 +27,73 @@ const COUNT: usize = BLOCKS.len();
 /// alpha = 0.05.
 pub(crate) const SLENDER: (usize, usize) = (1, 0);
 
-/// Earliest overturnings that the paper's explanation of Figure 13 blames.
+/// Number of the earliest overturnings that the paper blames in Figure 13.
 const EARLIEST: usize = 3;
 
-/// A series of tests along the demand, made for each block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(usize)]
-pub(crate) enum TestSeries {
-    OriginalPga,
-    ShiftedPga,
-    OriginalPgv,
-    ShiftedPgv,
-    OriginalGeometricMean,
-    ShiftedGeometricMean,
-    OriginalAverageSa,
-    ShiftedAverageSa,
+/// An intensity measure in which capacities are tested.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum TestedMeasure {
+    Pga,
+    Pgv,
+    GeometricMean,
+    AverageSa,
 }
 
-impl TestSeries {
-    const ALL: [Self; 8] = [
-        Self::OriginalPga,
-        Self::ShiftedPga,
-        Self::OriginalPgv,
-        Self::ShiftedPgv,
-        Self::OriginalGeometricMean,
-        Self::ShiftedGeometricMean,
-        Self::OriginalAverageSa,
-        Self::ShiftedAverageSa,
-    ];
+impl TestedMeasure {
+    const ALL: [Self; 4] =
+        [Self::Pga, Self::Pgv, Self::GeometricMean, Self::AverageSa];
 
-    fn is_shifted(self) -> bool {
-        matches!(
-            self,
-            Self::ShiftedPga
-                | Self::ShiftedPgv
-                | Self::ShiftedGeometricMean
-                | Self::ShiftedAverageSa
-        )
+    /// The tests of the original sample.
+    pub(crate) const fn original(self) -> TestSeries {
+        TestSeries(2 * self as usize)
+    }
+
+    /// The tests of the shifted sample.
+    pub(crate) const fn shifted(self) -> TestSeries {
+        TestSeries(2 * self as usize + 1)
+    }
+
+    /// Factors from PGA/(g tan alpha) to the measure, by record; `None` if a
+    /// record lacks the measure.
+    fn factors(self, records: &[Facts], frequency: usize) -> Option<Vec<f64>> {
+        let p = FREQUENCIES_RAD_S[frequency];
+        match self {
+            Self::Pga => Some(factors(records, Intensity::Pga, p)),
+            Self::Pgv => Some(factors(records, Intensity::Pgv, p)),
+            Self::GeometricMean => {
+                records.iter().map(|r| r.mean_over_study).collect()
+            }
+            Self::AverageSa => Some(average_factors(records, frequency)),
+        }
     }
 }
 
-/// Place of the excess less the excess without the earliest records, both
+/// A series of tests along the demand for each block, by its number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TestSeries(usize);
+
+impl TestSeries {
+    /// Place of a block's excess in [`SuiteDistances::replicated`].
+    pub(crate) fn place(self, (p, alpha): (usize, usize)) -> usize {
+        self.0 * COUNT + position(p, alpha)
+    }
+
+    /// The excess of D by block.
+    pub(crate) fn excesses(self, row: &[f64]) -> &[f64] {
+        &row[self.0 * COUNT..][..COUNT]
+    }
+
+    /// The accepted share by block.
+    pub(crate) fn accepted(self, row: &[f64]) -> &[f64] {
+        self.excesses(&row[OF_EARLIEST + 1..])
+    }
+}
+
+/// Place of the excess minus the excess without the earliest records, both
 /// over the levels of a simulation.
-pub(crate) const OF_EARLIEST: usize = TestSeries::ALL.len() * COUNT;
+pub(crate) const OF_EARLIEST: usize = 2 * TestedMeasure::ALL.len() * COUNT;
 
-/// First place of the accepted shares: `TestSeries` by block.
-const SHARES: usize = OF_EARLIEST + 1;
-
-/// Results of Lilliefors' test for all blocks of a suite in an arm, over all
+/// Results of Lilliefors' test for all blocks of a suite on a grid, over all
 /// draws.
 pub struct SuiteDistances {
     pub(crate) suite: SuiteKind,
@@ -81,13 +101,12 @@ pub struct SuiteDistances {
     /// The excess of D, `TestSeries` by block, then the part of the earliest
     /// records; then the accepted shares, `TestSeries` by block.
     pub(crate) replicated: Replicates,
-    /// Levels at which every record is finite, of all, by block.
-    pub(crate) levels: Vec<(usize, usize)>,
+    /// Number of levels at which every record is finite, by block.
+    pub(crate) levels: Vec<usize>,
 }
 
-/// D over levels: the mean of D less its mean for a lognormal of as many
-/// records, and the share of the levels at which D is not critical. NaN where
-/// there is no level.
+/// D over levels: the mean of D minus its mean for a lognormal of equal size,
+/// and the share of the levels at which D is not critical. NaN without a level.
 #[derive(Clone, Copy)]
 struct OverLevels {
     excess: f64,
@@ -95,9 +114,11 @@ struct OverLevels {
 }
 
 impl OverLevels {
-    /// Summary of the distances of levels with n records each. NaN is no
-    /// distance.
-    fn new(found: &[f64], null: f64, critical: f64) -> Self {
+    /// Without any level.
+    const NONE: Self = Self { excess: f64::NAN, accepted: f64::NAN };
+
+    /// Summary of the distances of levels; NaN does not count.
+    fn new(found: &[f64], (null, critical): (f64, f64)) -> Self {
         let usable = || found.iter().copied().filter(|d| !d.is_nan());
         let accepted = |d: f64| f64::from(u8::from(d <= critical));
         Self {
@@ -115,47 +136,49 @@ fn null(n: usize) -> (f64, f64) {
     (table.mean(n).unwrap_or(f64::NAN), critical)
 }
 
-/// One block in one measure: the levels that enter a simulation, and the
-/// factors that the shift is the least of.
+/// Capacities of one block in one measure.
 struct BlockLevels {
+    /// Capacities by level, then by record.
     levels: Vec<Vec<f64>>,
+    /// Intensities at uplift by record: the least is the shift.
     factors: Vec<f64>,
     shifted: bool,
 }
 
 impl BlockLevels {
-    /// D of a draw over the levels, with the null of as many records.
-    fn over_levels(
-        &self,
-        counts: &[u32],
-        left_out: &[usize],
-        (null, critical): (f64, f64),
-    ) -> OverLevels {
-        let drawn: Vec<usize> = (0..counts.len())
-            .filter(|r| counts[*r] > 0 && !left_out.contains(r))
-            .collect();
-        let shift = if self.shifted {
-            drawn.iter().fold(f64::INFINITY, |least, r| {
-                if self.factors[*r] < least { self.factors[*r] } else { least }
-            })
-        } else {
-            0.0
-        };
-        let logs: Vec<Vec<f64>> = self
-            .levels
-            .iter()
-            .map(|level| {
-                drawn.iter().map(|r| log(level[*r] - shift)).collect()
-            })
-            .collect();
-        OverLevels::new(&distances(&logs), null, critical)
+    fn shift(&self, factors: &[f64]) -> f64 {
+        if self.shifted { least(factors) } else { 0.0 }
     }
 
-    /// Positions of the records that overturn first.
-    fn earliest(&self, counts: &[u32]) -> Vec<usize> {
+    /// D of all levels and all records.
+    fn whole(&self) -> OverLevels {
+        let shift = self.shift(&self.factors);
+        let tests = along(&self.levels, shift).unwrap_or_default();
+        let d =
+            |test: &LillieforsTest| test.statistic.map_or(f64::NAN, |s| s.d);
+        let found: Vec<f64> = tests.iter().map(d).collect();
+        let of = OverLevels::new(&found, null(self.factors.len()));
+        OverLevels { accepted: accepted_share(&tests), ..of }
+    }
+
+    /// D of a draw over the levels of a simulation, without some records.
+    fn over_levels(&self, drawn: &[usize], left_out: &[usize]) -> OverLevels {
+        let is_held = |r: &usize| !left_out.contains(r);
+        let held: Vec<usize> = drawn.iter().copied().filter(is_held).collect();
+        let factors: Vec<f64> =
+            held.iter().map(|r| self.factors[*r]).collect();
+        let shift = self.shift(&factors);
+        let logs = every(&self.levels, BAND_STRIDE).map(|level| {
+            held.iter().map(|r| log(level[*r] - shift)).collect()
+        });
+        let found = distances(&logs.collect::<Vec<Vec<f64>>>());
+        OverLevels::new(&found, null(held.len()))
+    }
+
+    /// Positions of the drawn records that overturn first.
+    fn earliest(&self, drawn: &[usize]) -> Vec<usize> {
         let Some(overturning) = self.levels.last() else { return Vec::new() };
-        let mut drawn: Vec<usize> =
-            (0..counts.len()).filter(|r| counts[*r] > 0).collect();
+        let mut drawn = drawn.to_vec();
         drawn.sort_by(|a, b| overturning[*a].total_cmp(&overturning[*b]));
         drawn.truncate(EARLIEST);
         drawn
@@ -163,10 +186,10 @@ impl BlockLevels {
 }
 
 impl SuiteDistances {
-    /// The distances of a suite in an arm.
+    /// The distances of a suite on a grid.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the grid was not run.
     pub fn new(
         results: &StudyResults,
         draws: &Resamples,
@@ -174,77 +197,49 @@ impl SuiteDistances {
         arm: Arm,
     ) -> anyhow::Result<Self> {
         let own = results.suite(suite);
-        let of = |intensity| own.distributions(arm, intensity);
-        let (pga, pgv) = (of(Intensity::Pga)?, of(Intensity::Pgv)?);
-        let records = &own.records;
-        let n = records.len();
-        let means: Option<Vec<f64>> =
-            records.iter().map(|r| r.mean_over_study).collect();
+        let blocks = &own.distributions(arm, Intensity::Pga)?.blocks;
         let mut all: Vec<Option<BlockLevels>> = Vec::new();
-        // Values of the claims: they use all levels.
-        let mut whole: Vec<OverLevels> = Vec::new();
-        for tests in TestSeries::ALL {
-            for at in 0..COUNT {
+        for (measure, shifted) in TestedMeasure::ALL
+            .into_iter()
+            .flat_map(|measure| [(measure, false), (measure, true)])
+        {
+            for (at, block) in blocks.iter().enumerate() {
                 let frequency = at / SLENDERNESSES_RAD.len();
-                let p = FREQUENCIES_RAD_S[frequency];
-                let (block, factors) = match tests {
-                    TestSeries::OriginalPga | TestSeries::ShiftedPga => {
-                        (&pga.blocks[at], Some(vec![1.0; n]))
-                    }
-                    TestSeries::OriginalPgv | TestSeries::ShiftedPgv => (
-                        &pgv.blocks[at],
-                        Some(factors(records, Intensity::Pgv, p)),
-                    ),
-                    TestSeries::OriginalGeometricMean
-                    | TestSeries::ShiftedGeometricMean => {
-                        (&pga.blocks[at], means.clone())
-                    }
-                    TestSeries::OriginalAverageSa
-                    | TestSeries::ShiftedAverageSa => (
-                        &pga.blocks[at],
-                        Some(average_factors(records, frequency)),
-                    ),
-                };
-                whole.push(value(tests, block, factors.as_deref()));
-                let shifted = tests.is_shifted();
-                let own = every(&pga.blocks[at].samples, BAND_STRIDE);
-                all.push(factors.map(|factors| BlockLevels {
-                    levels: own.map(|level| scaled(level, &factors)).collect(),
-                    factors,
-                    shifted,
+                let factors = measure.factors(&own.records, frequency);
+                all.push(factors.map(|factors| {
+                    let samples = block.samples.iter();
+                    let levels =
+                        samples.map(|s| scaled(s, &factors)).collect();
+                    BlockLevels { levels, factors, shifted }
                 }));
             }
         }
-        let slender = place(TestSeries::ShiftedPga, SLENDER);
+        let each = |of: &dyn Fn(&BlockLevels) -> OverLevels| -> Vec<_> {
+            let one = |one: &Option<BlockLevels>| {
+                one.as_ref().map_or(OverLevels::NONE, of)
+            };
+            all.iter().map(one).collect()
+        };
+        let slender = TestedMeasure::Pga.shifted().place(SLENDER);
         let of = |draw: Resample<'_>| -> Vec<f64> {
             let counts = draw.of(suite);
-            let drawn = counts.iter().filter(|count| **count > 0).count();
-            let nulls = null(drawn);
-            let each: Vec<OverLevels> = all
-                .iter()
-                .map(|one| match one {
-                    Some(one) => one.over_levels(counts, &[], nulls),
-                    None => OverLevels::new(&[], f64::NAN, f64::NAN),
-                })
-                .collect();
-            let earliest = all[slender].as_ref().map_or(f64::NAN, |one| {
-                let earliest = one.earliest(counts);
-                let others = null(drawn.saturating_sub(earliest.len()));
-                one.over_levels(counts, &[], nulls).excess
-                    - one.over_levels(counts, &earliest, others).excess
+            let drawn: Vec<usize> =
+                (0..counts.len()).filter(|r| counts[*r] > 0).collect();
+            let of_earliest = all[slender].as_ref().map_or(f64::NAN, |one| {
+                let earliest = one.earliest(&drawn);
+                one.over_levels(&drawn, &[]).excess
+                    - one.over_levels(&drawn, &earliest).excess
             });
-            row(&each, earliest)
+            row(&each(&|one| one.over_levels(&drawn, &[])), of_earliest)
         };
         let found = draws.untied(suite, &of);
+        // The values of the claims use all levels.
+        let whole = each(&BlockLevels::whole);
         let whole = row(&whole, found.points[OF_EARLIEST]);
-        let levels = pga
-            .blocks
+        let finite = |level: &&Vec<f64>| level.iter().all(|x| x.is_finite());
+        let levels = blocks
             .iter()
-            .map(|b| {
-                let finite =
-                    |level: &&Vec<f64>| level.iter().all(|x| x.is_finite());
-                (b.samples.iter().filter(finite).count(), b.samples.len())
-            })
+            .map(|block| block.samples.iter().filter(finite).count())
             .collect();
         Ok(Self { suite, arm, replicated: found.moved_to(&whole), levels })
     }
@@ -256,64 +251,10 @@ fn row(each: &[OverLevels], of_earliest: f64) -> Vec<f64> {
     excess.chain(each.iter().map(|one| one.accepted)).collect()
 }
 
-/// D of all levels and all records.
-fn value(
-    tests: TestSeries,
-    block: &BlockSamples,
-    factors: Option<&[f64]>,
-) -> OverLevels {
-    let of = |assessments: &[LillieforsTest]| {
-        let d =
-            |test: &LillieforsTest| test.statistic.map_or(f64::NAN, |s| s.d);
-        let found: Vec<f64> = assessments.iter().map(d).collect();
-        let n = block.samples.first().map_or(0, Vec::len);
-        let accepted = accepted_share(assessments);
-        OverLevels { accepted, ..OverLevels::new(&found, null(n).0, f64::NAN) }
-    };
-    match tests {
-        TestSeries::OriginalPga | TestSeries::OriginalPgv => {
-            of(&block.original)
-        }
-        TestSeries::ShiftedPga | TestSeries::ShiftedPgv => of(&block.shifted),
-        TestSeries::OriginalGeometricMean
-        | TestSeries::ShiftedGeometricMean
-        | TestSeries::OriginalAverageSa
-        | TestSeries::ShiftedAverageSa => {
-            let factors = factors.unwrap_or_default();
-            let least = match tests.is_shifted() {
-                true => crate::distributions::least(factors),
-                false => 0.0,
-            };
-            let samples: Vec<Vec<f64>> =
-                block.samples.iter().map(|s| scaled(s, factors)).collect();
-            of(&along(&samples, least).unwrap_or_default())
-        }
-    }
-}
-
-pub(crate) fn place(
-    tests: TestSeries,
-    (frequency, slenderness): (usize, usize),
-) -> usize {
-    tests as usize * COUNT + position(frequency, slenderness)
-}
-
-/// The excess of D by block.
-pub(crate) fn excesses(row: &[f64], tests: TestSeries) -> &[f64] {
-    let first = tests as usize * COUNT;
-    &row[first..first + COUNT]
-}
-
-/// The accepted share by block.
-pub(crate) fn accepted(row: &[f64], tests: TestSeries) -> &[f64] {
-    let first = SHARES + tests as usize * COUNT;
-    &row[first..first + COUNT]
-}
-
-/// The distances of both suites in every arm drawn.
+/// The distances of both suites on every drawn grid.
 ///
 /// # Errors
-/// If an arm was not run.
+/// If a grid was not run.
 pub fn all_distances(
     results: &StudyResults,
     draws: &Resamples,

@@ -1,4 +1,4 @@
-//! Capacity samples of all blocks, and what Lilliefors' test says of them.
+//! Capacity samples of all blocks, and Lilliefors' test of them.
 
 use rayon::prelude::*;
 use rocking::capacity::{InversionRule, ResponseCurve};
@@ -8,9 +8,10 @@ use rocking_statistics::lilliefors::LillieforsTest;
 use crate::facts::Facts;
 use crate::normality::{accepted_share, along, null_band};
 use crate::runs::{ArmCurves, capacities};
-use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, demands,
-};
+use rocking_common::paper::{Arm, BLOCKS, Intensity, SuiteKind, demands};
+
+/// The samples of a block, in the order of [`BlockSamples::tests`].
+pub const SAMPLES: [&str; 2] = ["original", "shifted"];
 
 /// Capacities of one block, and the test along the demand.
 #[derive(Clone, Debug)]
@@ -23,11 +24,9 @@ pub struct BlockSamples {
     pub shift: f64,
     /// Capacities by level of [`demands`], then by record.
     pub samples: Vec<Vec<f64>>,
-    /// The test of ln x by level.
-    pub original: Vec<LillieforsTest>,
-    /// The test of ln(x - shift) by level.
-    pub shifted: Vec<LillieforsTest>,
-    /// Null bands of the two accepted shares, in the plan's common arm.
+    /// Tests by level of ln x, and of ln(x - shift).
+    pub tests: [Vec<LillieforsTest>; 2],
+    /// Null bands of the two accepted shares, on the plan's common grid.
     pub bands: [Option<NullBand>; 2],
 }
 
@@ -38,17 +37,17 @@ impl BlockSamples {
         self.samples.last().map_or(&[], Vec::as_slice)
     }
 
-    /// Accepted share of the levels: original, shifted.
+    /// Accepted shares of the levels, by [`SAMPLES`].
     #[must_use]
-    pub fn shares(&self) -> (f64, f64) {
-        (accepted_share(&self.original), accepted_share(&self.shifted))
+    pub fn shares(&self) -> [f64; 2] {
+        self.tests.each_ref().map(|tests| accepted_share(tests))
     }
 }
 
-/// All 15 blocks of a suite in one arm and one measure.
+/// All 15 blocks of a suite on one grid, in one intensity measure.
 #[derive(Clone, Debug)]
 pub struct Distributions {
-    /// Arm of the grid.
+    /// The grid.
     pub arm: Arm,
     /// Intensity measure.
     pub intensity: Intensity,
@@ -56,40 +55,36 @@ pub struct Distributions {
     pub blocks: Vec<BlockSamples>,
 }
 
-/// The distributions of a suite: by arm, PGA then PGV; null bands for the
-/// arm `banded`.
+/// The distributions of a suite: by grid, PGA then PGV. The grid `banded`
+/// gets null bands.
 ///
 /// # Errors
-/// None in practice: the levels are positive.
+/// Never in practice: the levels are positive.
 pub fn suite_distributions(
     kind: SuiteKind,
     records: &[Facts],
     arms: &[ArmCurves],
     banded: Arm,
 ) -> anyhow::Result<Vec<Distributions>> {
-    let levels = demands();
     let mut out = Vec::new();
-    for arm in arms {
-        let by_block: Vec<Vec<Vec<f64>>> = arm
-            .curves
+    for ArmCurves { arm, curves } in arms {
+        let by_block: Vec<Vec<Vec<f64>>> = curves
             .iter()
-            .map(|curves| samples(curves, &levels))
+            .map(|curves| samples(curves))
             .collect::<Result<_, _>>()?;
+        let banded = (*arm == banded).then_some(kind);
         for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let banded = (arm.arm == banded).then_some(kind);
-            let blocks = by_block
-                .iter()
-                .enumerate()
-                .map(|(i, s)| block(records, intensity, i, s, banded))
+            let blocks = by_block.iter().enumerate();
+            let blocks = blocks
+                .map(|(i, pga)| block(records, intensity, i, pga, banded))
                 .collect::<Result<_, _>>()?;
-            let arm = arm.arm;
-            out.push(Distributions { arm, intensity, blocks });
+            out.push(Distributions { arm: *arm, intensity, blocks });
         }
     }
     Ok(out)
 }
 
-/// One block of the paper; with null bands where `banded` names the suite.
+/// One block of the paper, with null bands if `banded` names the suite.
 fn block(
     records: &[Facts],
     intensity: Intensity,
@@ -97,56 +92,47 @@ fn block(
     pga: &[Vec<f64>],
     banded: Option<SuiteKind>,
 ) -> anyhow::Result<BlockSamples> {
-    let slendernesses = SLENDERNESSES_RAD.len();
-    let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
-    let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
+    let p_rad_s = BLOCKS[position].frequency_rad_s();
+    let alpha_rad = BLOCKS[position].slenderness_rad();
     let factors = factors(records, intensity, p_rad_s);
     let samples: Vec<Vec<f64>> =
         pga.iter().map(|sample| scaled(sample, &factors)).collect();
     let shift = least(&factors);
-    let band = |shift: f64| {
-        let sample = if shift > 0.0 { "shifted" } else { "original" };
-        let (suite, im) = (banded?, intensity.name());
+    let band = |k: usize| {
+        let (suite, im, sample) = (banded?, intensity.name(), SAMPLES[k]);
         let name =
             format!("study/band/{suite}/{im}/{p_rad_s}/{alpha_rad}/{sample}");
-        null_band(&samples, shift, &name)
+        null_band(&samples, [0.0, shift][k], &name)
     };
     Ok(BlockSamples {
-        bands: [band(0.0), band(shift)],
+        bands: [band(0), band(1)],
         p_rad_s,
         alpha_rad,
         shift,
-        original: along(&samples, 0.0)?,
-        shifted: along(&samples, shift)?,
+        tests: [along(&samples, 0.0)?, along(&samples, shift)?],
         samples,
     })
 }
 
-/// Samples by level: capacities of all records of a block.
-///
-/// # Errors
-/// For a level that is not positive.
-fn samples(
-    curves: &[ResponseCurve],
-    levels: &[f64],
-) -> anyhow::Result<Vec<Vec<f64>>> {
+/// Capacities of all records of a block, by level.
+fn samples(curves: &[ResponseCurve]) -> anyhow::Result<Vec<Vec<f64>>> {
+    let levels = demands();
     let by_record: Vec<Vec<f64>> = curves
         .par_iter()
-        .map(|curve| capacities(curve, levels, InversionRule::Median))
+        .map(|curve| capacities(curve, &levels, InversionRule::Median))
         .collect::<Result<_, _>>()?;
     let of = |k: usize| by_record.iter().map(|r| r[k]).collect();
     Ok((0..levels.len()).map(of).collect())
 }
 
-/// A sample in another measure: each capacity times its record's
-/// factor.
+/// A sample in another measure: each capacity times the factor of its record.
 #[must_use]
 pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
     sample.iter().zip(factors).map(|(x, f)| x * f).collect()
 }
 
 /// Factors from PGA/(g tan alpha) to the measure, record by record: 1, or
-/// p PGV/PGA. The least of them is IM_R: at uplift PGA/(g tan alpha) is 1.
+/// p PGV/PGA. The least factor is IM_R: at uplift PGA/(g tan alpha) is 1.
 #[must_use]
 pub fn factors(
     records: &[Facts],
@@ -163,7 +149,7 @@ pub fn average_factors(records: &[Facts], frequency: usize) -> Vec<f64> {
     records.iter().map(|r| r.average_ratios[frequency]).collect()
 }
 
-/// The least of some numbers; infinite without any.
+/// The least of some numbers; infinite for an empty slice.
 #[must_use]
 pub fn least(values: &[f64]) -> f64 {
     values.iter().fold(f64::INFINITY, |m, x| if *x < m { *x } else { m })

@@ -1,8 +1,10 @@
-//! Everything that a study found, as [`Findings`].
+//! The results of a study as [`Findings`].
 
 use std::sync::LazyLock;
 
+use rocking::block::Block;
 use rocking_records::{AsideCount, SetAside};
+use rocking_statistics::paired::Pairs;
 use rocking_statistics::resampling::RecordRanks;
 use rocking_statistics::{Estimate, Proportion, Range};
 use serde::Deserialize;
@@ -12,11 +14,11 @@ use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
 use crate::inference::{REPLICATES, Resample, Resamples};
+use crate::measures::ranks;
 use crate::questions::{self, StudyAnswer};
 use crate::results::StudyResults;
-use crate::runs::capacities_at;
 use crate::sensitivities::OtherChoice;
-use crate::stripes::adjusted_split;
+use crate::stripes::is_within;
 use rocking_common::findings::{
     AsideFiles, Claim, Findings, FindingsTable, RowPlace, SCHEMA,
     SuiteSummary, TableRow, Topic,
@@ -30,7 +32,7 @@ use rocking_common::words::capital;
 /// All findings of a study.
 ///
 /// # Errors
-/// Where a number cannot be computed.
+/// If a number cannot be computed.
 pub fn study_findings(
     results: &StudyResults,
     draws: &Resamples,
@@ -57,8 +59,7 @@ pub fn study_findings(
     })
 }
 
-/// The table of a topic with these rows; its quantities are declared in
-/// `tables.toml`.
+/// The table of a topic with these rows. `tables.toml` declares its quantities.
 fn table(topic: Topic, rows: Vec<TableRow>) -> FindingsTable {
     #[derive(Deserialize)]
     struct TableFile {
@@ -95,13 +96,11 @@ fn suite(suite: &SuiteResults) -> SuiteSummary {
     }
 }
 
-/// Remarks on the records of a suite and, where it has few earthquakes, on the
-/// intervals that they give.
+/// Remarks on the records of a suite and, for few earthquakes, on the intervals.
 fn remarks(suite: &SuiteResults) -> Option<String> {
-    let of_intervals = suite.clusters.remark(REPLICATES);
-    let all = suite.remarks.clone().into_iter();
-    let all =
-        all.chain(of_intervals.map(|own| capital(&own.to_string()) + "."));
+    let on_intervals = suite.clusters.remark(REPLICATES);
+    let on_intervals = on_intervals.map(|own| capital(&own.to_string()) + ".");
+    let all = suite.remarks.clone().into_iter().chain(on_intervals);
     all.reduce(|a, b| format!("{a} {b}"))
 }
 
@@ -116,54 +115,59 @@ pub fn set_aside(found: &SetAside) -> Vec<AsideFiles> {
     found.counts().into_iter().map(reason).collect()
 }
 
-/// A number that is counted or computed exactly.
+/// A count, which is exact.
 fn count(n: usize) -> Estimate {
     Estimate::exact(n as f64)
 }
 
-/// A block of a suite, an arm and an intensity measure.
-fn place_of(
+/// The row of a block of a suite, a grid and an intensity measure.
+fn block_row(
     kind: SuiteKind,
     found: &Distributions,
     block: &BlockSamples,
-) -> RowPlace {
-    RowPlace {
+    values: Vec<Estimate>,
+) -> TableRow {
+    let at = RowPlace {
         suite: Some(kind),
         arm: Some(found.arm),
         intensity: Some(found.intensity),
         p_rad_s: Some(block.p_rad_s),
         alpha_rad: Some(block.alpha_rad),
         ..RowPlace::default()
-    }
+    };
+    TableRow { at, values }
 }
 
-/// How many records uplift each block without being scaled.
+/// Number of records that uplift each block unscaled.
 fn uplift(results: &StudyResults) -> Vec<TableRow> {
-    let row = |block| {
-        let suites = results.suites();
-        let values = suites.map(|suite| count(suite.uplift_unscaled(block)));
-        TableRow { at: RowPlace::of(block), values: values.into() }
+    let row = |block: &Block| {
+        let threshold = libm::tan(block.slenderness_rad());
+        let of = |suite: &SuiteResults| {
+            let records = suite.records.iter();
+            count(records.filter(|r| r.pga_g > threshold).count())
+        };
+        let values = results.suites().map(of).into();
+        TableRow { at: RowPlace::of(block), values }
     };
     BLOCKS.iter().map(row).collect()
 }
 
-/// Shift and accepted shares of each block, suite, arm and measure.
+/// Shift and accepted shares of each block, suite, grid and measure.
 fn shares(results: &StudyResults) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for (suite, found) in results.all_distributions() {
         rows.extend(found.blocks.iter().map(|block| {
-            let (original, shifted) = block.shares();
+            let [original, shifted] = block.shares();
             let values = [block.shift, original, shifted];
-            TableRow {
-                at: place_of(suite.kind, found, block),
-                values: values.map(Estimate::exact).into(),
-            }
+            let values = values.map(Estimate::exact).into();
+            block_row(suite.kind, found, block, values)
         }));
     }
     rows
 }
 
-/// How many overturned on a stripe, and how many of them stand there again.
+/// Numbers of records that overturned on a stripe, and of those among them that
+/// stand there again.
 fn resurrections(results: &StudyResults) -> Vec<TableRow> {
     let row = |stripes: &StripeDemands| {
         let demands = stripes.demands.iter().flatten().flatten();
@@ -216,14 +220,7 @@ fn varied(
 ) -> anyhow::Result<Vec<TableRow>> {
     let mut rows = Vec::new();
     for (v, base) in results.varied(&OtherChoice::ALL)? {
-        let own = capacities_at(v.curves.iter().map(Option::as_ref), 1.0)?;
-        let base = capacities_at(base.iter().map(Some), 1.0)?;
-        let ratio = |(own, base): (&f64, &f64)| {
-            let ratio = own / base;
-            if ratio.is_finite() && ratio > 0.0 { ratio } else { f64::NAN }
-        };
-        let ratios: Vec<f64> = own.iter().zip(&base).map(ratio).collect();
-        let ratios = RecordRanks::new(&ratios);
+        let ratios = ranks(&v.overturning()?, base.overturning(), 1.0);
         let at = RowPlace {
             choice: Some(v.choice.name().into()),
             p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
@@ -254,37 +251,42 @@ fn medians(
     draws.estimates(suite.into(), limits, &found)
 }
 
-/// Figure 9, a row a box: usable count with its exact 95 % interval, and
-/// median; the median also apart by whether the adjusted slenderness is within
-/// the paper's.
+/// Figure 9, a row for each box: usable count with its exact 95 % interval, and
+/// median; also the medians of the adjusted slendernesses within the paper's and
+/// above.
 fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
         let boxes = adjusted_boxes(suite, arm)?.into_iter().enumerate();
         for (frequency, (p_rad_s, stripes)) in boxes {
-            let splits =
-                adjusted_split(suite, suite.stripes(arm)?, frequency)?;
             let pairs = suite.stripes(arm)?.compared(frequency, None);
-            let boxes = stripes.iter().zip(splits).zip(pairs);
-            for ((stripe, split), (_, adjusted, scaled)) in boxes {
-                let median = stripe.summary.as_ref().map(|b| b.median);
-                let part = |of: &[f64]| {
+            for (stripe, (im, adjusted, scaled)) in stripes.iter().zip(pairs) {
+                let part = |within: bool| {
+                    let both = adjusted.iter().zip(scaled).zip(&suite.records);
+                    let own = both.filter(|(_, r)| is_within(r, im) == within);
+                    let (a, b): (Vec<f64>, Vec<f64>) =
+                        own.map(|((a, b), _)| (*a, *b)).unzip();
+                    anyhow::Ok(Pairs::try_new(&a, &b)?.ratios)
+                };
+                let (within, above) = (part(true)?, part(false)?);
+                let median = |of: &[f64]| {
                     Estimate::exact(estimates::median(of).value())
                 };
+                let all = stripe.summary.as_ref().map(|b| b.median);
                 let at = RowPlace {
                     arm: Some(arm),
                     p_rad_s: Some(p_rad_s),
-                    im_pga: Some(split.im),
+                    im_pga: Some(im),
                     ..RowPlace::default()
                 };
                 let values = vec![
                     count(stripe.records),
                     usable(suite, adjusted, scaled)?,
-                    Estimate::exact(median.unwrap_or(f64::NAN)),
-                    part(&split.within),
-                    part(&split.above),
-                    count(split.above.len()),
+                    Estimate::exact(all.unwrap_or(f64::NAN)),
+                    median(&within),
+                    median(&above),
+                    count(above.len()),
                 ];
                 rows.push(TableRow { at, values });
             }
@@ -293,8 +295,8 @@ fn adjustment(results: &StudyResults) -> anyhow::Result<Vec<TableRow>> {
     Ok(rows)
 }
 
-/// Of as many records of the kind, how many would be usable: exact, with the
-/// effective number of records.
+/// Number of usable ratios of demands, with its exact interval by the effective
+/// number of records.
 fn usable(
     suite: &SuiteResults,
     adjusted: &[f64],
@@ -310,8 +312,8 @@ fn usable(
     Ok(Estimate::try_new(usable, interval, Range::NotNegative)?)
 }
 
-/// Median overturning intensities, a row a block, suite and measure, in the
-/// arm that figures share.
+/// Median overturning intensities of each block, suite and measure, on the grid
+/// that figures share.
 fn overturning(results: &StudyResults, draws: &Resamples) -> Vec<TableRow> {
     let mut rows = Vec::new();
     for (suite, found) in results.common() {
@@ -319,12 +321,10 @@ fn overturning(results: &StudyResults, draws: &Resamples) -> Vec<TableRow> {
         let ranks: Vec<RecordRanks> =
             blocks.map(|b| RecordRanks::new(b.overturning())).collect();
         let medians = medians(draws, suite.kind, &ranks);
-        rows.extend(found.blocks.iter().zip(medians).map(
-            |(block, median)| TableRow {
-                at: place_of(suite.kind, found, block),
-                values: vec![median],
-            },
-        ));
+        let blocks = found.blocks.iter().zip(medians);
+        rows.extend(blocks.map(|(block, median)| {
+            block_row(suite.kind, found, block, vec![median])
+        }));
     }
     rows
 }

@@ -1,10 +1,9 @@
-//! The whole study: 15 blocks, two suites, three arms of the intensity grid;
-//! figures, their data, and what was found about the paper's claims.
+//! The whole study: 15 blocks, two suites, three intensity grids. It makes the
+//! figures with their data, and the findings on the paper's statements.
 
 pub mod analyses;
 pub mod certainty;
 pub mod claims;
-pub mod contents;
 mod distances;
 pub mod distributions;
 pub mod estimates;

@@ -2,8 +2,8 @@
 //! a claim, over a set of records.
 //!
 //! Each measure is registered under the name that a claim gives it. It reads
-//! what the analyses gave once, and is then a function of how often each
-//! record is drawn.
+//! the analyses once, and is then a function of the records' multiplicities in a
+//! draw.
 
 mod capacities;
 mod distances;
@@ -14,14 +14,17 @@ mod stripes;
 
 use serde::Deserialize;
 
-pub(crate) use fragilities::{DemandFits, Thresholds, by_demand, to_ssfl};
+pub(crate) use fragilities::{Thresholds, by_demand};
+pub(crate) use scope::ranks;
 pub use scope::{MeasureResult, Measured, Scope};
+
+use crate::distances::TestedMeasure;
 
 use rocking_common::findings::Unit;
 use rocking_statistics::Range;
 
-/// The registry: what a measure is, its name, the unit of its effect, its
-/// range and its function.
+/// The registry: docs and name of each measure, the unit and range of its
+/// effect, and its function.
 macro_rules! measures {
     ($($(#[$doc:meta])+ $name:ident: $unit:ident, $range:ident, $of:expr;)+)
     => {
@@ -35,7 +38,7 @@ macro_rules! measures {
         }
 
         impl ClaimMeasure {
-            /// All of them, in the order of the paper.
+            /// All measures, in the order of the paper.
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
             /// Unit of the effect, and the range of its values.
@@ -46,10 +49,10 @@ macro_rules! measures {
                 }
             }
 
-            /// What it finds.
+            /// Numbers of the measure in a scope.
             ///
             /// # Errors
-            /// Where a curve cannot be read, or an arm was not run.
+            /// If a curve cannot be read, or a grid was not run.
             pub fn found(self, scope: &Scope<'_>) -> MeasureResult {
                 let of: fn(&Scope<'_>) -> MeasureResult = match self {
                     $(Self::$name => $of,)+
@@ -81,7 +84,7 @@ measures! {
     HistoryContrast: One, NotNegative, |s| Ok(single::histories(s));
     /// Difference of peaks over the distance of histories.
     PeakDifference: One, NotNegative, |s| Ok(single::peaks(s));
-    /// Share of stripes at which blocks of one p have different fates.
+    /// Share of stripes at which blocks of one p have different outcomes.
     MixedFates: Share, Share, single::fates;
     /// Difference of single IDA curves.
     CurveDifference: Distance, NotNegative, |s| Ok(single::curves(s));
@@ -112,13 +115,13 @@ measures! {
     AdjustmentQuantiles: Share, Share, capacities::adjusted_quantiles;
     /// 84 over 16 % quantile of the onset in PGV.
     OnsetSpreadPgv: One, NotNegative, |s| Ok(capacities::onset(s));
-    /// Distance from a lognormal (Lilliefors' D less its mean for a lognormal),
+    /// Distance from a lognormal (Lilliefors' D minus its mean for a lognormal),
     /// original samples.
-    DistanceOriginal: Probability, Difference, distances::original;
+    DistanceOriginal: Probability, Difference, |s| distances::original(s, distances::tested(s));
     /// Distance from a lognormal for p = 3 and 4 minus the distance for p = 1.
     DistanceSmallMinusLarge: Probability, Difference, distances::small_minus_large;
     /// Reduction of the distance by shifting.
-    DistanceGain: Probability, Difference, distances::gain;
+    DistanceGain: Probability, Difference, |s| distances::gain(s, distances::tested(s));
     /// Distance from a lognormal, shifted samples.
     DistanceShifted: Probability, Difference, distances::shifted;
     /// Distance for alpha = 0.05, p = 3, shifted sample in PGA.
@@ -130,15 +133,15 @@ measures! {
     /// Distance of original samples in PGA minus the distance in PGV.
     DistancePgvGain: Probability, Difference, distances::pgv_gain;
     /// Distance of original samples in AvgSA.
-    DistanceAverageSa: Probability, Difference, distances::average_sa;
+    DistanceAverageSa: Probability, Difference, |s| distances::original(s, TestedMeasure::AverageSa);
     /// Reduction of the distance by shifting, in AvgSA.
-    DistanceAverageSaGain: Probability, Difference, distances::average_sa_gain;
+    DistanceAverageSaGain: Probability, Difference, |s| distances::gain(s, TestedMeasure::AverageSa);
     /// 16, 50 and 84 % quantiles in AvgSA that coincide with those of the
     /// reference.
     QuantilesAverageSa: Share, Share, capacities::average_sa_quantiles;
     /// Gain in distance to the sample by shifting.
     ShiftGain: Probability, Difference, fragilities::shift_gain;
-    /// Distance of trimmed USFL7 to the SSFL over that of the trimmed USFL.
+    /// Distance to the SSFL, trimmed USFL7 over trimmed USFL.
     TrimmedToSsfl: One, NotNegative, fragilities::trimmed;
     /// Annual frequency by trimmed USFL7 over the sample's.
     TransformedRate: One, NotNegative, fragilities::transformed_rate;
@@ -151,8 +154,8 @@ measures! {
     /// Reduction of the distance of trimmed USFL7 to SSFL by c = 0.5 to 1 instead
     /// of 0.25.
     HighConstantGain: Probability, Difference, fragilities::high_constant_gain;
-    /// Distance of untrimmed USFL7 to SSFL over that of the trimmed one, in PGV
-    /// over that in PGA.
+    /// Distance of USFL7 to SSFL: in PGA untrimmed over trimmed; in PGV over the
+    /// distance in PGA.
     UntrimmedToSsfl: One, NotNegative, fragilities::untrimmed;
     /// Gain in the distance of untrimmed USFL7 to SSFL from c = 1 to c = 0.25.
     LowConstantGain: Probability, Difference, fragilities::low_constant;

@@ -1,8 +1,6 @@
-//! Effects of the paper's procedure: questions that the paper leaves open,
-//! answered with figures beside its claims.
+//! Questions that the paper leaves open, answered with tables and figures.
 
 mod answer;
-mod contents;
 mod grid;
 mod nulls;
 mod options;
@@ -12,24 +10,21 @@ mod trimming;
 
 pub use answer::StudyAnswer;
 
-use crate::inference::Resamples;
 use crate::results::StudyResults;
 use rocking_common::findings::Question;
 
 /// All answers, in a fixed order.
 ///
 /// # Errors
-/// Where a number cannot be computed.
+/// If a number cannot be computed.
 pub fn study_answers(
     results: &StudyResults,
-    draws: &Resamples,
 ) -> anyhow::Result<Vec<StudyAnswer>> {
     Ok(vec![
         grid::answer(results)?,
         options::answer(results)?,
         suites::answer(results)?,
         recorded::answer(results)?,
-        contents::answer(results, draws)?,
     ])
 }
 
@@ -45,7 +40,7 @@ pub fn findings(answers: &[StudyAnswer]) -> Vec<Question> {
     answers.iter().map(one).collect()
 }
 
-/// The answers' CSV files, by name.
+/// The CSV files of the answers, by name.
 pub fn answer_files(
     answers: &[StudyAnswer],
 ) -> impl Iterator<Item = (String, Vec<u8>)> {

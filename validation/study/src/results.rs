@@ -1,17 +1,15 @@
-//! Results of the analyses, from which claims, questions, figures and findings
-//! are made.
+//! Results of the analyses: the input of claims, questions, figures and findings.
 
 use crate::analyses::{Plan, SuiteResults};
-use crate::distributions::Distributions;
+use crate::distributions::{BlockSamples, Distributions};
 use crate::inference::Resamples;
 use crate::sensitivities::{OtherChoice, Variant};
-use rocking::capacity::ResponseCurve;
-use rocking_common::paper::{SuiteKind, position};
+use rocking_common::paper::{Intensity, SuiteKind, position};
 
 /// The analyses of both suites.
 #[derive(Clone, Debug)]
 pub struct StudyResults {
-    /// The analyses that were run.
+    /// Plan of the analyses.
     pub plan: Plan,
     /// The ordinary suite.
     pub ordinary: SuiteResults,
@@ -28,7 +26,7 @@ impl StudyResults {
         Resamples::new(self.suites().map(|s| s.clusters.clone()))
     }
 
-    /// Whether the suites are the embedded ones.
+    /// Whether both suites are the embedded ones.
     #[must_use]
     pub fn embedded(&self) -> bool {
         self.suites().iter().all(|suite| suite.source.is_embedded())
@@ -40,14 +38,14 @@ impl StudyResults {
         [&self.ordinary, &self.pulse]
     }
 
-    /// The suite of that kind.
+    /// The suite of a kind.
     #[must_use]
     pub fn suite(&self, kind: SuiteKind) -> &SuiteResults {
         if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
     }
 
-    /// The capacity samples in the arm of all suites: ordinary and
-    /// pulse-type records, PGA and PGV each.
+    /// The capacity samples on the common grid: ordinary and pulse-type records,
+    /// PGA and PGV each.
     pub(crate) fn common(
         &self,
     ) -> impl Iterator<Item = (&SuiteResults, &Distributions)> {
@@ -55,7 +53,7 @@ impl StudyResults {
         self.all_distributions().filter(move |(_, found)| found.arm == arm)
     }
 
-    /// The capacity samples of all suites, arms and measures.
+    /// The capacity samples of all suites, grids and intensity measures.
     pub(crate) fn all_distributions(
         &self,
     ) -> impl Iterator<Item = (&SuiteResults, &Distributions)> {
@@ -64,17 +62,18 @@ impl StudyResults {
     }
 
     /// The ordinary curves under these choices, each with the study's own
-    /// curves of that block.
+    /// capacities of that block in PGA.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the common grid was not run.
     pub(crate) fn varied(
         &self,
         choices: &[OtherChoice],
-    ) -> anyhow::Result<Vec<(&Variant, &[ResponseCurve])>> {
-        let curves = self.ordinary.curves(self.plan.common())?;
+    ) -> anyhow::Result<Vec<(&Variant, &BlockSamples)>> {
+        let (arm, pga) = (self.plan.common(), Intensity::Pga);
+        let own = &self.ordinary.distributions(arm, pga)?.blocks;
         let of = |v: &Variant| position(v.frequency, v.slenderness);
         let found = self.varied.iter().filter(|v| choices.contains(&v.choice));
-        Ok(found.map(|v| (v, curves[of(v)].as_slice())).collect())
+        Ok(found.map(|v| (v, &own[of(v)])).collect())
     }
 }

@@ -1,5 +1,4 @@
-//! The analyses of the study: chains of rising intensity, stripes,
-//! histories.
+//! Analyses of the study: chains of rising intensity, stripes and histories.
 
 use anyhow::anyhow;
 use indicatif::ProgressBar;
@@ -15,42 +14,46 @@ use crate::certainty::{Certainty, certainty};
 use rocking_common::curves::Execution;
 use rocking_common::paper::Arm;
 
+/// Demands at which intensities are compared.
+pub const DEMANDS: [f64; 10] =
+    [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+
 /// Settings of every analysis of a study.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// Restitution: constant for the paper's study.
+    /// Restitution: constant in the paper's study.
     pub restitution: Restitution,
     /// When a block counts as overturned.
     pub overturning: Overturning,
-    /// Width to which arms B and C bisect the first overturning, in
+    /// Width to which grids B and C bisect the first overturning, in
     /// dimensionless intensity.
     pub tolerance: f64,
-    /// How curves are made.
+    /// Execution of the curves.
     pub way: Execution,
 }
 
-/// Work that the chains of a suite took.
+/// Work of the chains of a suite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainWork {
     /// Analyses, bisection included.
     pub analyses: u64,
-    /// Levels whose fate double precision cannot tell.
+    /// Levels whose outcome double precision cannot resolve.
     pub certainty: Certainty,
 }
 
-/// All curves of one arm.
+/// All curves on one grid.
 #[derive(Clone, Debug)]
 pub struct ArmCurves {
-    /// The arm.
+    /// The grid.
     pub arm: Arm,
     /// Curves by block, then by record.
     pub curves: Vec<Vec<ResponseCurve>>,
 }
 
-/// The curves of an arm, by block, then by record.
+/// The curves on a grid, by block, then by record.
 ///
 /// # Errors
-/// If the arm was not run.
+/// If the grid was not run.
 pub fn curves_of(
     arms: &[ArmCurves],
     arm: Arm,
@@ -59,13 +62,13 @@ pub fn curves_of(
     found.map(|own| own.curves.as_slice()).ok_or_else(|| not_run(arm))
 }
 
-/// The error where results of an arm are read that was not run.
+/// The error if results of a grid are read that was not run.
 pub(crate) fn not_run(arm: Arm) -> anyhow::Error {
     anyhow!("arm {} of the grid was not run", arm.name())
 }
 
 impl Setup {
-    /// The analysis of a block in an arm.
+    /// The analysis of a block on a grid.
     fn analysis(&self, block: Block, arm: Arm, adjust: Adjust) -> Analysis {
         let hundredths = Grid::Pga { step_g: 0.01 };
         let (grid, refine) = match arm {
@@ -78,12 +81,11 @@ impl Setup {
         Analysis { overturning, grid, adjust, refine, ..paper }
     }
 
-    /// The curves of every block and record in each of the arms, and the work
-    /// of making them; A and B are one scan. `progress` counts the chains.
+    /// The curves of every block and record on each grid, and their work. Grids A
+    /// and B are one scan. `progress` counts the chains.
     ///
     /// # Errors
-    /// Where a record cannot be scaled, or there is no such
-    /// block.
+    /// If a record cannot be scaled, or an adjusted block is invalid.
     pub fn chains(
         &self,
         blocks: &[Block],
@@ -122,7 +124,7 @@ impl Setup {
         Ok((curves, work))
     }
 
-    /// Arms as they are scanned: A and B once, bisected if B is asked for.
+    /// The scans of these grids: one for A and B, bisected if B is among them.
     fn scans(arms: &[Arm]) -> Vec<Arm> {
         let hundredths = if arms.contains(&Arm::B) { Arm::B } else { Arm::A };
         let mut scans: Vec<Arm> = arms
@@ -137,7 +139,7 @@ impl Setup {
     /// record, or by adjusting the slenderness.
     ///
     /// # Errors
-    /// Where there is no such block or scale.
+    /// If the block or the scale is invalid.
     pub fn demand(
         &self,
         block: Block,
@@ -149,11 +151,11 @@ impl Setup {
         Ok(ida::demand_at(record, &analysis, im)?.edp())
     }
 
-    /// History of theta/alpha every `interval_s`, and the peak (infinite
-    /// when overturned).
+    /// History of theta/alpha every `interval_s`, and the peak (infinite if the
+    /// block overturned).
     ///
     /// # Errors
-    /// Where the record cannot be scaled so.
+    /// If the record cannot be scaled to this intensity.
     pub fn history(
         &self,
         block: Block,
@@ -180,8 +182,8 @@ impl Setup {
     }
 }
 
-/// Capacities of one curve at demand levels by a rule; infinite where a level
-/// was never reached.
+/// Capacities of one curve at demand levels by a rule; infinite for a level
+/// that was never reached.
 ///
 /// # Errors
 /// For a level that is not positive.
@@ -191,28 +193,6 @@ pub fn capacities(
     rule: InversionRule,
 ) -> anyhow::Result<Vec<f64>> {
     levels.iter().map(|e| Ok(curve.capacity(*e, rule)?.im())).collect()
-}
-
-/// Capacities at a demand by the median point; NaN where there is no curve.
-///
-/// # Errors
-/// For a demand that is not positive.
-pub fn capacities_at<'a>(
-    curves: impl IntoIterator<Item = Option<&'a ResponseCurve>>,
-    demand: f64,
-) -> anyhow::Result<Vec<f64>> {
-    let of = |curve: &ResponseCurve| {
-        anyhow::Ok(curve.capacity(demand, InversionRule::Median)?.im())
-    };
-    curves.into_iter().map(|c| c.map_or(Ok(f64::NAN), of)).collect()
-}
-
-/// The bounds of a curve's first overturning: the intensity twice, or the
-/// last one that was run and infinity.
-#[must_use]
-pub fn overturning(curve: &ResponseCurve) -> (f64, f64) {
-    let last = (curve.last_im(), f64::INFINITY);
-    curve.overturning_im().map_or(last, |im| (im, im))
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Effects of other choices on the capacities: restitution, criterion,
-//! component.
+//! Effects of other choices on the capacities: restitution, overturning
+//! criterion and component.
 
 use indicatif::ProgressBar;
 use rocking::block::{Block, Restitution};
-use rocking::capacity::ResponseCurve;
+use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking::integrator::Overturning;
@@ -31,8 +31,8 @@ named! {
 }
 
 impl OtherChoice {
-    /// Slendernesses looked at without `--full`: 0.10 and 0.20; for
-    /// Housner's restitution also the extremes.
+    /// Positions of the slendernesses that are run. Without `--full` they are 0.10
+    /// and 0.20, and for Housner's restitution also the extremes.
     fn slendernesses(self, full: bool) -> &'static [usize] {
         match self {
             _ if full => &[0, 1, 2, 3, 4],
@@ -57,7 +57,7 @@ impl OtherChoice {
     }
 }
 
-/// Curves of one block under a choice, by record; none for a record without
+/// Curves of one block under a choice, by record; `None` for a record without
 /// its other component.
 #[derive(Clone, Debug)]
 pub struct Variant {
@@ -67,15 +67,27 @@ pub struct Variant {
     pub frequency: usize,
     /// Position of the slenderness.
     pub slenderness: usize,
-    /// Curves by record, in the plan's common arm.
+    /// Curves by record, on the plan's common grid.
     pub curves: Vec<Option<ResponseCurve>>,
 }
 
+impl Variant {
+    /// Capacities at demand 1 by the median point, by record; NaN without a
+    /// curve.
+    pub(crate) fn overturning(&self) -> anyhow::Result<Vec<f64>> {
+        let of = |curve: &ResponseCurve| {
+            Ok(curve.capacity(1.0, InversionRule::Median)?.im())
+        };
+        let curves = self.curves.iter().map(Option::as_ref);
+        curves.map(|curve| curve.map_or(Ok(f64::NAN), of)).collect()
+    }
+}
+
 impl Plan {
-    /// Runs the other choices on a suite: p = 3 alone, or all blocks.
+    /// Runs the other choices on a suite: for p = 3, or for all blocks.
     ///
     /// # Errors
-    /// Where an analysis cannot be done.
+    /// If an analysis fails.
     pub fn sensitivities(
         &self,
         suite: &StudySuite,
@@ -108,16 +120,12 @@ impl Plan {
                     )?;
                     let curves = arms.into_iter().flat_map(|a| a.curves);
                     let mut found = curves.flatten();
-                    let curves = records
-                        .iter()
-                        .map(|r| r.as_ref().and_then(|_| found.next()))
-                        .collect();
-                    out.push(Variant {
-                        choice,
-                        frequency,
-                        slenderness,
-                        curves,
-                    });
+                    let all = records.iter().map(Option::as_ref);
+                    let curves = all.map(|r| r.and_then(|_| found.next()));
+                    let curves = curves.collect();
+                    let own =
+                        Variant { choice, frequency, slenderness, curves };
+                    out.push(own);
                 }
             }
         }

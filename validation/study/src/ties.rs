@@ -14,38 +14,41 @@ use crate::distributions::BlockSamples;
 use crate::fits::MLE;
 use crate::normality::LEVEL;
 
-/// Samples drawn for the grid's own share.
+/// Samples drawn for the share of the grid.
 const DRAWS: u64 = 1000;
 
 /// Rejected share of samples that are lognormal above the shift like the
 /// block's first overturnings, each put on the next level of the 0.01 g
-/// grid; none where there is no such fit.
+/// grid; `None` without a fit.
 pub(crate) fn grid_alone(block: &BlockSamples) -> Option<f64> {
-    let (truth, step, n) = overturnings(block)?;
-    Some(rejected_on_grid(&truth, step, n))
+    on_the_blocks_grid(block, rejected_on_grid)
 }
 
-/// The lognormal above the shift of a block's first overturnings, the step of
-/// the 0.01 g grid, and how many they are.
-fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
-    let sample = block.overturning();
-    let extended = ExtendedSample::try_new(sample).ok()?;
-    let truth = fit(&extended, block.shift, MLE).ok()?.distribution;
-    Some((truth, 0.01 / tan(block.alpha_rad), sample.len()))
-}
-
-/// The 95 % quantile of D over the table's critical value for such samples
-/// on that grid; none where there is no fit.
+/// The 95 % quantile of D over the table's critical value for such samples on
+/// this grid; `None` without a fit.
 pub(crate) fn critical_on_grid(block: &BlockSamples) -> Option<f64> {
-    let (truth, step, n) = overturnings(block)?;
-    let ratios = on_grid(&truth, step, n, LillieforsTest::ratio);
+    let ratios = on_the_blocks_grid(block, |truth, step, n| {
+        on_grid(truth, step, n, LillieforsTest::ratio)
+    })?;
     let ratios: Vec<f64> = ratios.into_iter().flatten().collect();
     let sample = Sample::try_new(&ratios).ok()?;
     QuantileType::default().quantile(&sample, 1.0 - LEVEL).ok()
 }
 
-/// Share of samples of `n` capacities of a shifted lognormal that the
-/// shifted test rejects after they were put on the next multiple of `step`.
+/// A number of the lognormal above the shift of a block's first overturnings,
+/// the step of its 0.01 g grid, and the number of records.
+fn on_the_blocks_grid<T>(
+    block: &BlockSamples,
+    of: impl FnOnce(&Lognormal, f64, usize) -> T,
+) -> Option<T> {
+    let sample = block.overturning();
+    let extended = ExtendedSample::try_new(sample).ok()?;
+    let truth = fit(&extended, block.shift, MLE).ok()?.distribution;
+    Some(of(&truth, 0.01 / tan(block.alpha_rad), sample.len()))
+}
+
+/// Share of samples of `n` capacities of a shifted lognormal that the shifted
+/// test rejects after they were put on the next multiple of `step`.
 fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
     let rejected = on_grid(truth, step, n, LillieforsTest::exceeds);
     let count = rejected.into_iter().filter(|r| r.unwrap_or(true)).count();
@@ -61,29 +64,21 @@ fn on_grid<T: Send>(
     of: impl Fn(&LillieforsTest) -> Option<T> + Sync,
 ) -> Vec<Option<T>> {
     let streams = Streams::new("study/grid alone", 0);
-    let shift = truth.shift();
-    let scale = Scale::Linear;
-    (0..DRAWS)
-        .into_par_iter()
-        .map(|index| {
-            let mut stream = streams.stream(index);
-            let logs: Vec<f64> = (0..n)
-                .map(|_| {
-                    let z = standard_normal(&mut stream);
-                    let x = shift
-                        + exp(f64::mul_add(
-                            truth.dispersion(),
-                            z,
-                            truth.log_mean(),
-                        ));
-                    log((x / step).ceil() * step - shift)
-                })
-                .collect();
-            let sample = ExtendedSample::try_new(&logs).ok()?;
-            let null = Null::Table(LillieforsTable::embedded());
-            of(&LillieforsTest::new(&sample, scale, LEVEL, null))
-        })
-        .collect()
+    let (shift, null) = (truth.shift(), LillieforsTable::embedded());
+    let (centre, spread) = (truth.log_mean(), truth.dispersion());
+    let one = |index| {
+        let mut stream = streams.stream(index);
+        let logs = (0..n).map(|_| {
+            let z = standard_normal(&mut stream);
+            let x = shift + exp(f64::mul_add(spread, z, centre));
+            log((x / step).ceil() * step - shift)
+        });
+        let sample =
+            ExtendedSample::try_new(&logs.collect::<Vec<_>>()).ok()?;
+        let null = Null::Table(null);
+        of(&LillieforsTest::new(&sample, Scale::Linear, LEVEL, null))
+    };
+    (0..DRAWS).into_par_iter().map(one).collect()
 }
 
 #[cfg(test)]

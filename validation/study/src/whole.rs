@@ -16,20 +16,19 @@ use rocking_draw::figures::Figure;
 pub struct Study {
     /// Results of the analyses.
     pub results: StudyResults,
-    /// The figures, those of the answers at the end.
+    /// The figures; those of the answers come last.
     pub figures: Vec<Figure>,
     /// The findings.
     pub findings: Findings,
-    /// Answers to the questions beyond the paper; their figures are among
-    /// the others.
+    /// Answers to the questions beyond the paper, without their figures.
     pub answers: Vec<StudyAnswer>,
 }
 
 impl Study {
-    /// Runs everything: `suites` are the ordinary and the pulse-type one.
+    /// Runs everything on the ordinary and the pulse-type suite.
     ///
     /// # Errors
-    /// Where an analysis cannot be done.
+    /// If an analysis fails.
     pub fn run(
         plan: Plan,
         suites: &[StudySuite; 2],
@@ -42,7 +41,7 @@ impl Study {
         let results = StudyResults { plan, ordinary, pulse, varied };
         let draws = results.draws();
         let mut figures = figures::paper_figures(&results, &draws)?;
-        let mut answers = questions::study_answers(&results, &draws)?;
+        let mut answers = questions::study_answers(&results)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }

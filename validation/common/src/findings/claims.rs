@@ -1,5 +1,5 @@
-//! The paper's claims in the findings: what was declared, and what came out
-//! by suite and arm.
+//! The paper's claims in the findings: declarations, and results by suite and
+//! grid.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use crate::paper::{Arm, PaperSection, SuiteKind};
 use rocking::names::named;
 use rocking_statistics::Estimate;
 
-/// One statement of the paper, and what was found about it.
+/// One statement of the paper with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
@@ -33,17 +33,17 @@ pub struct Claim {
     pub measure: String,
     /// Blocks measured.
     pub blocks: String,
-    /// How the paper itself decides, on its sample; none unless the claim is
-    /// a finding.
+    /// Rules by which the paper decides on its own sample; empty unless the claim
+    /// is a finding.
     pub yardsticks: Vec<Yardstick>,
-    /// The value of no effect, and on which side of it the statement sees
-    /// the effect; none of a quantity without such a value.
+    /// The value of no effect, and the side on which the statement sees the effect;
+    /// `None` for a quantity without such a value.
     pub no_effect: Option<NoEffect>,
-    /// Declared case that checks an identity; empty otherwise.
+    /// Reference case that checks an identity; else empty.
     pub case: String,
     /// A further remark for the reader; may be empty.
     pub note: String,
-    /// Results by suite and arm; none for a description.
+    /// Results by suite and grid; empty for a description.
     pub results: Vec<ClaimResult>,
 }
 
@@ -51,8 +51,8 @@ pub struct Claim {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// True by definition or by arithmetic: checked as a declared case, and
-    /// counted nowhere.
+    /// True by definition or by arithmetic: a reference case checks it, and no
+    /// count includes it.
     Identity,
     /// It can come out either way.
     Finding,
@@ -109,12 +109,12 @@ impl Theme {
     }
 }
 
-/// Level of the interval of an effect: each end is a one-sided limit that is
-/// wrong in 5 % of samples.
+/// Level of the interval of an effect: each end is a one-sided limit that is wrong
+/// in 5 % of samples.
 pub const LEVEL: f64 = 0.9;
 
-/// A rule of the paper for its own sample: a count or a number, and where it
-/// has to lie for the statement to be seen. No interval enters it.
+/// A rule of the paper for its own sample: a count or a number, and the region in
+/// which it lies if the statement is seen. No interval enters it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Yardstick {
@@ -122,21 +122,21 @@ pub struct Yardstick {
     pub words: String,
     /// Its unit.
     pub unit: Unit,
-    /// Where it lies if the statement is seen.
+    /// The region in which it lies if the statement is seen.
     pub holds: Region,
 }
 
-/// The value of no effect, and what a statement says of the effect.
+/// The value of no effect, and the effect that a statement claims.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NoEffect {
     /// The value of no effect: 1 of a ratio, 0 of a difference.
     pub value: f64,
-    /// What the statement says.
+    /// The effect that the statement claims.
     pub says: StatedEffect,
 }
 
-/// What a statement says of an effect.
+/// The effect that a statement claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StatedEffect {
@@ -150,7 +150,7 @@ pub enum StatedEffect {
     Nothing,
 }
 
-/// Where a value has to lie.
+/// Region in which a value has to lie.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Region {
@@ -197,18 +197,18 @@ named! {
     pub enum Seen: "seen" {
         /// Every yardstick holds.
         Yes = "yes",
-        /// Some hold, or it is seen on some of the samples.
+        /// Some yardsticks hold, or some samples show the statement.
         InPart = "in part",
-        /// None holds.
+        /// No yardstick holds.
         No = "no",
-        /// The sample lacks what the statement rests on.
+        /// The sample lacks the premise of the statement.
         NotTestable = "not testable",
     }
 }
 
 impl Seen {
-    /// The word from the numbers of a sample, one for each yardstick; a
-    /// number that is missing makes the statement not testable.
+    /// The verdict from the numbers of a sample, one for each yardstick. A missing
+    /// number makes the statement not testable.
     ///
     /// ```
     /// use rocking_common::findings::{Region, SampleCount, Seen};
@@ -235,8 +235,8 @@ impl Seen {
         each.reduce(Self::and).unwrap_or(Self::NotTestable)
     }
 
-    /// The word for both samples or both parts of a statement: a part that is
-    /// not testable does not count beside one that is.
+    /// The verdict for two samples or two parts of a statement. A part that is not
+    /// testable does not count beside a testable one.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -253,7 +253,7 @@ named! {
         /// The interval leaves no effect out; if the statement names a side,
         /// on that side.
         Yes = "yes",
-        /// The interval holds the value of no effect, or there is none.
+        /// The interval contains the value of no effect, or there is no interval.
         NoSign = "no sign",
         /// The interval leaves no effect out, on the side that the statement
         /// does not name.
@@ -262,7 +262,7 @@ named! {
 }
 
 impl Exists {
-    /// The word from an effect with its interval.
+    /// The verdict from an effect with its interval.
     ///
     /// ```
     /// use rocking_common::findings::{Exists, NoEffect, StatedEffect};
@@ -288,7 +288,7 @@ impl Exists {
 }
 
 named! {
-    /// On what a statement was tested.
+    /// Suites on which a statement was tested.
     pub enum SuiteSet: "tested on" {
         /// No records are needed.
         None = "none",
@@ -310,25 +310,25 @@ impl From<SuiteKind> for SuiteSet {
     }
 }
 
-/// A number of a sample: a share of things that were counted, or another.
+/// A number of a sample: a share of counted things, or another number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCount {
-    /// The number; of a share, the counted part of the whole.
+    /// The number; for a share the counted part of the whole.
     #[serde(with = "nine")]
     pub value: f64,
-    /// How many things were counted; none of a number that is no share.
+    /// Number of things counted; `None` if the number is not a share.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<usize>,
 }
 
 impl SampleCount {
-    /// k of n things; not a number where there are none.
+    /// k of n things; NaN for n = 0.
     pub fn of(k: usize, n: usize) -> Self {
         Self { value: k as f64 / n as f64, of: Some(n) }
     }
 
-    /// The number of the things for which something is true.
+    /// The share of the things that satisfy a condition.
     pub fn among<T>(
         all: impl IntoIterator<Item = T>,
         is: impl Fn(T) -> bool,
@@ -337,40 +337,40 @@ impl SampleCount {
         Self::of(all.iter().filter(|is| **is).count(), all.len())
     }
 
-    /// A number that is no share of things.
+    /// A number that is not a share of things.
     pub fn number(value: f64) -> Self {
         Self { value, of: None }
     }
 }
 
-/// Result on one suite and arm.
+/// Result on one suite and grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimResult {
     /// The suite.
     pub suite: SuiteSet,
-    /// Arm of the grid, where there is one.
+    /// The grid, if there is one.
     pub arm: Option<Arm>,
     /// Whether the statement is seen in this sample.
     pub seen: Seen,
-    /// The numbers by which it is seen or not, one for each yardstick.
+    /// The numbers that decide this, one for each yardstick.
     pub counts: Vec<SampleCount>,
-    /// Whether its effect exists beyond this sample; none of a quantity that
-    /// has no value of no effect, and of a statement that is not testable.
+    /// Whether its effect exists beyond this sample; `None` for a quantity without
+    /// a value of no effect, and for a statement that is not testable.
     pub exists: Option<Exists>,
     /// The effect with its interval of [`LEVEL`].
     #[serde(flatten, with = "estimate::complete")]
     pub estimate: Estimate,
     /// Its unit.
     pub unit: Unit,
-    /// Where it was measured.
+    /// Place of the measurement, in words.
     pub at: String,
     /// Further numbers, by name.
     pub details: Vec<Detail>,
 }
 
 impl ClaimResult {
-    /// Suite and arm in words: `ordinary, arm C`.
+    /// Suite and grid in words: `ordinary, arm C`.
     pub fn place(&self) -> String {
         let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()
@@ -382,7 +382,7 @@ impl ClaimResult {
 pub struct Detail {
     /// Its name.
     pub name: String,
-    /// The value, with its interval where it has one.
+    /// The value, with its interval if it has one.
     #[serde(flatten, with = "estimate")]
     pub estimate: Estimate,
 }

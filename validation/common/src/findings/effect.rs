@@ -1,5 +1,5 @@
-//! The smallest effects of interest: a change that is smaller leads to no
-//! other decision of an engineer.
+//! The smallest effects of interest: a smaller change leads to no other decision
+//! of an engineer.
 
 use super::unit::Unit;
 
@@ -13,9 +13,9 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// The effect of a unit: 10 % of an intensity or a dispersion, 10 points
-    /// of a share, 0.05 of a probability or of a distance; none of a count,
-    /// by which nobody decides.
+    /// The effect of a unit: 10 % of an intensity or a dispersion, 10 points of a
+    /// share, 0.05 of a probability or a distance; `None` for a count, by which
+    /// nobody decides.
     pub fn of(unit: Unit) -> Option<Self> {
         match unit {
             Unit::One => Some(Self::Relative(0.1)),

@@ -1,4 +1,4 @@
-//! Estimates as data files hold them.
+//! Estimates in data files.
 
 use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::{Estimate, Interval, Range};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::json::{nine, rounded};
 
-/// The keys of an estimate: `value`, and `low` and `high` where there is an
+/// The keys of an estimate: `value`, and `low` and `high` if there is an
 /// interval.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -21,7 +21,7 @@ struct Keys {
     high: f64,
 }
 
-/// What stands for an end that is not there.
+/// The number of a missing end.
 fn none() -> f64 {
     f64::NAN
 }
@@ -65,7 +65,7 @@ pub fn serialize<S: Serializer>(
 /// Reads an estimate.
 ///
 /// # Errors
-/// For another shape, and for ends that fall.
+/// If the shape is another one, or the ends do not rise.
 pub fn deserialize<'de, D: Deserializer<'de>>(
     from: D,
 ) -> Result<Estimate, D::Error> {
@@ -90,7 +90,7 @@ pub mod list {
     /// Reads a list.
     ///
     /// # Errors
-    /// For another shape, and for ends that fall.
+    /// If the shape is another one, or the ends do not rise.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<Vec<Estimate>, D::Error> {
@@ -100,8 +100,7 @@ pub mod list {
     }
 }
 
-/// An estimate whose ends are written in any case: `null` where there is no
-/// interval.
+/// An estimate whose ends are always written: `null` without an interval.
 pub mod complete {
     use crate::findings::estimate::*;
 

@@ -1,22 +1,22 @@
-//! The analyses of a study.
+//! The plan of a study.
 
 use crate::runs::Setup;
 use rocking_common::findings::StudySettings;
 use rocking_common::paper::Arm;
 
-/// The analyses of a study.
+/// The plan of a study: its settings and grids.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Settings of every analysis.
     pub setup: Setup,
-    /// Arms in the order A, B, C.
+    /// Grids in the order A, B, C.
     pub arms: Vec<Arm>,
     /// Whether other choices are run on all blocks.
     pub full: bool,
 }
 
 impl Plan {
-    /// The settings, as findings have them.
+    /// The settings in the form of the findings.
     #[must_use]
     pub fn settings(&self) -> StudySettings {
         StudySettings {
@@ -28,14 +28,15 @@ impl Plan {
         }
     }
 
-    /// Arms from which figures are drawn: A and C, where they are run.
+    /// Grids from which figures are drawn: A and C, if they are run.
     #[must_use]
     pub fn drawn(&self) -> Vec<Arm> {
         let drawn = |arm: &&Arm| **arm != Arm::B;
         self.arms.iter().filter(drawn).copied().collect()
     }
 
-    /// The arm whose grid the single-record figures use: C, else the first.
+    /// The grid that the single-record figures share: C if it is run, else the
+    /// first.
     #[must_use]
     pub fn common(&self) -> Arm {
         match self.arms.as_slice() {

@@ -1,13 +1,16 @@
-//! Single records: which are shown, at which level, and how far their
+//! Single records: which records are shown, at which level, and how far their
 //! histories and curves are apart. The rules were fixed before any result.
 
 use rayon::prelude::*;
+use rocking::block::Block;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
 use super::suite::{Deviation, ShownHistory, SingleRecords};
+use crate::distributions::least;
+use crate::estimates::mean;
 use crate::facts::Facts;
-use crate::runs::{Setup, capacities};
+use crate::runs::{DEMANDS, Setup, capacities};
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
@@ -19,15 +22,15 @@ pub const HISTORY_INTERVAL_S: f64 = 0.01;
 /// compared: from just above uplift to where blocks begin to overturn.
 pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
 
-/// What the smallest blocks must reach under a record that is shown alone,
-/// standing: its figures then show motions and curves, not a fall. Intensity,
-/// and rotation over slenderness there.
+/// Intensity, and rotation over slenderness that the smallest blocks must reach
+/// there while they stand, for a record to be shown alone. Its figures then show
+/// motions and curves, not a fall.
 const ROCKS: (f64, f64) = (1.5, 0.05);
 
-/// The records that are shown alone: those at ranks 1/6, 3/6 and 5/6 of
-/// PGV/PGA among the records under which the smallest block of every
-/// slenderness rocks ([`ROCKS`]), or among all if these are fewer than
-/// three. The curves are by block, then by record.
+/// The records that are shown alone: ranks 1/6, 3/6 and 5/6 of PGV/PGA among
+/// the records under which the smallest block of every slenderness rocks
+/// ([`ROCKS`]), or among all records if fewer than three qualify. The curves are
+/// by block, then by record.
 pub(super) fn shown_alone(
     curves: &[Vec<ResponseCurve>],
     records: &[Facts],
@@ -45,100 +48,80 @@ pub(super) fn shown_alone(
     by_rank_among(&ratios, rocks)
 }
 
-/// Histories of the `chosen` records, and how far the histories and curves
-/// of all records are apart, for one frequency parameter.
+/// Histories of the `chosen` records by frequency parameter, and the distance
+/// of all records' histories and curves from the reference slenderness.
 pub(super) fn single_records(
     setup: &Setup,
-    frequency: usize,
     records: &[NormalisedRecord],
     curves: &[Vec<ResponseCurve>],
     chosen: [usize; 3],
-) -> anyhow::Result<SingleRecords> {
-    let of = |slenderness, record: usize| -> &ResponseCurve {
-        &curves[position(frequency, slenderness)][record]
-    };
-    let last = |curve: &ResponseCurve| match curve.overturning_im() {
-        Some(_) => curve.last_im(),
-        None => f64::INFINITY,
-    };
-    let slendernesses = 0..SLENDERNESSES_RAD.len();
-    let standing: Vec<Vec<f64>> = chosen
-        .iter()
-        .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
-        .collect();
-    let im = common_level(&standing);
-    let at_level = |record: usize, im: f64| -> anyhow::Result<_> {
-        let histories: Vec<(Vec<f64>, f64)> = slendernesses
-            .clone()
-            .map(|s| {
-                setup.history(
-                    BLOCKS[position(frequency, s)],
-                    &records[record],
-                    im,
-                    HISTORY_INTERVAL_S,
-                )
-            })
-            .collect::<Result<_, _>>()?;
-        let apart = slendernesses
-            .clone()
-            .filter(|s| *s != REFERENCE)
-            .map(|s| {
-                let (a, b) = (&histories[s], &histories[REFERENCE]);
-                let curves = (of(s, record), of(REFERENCE, record));
-                apart(a, b, curves)
-            })
-            .collect::<Result<Vec<Deviation>, _>>()?;
-        Ok((histories, apart))
-    };
-    let all: Vec<(Vec<ShownHistory>, Vec<Deviation>)> = (0..records.len())
-        .into_par_iter()
-        .map(|record| {
-            let (histories, apart) = at_level(record, im)?;
-            let kept = if chosen.contains(&record) {
-                histories
-                    .into_iter()
-                    .map(|(h, peak)| (h, peak.is_infinite()))
-                    .collect()
-            } else {
-                Vec::new()
+) -> anyhow::Result<Vec<SingleRecords>> {
+    let slendernesses = SLENDERNESSES_RAD.len();
+    let blocks = BLOCKS.chunks(slendernesses);
+    let all =
+        blocks.zip(curves.chunks(slendernesses)).map(|(blocks, curves)| {
+            let last = |curve: &ResponseCurve| match curve.overturning_im() {
+                Some(_) => curve.last_im(),
+                None => f64::INFINITY,
             };
-            Ok((kept, apart))
-        })
-        .collect::<anyhow::Result<_>>()?;
-    let by_level = LEVELS_IM
-        .into_iter()
-        .map(|im| {
-            let apart = (0..records.len())
-                .into_par_iter()
-                .map(|record| Ok(at_level(record, im)?.1))
-                .collect::<anyhow::Result<_>>()?;
-            Ok((im, apart))
-        })
-        .collect::<anyhow::Result<_>>()?;
-    let histories = chosen.iter().map(|r| all[*r].0.clone()).collect();
-    let apart = all.into_iter().map(|(_, apart)| apart).collect();
-    Ok(SingleRecords { im, histories, apart, by_level })
+            let standing = chosen.map(|record| -> Vec<f64> {
+                curves.iter().map(|own| last(&own[record])).collect()
+            });
+            let im = common_level(&standing);
+            let at_level = |im: f64| -> anyhow::Result<(Vec<_>, Vec<_>)> {
+                let of_record = |record: usize| {
+                    let normalised = &records[record];
+                    let history = |block: &Block| {
+                        setup.history(
+                            *block,
+                            normalised,
+                            im,
+                            HISTORY_INTERVAL_S,
+                        )
+                    };
+                    let histories = blocks.iter().map(history);
+                    let histories: Vec<ShownHistory> =
+                        histories.collect::<Result<_, _>>()?;
+                    let own = |s: usize| (&histories[s], &curves[s][record]);
+                    let others =
+                        (0..slendernesses).filter(|s| *s != REFERENCE);
+                    let apart = others.map(|s| apart(own(s), own(REFERENCE)));
+                    let apart = apart.collect::<anyhow::Result<Vec<_>>>()?;
+                    let is_kept = chosen.contains(&record);
+                    let kept = if is_kept { histories } else { Vec::new() };
+                    Ok((kept, apart))
+                };
+                let all = (0..records.len()).into_par_iter().map(of_record);
+                let all: Vec<_> = all.collect::<anyhow::Result<_>>()?;
+                Ok(all.into_iter().unzip())
+            };
+            let (histories, apart) = at_level(im)?;
+            let by_level = LEVELS_IM.map(|im| Ok(at_level(im)?.1)).into_iter();
+            let by_level = by_level.collect::<anyhow::Result<_>>()?;
+            let histories =
+                chosen.map(|record| histories[record].clone()).into();
+            Ok(SingleRecords { im, histories, apart, by_level })
+        });
+    all.collect()
 }
+
 fn apart(
-    compared: &(Vec<f64>, f64),
-    reference: &(Vec<f64>, f64),
-    curves: (&ResponseCurve, &ResponseCurve),
+    ((history, peak), curve): (&ShownHistory, &ResponseCurve),
+    ((reference, its_peak), its_curve): (&ShownHistory, &ResponseCurve),
 ) -> anyhow::Result<Deviation> {
-    let stand = compared.1.is_finite() && reference.1.is_finite();
+    let stand = peak.is_finite() && its_peak.is_finite();
     let when_standing = |x: f64| if stand { x } else { f64::NAN };
-    // Demands 0.1, 0.2, ... 1.0.
-    let levels: Vec<f64> = (1..=10).map(|k| f64::from(k) / 10.0).collect();
-    let a = capacities(curves.0, &levels, InversionRule::Median)?;
-    let b = capacities(curves.1, &levels, InversionRule::Median)?;
+    let a = capacities(curve, &DEMANDS, InversionRule::Median)?;
+    let b = capacities(its_curve, &DEMANDS, InversionRule::Median)?;
     Ok(Deviation {
-        distance: when_standing(distance(&compared.0, &reference.0)),
-        peak_ratio: when_standing(compared.1 / reference.1),
+        distance: when_standing(distance(history, reference)),
+        peak_ratio: when_standing(peak / its_peak),
         mean_ln_im: mean_log_ratio(&a, &b),
     })
 }
 
-/// [`by_rank`] among the records that rock, or among all if these are fewer
-/// than three.
+/// [`by_rank`] among the records that rock, or among all records if fewer than
+/// three rock.
 fn by_rank_among(ratios: &[f64], rocks: impl Fn(usize) -> bool) -> [usize; 3] {
     let mut records: Vec<usize> =
         (0..ratios.len()).filter(|record| rocks(*record)).collect();
@@ -150,8 +133,8 @@ fn by_rank_among(ratios: &[f64], rocks: impl Fn(usize) -> bool) -> [usize; 3] {
 }
 
 /// Positions of the records at ranks 1/6, 3/6 and 5/6 of `ratios` (PGV/PGA):
-/// of n values in rising order those numbered ceil(n/6), ceil(n/2) and
-/// ceil(5n/6). Equal ratios keep their order.
+/// numbers ceil(n/6), ceil(n/2) and ceil(5n/6) of n values in rising order.
+/// Equal ratios keep their order.
 fn by_rank(ratios: &[f64]) -> [usize; 3] {
     let mut order: Vec<usize> = (0..ratios.len()).collect();
     order.sort_by(|a, b| ratios[*a].total_cmp(&ratios[*b]));
@@ -162,50 +145,36 @@ fn by_rank(ratios: &[f64]) -> [usize; 3] {
 }
 
 /// The largest grid intensity at which at least four of the five
-/// slendernesses stand, for all records; the argument holds by record and
-/// slenderness the last grid intensity before first overturning (infinite
-/// where the block never overturned).
+/// slendernesses stand under every record. The argument contains, by record and
+/// slenderness, the last grid intensity before first overturning (infinite if
+/// the block never overturned).
 fn common_level(last_standing: &[Vec<f64>]) -> f64 {
-    let mut least = f64::INFINITY;
-    for record in last_standing {
+    let second = |record: &Vec<f64>| {
         let mut levels = record.clone();
         levels.sort_by(f64::total_cmp);
-        // The lowest one may have overturned.
-        let second = levels.get(1).copied().unwrap_or(f64::INFINITY);
-        if second < least {
-            least = second;
-        }
-    }
-    least
+        // The block at the lowest level may have overturned.
+        levels.get(1).copied().unwrap_or(f64::INFINITY)
+    };
+    least(&last_standing.iter().map(second).collect::<Vec<f64>>())
 }
 
 /// Normalized L2 distance of two histories of theta/alpha sampled at the
 /// same equal intervals: the root of the integral of the squared difference
-/// over that of the squared reference; the shorter one has come to rest and
-/// continues as zero. NaN where the reference never moves.
+/// over the integral of the squared reference. The shorter history has come to
+/// rest and continues as zero. NaN if the reference never moves.
 fn distance(compared: &[f64], reference: &[f64]) -> f64 {
-    let at = |history: &[f64], i| history.get(i).copied().unwrap_or(0.0);
     let length = compared.len().max(reference.len());
-    let (mut apart, mut size) = (0.0, 0.0);
-    for i in 0..length {
-        let (a, b) = (at(compared, i), at(reference, i));
-        apart += (a - b) * (a - b);
-        size += b * b;
-    }
+    let [a, b] = [compared, reference]
+        .map(|own| own.iter().chain(std::iter::repeat(&0.0)).take(length));
+    let size: f64 = b.clone().map(|b| b * b).sum();
+    let apart: f64 = a.zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
     if size > 0.0 { f64::sqrt(apart / size) } else { f64::NAN }
 }
 
-/// Mean of |ln(a/b)| over the pairs in which both are finite; NaN where
-/// there is none.
+/// Mean of |ln(a/b)| over the pairs in which both are finite; NaN without a
+/// pair.
 fn mean_log_ratio(a: &[f64], b: &[f64]) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (x, y) in a.iter().zip(b) {
-        if x.is_finite() && y.is_finite() {
-            sum += libm::log(x / y).abs();
-            count += 1.0;
-        }
-    }
-    sum / count
+    mean(a.iter().zip(b).map(|(x, y)| libm::log(x / y).abs()))
 }
 
 #[cfg(test)]

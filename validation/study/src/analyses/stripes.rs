@@ -1,4 +1,4 @@
-//! Runs at the stripes' levels.
+//! Analyses at the levels of the stripes.
 
 use rayon::prelude::*;
 use rocking::block::Block;
@@ -20,8 +20,8 @@ pub(super) fn references() -> [Block; FREQUENCIES_RAD_S.len()] {
 /// Numbers by block, then by stripe, then by record.
 type OnStripes<T> = Vec<Vec<Vec<T>>>;
 
-/// Demands on the stripes for every arm of `adjusted`, the arms drawn: one
-/// run a block, stripe and record, which an arm's first overturnings cut.
+/// Demands on the stripes for every grid of `adjusted`. Each block, stripe and
+/// record is run once; the first overturnings of a grid cut the runs.
 pub(super) fn stripe_demands(
     setup: &Setup,
     records: &[NormalisedRecord],
@@ -47,7 +47,7 @@ pub(super) fn stripe_demands(
     };
     let runs = run(&BLOCKS, Adjust::RecordScaling)?;
     let adjusted_runs = run(&references(), Adjust::SlendernessAdjustment)?;
-    // Stripes rise, and so does what has overturned: an arm uses the first.
+    // Stripes rise, and overturned blocks increase: a grid uses the first ones.
     let cut = |runs: &OnStripes<f64>, curves: &[Vec<ResponseCurve>], n| {
         let blocks = runs.iter().zip(curves);
         let of_block = blocks.map(|(runs, curves)| {
@@ -91,7 +91,7 @@ fn is_used(im: f64, curves: &[Vec<ResponseCurve>]) -> bool {
 }
 
 /// Demand of a record on a stripe: infinite once the scan along rising
-/// intensity overturned at or below the level, whatever a run there gives.
+/// intensity overturned at or below the level, even if the run there stands.
 fn on_stripe(level: f64, overturning: Option<f64>, run: f64) -> f64 {
     match overturning {
         Some(first) if !(level < first) => f64::INFINITY,

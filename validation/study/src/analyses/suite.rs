@@ -1,25 +1,26 @@
 //! Results of the analyses of a suite.
 
-use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking_records::SetAside;
 use rocking_statistics::Clusters;
 
 use crate::distributions::{BlockSamples, Distributions};
+use crate::estimates::median;
 use crate::facts::Facts;
 use crate::runs::{ArmCurves, ChainWork, curves_of, not_run};
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
 use rocking_common::suites::SuiteSource;
 
-/// Demands on the stripes for one arm's first overturnings.
+/// Demands on the stripes, cut by the first overturnings of one grid.
 #[derive(Clone, Debug)]
 pub struct StripeDemands {
-    /// The arm.
+    /// The grid.
     pub arm: Arm,
     /// By block (15), then by stripe, then by record.
     pub demands: Vec<Vec<Vec<f64>>>,
-    /// By frequency, then by stripe, then by record: slenderness adjusted.
+    /// Demands with adjusted slenderness: by frequency, then by stripe, then by
+    /// record.
     pub adjusted: Vec<Vec<Vec<f64>>>,
     /// Whether a record stands at a stripe at or above its first
     /// overturning, by block, then by stripe, then by record.
@@ -33,52 +34,50 @@ pub struct SuiteResults {
     pub kind: SuiteKind,
     /// Where the records come from.
     pub source: SuiteSource,
-    /// Who chose the study component, in words.
+    /// Rule by which the study component was chosen, in words.
     pub component_rule: String,
     /// Remarks on suspicious records.
     pub remarks: Option<String>,
-    /// Files of the folder or archive that are no records.
+    /// Files of the folder or archive that are not records.
     pub set_aside: SetAside,
     /// Hash of the input.
     pub sha256: String,
     /// The records' names and hashes.
     pub list: Vec<RecordName>,
-    /// Work that the chains took.
+    /// Work of the chains.
     pub work: ChainWork,
     /// The records.
     pub records: Vec<Facts>,
-    /// The earthquakes that they belong to.
+    /// The earthquakes of the records.
     pub clusters: Clusters,
     /// Positions of the records that the single-record figures show.
     pub chosen: [usize; 3],
-    /// Curves by arm.
+    /// Curves by grid.
     pub arms: Vec<ArmCurves>,
-    /// Capacity samples by arm, PGA then PGV.
+    /// Capacity samples by grid, PGA then PGV.
     pub distributions: Vec<Distributions>,
-    /// By frequency parameter.
+    /// Single records by frequency parameter.
     pub single: Vec<SingleRecords>,
-    /// By arm.
+    /// Demands on the stripes by grid.
     pub stripes: Vec<StripeDemands>,
-    /// Slenderness-adjusted curves by arm; by frequency instead of block,
-    /// then by record.
+    /// Curves with adjusted slenderness by grid, then by frequency, then by
+    /// record.
     pub adjusted: Vec<ArmCurves>,
-    /// Curves of the contents by item, then by record, in the common arm.
-    pub contents: Vec<Vec<ResponseCurve>>,
 }
 
 impl SuiteResults {
-    /// Curves of an arm by block, then by record.
+    /// Curves on a grid by block, then by record.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the grid was not run.
     pub fn curves(&self, arm: Arm) -> anyhow::Result<&[Vec<ResponseCurve>]> {
         curves_of(&self.arms, arm)
     }
 
-    /// Capacity samples of an arm in a measure.
+    /// Capacity samples on a grid in an intensity measure.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the grid was not run.
     pub fn distributions(
         &self,
         arm: Arm,
@@ -92,7 +91,7 @@ impl SuiteResults {
     /// and slenderness.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the grid was not run.
     pub fn block(
         &self,
         arm: Arm,
@@ -103,68 +102,51 @@ impl SuiteResults {
         Ok(&found.blocks[position(frequency, slenderness)])
     }
 
-    /// Demands on the stripes of an arm.
+    /// Demands on the stripes of a grid.
     ///
     /// # Errors
-    /// If the arm was not run.
+    /// If the grid was not run.
     pub fn stripes(&self, arm: Arm) -> anyhow::Result<&StripeDemands> {
         let found = self.stripes.iter().find(|own| own.arm == arm);
         found.ok_or_else(|| not_run(arm))
     }
-
-    /// Number of records that uplift the block without scaling.
-    #[must_use]
-    pub fn uplift_unscaled(&self, block: &Block) -> usize {
-        let threshold = libm::tan(block.slenderness_rad());
-        self.records.iter().filter(|r| r.pga_g > threshold).count()
-    }
 }
 
-/// Theta/alpha every [`HISTORY_INTERVAL_S`](super::HISTORY_INTERVAL_S), and whether the block
-/// overturned.
-pub type ShownHistory = (Vec<f64>, bool);
+/// Theta/alpha every [`HISTORY_INTERVAL_S`](super::HISTORY_INTERVAL_S), and the
+/// peak: infinite if the block overturned.
+pub type ShownHistory = (Vec<f64>, f64);
 
-/// Histories of the chosen records, and how far all records' histories and
-/// curves are from the reference slenderness, for one frequency parameter.
+/// Histories of the chosen records, and the distance of all records' histories
+/// and curves from the reference slenderness, for one frequency parameter.
 #[derive(Clone, Debug)]
 pub struct SingleRecords {
     /// Level of the histories.
     pub im: f64,
-    /// Theta/alpha of the chosen records, by record, then by slenderness,
-    /// and whether the block overturned.
+    /// Histories of the chosen records, by record, then by slenderness.
     pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Deviation>>,
-    /// The deviations at each of `LEVELS_IM`, for comparisons of the suites.
-    pub by_level: Vec<(f64, Vec<Vec<Deviation>>)>,
+    /// The deviations at each of `LEVELS_IM`, which compare the suites.
+    pub by_level: Vec<Vec<Vec<Deviation>>>,
 }
 
-/// A block against the reference slenderness under one record.
+/// A block compared with the reference slenderness under one record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Normalized L2 distance of the histories; NaN where one overturned.
+    /// Normalized L2 distance of the histories; NaN if one overturned.
     pub distance: f64,
-    /// Ratio of the peaks; NaN where one overturned.
+    /// Ratio of the peaks; NaN if one overturned.
     pub peak_ratio: f64,
-    /// Mean |ln| of the ratio of intensities at equal demand; NaN where
-    /// there is none.
+    /// Mean |ln| of the ratio of intensities at equal demand; NaN without a
+    /// finite ratio.
     pub mean_ln_im: f64,
 }
 
 impl SingleRecords {
     /// Median over records and slendernesses of the defined values.
     pub(crate) fn median_of(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
-        let mut values: Vec<f64> = self
-            .apart
-            .iter()
-            .flatten()
-            .map(of)
-            .filter(|x| x.is_finite())
-            .collect();
-        values.sort_by(f64::total_cmp);
-        match values.len() {
-            0 => f64::NAN,
-            n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
-        }
+        let values = self.apart.iter().flatten().map(of);
+        let values: Vec<f64> = values.filter(|x| x.is_finite()).collect();
+        median(&values).value()
     }
 }

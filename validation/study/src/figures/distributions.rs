@@ -1,7 +1,6 @@
 //! Figures 11, 12 and 14: capacities, and shares of accepted levels.
 
-use rocking_statistics::lilliefors::LillieforsTest;
-
+use crate::distributions::SAMPLES;
 use crate::estimates::three_quantiles;
 use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
 use crate::results::StudyResults;
@@ -57,9 +56,9 @@ pub(super) fn inverted(
         for (words, ink, less) in
             [("original", ORIGINAL, 0.0), ("shifted", SHIFTED, block.shift)]
         {
-            // Capacities that do not lie above the shift stand at the edge.
+            // Capacities that do not exceed the shift lie at the edge.
             let at = |im: f64| if im - less > low { im - less } else { low };
-            // Shifted, they are the same numbers less the shift.
+            // The shifted curves are the same numbers minus the shift.
             let keyed = |one: Series, name: &str| match less == 0.0 {
                 true => one.keyed([
                     intensity.name().into(),
@@ -157,8 +156,8 @@ pub(super) fn inverted(
     ))
 }
 
-/// The capacities of all records, original and shifted; of the shifted ones
-/// a twentieth may leave at the bottom.
+/// Range of the capacities of all records, original and shifted. A twentieth of
+/// the shifted ones may leave the panel at the bottom.
 fn capacity_range(records: &[(&str, Vec<f64>)], shift: f64) -> (f64, f64) {
     let all = || records.iter().map(|(_, ims)| ims);
     let (_, high) = span(all().flatten().copied(), true).unwrap_or((1.0, 2.0));
@@ -171,23 +170,34 @@ fn capacity_range(records: &[(&str, Vec<f64>)], shift: f64) -> (f64, f64) {
     (0.8 * low, 1.15 * high)
 }
 
-/// One block in one arm, in a panel of Figure 12 or 14.
+/// One block on one grid, in a panel of Figure 12 or 14.
 struct Share {
     /// Position of the block among the fifteen.
     block: usize,
     arm: usize,
     /// Accepted share of the levels.
     accepted: f64,
-    /// Central 95 % band of that for lognormal samples whose levels are as
-    /// dependent as these, where it was computed.
+    /// Central 95 % band of the accepted share for lognormal samples whose levels
+    /// are equally dependent, if it was computed.
     band: Option<(f64, f64)>,
-    /// Levels at which the test could be made.
+    /// Number of levels that could be tested.
     levels: usize,
 }
 
 const NULL_BAND: Fill = Fill::tint(Ink::Muted, 22);
 const EXPECTED: Pen = Pen::new(Ink::Text, 0.8).dash(Dash::Dashed);
-/// Marks of the arms.
+/// Columns of the CSV that name a mark.
+const SHARE_KEYS: [&str; 8] = [
+    "suite",
+    "records",
+    "im",
+    "sample",
+    "arm",
+    "p_rad_s",
+    "alpha_rad",
+    "levels",
+];
+/// Marks of the grids.
 const ARMS: [Marker; 3] = [Marker::Dot, Marker::OpenSquare, Marker::Plus];
 
 /// Figure 12 (PGA) or 14 (PGV).
@@ -204,36 +214,32 @@ pub(super) fn shares(
     let mut fewest = usize::MAX;
     let mut banded: Vec<Arm> = Vec::new();
     for suite in results.suites() {
-        for shifted in [false, true] {
+        for (sample, sample_name) in SAMPLES.into_iter().enumerate() {
             let mut shares: Vec<Share> = Vec::new();
             for (arm, of) in drawn.iter().enumerate() {
                 let found = suite.distributions(*of, intensity)?;
                 for (block, one) in found.blocks.iter().enumerate() {
-                    let (original, above) = one.shares();
-                    let tests =
-                        if shifted { &one.shifted } else { &one.original };
-                    let band = one.bands[usize::from(shifted)].as_ref();
-                    let band = band.and_then(ends);
+                    let tests = one.tests[sample].iter().map(over_critical);
+                    let band = one.bands[sample].as_ref().and_then(ends);
                     if band.is_some() && !banded.contains(of) {
                         banded.push(*of);
                     }
                     shares.push(Share {
                         block,
                         arm,
-                        accepted: if shifted { above } else { original },
+                        accepted: one.shares()[sample],
                         band,
-                        levels: tested(tests),
+                        levels: tests.filter(|d| d.is_finite()).count(),
                     });
                 }
             }
-            // The arm that the findings show first.
+            // The grid that the findings show first.
             let own = || shares.iter().filter(|s| drawn[s.arm] == common);
             let mean =
                 own().fold(0.0, |s, b| s + b.accepted) / own().count() as f64;
             means.push(percent(mean, 1));
             let least = shares.iter().map(|s| s.levels).min();
             fewest = fewest.min(least.unwrap_or(0));
-            let sample = if shifted { "shifted" } else { "original" };
             let (name, records) = (suite.kind.name(), suite.records.len());
             let mut series = groups(&shares, levels);
             let expected = (0.0, 1.0 - LEVEL);
@@ -247,7 +253,7 @@ pub(super) fn shares(
                         name.into(),
                         records.to_string(),
                         intensity.name().into(),
-                        sample.into(),
+                        sample_name.into(),
                         drawn[share.arm].name().into(),
                         cell(block.frequency_rad_s()),
                         cell(block.slenderness_rad()),
@@ -261,7 +267,7 @@ pub(super) fn shares(
                 label: k.to_string(),
             });
             panels.push(ChartPanel::new(
-                format!("{records} {name} records, {sample} sample"),
+                format!("{records} {name} records, {sample_name} sample"),
                 Axis::named(&alphas).label("*α* (rad)"),
                 Axis::linear(-0.04, 1.36, 5)
                     .with_ticks(percents.into())
@@ -281,26 +287,15 @@ pub(super) fn shares(
     ));
     if !banded.is_empty() {
         let arms: Vec<&str> = banded.iter().map(|a| a.name()).collect();
-        let words = format!(
-            "95 % band of lognormal suites, arm {}",
-            arms.join(" and ")
-        );
+        let arms = arms.join(" and ");
+        let words = format!("95 % band of lognormal suites, grid {arms}");
         legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let layout = Layout {
         grid: Some(Grid::new(panels.len(), 2).plot(440.0, 190.0)),
         legend,
         ..Layout::of(
-            &[
-                "suite",
-                "records",
-                "im",
-                "sample",
-                "arm",
-                "p_rad_s",
-                "alpha_rad",
-                "levels",
-            ],
+            &SHARE_KEYS,
             &[
                 ("share", Of::Y),
                 ("null_low", Of::Low),
@@ -308,23 +303,22 @@ pub(super) fn shares(
             ],
         )
     };
-    let rests = if fewest < levels {
-        format!(
-            "Where a record never overturns, fewer levels can be tested: \
-             {fewest} at least; the panels count them."
-        )
-    } else {
-        format!("All {levels} levels were tested for every block.")
+    let rests = match fewest < levels {
+        true => format!(
+            "If a record never overturns, fewer levels can be tested: at \
+             least {fewest}; the panels state the number."
+        ),
+        false => format!("All {levels} levels were tested for every block."),
     };
     let heading = paper_heading(number, None);
     Ok(Chart { heading, panels, columns: 2 }.laid_out(
         &layout,
         format!(
-            "On arm {0} the mean accepted share is {1} (original) and {2} \
+            "On grid {0} the mean accepted share is {1} (original) and {2} \
              (shifted) for ordinary records, {3} and {4} for pulse-type \
-             ones. {rests} The bands are of arm {0} too: they hold 95 % of \
-             {BAND_REPLICATES} lognormal suites with the same dependence \
-             between levels.",
+             records. {rests} The bands are for grid {0} too: they contain \
+             95 % of {BAND_REPLICATES} lognormal suites with the same \
+             dependence between levels.",
             common.name(),
             means[0],
             means[1],
@@ -351,8 +345,8 @@ fn mark_of(share: &Share, arms: usize, keys: [String; 8]) -> [Series; 2] {
     ]
 }
 
-/// Names of the frequency parameters over their blocks, how many levels were
-/// tested there, and lines between.
+/// Names of the frequency parameters over their blocks, the numbers of levels
+/// that were tested there, and lines between them.
 fn groups(shares: &[Share], all: usize) -> Vec<Series> {
     let mut notes = Vec::new();
     let of_each = SLENDERNESSES_RAD.len();
@@ -375,9 +369,4 @@ fn groups(shares: &[Share], all: usize) -> Vec<Series> {
         }
     }
     notes
-}
-
-/// How many levels could be tested.
-fn tested(levels: &[LillieforsTest]) -> usize {
-    levels.iter().filter(|a| over_critical(a).is_finite()).count()
 }

@@ -9,8 +9,7 @@ use rocking_statistics::ExtendedSample;
 
 use curves::{KEYS, NUMBERS, along, empirical, exceedance, fitted, most_of};
 
-use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
-use crate::measures::{DemandFits, to_ssfl};
+use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS};
 use crate::results::StudyResults;
 use crate::words::paper_heading;
 use rocking_common::paper::{Arm, Intensity, demand_index};
@@ -19,8 +18,8 @@ use rocking_draw::colour::{Dash, Ink, Pen};
 use rocking_draw::figures::{Chart, ChartPanel, Figure, Layout, Mark, Series};
 use rocking_draw::grid::Grid;
 
-/// Figure 18: demand 0.15, PGA. Its caption has the distances that the claims
-/// on c are about: those to the SSFL.
+/// Figure 18: demand 0.15, PGA. Its caption has the distances to the SSFL, which
+/// the claims on c use.
 pub(super) fn constants(
     results: &StudyResults,
     arm: Arm,
@@ -29,12 +28,10 @@ pub(super) fn constants(
     let block = results.ordinary.block(arm, at.0, BLOCK)?;
     let data = &block.samples[demand_index(at.1)];
     let sample = ExtendedSample::try_new(data)?;
-    let fits = Fits::new(&sample, block.shift);
-    let fitted_at = DemandFits { sample, shift: block.shift, fits };
-    let fits = &fitted_at.fits;
+    let fits = Fits::new(sample, block.shift);
     let benchmark = Pen::new(Ink::Text, 1.3);
     let dashes = [Dash::Dotted, Dash::Dashed, Dash::DashDot, Dash::Long];
-    // What the benchmark's bulk and most of the data need.
+    // The axis shows the benchmark's bulk and most of the data.
     let bulk = fits.ssfl.map_or(1.0, |f| {
         let spread = 2.0_f64.mul_add(f.dispersion(), f.log_mean());
         f.shift() + libm::exp(spread)
@@ -54,14 +51,14 @@ pub(super) fn constants(
         let mut missing = Vec::new();
         for (k, (c, dash)) in CONSTANTS.into_iter().zip(dashes).enumerate() {
             let pen = Pen::new(Ink::Series(k), 1.3).dash(dash);
-            let fit = usfl7(usfl, block.shift, c);
+            let fit = fits.usfl7(usfl, c);
             let name = format!("USFL7, *c* = {c}");
             let mut curve = fitted(at, (&name, pen), fit.as_ref(), &grid);
             curve.keys[2] += &format!(", {title}");
             series.push(curve);
             match fit {
                 Some(_) => {
-                    let apart = to_ssfl(usfl, &fitted_at, c);
+                    let apart = fits.to_ssfl(usfl, c);
                     distances.push(format!("{apart:.3}"));
                 }
                 None => {

@@ -35,10 +35,7 @@ const NUMBERS: [Column; 4] = [
 ];
 
 /// Quantile curves that are compared at one frequency parameter.
-struct QuantilePanel {
-    p_rad_s: f64,
-    groups: Vec<Series>,
-}
+type QuantilePanel = Vec<Series>;
 
 /// Figure 8.
 pub(super) fn slendernesses(
@@ -47,14 +44,12 @@ pub(super) fn slendernesses(
 ) -> anyhow::Result<Figure> {
     let curves = suite.curves(arm)?;
     let panels = panels(|frequency| {
-        SLENDERNESSES_RAD
-            .iter()
-            .enumerate()
-            .map(|(slenderness, alpha)| {
-                let label = format!("*α* = {alpha:.2} rad");
-                group(label, &curves[position(frequency, slenderness)])
-            })
-            .collect()
+        let own =
+            SLENDERNESSES_RAD.iter().zip(&curves[position(frequency, 0)..]);
+        let one = |(alpha, curves): (&f64, &Vec<ResponseCurve>)| {
+            group(format!("*α* = {alpha:.2} rad"), curves)
+        };
+        own.map(one).collect()
     })?;
     let words = spread_in_words(&panels);
     let heading = paper_heading(8, Some(arm));
@@ -70,20 +65,17 @@ fn figure(
     let grid = Grid { right: 40.0, ..Grid::new(columns, columns) };
     let grid = grid.plot(264.0, grid.height);
     let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
-    let shown = panels.iter().map(|one| {
-        let (low, high) = levels(one);
-        let groups = one.groups.iter().map(|group| {
-            group.clone().keyed([
-                number(one.p_rad_s),
-                Intensity::Pga.name().into(),
-                plain(&group.label),
-            ])
+    let shown = panels.iter().zip(FREQUENCIES_RAD_S).map(|(groups, p)| {
+        let (low, high) = levels(groups);
+        let keyed = groups.iter().map(|group| {
+            let im = Intensity::Pga.name().into();
+            group.clone().keyed([number(p), im, plain(&group.label)])
         });
         ChartPanel::new(
-            common::frequency(one.p_rad_s),
+            common::frequency(p),
             demand(),
             Axis::linear(low, high, 6).label(Intensity::Pga.row().label),
-            groups.chain(edge_words(&one.groups)).collect(),
+            keyed.chain(edge_words(groups)).collect(),
         )
     });
     let chart = Chart { heading, panels: shown.collect(), columns };
@@ -100,17 +92,16 @@ fn demands(group: &Series, quantile: usize) -> Vec<f64> {
     }
 }
 
-/// Intensity at which a quantile is overturning.
+/// Intensity at which a quantile overturns.
 fn overturns(group: &Series, quantile: usize) -> Option<f64> {
     let demands = demands(group, quantile);
     let at = demands.iter().position(|q| q.is_infinite())?;
     group.y.get(at).copied()
 }
 
-/// Ends of the intensity axis of a panel: 1, or the lowest level shown, and a
+/// Ends of the intensity axis of a panel: 1 (0 if a curve begins lower), and a
 /// little above the last overturning level.
-fn levels(panel: &QuantilePanel) -> (f64, f64) {
-    let groups = &panel.groups;
+fn levels(groups: &[Series]) -> (f64, f64) {
     let ends = groups
         .iter()
         .map(|g| overturns(g, 0).or(g.y.last().copied()).unwrap_or(1.0));
@@ -143,17 +134,14 @@ fn edge_words(groups: &[Series]) -> Vec<Series> {
     all.into_iter().filter_map(words).collect()
 }
 
-/// How far the slendernesses are apart where the median overturns.
+/// Spread of the slendernesses' median overturning intensities, in words.
 fn spread_in_words(panels: &[QuantilePanel]) -> String {
-    let spreads: Vec<String> = panels
-        .iter()
-        .map(|panel| {
-            let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
-            let (low, high) = range(panel.groups.iter().map(first));
-            let p = panel.p_rad_s;
-            format!("{} at p = {p}", percent(high / low - 1.0, 1))
-        })
-        .collect();
+    let spreads = panels.iter().zip(FREQUENCIES_RAD_S).map(|(groups, p)| {
+        let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
+        let (low, high) = range(groups.iter().map(first));
+        format!("{} at p = {p}", percent(high / low - 1.0, 1))
+    });
+    let spreads: Vec<String> = spreads.collect();
     format!(
         "Median overturning intensities of the five shapes differ by at most \
          {}.",
@@ -161,6 +149,7 @@ fn spread_in_words(panels: &[QuantilePanel]) -> String {
     )
 }
 
+/// Figure 10.
 pub(super) fn adjusted(
     suite: &SuiteResults,
     arm: Arm,
@@ -174,38 +163,34 @@ pub(super) fn adjusted(
             group("adjusted slenderness".into(), &adjusted[frequency])?,
         ])
     })?;
-    let words = overturning_in_words(&panels);
+    let words = panels.iter().zip(FREQUENCIES_RAD_S).map(|(groups, p)| {
+        let firsts = groups.iter().map(|g| {
+            overturns(g, 1).map_or("never".into(), |im| format!("{im:.2}"))
+        });
+        let firsts = firsts.collect::<Vec<String>>().join(", ");
+        format!("at {firsts} for p = {p}")
+    });
+    let words = words.collect::<Vec<String>>().join("; ");
     let heading = paper_heading(10, Some(arm));
     let words = format!(
-        "The median demand becomes overturning {words}, by procedure."
+        "The median demand reaches overturning {words}, by procedure."
     );
     Ok(figure(heading, &panels, words))
 }
 
 fn panels(
-    groups: impl Fn(usize) -> anyhow::Result<Vec<Series>>,
+    groups: impl Fn(usize) -> anyhow::Result<QuantilePanel>,
 ) -> anyhow::Result<Vec<QuantilePanel>> {
-    FREQUENCIES_RAD_S
-        .into_iter()
-        .enumerate()
-        .map(|(frequency, p_rad_s)| {
-            let groups = groups(frequency)?;
-            Ok(QuantilePanel { p_rad_s, groups })
-        })
-        .collect()
+    (0..FREQUENCIES_RAD_S.len()).map(groups).collect()
 }
 
-/// Quantiles at the levels that the scan ran, up to the first at which the
-/// 16 % quantile has overturned; evenly thinned where there are many.
+/// Quantiles at the levels of the scan, up to the first at which the 16 %
+/// quantile has overturned; evenly thinned if there are many.
 fn group(label: String, curves: &[ResponseCurve]) -> anyhow::Result<Series> {
     // All curves of a block share their levels; the longest has them all.
-    let mut levels: Vec<f64> = Vec::new();
-    for curve in curves {
-        let own: Vec<f64> = curve.vertices().map(|(im, _)| im).collect();
-        if own.len() > levels.len() {
-            levels = own;
-        }
-    }
+    let own = curves.iter().map(|curve| curve.vertices().map(|(im, _)| im));
+    let own = own.map(Iterator::collect::<Vec<f64>>).rev();
+    let mut levels = own.max_by_key(Vec::len).unwrap_or_default();
     let overturned_at = |im: f64| {
         let gone = |c: &&ResponseCurve| {
             c.overturning_im().is_some_and(|first| first <= im)
@@ -229,8 +214,8 @@ fn group(label: String, curves: &[ResponseCurve]) -> anyhow::Result<Series> {
 /// 16, 50 and 84 % quantile of the demand at an intensity; overturned
 /// counts as infinite.
 fn three(curves: &[ResponseCurve], im: f64) -> anyhow::Result<[f64; 3]> {
-    // Between the last standing level and a refined overturning the curve
-    // says nothing; the block stands there.
+    // Between the last standing level and a refined overturning the curve has
+    // no demand; the block stands there.
     let demands: Vec<f64> = curves
         .iter()
         .map(|c| {
@@ -239,22 +224,4 @@ fn three(curves: &[ResponseCurve], im: f64) -> anyhow::Result<[f64; 3]> {
         })
         .collect();
     three_quantiles(&demands)
-}
-
-fn overturning_in_words(panels: &[QuantilePanel]) -> String {
-    let by_panel: Vec<String> = panels
-        .iter()
-        .map(|panel| {
-            let firsts: Vec<String> = panel
-                .groups
-                .iter()
-                .map(|g| {
-                    let at = overturns(g, 1);
-                    at.map_or("never".into(), |im| format!("{im:.2}"))
-                })
-                .collect();
-            format!("at {} for p = {}", firsts.join(", "), panel.p_rad_s)
-        })
-        .collect();
-    by_panel.join("; ")
 }

@@ -1,5 +1,6 @@
 //! Figures 6, 7 and 9: paired ratios by stripe.
 
+use rocking_statistics::paired::Pairs;
 use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::analyses::{StripeDemands, SuiteResults};
@@ -9,7 +10,7 @@ use crate::stripes::adjusted_slenderness;
 use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
-    STRIPES, closed_form, position,
+    closed_form,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
@@ -82,47 +83,41 @@ fn boxes(
     frequency: usize,
     slenderness: Option<usize>,
 ) -> anyhow::Result<Vec<Stripe>> {
-    stripes
-        .pairs(frequency, slenderness)?
-        .into_iter()
-        .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
-        .enumerate()
-        .map(|(stripe, (level, paired))| {
-            Ok(Stripe {
-                level,
-                usable: paired.ratios.len(),
-                records: paired.n,
-                closed_form: Some(match slenderness {
-                    Some(s) => closed_form(SLENDERNESSES_RAD[s]),
-                    None => adjusted_form(suite, stripes, frequency, stripe),
-                }),
-                summary: Some(notched(&paired.ratios)?),
-            })
-        })
-        .collect()
+    let mut boxes = Vec::new();
+    for (level, own, scaled) in stripes.compared(frequency, slenderness) {
+        let ratios = Pairs::try_new(own, scaled)?.ratios;
+        if ratios.len() < LEAST_USABLE {
+            break;
+        }
+        let sample = ExtendedSample::try_new(&ratios)?;
+        boxes.push(Stripe {
+            level,
+            usable: ratios.len(),
+            records: own.len(),
+            closed_form: Some(match slenderness {
+                Some(s) => closed_form(SLENDERNESSES_RAD[s]),
+                None => adjusted_form(suite, level, own, scaled),
+            }),
+            summary: Some(Boxplot::try_new(&sample, QuantileType::default())?),
+        });
+    }
+    Ok(boxes)
 }
 
-/// Median of the closed form over the records of a usable ratio of Figure 9:
-/// each has the slenderness at which it has the stripe's intensity.
+/// Median of the closed form over the records with a usable ratio on a stripe of
+/// Figure 9, each at its adjusted slenderness.
 fn adjusted_form(
     suite: &SuiteResults,
-    stripes: &StripeDemands,
-    frequency: usize,
-    stripe: usize,
+    level: f64,
+    adjusted: &[f64],
+    scaled: &[f64],
 ) -> f64 {
-    let scaled = &stripes.demands[position(frequency, REFERENCE)][stripe];
-    let adjusted = &stripes.adjusted[frequency][stripe];
     let stands = adjusted.iter().zip(scaled).zip(&suite.records);
     let expected: Vec<f64> = stands
         .filter(|((a, b), _)| a.is_finite() && b.is_finite())
-        .map(|(_, r)| closed_form(adjusted_slenderness(r, STRIPES[stripe])))
+        .map(|(_, r)| closed_form(adjusted_slenderness(r, level)))
         .collect();
     median(&expected).value()
-}
-
-fn notched(ratios: &[f64]) -> anyhow::Result<Boxplot> {
-    let sample = ExtendedSample::try_new(ratios)?;
-    Ok(Boxplot::try_new(&sample, QuantileType::default())?)
 }
 
 fn medians_in_words(panels: &[BoxPanel]) -> String {

@@ -1,6 +1,6 @@
 //! Figures 1 to 5: the block, and single records.
 
-use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
+use crate::analyses::{HISTORY_INTERVAL_S, SingleRecords, SuiteResults};
 use crate::words::paper_heading;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
@@ -41,8 +41,8 @@ pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
                     curves: histories
                         .iter()
                         .zip(SLENDERNESSES_RAD)
-                        .map(|((ratio, overturned), alpha_rad)| {
-                            history(alpha_rad, ratio, *overturned)
+                        .map(|((ratio, peak), alpha_rad)| {
+                            history(alpha_rad, ratio, peak.is_infinite())
                         })
                         .collect(),
                 },
@@ -50,10 +50,18 @@ pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
         })
         .collect();
     let heading = paper_heading(number, Some(arm));
-    histories(heading, &panels, 3, apart_in_words(suite))
+    let distances = by_frequency(suite, |single| {
+        format!("{:.3}", single.median_of(|a| a.distance))
+    });
+    let words = format!(
+        "Over all {} records the median normalized distance of a history to \
+         the history of alpha = 0.10 is {distances}.",
+        suite.records.len(),
+    );
+    histories(heading, &panels, 3, words)
 }
 
-/// The history to rest.
+/// The history up to rest.
 fn history(alpha_rad: f64, ratio: &[f64], overturned: bool) -> History {
     let end = ratio.iter().rposition(|y| *y != 0.0).map_or(2, |i| i + 2);
     let ratio = ratio[..end.min(ratio.len())].to_vec();
@@ -62,22 +70,14 @@ fn history(alpha_rad: f64, ratio: &[f64], overturned: bool) -> History {
     History { alpha_rad, time_s, ratio, overturned }
 }
 
-fn apart_in_words(suite: &SuiteResults) -> String {
-    let by_frequency: Vec<String> = suite
-        .single
-        .iter()
-        .zip(FREQUENCIES_RAD_S)
-        .map(|(single, p)| {
-            let distance = single.median_of(|a| a.distance);
-            format!("{distance:.3} at p = {p}")
-        })
-        .collect();
-    format!(
-        "Over all {} records the median normalized distance of a history to \
-         that of alpha = 0.10 is {}.",
-        suite.records.len(),
-        by_frequency.join(", ")
-    )
+/// A number of each frequency parameter in words.
+fn by_frequency(
+    suite: &SuiteResults,
+    number: impl Fn(&SingleRecords) -> String,
+) -> String {
+    let all = suite.single.iter().zip(FREQUENCIES_RAD_S);
+    let all = all.map(|(own, p)| format!("{} at p = {p}", number(own)));
+    all.collect::<Vec<String>>().join(", ")
 }
 
 /// Side of a panel of IDA curves, in px.
@@ -87,7 +87,7 @@ const HEIGHT_PX: f64 = 160.0;
 const KEYS: [&str; 4] = ["p_rad_s", "record", "im", "alpha_rad"];
 const NUMBERS: [Column; 2] = [("intensity", Of::Y), ("edp", Of::X)];
 
-/// The axis of the demand, past 1 so that overturning stays inside.
+/// The axis of the demand, past 1 so that overturning lies inside.
 pub(super) fn demand() -> Axis {
     Axis::linear(0.0, 1.08, 5).label(common::DEMAND)
 }
@@ -131,15 +131,9 @@ pub(super) fn curves(
             ));
         }
     }
-    let differences: Vec<String> = suite
-        .single
-        .iter()
-        .zip(FREQUENCIES_RAD_S)
-        .map(|(single, p)| {
-            let apart = single.median_of(|a| a.mean_ln_im);
-            format!("{:.2} % at p = {p}", 100.0 * apart)
-        })
-        .collect();
+    let differences = by_frequency(suite, |single| {
+        format!("{:.2} %", 100.0 * single.median_of(|a| a.mean_ln_im))
+    });
     let heading = paper_heading(number, Some(arm));
     let grid = Grid::new(panels.len(), 3).plot(WIDTH_PX, HEIGHT_PX);
     let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
@@ -148,9 +142,9 @@ pub(super) fn curves(
         &layout,
         format!(
             "Over all {} records the intensity that reaches a given demand \
-             differs from that of alpha = 0.10 by a median of {}.",
+             differs from the intensity for alpha = 0.10 by a median of \
+             {differences}.",
             suite.records.len(),
-            differences.join(", ")
         ),
     ))
 }

@@ -4,7 +4,7 @@ use rocking_statistics::QuantileType;
 use rocking_statistics::lilliefors::LillieforsTest;
 use rocking_statistics::normal;
 
-use crate::normality::{accepted_share, over_critical};
+use crate::normality::over_critical;
 use crate::results::StudyResults;
 use crate::ties::critical_on_grid;
 use crate::words::paper_heading;
@@ -26,6 +26,7 @@ const GRID: Ink = Ink::Series(1);
 const LIMIT: Pen = Pen::new(Ink::Text, 0.8).dash(Dash::Dashed);
 
 /// A histogram with the normal fitted to the same sample.
+#[derive(Default)]
 struct Histogram {
     /// Bin edges, rising; one more than the counts.
     edges: Vec<f64>,
@@ -40,10 +41,10 @@ struct Histogram {
 impl Histogram {
     /// Bins of the width 2 IQR/n^(1/3) (Freedman and Diaconis, Zeitschrift
     /// fuer Wahrscheinlichkeitstheorie 57, 1981, 453-476), starting at the
-    /// smallest datum; at most 100. Data that are not finite are left out.
+    /// smallest datum; at most 100 bins. Data that are not finite are left out.
     ///
     /// `quartiles` are the sample's lower and upper quartile, `mean` and
-    /// `deviation` those of the normal to be drawn. A sample without spread
+    /// `deviation` the parameters of the fitted normal. A sample without spread
     /// gets one bin.
     fn freedman_diaconis(
         sample: &[f64],
@@ -55,8 +56,7 @@ impl Histogram {
             sample.iter().copied().filter(|x| x.is_finite()).collect();
         data.sort_by(f64::total_cmp);
         let (Some(&low), Some(&high)) = (data.first(), data.last()) else {
-            let (edges, counts) = (Vec::new(), Vec::new());
-            return Self { edges, counts, mean, deviation };
+            return Self { mean, deviation, ..Self::default() };
         };
         let n = data.len() as f64;
         let width = 2.0 * (quartiles.1 - quartiles.0) / libm::cbrt(n);
@@ -83,8 +83,7 @@ impl Histogram {
 
     /// The logarithms that were tested.
     fn of(test: &LillieforsTest) -> Self {
-        let none = || Self::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
-        let Some(logs) = &test.tested else { return none() };
+        let Some(logs) = &test.tested else { return Self::default() };
         let deviation =
             (logs.sum_of_squares() / (logs.len() as f64 - 1.0)).sqrt();
         let quartile =
@@ -98,7 +97,7 @@ impl Histogram {
         self.counts.iter().sum()
     }
 
-    /// Records a bin that the fitted normal gives.
+    /// Records per bin by the fitted normal.
     fn density(&self, x: f64) -> f64 {
         let bin = match self.edges.as_slice() {
             [first, second, ..] => second - first,
@@ -108,7 +107,7 @@ impl Histogram {
         normal::pdf(z) / self.deviation * (self.records() as f64 * bin)
     }
 
-    /// Highest count of the histogram and its normal.
+    /// Highest count of the histogram and of its normal.
     fn top(&self) -> f64 {
         let most = self.counts.iter().max().copied().unwrap_or(0) as f64;
         let peak = self.density(self.mean);
@@ -126,8 +125,8 @@ struct SampleTests {
     marker: Marker,
     /// Lilliefors' D over its 5 % critical value at each demand.
     ratios: Vec<f64>,
-    /// The 5 % critical value of overturnings on the grid of 0.01 g, over the
-    /// table's.
+    /// The 5 % critical value for overturnings on the grid of 0.01 g, over the
+    /// table's value.
     on_grid: Option<f64>,
     histogram: Histogram,
 }
@@ -222,7 +221,7 @@ impl SampleTests {
     }
 }
 
-/// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA; a row a block.
+/// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA; a row for each block.
 pub(super) fn along(
     results: &StudyResults,
     arm: Arm,
@@ -234,15 +233,15 @@ pub(super) fn along(
             results.ordinary.block(arm, Intensity::Pga, (1, slenderness))?;
         words.push(format!(
             "{} and {} at alpha = {:.2}",
-            percent(accepted_share(&block.original), 1),
-            percent(accepted_share(&block.shifted), 1),
+            percent(block.shares()[0], 1),
+            percent(block.shares()[1], 1),
             block.alpha_rad
         ));
         let on_grid =
             (arm == Arm::A).then(|| critical_on_grid(block)).flatten();
         let halves = [
-            SampleTests::original(&block.original),
-            SampleTests::shifted(&block.shifted, on_grid),
+            SampleTests::original(&block.tests[0]),
+            SampleTests::shifted(&block.tests[1], on_grid),
         ];
         blocks.push(((block.alpha_rad, block.p_rad_s), halves));
     }

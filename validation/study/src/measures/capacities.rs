@@ -11,8 +11,8 @@ use super::stripes::{STOCKIEST, conforming, notch_holds_1};
 use crate::distributions::{average_factors, factors, scaled};
 use crate::estimates::mean;
 use crate::inference::least_counted;
-use crate::runs::{capacities, capacities_at, curves_of};
-use crate::sensitivities::{OtherChoice, Variant};
+use crate::runs::{DEMANDS, capacities, curves_of};
+use crate::sensitivities::OtherChoice;
 use rocking_common::findings::SampleCount;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, demand_index,
@@ -22,22 +22,18 @@ use rocking_draw::figures::common::span;
 use rocking_statistics::resampling::RecordRanks;
 use rocking_statistics::{Estimate, Range};
 
-/// Demands at which intensities are compared.
-pub const DEMANDS: [f64; 10] =
-    [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
-
 /// The quantiles of Figures 8 and 10.
 const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
 
-/// Two samples whose quantiles are compared.
+/// A sample and the reference sample with which its quantiles are compared.
 type SamplePair = [RecordRanks; 2];
 
 fn pair(own: &[f64], reference: &[f64]) -> SamplePair {
     [own, reference].map(RecordRanks::new)
 }
 
-/// Whether each quantile of one sample lies within 10 % of that of the
-/// other; where both are overturned there is nothing to compare.
+/// Whether each quantile of a sample lies within 10 % of the reference's; a
+/// quantile that is overturned in both is left out.
 fn quantiles_coincide(
     [own, reference]: &SamplePair,
     counts: &[u32],
@@ -47,8 +43,8 @@ fn quantiles_coincide(
     ratios.map(|ratio| (ratio - 1.0).abs() <= COINCIDE)
 }
 
-/// The share of the quantiles of one sample within 10 % of those of the
-/// other, over the pairs that count.
+/// Share of the quantiles within 10 % of the reference's, over the pairs that
+/// count.
 fn coinciding(scope: &Scope<'_>, mut pairs: Vec<SamplePair>) -> Measured {
     let least = least_counted(scope.records());
     pairs.retain(|pair| pair.iter().all(|own| own.records() >= least));
@@ -60,18 +56,8 @@ fn coinciding(scope: &Scope<'_>, mut pairs: Vec<SamplePair>) -> Measured {
     Measured::new([all(scope.every())], share, "all quantiles that count")
 }
 
-/// Capacities at a demand under a choice; NaN for a record without a curve.
-fn varied_at(varied: &Variant, demand: f64) -> anyhow::Result<Vec<f64>> {
-    capacities_at(varied.curves.iter().map(Option::as_ref), demand)
-}
-
-/// Capacities at a demand of every record's curve.
-fn all_at(curves: &[ResponseCurve], demand: f64) -> anyhow::Result<Vec<f64>> {
-    capacities_at(curves.iter().map(Some), demand)
-}
-
-/// First overturning of a curve; infinite where it never overturns, NaN where
-/// there is no curve.
+/// First overturning of a curve; infinite if it never overturns, NaN without a
+/// curve.
 fn first(curve: Option<&ResponseCurve>) -> f64 {
     let first = |c: &ResponseCurve| c.overturning_im();
     curve.map_or(f64::NAN, |c| first(c).unwrap_or(f64::INFINITY))
@@ -79,11 +65,13 @@ fn first(curve: Option<&ResponseCurve>) -> f64 {
 
 /// First overturning by the other criterion over the study's.
 pub(super) fn criterion(scope: &Scope<'_>) -> MeasureResult {
-    let varied = scope.results.varied(&[OtherChoice::OtherCriterion])?;
-    let both = varied.iter().map(|(varied, base)| {
+    let results = scope.results;
+    let curves = results.ordinary.curves(results.plan.common())?;
+    let varied = results.varied(&[OtherChoice::OtherCriterion])?;
+    let both = varied.iter().map(|(varied, _)| {
+        let base = &curves[position(varied.frequency, varied.slenderness)];
         let own = varied.curves.iter().map(|c| first(c.as_ref()));
-        let reference = base.iter().map(|c| first(Some(c)));
-        [own.collect(), reference.collect()]
+        [own.collect(), base.iter().map(|c| first(Some(c))).collect()]
     });
     let both: Vec<[Vec<f64>; 2]> = both.collect();
     let coincides = |[a, b]: &[Vec<f64>; 2]| {
@@ -102,33 +90,33 @@ fn restitution(
 ) -> anyhow::Result<Estimate> {
     let mut cells = Vec::new();
     for (varied, base) in scope.results.varied(&[choice])? {
-        let (own, base) = (varied_at(varied, 1.0)?, all_at(base, 1.0)?);
-        cells.push(ratios(&own, &base, 1.0));
+        cells.push(ratios(&varied.overturning()?, base.overturning(), 1.0));
     }
     Ok(scope.estimate(Range::NotNegative, &mean_ratio(scope, cells)))
 }
 
-/// Effect of restitution on overturning beside the effect of size: the mean
-/// |ln| of the paired ratio between eta = 0.85 and 0.97 over the mean between
-/// p = 1 and 4, by slenderness.
+/// Effect of restitution on overturning over the effect of size: the mean |ln|
+/// of the paired ratio between eta = 0.85 and 0.97 over its mean between p = 1
+/// and 4, by slenderness.
 pub(super) fn restitution_beside_size(scope: &Scope<'_>) -> MeasureResult {
     let results = scope.results;
-    let curves = results.ordinary.curves(results.plan.common())?;
-    let low = results.varied(&[OtherChoice::Eta085])?;
-    let high = results.varied(&[OtherChoice::Eta097])?;
+    let [low, high] = [OtherChoice::Eta085, OtherChoice::Eta097];
+    let both =
+        results.varied(&[low])?.into_iter().zip(results.varied(&[high])?);
     let logs = |a: &[f64], b: &[f64]| -> Vec<f64> {
         ratios(a, b, 1.0).into_iter().map(libm::log).collect()
     };
     let mut pairs = Vec::new();
-    let both = low.iter().zip(&high);
     // With --full there are three p, which share this comparison.
     for ((low, _), (high, _)) in both.filter(|(low, _)| low.0.frequency == 1) {
-        let own = logs(&varied_at(low, 1.0)?, &varied_at(high, 1.0)?);
+        let own = logs(&low.overturning()?, &high.overturning()?);
         let by_size = |frequency| {
-            all_at(&curves[position(frequency, low.slenderness)], 1.0)
+            let (arm, place) =
+                (results.plan.common(), (frequency, low.slenderness));
+            results.ordinary.block(arm, Intensity::Pga, place)
         };
-        let size = logs(&by_size(0)?, &by_size(2)?);
-        pairs.push((own, size));
+        let (large, small) = (by_size(0)?, by_size(2)?);
+        pairs.push((own, logs(large.overturning(), small.overturning())));
     }
     let each = |counts: &[u32]| -> Vec<f64> {
         let ratio = |(own, size): &(Vec<f64>, Vec<f64>)| {
@@ -138,14 +126,13 @@ pub(super) fn restitution_beside_size(scope: &Scope<'_>) -> MeasureResult {
     };
     let counts = [SampleCount::among(each(scope.every()), |x| x < 1.0)];
     let effect = scope.one(|counts| geometric_mean(each(counts)));
-    let [low, high] = [OtherChoice::Eta085, OtherChoice::Eta097];
-    let [low, high] = [restitution(scope, low)?, restitution(scope, high)?];
+    let (low, high) = (restitution(scope, low)?, restitution(scope, high)?);
     Ok(Measured::new(counts, effect, "alpha = 0.10 and 0.20")
         .and("overturning intensity, eta = 0.85 over 0.92", low)
         .and("overturning intensity, eta = 0.97 over 0.92", high))
 }
 
-/// Samples of a block and of the reference block at a demand.
+/// Capacities in PGA of a block and of the reference block at a demand.
 fn samples<'a>(
     scope: &Scope<'a>,
     frequency: usize,
@@ -194,17 +181,19 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
             "spread of the median overturning intensity over slendernesses, \
              p = {p}"
         );
-        found = found.and(&name, spread(scope, frequency)?);
+        let own = (0..SLENDERNESSES_RAD.len()).map(|s| (frequency, s));
+        found = found.and(&name, spread(scope, own, None)?);
     }
     Ok(found)
 }
 
 /// Figure 8 in AvgSA: intensity given demand.
 pub(super) fn average_sa_quantiles(scope: &Scope<'_>) -> MeasureResult {
-    let records = &scope.suite().records;
+    let factors =
+        |frequency| average_factors(&scope.suite().records, frequency);
     let mut pairs = Vec::new();
     for (frequency, slenderness) in compared_blocks() {
-        let factors = average_factors(records, frequency);
+        let factors = factors(frequency);
         for demand in DEMANDS {
             let own = samples(scope, frequency, slenderness, demand)?;
             let own = own.map(|sample| scaled(sample, &factors));
@@ -212,34 +201,35 @@ pub(super) fn average_sa_quantiles(scope: &Scope<'_>) -> MeasureResult {
         }
     }
     let mut found = coinciding(scope, pairs);
-    for is_average in [false, true] {
-        let mut medians = Vec::new();
-        for (frequency, slenderness) in blocks() {
-            let [own, _] = samples(scope, frequency, slenderness, 1.0)?;
-            let average = average_factors(records, frequency);
-            let factors =
-                if is_average { average } else { vec![1.0; own.len()] };
-            let ranks = RecordRanks::new(&scaled(own, &factors));
-            medians.push(ranks.median(scope.every()));
-        }
-        let ends = span(medians, true);
-        let spread = ends.map_or(f64::NAN, |(low, high)| high / low - 1.0);
-        let im = if is_average { "AvgSA" } else { "PGA" };
+    let average: Vec<Vec<f64>> =
+        (0..FREQUENCIES_RAD_S.len()).map(factors).collect();
+    for (factors, im) in [(None, "PGA"), (Some(&average[..]), "AvgSA")] {
         let name = format!(
             "spread of the median overturning intensity over all blocks, {im}"
         );
-        found = found.and(&name, Estimate::exact(spread));
+        found = found.and(&name, spread(scope, blocks(), factors)?);
     }
     Ok(found)
 }
 
-/// Largest over smallest median overturning intensity of the slendernesses,
-/// minus 1. It has no interval: resamples only spread such a number more.
-fn spread(scope: &Scope<'_>, frequency: usize) -> anyhow::Result<Estimate> {
+/// Largest over smallest median overturning intensity of some blocks, minus 1;
+/// in PGA, or in a measure of these factors by frequency parameter. It has no
+/// interval: resamples only spread such a number more.
+fn spread(
+    scope: &Scope<'_>,
+    blocks: impl Iterator<Item = (usize, usize)>,
+    factors: Option<&[Vec<f64>]>,
+) -> anyhow::Result<Estimate> {
     let mut medians = Vec::new();
-    for slenderness in 0..SLENDERNESSES_RAD.len() {
+    for (frequency, slenderness) in blocks {
         let [own, _] = samples(scope, frequency, slenderness, 1.0)?;
-        medians.push(RecordRanks::new(own).median(scope.every()));
+        let ranks = match factors {
+            Some(factors) => {
+                RecordRanks::new(&scaled(own, &factors[frequency]))
+            }
+            None => RecordRanks::new(own),
+        };
+        medians.push(ranks.median(scope.every()));
     }
     let is_reached = medians.iter().all(|x| x.is_finite());
     let ends = span(medians, true).filter(|_| is_reached);
@@ -253,8 +243,11 @@ pub(super) fn adjusted_quantiles(scope: &Scope<'_>) -> MeasureResult {
     let curves = curves_of(&scope.suite().adjusted, scope.arm)?;
     let mut pairs = Vec::new();
     for (frequency, curves) in curves.iter().enumerate() {
-        for demand in DEMANDS {
-            let own = all_at(curves, demand)?;
+        let own = curves.iter();
+        let own = own.map(|c| capacities(c, &DEMANDS, InversionRule::Median));
+        let own: Vec<Vec<f64>> = own.collect::<Result<_, _>>()?;
+        for (k, demand) in DEMANDS.into_iter().enumerate() {
+            let own: Vec<f64> = own.iter().map(|of| of[k]).collect();
             let [reference, _] = samples(scope, frequency, REFERENCE, demand)?;
             pairs.push(pair(&own, reference));
         }
@@ -297,14 +290,15 @@ pub(super) fn inversion(scope: &Scope<'_>) -> MeasureResult {
 }
 
 /// Capacities with Housner's restitution over the study's, stocky over
-/// slender, so that the slenderness's own ratio is divided out.
+/// slender: the slenderness's own ratio is divided out.
 pub(super) fn housner(scope: &Scope<'_>) -> MeasureResult {
     let mut by_slenderness = [const { Vec::new() }; SLENDERNESSES_RAD.len()];
     let found = scope.results.varied(&[OtherChoice::Housner])?.into_iter();
     for (varied, base) in found.filter(|(v, _)| v.frequency == 1) {
-        let (own, base) = (varied_at(varied, 1.0)?, all_at(base, 1.0)?);
-        let each = own.iter().zip(&base).map(|(own, base)| own / base);
-        by_slenderness[varied.slenderness] = each.collect::<Vec<f64>>();
+        let own = varied.overturning()?;
+        let each = own.iter().zip(base.overturning());
+        by_slenderness[varied.slenderness] =
+            each.map(|(own, base)| own / base).collect::<Vec<f64>>();
     }
     let [slender, .., stocky] = by_slenderness;
     let ratio = ranks(&stocky, &slender, 1.0);

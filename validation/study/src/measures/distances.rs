@@ -1,22 +1,20 @@
 //! Section 5, Figures 12 to 14: measures of the distance from a lognormal.
 //!
 //! The paper counts the levels that the test accepts. The effect is the mean
-//! over demand levels and blocks of Lilliefors' D less its mean for a lognormal
-//! of as many records: how far in probability capacities are from a lognormal.
+//! over demand levels and blocks of Lilliefors' D minus its mean for a lognormal
+//! of equal size: the distance of the capacities from a lognormal in probability.
 
 use super::scope::{MeasureResult, Measured, Scope};
 use crate::distances::{
-    OF_EARLIEST, SLENDER, SuiteDistances, TestSeries, accepted, excesses,
-    place,
+    OF_EARLIEST, SLENDER, SuiteDistances, TestSeries, TestedMeasure,
 };
 use crate::estimates::mean;
 use crate::runs::not_run;
 use rocking_common::findings::SampleCount;
-use rocking_common::paper::{Intensity, SLENDERNESSES_RAD, position};
+use rocking_common::paper::{Intensity, SLENDERNESSES_RAD, demands, position};
 use rocking_statistics::Estimate;
 
-/// The block that the paper compares its badly performing one with: p = 3,
-/// alpha = 0.20.
+/// The block that the paper compares with `SLENDER`: p = 3, alpha = 0.20.
 const LESS_SLENDER: (usize, usize) = (1, 3);
 
 /// Mean over the blocks.
@@ -24,7 +22,7 @@ fn over_blocks(values: &[f64]) -> f64 {
     mean(values.iter().copied())
 }
 
-/// Mean over the blocks that have both of the first less the second.
+/// Mean of the first minus the second over the blocks that have both.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     mean(a.iter().zip(b).map(|(a, b)| a - b))
 }
@@ -35,7 +33,7 @@ fn above(shares: &[f64], limit: f64) -> SampleCount {
     SampleCount::among(tested, |x| *x > limit)
 }
 
-/// The distances of the scope's suite and arm.
+/// The distances of the scope's suite and grid.
 fn of_source<'a>(scope: &Scope<'a>) -> anyhow::Result<&'a SuiteDistances> {
     let (kind, arm) = (scope.kind(), scope.arm);
     let is = |d: &&SuiteDistances| d.suite == kind && d.arm == arm;
@@ -50,39 +48,45 @@ fn found(
     effect: impl Fn(&[f64]) -> f64,
 ) -> MeasureResult {
     let source = of_source(scope)?;
-    let untested = source.levels.iter().filter(|(a, b)| a < b).count();
+    let all = demands().len();
+    let untested = source.levels.iter().filter(|n| **n < all).count();
     let mut at = String::from("all 15 blocks");
     if untested > 0 {
-        let least = source.levels.iter().map(|(a, _)| *a).min().unwrap_or(0);
+        let least = source.levels.iter().min().unwrap_or(&0);
         at += &format!(
             "; {untested} of them have levels that some record never \
-             reaches, and {least} or more of 200 levels are tested"
+             reaches, and {least} or more of {all} levels are tested"
         );
     }
     let effect = source.replicated.one(effect);
     Ok(Measured::new(counts(&source.replicated.points), effect, at))
 }
 
+/// Mean excess of the blocks.
+fn mean_excess(tests: TestSeries) -> impl Fn(&[f64]) -> f64 {
+    move |row| over_blocks(tests.excesses(row))
+}
+
 /// Mean accepted share of the blocks.
 fn mean_share(row: &[f64], tests: TestSeries) -> f64 {
-    over_blocks(accepted(row, tests))
+    over_blocks(tests.accepted(row))
 }
 
-/// Mean excess of the blocks by one set of tests less the mean by another.
+/// Mean excess of the blocks by one series of tests minus the mean by another.
 fn reduction(from: TestSeries, to: TestSeries) -> impl Fn(&[f64]) -> f64 {
-    move |row| apart(excesses(row, from), excesses(row, to))
+    move |row| apart(from.excesses(row), to.excesses(row))
 }
 
-/// Mean accepted share by one set of tests less the mean by another.
+/// Mean accepted share by one series of tests minus the mean by another.
 fn gain_in_share(
     row: &[f64],
     of: TestSeries,
     over: TestSeries,
 ) -> SampleCount {
-    SampleCount::number(apart(accepted(row, of), accepted(row, over)))
+    SampleCount::number(apart(of.accepted(row), over.accepted(row)))
 }
 
-/// The same with the mean accepted shares of some tests as details.
+/// Adds the mean accepted shares of two series of tests as details.
 fn beside(
     scope: &Scope<'_>,
     mut found: Measured,
@@ -98,35 +102,36 @@ fn beside(
 
 /// Accepted share of the block `SLENDER`.
 fn slender_share(row: &[f64], tests: TestSeries) -> f64 {
-    accepted(row, tests)[position(SLENDER.0, SLENDER.1)]
+    tests.accepted(row)[position(SLENDER.0, SLENDER.1)]
 }
 
-fn tests_of(intensity: Intensity) -> anyhow::Result<(TestSeries, TestSeries)> {
-    match intensity {
-        Intensity::Pga => {
-            Ok((TestSeries::OriginalPga, TestSeries::ShiftedPga))
-        }
-        Intensity::Pgv => {
-            Ok((TestSeries::OriginalPgv, TestSeries::ShiftedPgv))
-        }
-        other => anyhow::bail!("{other}: expected pga or pgv"),
+/// The intensity measure of the claim.
+pub(super) fn tested(scope: &Scope<'_>) -> TestedMeasure {
+    match scope.intensity {
+        Intensity::Pgv => TestedMeasure::Pgv,
+        _ => TestedMeasure::Pga,
     }
 }
 
 /// Distance of original samples from a lognormal.
-pub(super) fn original(scope: &Scope<'_>) -> MeasureResult {
-    let (tests, _) = tests_of(scope.intensity)?;
-    let pga = scope.intensity == Intensity::Pga;
-    let counts = |row: &[f64]| match pga {
-        true => vec![SampleCount::number(mean_share(row, tests))],
-        false => vec![above(accepted(row, tests), 0.7)],
+pub(super) fn original(
+    scope: &Scope<'_>,
+    measure: TestedMeasure,
+) -> MeasureResult {
+    let tests = measure.original();
+    let counts = |row: &[f64]| match measure {
+        TestedMeasure::Pga => {
+            vec![SampleCount::number(mean_share(row, tests))]
+        }
+        _ => vec![above(tests.accepted(row), 0.7)],
     };
-    found(scope, counts, |row| over_blocks(excesses(row, tests)))
+    found(scope, counts, mean_excess(tests))
 }
 
 /// Distance of shifted samples from a lognormal.
 pub(super) fn shifted(scope: &Scope<'_>) -> MeasureResult {
-    let (original, tests) = tests_of(scope.intensity)?;
+    let (original, tests) =
+        (tested(scope).original(), tested(scope).shifted());
     let counts = |row: &[f64]| {
         let share = mean_share(row, tests);
         vec![
@@ -135,17 +140,23 @@ pub(super) fn shifted(scope: &Scope<'_>) -> MeasureResult {
             SampleCount::number(1.0 - share),
         ]
     };
-    found(scope, counts, |row| over_blocks(excesses(row, tests)))
+    found(scope, counts, mean_excess(tests))
 }
 
 /// Reduction of the distance by shifting.
-pub(super) fn gain(scope: &Scope<'_>) -> MeasureResult {
-    let (original, shifted) = tests_of(scope.intensity)?;
-    let pgv = scope.intensity == Intensity::Pgv;
+pub(super) fn gain(
+    scope: &Scope<'_>,
+    measure: TestedMeasure,
+) -> MeasureResult {
+    let (original, shifted) = (measure.original(), measure.shifted());
     let counts = |row: &[f64]| {
         let gain = gain_in_share(row, shifted, original);
-        let blocks = above(accepted(row, shifted), 0.9);
-        pgv.then_some(blocks).into_iter().chain([gain]).collect()
+        match measure {
+            TestedMeasure::Pgv => {
+                vec![above(shifted.accepted(row), 0.9), gain]
+            }
+            _ => vec![gain],
+        }
     };
     let found = found(scope, counts, reduction(original, shifted))?;
     beside(scope, found, [("original", original), ("shifted", shifted)])
@@ -153,7 +164,8 @@ pub(super) fn gain(scope: &Scope<'_>) -> MeasureResult {
 
 /// Reduction of the distance of original samples by PGV instead of PGA.
 pub(super) fn pgv_gain(scope: &Scope<'_>) -> MeasureResult {
-    let (pga, pgv) = (TestSeries::OriginalPga, TestSeries::OriginalPgv);
+    let [pga, pgv] =
+        [TestedMeasure::Pga, TestedMeasure::Pgv].map(TestedMeasure::original);
     let counts = |row: &[f64]| vec![gain_in_share(row, pgv, pga)];
     let found = found(scope, counts, reduction(pga, pgv))?;
     beside(scope, found, [("PGA", pga), ("PGV", pgv)])
@@ -161,28 +173,12 @@ pub(super) fn pgv_gain(scope: &Scope<'_>) -> MeasureResult {
 
 /// Change of the distance by the geometric mean's intensity.
 pub(super) fn geometric_mean(scope: &Scope<'_>) -> MeasureResult {
-    let own = TestSeries::ShiftedPga;
-    let (original, mean) =
-        (TestSeries::OriginalGeometricMean, TestSeries::ShiftedGeometricMean);
+    let own = TestedMeasure::Pga.shifted();
+    let mean = TestedMeasure::GeometricMean;
+    let (original, mean) = (mean.original(), mean.shifted());
     let counts = |row: &[f64]| vec![gain_in_share(row, mean, original)];
     let found = found(scope, counts, reduction(mean, own))?;
     beside(scope, found, [("component", own), ("geometric mean", mean)])
-}
-
-/// Distance of original samples in AvgSA from a lognormal.
-pub(super) fn average_sa(scope: &Scope<'_>) -> MeasureResult {
-    let tests = TestSeries::OriginalAverageSa;
-    let counts = |row: &[f64]| vec![above(accepted(row, tests), 0.7)];
-    found(scope, counts, |row| over_blocks(excesses(row, tests)))
-}
-
-/// Reduction of the distance by shifting, in AvgSA.
-pub(super) fn average_sa_gain(scope: &Scope<'_>) -> MeasureResult {
-    let (original, shifted) =
-        (TestSeries::OriginalAverageSa, TestSeries::ShiftedAverageSa);
-    let counts = |row: &[f64]| vec![gain_in_share(row, shifted, original)];
-    let found = found(scope, counts, reduction(original, shifted))?;
-    beside(scope, found, [("original", original), ("shifted", shifted)])
 }
 
 /// Distance of original samples for p = 3 and 4 minus the distance for p = 1.
@@ -191,31 +187,31 @@ pub(super) fn small_minus_large(scope: &Scope<'_>) -> MeasureResult {
         let (large, small) = values.split_at(SLENDERNESSES_RAD.len());
         over_blocks(small) - over_blocks(large)
     };
-    let tests = TestSeries::OriginalPga;
+    let tests = TestedMeasure::Pga.original();
     let counts =
-        |row: &[f64]| vec![SampleCount::number(-apart(accepted(row, tests)))];
-    found(scope, counts, |row| apart(excesses(row, tests)))
+        |row: &[f64]| vec![SampleCount::number(-apart(tests.accepted(row)))];
+    found(scope, counts, |row| apart(tests.excesses(row)))
 }
 
 /// Distance for alpha = 0.05, p = 3, shifted sample in PGA.
 pub(super) fn slender(scope: &Scope<'_>) -> MeasureResult {
-    let tests = [TestSeries::OriginalPga, TestSeries::ShiftedPga];
+    let pga = TestedMeasure::Pga;
     let counts = |row: &[f64]| {
         let number = |tests| SampleCount::number(slender_share(row, tests));
-        tests.map(number).into()
+        [pga.original(), pga.shifted()].map(number).into()
     };
-    let at = place(TestSeries::ShiftedPga, SLENDER);
+    let at = pga.shifted().place(SLENDER);
     found(scope, counts, |row| row[at])
 }
 
-/// An effect whose sentence rests on the rejection of the shifted sample of
-/// the block `SLENDER`: without it, the sentence is not testable.
+/// An effect whose statement rests on the rejection of the shifted sample of
+/// the block `SLENDER`: without the rejection the statement is not testable.
 fn if_rejected(
     scope: &Scope<'_>,
     number: impl Fn(&[f64]) -> f64,
     effect: impl Fn(&[f64]) -> f64,
 ) -> MeasureResult {
-    let share = |row: &[f64]| slender_share(row, TestSeries::ShiftedPga);
+    let share = |row: &[f64]| slender_share(row, TestedMeasure::Pga.shifted());
     let counts = |row: &[f64]| {
         let rejected = share(row) < 0.1;
         let found = if rejected { number(row) } else { f64::NAN };
@@ -230,14 +226,13 @@ fn if_rejected(
 /// Distance for alpha = 0.05 minus the distance for 0.20, p = 3, shifted
 /// samples in PGA.
 pub(super) fn less_slender(scope: &Scope<'_>) -> MeasureResult {
-    let of = |block| place(TestSeries::ShiftedPga, block);
+    let tests = TestedMeasure::Pga.shifted();
     let gain = |row: &[f64]| {
-        let shares = accepted(row, TestSeries::ShiftedPga);
-        shares[position(LESS_SLENDER.0, LESS_SLENDER.1)]
-            - shares[position(SLENDER.0, SLENDER.1)]
+        let other = position(LESS_SLENDER.0, LESS_SLENDER.1);
+        tests.accepted(row)[other] - slender_share(row, tests)
     };
-    let apart = |row: &[f64]| row[of(SLENDER)] - row[of(LESS_SLENDER)];
-    if_rejected(scope, gain, apart)
+    let places = [SLENDER, LESS_SLENDER].map(|block| tests.place(block));
+    if_rejected(scope, gain, |row| row[places[0]] - row[places[1]])
 }
 
 /// Reduction of the distance without the three earliest overturnings.

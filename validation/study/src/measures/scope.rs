@@ -20,34 +20,33 @@ pub struct Scope<'a> {
     pub results: &'a StudyResults,
     /// The draws that all claims share.
     pub draws: &'a Resamples,
-    /// Distances from a lognormal of all draws, by suite and arm.
+    /// Distances from a lognormal of all draws, by suite and grid.
     pub distances: &'a [SuiteDistances],
     /// The suite, or both.
     pub tested: SuiteSet,
-    /// The arm.
+    /// The grid.
     pub arm: Arm,
-    /// The intensity measure: PGA where the claim names none.
+    /// The intensity measure: PGA if the claim names none.
     pub intensity: Intensity,
 }
 
-/// How far apart curves are that lie on each other: the paper prints no
-/// tolerance.
+/// Largest distance of curves that coincide. The paper prints no tolerance.
 pub(super) const COINCIDE: f64 = 0.1;
 
-/// What a measure found in a suite.
+/// Result of a measure in a suite.
 pub struct Measured {
     /// The numbers of the sample, one for each yardstick of the claim.
     pub counts: Vec<SampleCount>,
     /// The effect, one number.
     pub effect: Replicates,
-    /// Where it was measured.
+    /// Place of the measurement, in words.
     pub at: String,
     /// Further numbers for the reader.
     pub details: Vec<Detail>,
 }
 
-/// What a measure found; an error where a curve cannot be read, or an arm
-/// was not run.
+/// Result of a measure, or the error of a curve that cannot be read or of a grid
+/// that was not run.
 pub type MeasureResult = anyhow::Result<Measured>;
 
 impl Measured {
@@ -67,7 +66,7 @@ impl Measured {
         Self::new([SampleCount::number(value)], effect, at)
     }
 
-    /// The same with a further number.
+    /// Adds a detail.
     pub(super) fn and(mut self, name: &str, estimate: Estimate) -> Self {
         self.details.push(Detail { name: name.into(), estimate });
         self
@@ -75,7 +74,7 @@ impl Measured {
 }
 
 impl<'a> Scope<'a> {
-    /// The kind of the suite; the ordinary one of a comparison of both.
+    /// The kind of the suite; ordinary for a comparison of both.
     pub(crate) fn kind(&self) -> SuiteKind {
         match self.tested {
             SuiteSet::PulseType => SuiteKind::PulseType,
@@ -93,12 +92,12 @@ impl<'a> Scope<'a> {
         self.suite().records.len()
     }
 
-    /// Demands on the stripes of the suite and arm.
+    /// Demands on the stripes of the suite and grid.
     pub(super) fn stripes(&self) -> anyhow::Result<&'a StripeDemands> {
         self.suite().stripes(self.arm)
     }
 
-    /// Numbers that are smooth in the suite's records, each drawn so often.
+    /// Numbers that are smooth in the multiplicities of the suite's records.
     pub(crate) fn smooth(
         &self,
         f: impl Fn(&[u32]) -> Vec<f64> + Sync,
@@ -108,18 +107,18 @@ impl<'a> Scope<'a> {
         self.draws.smooth(self.tested, &of)
     }
 
-    /// One number, smooth in the suite's records.
+    /// One number, smooth in the multiplicities of the suite's records.
     pub(super) fn one(&self, f: impl Fn(&[u32]) -> f64 + Sync) -> Replicates {
         self.smooth(|counts| vec![f(counts)])
     }
 
-    /// One number of a range with its interval.
+    /// The first number with its interval, for values of a range.
     pub(crate) fn estimate(&self, range: Range, of: &Replicates) -> Estimate {
         let found = self.draws.estimates(self.tested, (range, LEVEL), of);
         found.first().copied().unwrap_or(Estimate::exact(f64::NAN))
     }
 
-    /// A share of all records' counts: `found` of `all`, by record.
+    /// Share `found` of `all`, counts by record.
     pub(super) fn share(&self, found: &[u32], all: &[u32]) -> Replicates {
         self.one(|counts| {
             weighted_count(found, counts) / weighted_count(all, counts)
@@ -144,13 +143,13 @@ impl<'a> Scope<'a> {
         cells
     }
 
-    /// Every record of the suite once.
+    /// The multiplicities of the whole suite: every record once.
     pub(super) fn every(&self) -> &'a [u32] {
         self.draws.whole().of(self.kind())
     }
 }
 
-/// Geometric mean of the finite ones among some positive numbers.
+/// Geometric mean of the finite values among some positive numbers.
 pub(super) fn geometric_mean(values: impl IntoIterator<Item = f64>) -> f64 {
     libm::exp(mean(values.into_iter().map(libm::log)))
 }
@@ -166,9 +165,9 @@ pub(super) fn compared_blocks() -> impl Iterator<Item = (usize, usize)> {
     blocks().filter(|(_, slenderness)| *slenderness != REFERENCE)
 }
 
-/// Geometric mean of paired ratios over the cells: the two values of a record
-/// are close, so that the mean of the logarithm of their ratio has little
-/// scatter. A ratio that is not finite does not count.
+/// Geometric mean of paired ratios over the cells. The two values of a record
+/// are close, so that the mean logarithm of their ratio has little scatter. A
+/// ratio that is not finite does not count.
 pub(super) fn mean_ratio(
     scope: &Scope<'_>,
     cells: impl IntoIterator<Item = Vec<f64>>,
@@ -180,7 +179,7 @@ pub(super) fn mean_ratio(
     })
 }
 
-/// Mean of the finite values of the records, each drawn so often.
+/// Mean of the finite values, weighted by the multiplicities of the records.
 pub(super) fn weighted_mean(values: &[f64], counts: &[u32]) -> f64 {
     let (mut sum, mut drawn) = (0.0, 0.0);
     for (x, count) in values.iter().zip(counts) {
@@ -192,17 +191,17 @@ pub(super) fn weighted_mean(values: &[f64], counts: &[u32]) -> f64 {
     sum / drawn
 }
 
-/// Sum of the records' counts, each record drawn so often.
+/// Sum of the records' counts, weighted by their multiplicities.
 pub(super) fn weighted_count(of: &[u32], counts: &[u32]) -> f64 {
     f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
 }
 
 /// Ranks of paired ratios a/b times a scale.
-pub(super) fn ranks(a: &[f64], b: &[f64], scale: f64) -> RecordRanks {
+pub(crate) fn ranks(a: &[f64], b: &[f64], scale: f64) -> RecordRanks {
     RecordRanks::new(&ratios(a, b, scale))
 }
 
-/// Paired ratios a/b, by record; NaN where one is infinite or missing.
+/// Paired ratios a/b by record; NaN if one value is infinite or missing.
 pub(super) fn ratios(a: &[f64], b: &[f64], scale: f64) -> Vec<f64> {
     let ratio = |(a, b): (&f64, &f64)| {
         if a.is_finite() && b.is_finite() { scale * a / b } else { f64::NAN }

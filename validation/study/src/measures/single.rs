@@ -1,7 +1,7 @@
-//! Section 4, Figures 2 to 5: measures of records one by one.
+//! Section 4, Figures 2 to 5: measures of single records.
 
 use super::scope::{COINCIDE, MeasureResult, Measured, Scope, geometric_mean};
-use crate::analyses::{Deviation, SingleRecords, SuiteResults};
+use crate::analyses::{Deviation, SingleRecords};
 use crate::estimates::mean;
 use crate::inference::{Resample, least_counted};
 use rocking_common::findings::SampleCount;
@@ -20,8 +20,8 @@ fn by_record(
     RecordRanks::new(&each.collect::<Vec<f64>>())
 }
 
-/// How many histories lie further than a distance from the reference's, and
-/// of how many, by record.
+/// Number of histories further than a distance from the reference's, and number
+/// of all histories, by record.
 fn further(scope: &Scope<'_>, than: f64) -> [Vec<u32>; 2] {
     let n = scope.records();
     let mut found = [vec![0_u32; n], vec![0_u32; n]];
@@ -41,7 +41,7 @@ fn sum(of: &[u32]) -> usize {
     of.iter().sum::<u32>() as usize
 }
 
-/// Histories further than 5 % from the reference's are not the same.
+/// Histories further than this from the reference's are not the same.
 const SAME: f64 = 0.05;
 
 /// Share of the histories of Figure 2 that are further than 5 % from the
@@ -105,7 +105,7 @@ pub(super) fn peaks(scope: &Scope<'_>) -> Measured {
 pub(super) fn histories(scope: &Scope<'_>) -> Measured {
     let [ordinary, pulse] = scope.results.suites().map(|suite| {
         let levels = suite.single.iter().flat_map(|s| &s.by_level);
-        let ranks = levels.map(|(_, apart)| by_record(apart, |a| a.distance));
+        let ranks = levels.map(|apart| by_record(apart, |a| a.distance));
         let least = least_counted(suite.records.len());
         ranks.map(move |own| (own.records() >= least).then_some(own))
     });
@@ -123,18 +123,16 @@ pub(super) fn histories(scope: &Scope<'_>) -> Measured {
     Measured::new(counts, effect, "pairs of p and intensity that count")
 }
 
-/// Mean |ln| of the ratio of intensities at equal demand, by record.
-fn apart_by_record(suite: &SuiteResults) -> RecordRanks {
+/// Distance of single curves, the mean |ln| of the ratio of intensities at equal
+/// demand: median over the records.
+pub(super) fn curves(scope: &Scope<'_>) -> Measured {
+    let suite = scope.suite();
     let of = |record: usize| {
         let apart = suite.single.iter().flat_map(|s| &s.apart[record]);
         mean(apart.map(|a| a.mean_ln_im))
     };
-    RecordRanks::new(&(0..suite.records.len()).map(of).collect::<Vec<f64>>())
-}
-
-/// Distance of single curves, median over the records.
-pub(super) fn curves(scope: &Scope<'_>) -> Measured {
-    let ranked = apart_by_record(scope.suite());
+    let each: Vec<f64> = (0..suite.records.len()).map(of).collect();
+    let ranked = RecordRanks::new(&each);
     let each = ranked.each().map(|(x, _)| x);
     let counts =
         [SampleCount::among(each, |x| x <= libm::log(1.0 + COINCIDE))];

@@ -23,7 +23,7 @@ pub(super) const STOCKIEST: usize = SLENDERNESSES_RAD.len() - 1;
 /// All slendernesses.
 const ALL: [usize; SLENDERNESSES_RAD.len()] = [0, 1, 2, 3, 4];
 
-/// Whether the notch about the median holds 1: McGill, Tukey and Larsen, Am.
+/// Whether the notch about the median contains 1: McGill, Tukey and Larsen, Am.
 /// Stat. 32 (1978) 12.
 pub(super) fn notch_holds_1(values: &RecordRanks, counts: &[u32]) -> bool {
     let n = values.drawn(counts).len() as f64;
@@ -74,20 +74,20 @@ fn adjusted_cells(
     Ok(cells)
 }
 
-/// Cells of Figure 9, the closed form divided out record by record: each has
-/// an adjusted slenderness of its own.
+/// Cells of Figure 9, the closed form divided out record by record, at the
+/// adjusted slenderness of each record.
 fn without_closed_form(scope: &Scope<'_>) -> anyhow::Result<Vec<RecordRanks>> {
     adjusted_cells(scope, |x, record, im| {
         x / closed_form(adjusted_slenderness(record, im))
     })
 }
 
-/// How many of the cells that count have a notch that holds 1.
+/// Number of cells whose notch contains 1.
 fn notches(scope: &Scope<'_>, cells: &[RecordRanks]) -> SampleCount {
     SampleCount::among(cells, |cell| notch_holds_1(cell, scope.every()))
 }
 
-/// How many medians of cells lie as near to 1 as `within`.
+/// Number of cells whose median lies within this distance of 1.
 fn near_1(
     scope: &Scope<'_>,
     cells: &[RecordRanks],
@@ -107,7 +107,7 @@ fn furthest(scope: &Scope<'_>, cells: &[RecordRanks]) -> Estimate {
 const FURTHEST: &str = "largest distance of a median ratio from 1";
 
 /// Median ratios that conform to 1 by their notches, over the cells that
-/// count; the effect is that of the cells in `effect`.
+/// count. The effect is the median of the cells in `effect`.
 pub(super) fn conforming(
     scope: &Scope<'_>,
     cells: Vec<RecordRanks>,
@@ -153,8 +153,8 @@ pub(super) fn ratios_small(scope: &Scope<'_>) -> MeasureResult {
 
 const LOWEST: &str = "p = 1, alpha = 0.25, lowest stripe";
 
-/// The paper's exception: its notch leaves 1 out, and every other of p = 1
-/// holds 1.
+/// The paper's exception: its notch leaves 1 out, and every other notch of p = 1
+/// contains 1.
 pub(super) fn only_exception(scope: &Scope<'_>) -> MeasureResult {
     let own = exception(scope)?;
     let holds = |cell| notch_holds_1(cell, scope.every());
@@ -170,11 +170,12 @@ pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
     Ok(Measured::number(effect, LOWEST))
 }
 
-/// How near to 1 the medians lie once the closed form is divided out.
+/// Distance of a median from 1 that counts as none once the closed form is
+/// divided out.
 const CORRECTED: f64 = 0.005;
 
-/// Medians once the closed form is divided out, beside those as they are; the
-/// effect is that of the cells in `effect` as they are.
+/// Medians with the closed form divided out, beside the plain medians. The effect
+/// is the median of the plain cells in `effect`.
 fn corrected_beside(
     scope: &Scope<'_>,
     [corrected, plain]: [Vec<RecordRanks>; 2],
@@ -222,11 +223,11 @@ pub(super) fn adjusted_corrected(scope: &Scope<'_>) -> MeasureResult {
     Ok(corrected_beside(scope, cells.clone(), cells))
 }
 
-/// What rounds to 1.0 is as near to it.
+/// Largest distance from 1 of a number that rounds to 1.0.
 const ROUNDED: f64 = 0.05;
 
-/// Medians of Figure 9. The sentence says that they are identical in
-/// practice: they round to 1.0. Its figure has notches, a detail.
+/// Medians of Figure 9. The statement calls them practically identical: they
+/// round to 1.0. The notches of the figure are a detail.
 pub(super) fn adjusted(scope: &Scope<'_>) -> MeasureResult {
     let cells = scope.counted(adjusted_cells(scope, |x, _, _| x)?);
     let counts = [near_1(scope, &cells, ROUNDED)];
@@ -237,8 +238,8 @@ pub(super) fn adjusted(scope: &Scope<'_>) -> MeasureResult {
         .and(FURTHEST, furthest(scope, &cells)))
 }
 
-/// Medians of Figure 9 of the records whose adjusted slenderness is at most
-/// the paper's largest, and of those above it.
+/// Medians of Figure 9 over the records whose adjusted slenderness is at most
+/// the paper's largest, and over the other records.
 pub(super) fn adjusted_scope(scope: &Scope<'_>) -> MeasureResult {
     let part = |within: bool| {
         let cells = adjusted_cells(scope, |x, record, im| {
@@ -282,30 +283,26 @@ pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
     ))
 }
 
-/// The stripe on which resurrections lower the probability of overturning
-/// most, in any block, with that drop.
+/// The largest drop of the probability of overturning by resurrections on any
+/// stripe, in any block.
 fn largest_drop(
     scope: &Scope<'_>,
     stripes: &StripeDemands,
 ) -> anyhow::Result<Estimate> {
-    let mut worst: Option<&[bool]> = None;
-    let count = |flags: &[bool]| flags.iter().filter(|again| **again).count();
-    for flags in stripes.stands_again.iter().flatten() {
-        if worst.is_none_or(|own| count(flags) > count(own)) {
-            worst = Some(flags);
-        }
-    }
-    let flags = worst.unwrap_or_default();
+    let count = |flags: &&Vec<bool>| flags.iter().filter(|x| **x).count();
+    // The first of equal stripes, from behind.
+    let stripes = stripes.stands_again.iter().flatten().rev();
+    let worst = stripes.max_by_key(count).into_iter().flatten();
+    let stand: Vec<u32> = worst.map(|x| u32::from(*x)).collect();
     let drop = |counts: &[u32]| {
-        let stand: Vec<u32> = flags.iter().map(|x| u32::from(*x)).collect();
         weighted_count(&stand, counts) / f64::from(counts.iter().sum::<u32>())
     };
     Ok(scope.estimate(Range::Share, &scope.one(drop)))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
-/// resurrections over without; by interpolation in the logarithm of the
-/// intensity between stripes.
+/// resurrections over without. Between stripes the logarithm of the intensity is
+/// interpolated.
 pub(super) fn resurrections(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
     let ratios = |counts: &[u32]| -> Vec<f64> {
@@ -332,8 +329,8 @@ pub(super) fn resurrections(scope: &Scope<'_>) -> MeasureResult {
 }
 
 impl StripeDemands {
-    /// Median overturning intensity of a block with resurrections over
-    /// without, each record drawn so often.
+    /// Median overturning intensity of a block with resurrections over without,
+    /// in a draw with these multiplicities.
     fn median_again(&self, block: usize, counts: &[u32]) -> f64 {
         let (demands, again) =
             (&self.demands[block], &self.stands_again[block]);

@@ -1,17 +1,17 @@
-//! Answers, and the tables behind them.
+//! Answers and their tables.
 
 use crate::words::{TableWords, table_words};
 use rocking_common::table::{PlainTable, Table};
 use rocking_draw::figures::Figure;
 
-/// A question with its answer and the numbers behind it.
+/// A question with its answer and its numbers.
 #[derive(Default)]
 pub struct StudyAnswer {
     /// Short name, also of the first file: `grid`.
     pub id: &'static str,
     /// The question.
     pub question: &'static str,
-    /// The answer, in a sentence or two made from the numbers.
+    /// The answer, one or two sentences made from the numbers.
     pub answer: String,
     /// The tables that the page shows.
     pub tables: Vec<PlainTable>,
@@ -22,7 +22,7 @@ pub struct StudyAnswer {
 }
 
 impl StudyAnswer {
-    /// The same answer with a further part, its words, tables and files.
+    /// Adds a further part: its words, tables and files.
     pub(super) fn beside(mut self, part: Self) -> Self {
         self.answer += &format!("\n{}", part.answer);
         self.tables.extend(part.tables);
@@ -31,8 +31,8 @@ impl StudyAnswer {
     }
 }
 
-/// Rows for a CSV and a table of the page at once: each cell stands beside
-/// the name of its column.
+/// Rows of a CSV and of a table of the page: each cell stands beside the name of
+/// its column.
 #[derive(Default)]
 pub struct Rows {
     csv: Option<Table>,
@@ -54,21 +54,23 @@ impl Rows {
     ) {
         let names: Vec<&str> = cells.iter().map(|(name, _)| *name).collect();
         let csv = self.csv.get_or_insert_with(|| Table::new(&names));
-        csv.row(cells.iter().map(|(_, cell)| cell.full()));
+        csv.row(cells.iter().map(|(_, cell)| cell.full.clone()));
+        let (header, cells): (Vec<&str>, Vec<TableCell>) =
+            cells.into_iter().unzip();
         if shown {
-            let cells = cells.iter().map(|(_, cell)| cell.short());
+            let cells = cells.into_iter().map(|cell| cell.short);
             self.shown.push(cells.collect());
         }
-        self.header = cells.into_iter().map(|(name, _)| name).collect();
+        self.header = header;
     }
 
-    /// The CSV alone.
+    /// The text of the CSV.
     pub fn csv(self) -> String {
         self.csv.map_or_else(String::new, Table::finish)
     }
 
-    /// An answer, or a part of one, with these rows; `words.toml` has the
-    /// other words.
+    /// An answer, or a part of one, with these rows. `words.toml` has the other
+    /// words.
     pub fn answer(self, id: &'static str, answer: String) -> StudyAnswer {
         let TableWords { question, reading, .. } = table_words(id);
         let above = match question.as_str() {
@@ -87,7 +89,7 @@ impl Rows {
         }
     }
 
-    /// A table of the page with the rows shown; `words.toml` has its words.
+    /// A table of the page with the shown rows. `words.toml` has its words.
     pub fn table(&self, id: &str) -> PlainTable {
         let TableWords { title, reading, .. } = table_words(id);
         PlainTable {
@@ -100,46 +102,28 @@ impl Rows {
     }
 }
 
-/// One cell.
-pub enum TableCell {
-    Word(String),
-    Count(usize),
-    /// A number, and its decimals on the page.
-    Number(f64, usize),
-}
-
-impl TableCell {
-    fn full(&self) -> String {
-        match self {
-            Self::Word(text) => text.clone(),
-            Self::Count(count) => count.to_string(),
-            Self::Number(x, _) => rocking_common::table::number(*x),
-        }
-    }
-
-    fn short(&self) -> String {
-        match self {
-            Self::Number(x, _) if !x.is_finite() => {
-                if x.is_nan() {
-                    "–".into()
-                } else {
-                    self.full()
-                }
-            }
-            Self::Number(x, decimals) => format!("{x:.decimals$}"),
-            _ => self.full(),
-        }
-    }
+/// A cell: in the CSV, and on the page.
+pub struct TableCell {
+    full: String,
+    short: String,
 }
 
 pub fn word(text: impl Into<String>) -> TableCell {
-    TableCell::Word(text.into())
+    let full = text.into();
+    TableCell { short: full.clone(), full }
 }
 
 pub fn count(of: usize) -> TableCell {
-    TableCell::Count(of)
+    word(of.to_string())
 }
 
+/// A number with its decimals on the page.
 pub fn number(x: f64, decimals: usize) -> TableCell {
-    TableCell::Number(x, decimals)
+    let full = rocking_common::table::number(x);
+    let short = match x.is_finite() {
+        true => format!("{x:.decimals$}"),
+        false if x.is_nan() => "–".into(),
+        false => full.clone(),
+    };
+    TableCell { full, short }
 }

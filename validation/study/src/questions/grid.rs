@@ -1,13 +1,14 @@
-//! How much of the rejections is the grid of 0.01 g?
+//! How many rejections does the grid of 0.01 g cause?
 
 use rocking::capacity::ResponseCurve;
 use rocking_statistics::ExtendedSample;
 use rocking_statistics::lilliefors::{Inapplicable, LillieforsTest};
+use rocking_statistics::lognormal::fit_intervals;
 
 use super::answer::{Rows, StudyAnswer, count, number, word};
 use super::nulls;
 use crate::analyses::SuiteResults;
-use crate::fits::{Fits, of_intervals};
+use crate::fits::Fits;
 use crate::results::StudyResults;
 use crate::ties::grid_alone;
 use crate::words::{caption, heading};
@@ -21,19 +22,19 @@ use rocking_draw::figures::{
 
 /// One block of a suite.
 struct GridRow {
-    /// Rejected share of the levels, shifted, by arm; NaN for an arm that
-    /// was not run.
+    /// Rejected share of the levels, shifted, by grid; NaN for a grid that was
+    /// not run.
     rejected: [f64; 3],
-    /// Distinct first overturnings by arm.
+    /// Distinct first overturnings by grid.
     distinct: [usize; 3],
-    /// Levels at which ties decide, by arm.
+    /// Levels at which ties decide, by grid.
     tied: [usize; 3],
-    /// Dispersion above the shift at first overturning: of arm A's levels
-    /// taken as they are, of its brackets by the interval likelihood, of arm
-    /// B's bisected ones.
+    /// Dispersion above the shift at first overturning: of the levels of grid A,
+    /// of its brackets by the interval likelihood, of the bisected levels of
+    /// grid B.
     dispersions: [f64; 3],
-    /// Rejected share of samples that are shifted lognormal like the finest
-    /// arm's first overturnings, put on the grid of 0.01 g.
+    /// Rejected share of samples that are shifted lognormal like the first
+    /// overturnings of the finest grid, put on the grid of 0.01 g.
     grid_alone: f64,
 }
 
@@ -116,38 +117,37 @@ fn rows(
                     continue;
                 };
                 let overturning = block.overturning();
-                row.rejected[arm] = 1.0 - block.shares().1;
-                let taken = dispersion(overturning, block.shift);
+                row.rejected[arm] = 1.0 - block.shares()[1];
                 if arm < 2 {
-                    row.dispersions[2 * arm] = taken.unwrap_or(f64::NAN);
+                    row.dispersions[2 * arm] =
+                        dispersion(overturning, block.shift);
                 }
                 row.distinct[arm] = distinct(overturning);
                 row.tied[arm] =
-                    block.shifted.iter().filter(|a| tied(a)).count();
+                    block.tests[1].iter().filter(|a| tied(a)).count();
             }
             if let Ok(curves) = suite.curves(Arm::A) {
-                let intervals = by_intervals(&curves[i], 1.0);
-                row.dispersions[1] = intervals.unwrap_or(f64::NAN);
+                row.dispersions[1] = by_intervals(&curves[i], 1.0);
             }
             Ok(row)
         })
         .collect()
 }
 
-/// Dispersion above a shift by maximum likelihood.
-fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
-    let sample = ExtendedSample::try_new(values).ok()?;
-    Fits::new(&sample, shift).ssfl.map(|f| f.dispersion())
+/// Dispersion above a shift by maximum likelihood; NaN without a fit.
+fn dispersion(values: &[f64], shift: f64) -> f64 {
+    let fits = ExtendedSample::try_new(values).map(|s| Fits::new(s, shift));
+    let fit = fits.ok().and_then(|fits| fits.ssfl);
+    fit.map_or(f64::NAN, |f| f.dispersion())
 }
 
-/// Dispersion by maximum likelihood from intervals: above the last level at
-/// which the block stood, up to the first at which it overturned.
-fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
+/// Dispersion by maximum likelihood from intervals, each from the last level at
+/// which the block stood to the first at which it overturned; NaN without a fit.
+fn by_intervals(curves: &[ResponseCurve], shift: f64) -> f64 {
     let high = |c: &ResponseCurve| c.overturning_im().unwrap_or(f64::INFINITY);
     let known = curves.iter().map(|c| (c.last_im(), high(c)));
-    let known: Vec<(f64, f64)> = known.collect();
-    let once = vec![1; known.len()];
-    of_intervals(&known, &once, shift).map(|f| f.dispersion())
+    let fit = fit_intervals(&known.collect::<Vec<_>>(), shift);
+    fit.map_or(f64::NAN, |fit| fit.distribution.dispersion())
 }
 
 fn tied(assessment: &LillieforsTest) -> bool {
@@ -160,7 +160,7 @@ fn distinct(values: &[f64]) -> usize {
     sorted.chunk_by(|a, b| a == b).count()
 }
 
-/// A row of panels a suite.
+/// A row of panels for each suite.
 fn figure(suites: &[(&str, Vec<GridRow>)]) -> Figure {
     let panels = suites
         .iter()
@@ -176,18 +176,12 @@ fn figure(suites: &[(&str, Vec<GridRow>)]) -> Figure {
         .figure(caption("grid"))
 }
 
-/// One frequency parameter: the first rows are its blocks.
+/// One frequency parameter, whose blocks are the first rows.
 fn panel(title: String, rows: &[GridRow]) -> ChartPanel {
     let line = |label: &str, mark, of: &dyn Fn(&GridRow) -> f64| {
-        Series::new(
-            label,
-            mark,
-            SLENDERNESSES_RAD.to_vec(),
-            rows[..SLENDERNESSES_RAD.len()]
-                .iter()
-                .map(|row| 100.0 * of(row))
-                .collect(),
-        )
+        let rows = rows[..SLENDERNESSES_RAD.len()].iter();
+        let shares = rows.map(|row| 100.0 * of(row)).collect();
+        Series::new(label, mark, SLENDERNESSES_RAD.to_vec(), shares)
     };
     let mut series: Vec<Series> = ARMS
         .iter()

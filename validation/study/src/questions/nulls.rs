@@ -1,4 +1,4 @@
-//! Critical values where the shift is estimated from the same records.
+//! Critical values if the shift is estimated from the same records.
 
 use rocking_statistics::lilliefors::{LillieforsTable, ShiftedNull};
 
@@ -11,22 +11,22 @@ use crate::results::StudyResults;
 use rocking_common::paper::{Intensity, demand_index, demands};
 use rocking_common::words::{capital, range};
 
-/// Demands at which the null is simulated; between them the ratio of the
-/// two critical values is linear.
+/// Demands at which the null is simulated. Between them the ratio of the two
+/// critical values is interpolated linearly.
 const PLACES: [f64; 12] =
     [0.005, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 
 /// Replicates at each of them.
 const REPLICATES: u64 = 2000;
 
-/// One block under both nulls.
+/// One block under the null of an estimated shift.
 struct NullRow {
     /// Critical value with the shift estimated anew over the table's, at
-    /// [`PLACES`]; NaN where the joint model does not hold.
+    /// [`PLACES`]; NaN if the joint model does not hold.
     ratios: Vec<f64>,
     /// Accepted share of the levels with the shift estimated anew.
     anew: f64,
-    /// Share of the draws made again, at the worst place.
+    /// Largest share of repeated draws at any place.
     redrawn: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
             let row = of_block(&suite.records, block);
-            let given = block.shares().1;
+            let given = block.shares()[1];
             let finite: Vec<f64> =
                 row.ratios.into_iter().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
@@ -94,7 +94,7 @@ fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
         .map(|ratio| ratio.unwrap_or(f64::NAN))
         .collect();
     let (mut tested, mut accepted) = (0_usize, 0_usize);
-    for (edp, assessment) in demands().iter().zip(&block.shifted) {
+    for (edp, assessment) in demands().iter().zip(&block.tests[1]) {
         let over = over_critical(assessment) / between(&ratios, *edp);
         tested += usize::from(over.is_finite());
         accepted += usize::from(over <= 1.0);
@@ -107,12 +107,10 @@ fn between(values: &[f64], edp: f64) -> f64 {
     let i = PLACES.partition_point(|place| *place < edp);
     let i = i.clamp(1, PLACES.len() - 1);
     let share = (edp - PLACES[i - 1]) / (PLACES[i] - PLACES[i - 1]);
-    if share <= 0.0 {
-        values[i - 1]
-    } else if share >= 1.0 {
-        values[i]
-    } else {
-        f64::mul_add(share, values[i] - values[i - 1], values[i - 1])
+    match share {
+        share if share <= 0.0 => values[i - 1],
+        share if share >= 1.0 => values[i],
+        _ => f64::mul_add(share, values[i] - values[i - 1], values[i - 1]),
     }
 }
 

@@ -1,5 +1,5 @@
-//! Section 5.3 as a table: Options 1, 2 and 3 for every block, measure and
-//! threshold.
+//! Section 5.3 as a table: Options 1, 2 and 3 for every block, intensity measure
+//! and threshold.
 
 mod drawing;
 
@@ -28,7 +28,7 @@ use rocking_common::paper::{
 use rocking_common::table::digits;
 use rocking_common::words::range;
 
-/// Draws of the bootstrap, by default and with all blocks and choices.
+/// Draws of the bootstrap, by default and with `--full`.
 const REPLICATES: [usize; 2] = [100, 1000];
 
 /// One recipe for one block, measure and threshold.
@@ -37,13 +37,13 @@ struct RecipeFit<'a> {
     intensity: Intensity,
     block: &'a BlockSamples,
     edp: f64,
-    /// The fragility, or the reason for its absence.
+    /// The fragility, or the reason why there is none.
     fragility: Result<Lognormal, String>,
     /// Kolmogorov and area distance to the empirical fragility.
     distances: [f64; 2],
-    /// Their intervals.
+    /// Intervals of the distances.
     intervals: [(f64, f64); 2],
-    /// Draws of the bootstrap in which the recipe is defined.
+    /// Number of bootstrap draws in which the recipe is defined.
     used: usize,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let arm = results.plan.common();
     let kind = results.ordinary.kind;
     let replicates = REPLICATES[usize::from(full)];
-    // Records drawn once for all blocks, measures and thresholds.
+    // One set of draws for all blocks, measures and thresholds.
     let clusters = &results.ordinary.clusters;
     let draws: Vec<Vec<usize>> =
         Bootstrap::of_clusters("study/options", 0, clusters, replicates)
@@ -123,8 +123,8 @@ fn entries<'a>(
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
     let recipes = Recipe::all(QuantileType::default());
-    // Distances of fragilities made from a draw to the benchmark, which is
-    // the empirical fragility of the records themselves.
+    // Distances of the fragilities of a draw to the benchmark, the empirical
+    // fragility of the records.
     let mut drawn: Vec<[Vec<f64>; 2]> =
         recipes.iter().map(|_| [Vec::new(), Vec::new()]).collect();
     for draw in draws {
@@ -172,23 +172,22 @@ fn summaries(entries: &[RecipeFit<'_>]) -> Vec<RecipeSummary> {
     let mut out = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         for recipe in &recipes {
-            let own: Vec<&RecipeFit<'_>> = entries
-                .iter()
-                .filter(|e| e.recipe == *recipe && e.intensity == intensity)
-                .collect();
-            let defined: Vec<&&RecipeFit<'_>> =
-                own.iter().filter(|e| e.fragility.is_ok()).collect();
-            let of = |f: fn(&RecipeFit<'_>) -> f64| -> Vec<f64> {
-                defined.iter().map(|e| f(e)).collect()
+            let is = |e: &&RecipeFit<'_>| {
+                (e.recipe, e.intensity) == (*recipe, intensity)
             };
-            let ks = of(|e| e.distances[0]);
+            let own = entries.iter().filter(is);
+            let defined = own.clone().filter(|e| e.fragility.is_ok());
+            let of = |k: usize| -> Vec<f64> {
+                defined.clone().map(|e| e.distances[k]).collect()
+            };
+            let ks = of(0);
             out.push(RecipeSummary {
                 recipe: *recipe,
                 intensity,
-                defined: defined.len() as f64 / own.len() as f64,
+                defined: ks.len() as f64 / own.count() as f64,
                 ks: median(&ks).value(),
                 largest: range(ks.into_iter()).1,
-                area: median(&of(|e| e.distances[1])).value(),
+                area: median(&of(1)).value(),
             });
         }
     }
@@ -197,9 +196,7 @@ fn summaries(entries: &[RecipeFit<'_>]) -> Vec<RecipeSummary> {
 
 fn words(summaries: &[RecipeSummary]) -> String {
     let of = |recipe: Recipe, intensity| {
-        let found = summaries
-            .iter()
-            .find(|s| s.recipe == recipe && s.intensity == intensity);
+        let found = RecipeSummary::find(summaries, recipe, intensity);
         found.map_or_else(String::new, |s| {
             let lost = 100.0 * (1.0 - s.defined);
             match s.defined < 1.0 {
@@ -263,13 +260,13 @@ fn by_block(entries: &[RecipeFit<'_>]) -> String {
     table.csv()
 }
 
-/// Six digits: more than 86 records say.
+/// Six digits: more than 86 records support.
 fn six(x: f64) -> TableCell {
     word(digits(x, 6))
 }
 
-/// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
-/// unshifted lognormal, dimensionless and in physical units.
+/// Median and dispersion of the unshifted lognormal for FEMA P-58's tool PACT,
+/// dimensionless and in physical units.
 fn pact(entries: &[RecipeFit<'_>]) -> anyhow::Result<String> {
     let mut table = Rows::default();
     for e in entries {

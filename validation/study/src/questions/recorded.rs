@@ -1,4 +1,4 @@
-//! Recorded motions that may be passed on: three stations of the Mw 7.1
+//! Recorded motions whose licence allows copies: three stations of the Mw 7.1
 //! Ridgecrest earthquake of 2019, raw, corrected by this program.
 
 use std::io::Cursor;
@@ -13,7 +13,7 @@ use super::answer::{Rows, StudyAnswer, number, word};
 use crate::results::StudyResults;
 use rocking_common::suites::inputs;
 
-/// Corners of the high-pass: what the choice of one does.
+/// Corners of the high-pass, whose effect the table shows.
 const CORNERS_HZ: [f64; 3] = [0.05, 0.1, 0.2];
 
 /// The block: p in rad/s and alpha in rad.

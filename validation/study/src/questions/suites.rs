@@ -1,6 +1,6 @@
-//! What can the embedded suites show, and what not? They are compared with
-//! recorded ones: with the study's own where it has any, else with the
-//! committed comparison that such a study wrote.
+//! What can the embedded suites show? They are compared with recorded suites:
+//! those of this study, or else those of the committed comparison, which a study
+//! of recorded suites wrote.
 
 mod compare;
 mod drawing;
@@ -22,12 +22,12 @@ use rocking_common::words::{capital, range};
 use rocking_draw::markup;
 use rocking_statistics::{Estimate, Interval};
 
-/// The comparison with 86 ordinary and 44 pulse-type recorded motions:
-/// medians, dispersions and intervals alone.
+/// The comparison with 86 ordinary and 44 pulse-type recorded motions: only
+/// medians, dispersions and intervals.
 const COMMITTED: &str = rocking_fixtures::text("comparison/suites.csv");
 
-/// Medians and dispersions are alike within this share of the recorded ones:
-/// the smallest effect of interest, as for the claims.
+/// Medians and dispersions are alike within this share of the recorded values:
+/// the smallest effect of interest, like that of the claims.
 const LIMIT: f64 = 0.1;
 
 pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
@@ -41,10 +41,10 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     let kinds = SuiteKind::ALL.map(SuiteKind::name);
     let answer = words(&rows, kinds);
     let origin = if own {
-        "The recorded suites are not part of this run: the numbers are kept \
+        "The recorded suites are not part of this run. Their numbers are kept \
          from a run with the default settings on 86 ordinary and 44 \
-         pulse-type recorded motions of PEER's database, of which nothing \
-         but these medians, dispersions and intervals is kept."
+         pulse-type recorded motions of PEER's database. Only these medians, \
+         dispersions and intervals are kept."
     } else {
         "The recorded suites are those of this run; the embedded ones were \
          run beside them with the same choices."
@@ -60,8 +60,8 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
     Ok(StudyAnswer { id, question, answer, tables, figures, files })
 }
 
-/// The committed comparison: with other settings than its own only what no
-/// setting changes, the motions.
+/// The committed comparison. For settings other than its own it contains only the
+/// motions, which no setting changes.
 fn kept(settings: &StudySettings) -> anyhow::Result<Vec<QuantityRow>> {
     let mut rows = row::from_csv(COMMITTED);
     if findings_of(settings)?.is_none() {
@@ -79,37 +79,30 @@ fn has_capacities(rows: &[QuantityRow]) -> bool {
 fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
     let mut out = Vec::new();
     for kind in kinds {
-        let found: Vec<(&QuantityRow, &str)> = MOTIONS
-            .iter()
-            .filter_map(|(name, label)| {
-                Some((of_motion(rows, kind, name)?, *label))
-            })
-            .collect();
-        let apart: Vec<String> = found
-            .iter()
-            .filter(|(row, _)| row.medians(LIMIT) == SuiteAgreement::Apart)
-            .map(|(row, label)| {
-                let label = markup::plain(label);
-                format!("{label} {:.2}", row.ratio.value())
-            })
-            .collect();
+        let (mut shown, mut apart) = (Vec::new(), Vec::new());
+        for (name, label) in MOTIONS {
+            let Some(row) = of_motion(rows, kind, name) else { continue };
+            shown.push(row.medians(LIMIT));
+            if row.medians(LIMIT) == SuiteAgreement::Apart {
+                let (label, ratio) = (markup::plain(label), row.ratio.value());
+                apart.push(format!("{label} {ratio:.2}"));
+            }
+        }
         let apart = match apart.as_slice() {
             [] => String::new(),
             some => format!(" (embedded over recorded {})", some.join(", ")),
         };
-        let shown = found.iter().map(|(row, _)| row.medians(LIMIT));
         out.push(format!(
             "{} motions, medians of measures: {}{apart}.",
             capital(kind),
-            counted(shown),
+            counted(shown.into_iter()),
         ));
-        let measures = match has_capacities(rows) {
-            true => &[Intensity::Pga, Intensity::Pgv][..],
-            false => &[],
-        };
-        for &intensity in measures {
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
             let own =
                 of_group(rows, RowGroup::Capacity, kind, intensity.name());
+            if own.is_empty() {
+                continue;
+            }
             let (low, high) = range(own.iter().map(|r| r.ratio.value()));
             out.push(format!(
                 "Capacities in {}: medians {low:.2} to {high:.2} times \
@@ -122,16 +115,16 @@ fn words(rows: &[QuantityRow], kinds: [&str; 2]) -> String {
     }
     if !has_capacities(rows) {
         out.push(
-            "Capacities under recorded motions are kept of other settings \
-             than those of this run, and are left out."
+            "Capacities under recorded motions are left out: the kept ones \
+             are of settings other than those of this run."
                 .into(),
         );
     }
     out.join(" ")
 }
 
-/// Number of comparisons by agreement; a number of 0 is left out: `all
-/// 45 open`, or `of 45 5 shown to differ, 40 open`.
+/// Number of comparisons by agreement, without zeros: `all 45 open`, or `of 45 5
+/// shown to differ, 40 open`.
 fn counted(all: impl Iterator<Item = SuiteAgreement>) -> String {
     let all: Vec<SuiteAgreement> = all.collect();
     let agree = format!("agree within {:.0} %", 100.0 * LIMIT);
@@ -221,22 +214,19 @@ fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> PlainTable {
 }
 
 fn accepted(rows: &[QuantityRow]) -> PlainTable {
-    let mut names: Vec<(&str, &str)> = Vec::new();
-    for r in rows.iter().filter(|r| r.group == RowGroup::Accepted) {
-        if !names.contains(&(&r.suite, &r.quantity)) {
-            names.push((&r.suite, &r.quantity));
-        }
-    }
+    let all = rows.iter().filter(|r| r.group == RowGroup::Accepted);
+    let all = all.map(|r| (r.suite.as_str(), r.quantity.as_str()));
+    let mut names: Vec<(&str, &str)> = all.collect();
+    names.dedup();
     let mut table = Rows::default();
     for (kind, quantity) in names {
         let own = of_group(rows, RowGroup::Accepted, kind, quantity);
         let of = |value: fn(&QuantityRow) -> f64| {
-            let all: Vec<f64> = own.iter().map(|r| value(r)).collect();
-            median(&all)
+            median(&own.iter().map(|r| value(r)).collect::<Vec<f64>>())
         };
         let below = |side: fn(&QuantityRow) -> row::Quantiles| {
-            let side = |r: &&&QuantityRow| side(r).middle < side(r).low;
-            count(own.iter().filter(side).count())
+            let is = |r: &&&QuantityRow| side(r).middle < side(r).low;
+            count(own.iter().filter(is).count())
         };
         let apart = of(|r| r.embedded.middle - r.recorded.middle);
         let ends = apart.interval().map(Interval::ends);

@@ -1,4 +1,4 @@
-//! Where trimming brings Eq. 7 nearer.
+//! Does trimming bring Eq. 7 nearer to the sample?
 
 use rayon::prelude::*;
 use rocking_procedures::fragility::options::{CONSTANTS, Centre, Recipe};
@@ -13,16 +13,16 @@ use crate::results::StudyResults;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 
-/// One demand level in ten enters.
+/// Stride of the demand levels that enter.
 const STRIDE: usize = 10;
 
 /// Edges between the classes of skewness of ln(x - IM_R).
 const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
 
-/// Samples of a truth that is shifted lognormal.
+/// Simulated samples of a shifted lognormal.
 const DRAWS: u64 = 1000;
 
-/// Trimmed against untrimmed: samples by [`TrimmingOutcome`].
+/// Trimmed against untrimmed: number of samples by [`TrimmingOutcome`].
 #[derive(Clone, Copy, Default)]
 struct OutcomeCounts([usize; 4]);
 
@@ -138,8 +138,8 @@ fn count(rows: &[(usize, [TrimmingOutcome; 4])]) -> [[OutcomeCounts; 4]; 4] {
     counts
 }
 
-/// By constant: which of the two fragilities is nearer to the truth, or to
-/// the empirical fragility where no truth is given.
+/// The outcome by constant: which of the two fragilities is nearer to the truth,
+/// or to the empirical fragility if no truth is given.
 fn outcomes(
     sample: &ExtendedSample,
     shift: f64,
@@ -164,7 +164,7 @@ fn outcomes(
     })
 }
 
-/// Samples of a shifted lognormal, judged by the truth itself.
+/// Outcomes for samples of a shifted lognormal, judged by the truth.
 fn simulated(n: usize) -> anyhow::Result<[OutcomeCounts; 4]> {
     let streams = Streams::new("study/trimming", 0);
     let truth = Lognormal::try_new(1.0, 0.0, 0.6)?;

@@ -10,8 +10,8 @@ use rocking_draw::figures::{Column, Look, Of, Series};
 use rocking_draw::markup::plain;
 use rocking_draw::panel::Marker;
 
-/// Columns of the CSV: which curve, the parameters of a fitted one, a point
-/// of it and its band there.
+/// Columns of the CSV: the curve, the parameters of a fitted curve, a point of
+/// the curve and its band at this point.
 pub(super) const KEYS: [&str; 6] =
     ["im", "edp", "curve", "ln_median", "dispersion", "shift"];
 pub(super) const NUMBERS: [Column; 4] = [
@@ -31,7 +31,7 @@ pub(super) fn along((low, high): (f64, f64), count: u32) -> Vec<f64> {
     (0..=count).map(|k| step.mul_add(f64::from(k), low)).collect()
 }
 
-/// The cells that name a curve: its place, its words and its parameters.
+/// The cells that name a curve: its threshold, its words and its parameters.
 pub(super) fn keys(
     (intensity, edp): (Intensity, f64),
     curve: &str,
@@ -49,7 +49,7 @@ pub(super) fn keys(
     ]
 }
 
-/// The dots of the sample: the share of its data up to each.
+/// The dots of the sample: at each datum the share of the data up to it.
 pub(super) fn empirical(at: (Intensity, f64), sample: &[f64]) -> Series {
     let mut x = sample.to_vec();
     x.sort_by(f64::total_cmp);
@@ -60,8 +60,8 @@ pub(super) fn empirical(at: (Intensity, f64), sample: &[f64]) -> Series {
     Series::of(dots, x, y).labelled(words).keyed(keys(at, "ECDF", None))
 }
 
-/// A fitted curve at these intensities; a row without a point where the fit
-/// is not defined.
+/// A fitted curve at these intensities; a row without a point if the fit is not
+/// defined.
 pub(super) fn fitted(
     at: (Intensity, f64),
     (name, pen): (&str, Pen),

@@ -5,9 +5,9 @@ use rocking_statistics::{Lognormal, Range, normal};
 use super::curves::{
     KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,
 };
-use crate::fits::{THRESHOLDS, distance, usfl7};
+use crate::fits::{Fits, THRESHOLDS};
 use crate::inference::{Resample, Resamples};
-use crate::measures::{DemandFits, Scope, Thresholds, by_demand, to_ssfl};
+use crate::measures::{Scope, Thresholds, by_demand};
 use crate::results::StudyResults;
 use crate::words::paper_heading;
 use anyhow::Context as _;
@@ -33,7 +33,7 @@ const POINTS: u32 = 80;
 /// Level of the bands.
 const BAND: f64 = 0.95;
 
-/// Which fits a figure compares.
+/// The two fits that a figure compares.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum FitPair {
     /// Figure 15: USFL and SSFL.
@@ -45,25 +45,17 @@ enum FitPair {
 }
 
 impl FitPair {
-    fn of(number: u32) -> Self {
-        match number {
-            15 => Self::Shifted,
-            16 => Self::Trimmed,
-            _ => Self::Untrimmed,
+    fn first(self, at: &Fits) -> Option<Lognormal> {
+        match self {
+            Self::Trimmed => at.trimmed,
+            _ => at.usfl,
         }
     }
 
-    fn first(self, at: &DemandFits) -> Option<Lognormal> {
+    fn second(self, at: &Fits) -> Option<Lognormal> {
         match self {
-            Self::Trimmed => at.fits.trimmed,
-            _ => at.fits.usfl,
-        }
-    }
-
-    fn second(self, at: &DemandFits) -> Option<Lognormal> {
-        match self {
-            Self::Shifted => at.fits.ssfl,
-            _ => usfl7(self.first(at), at.shift, 1.0),
+            Self::Shifted => at.ssfl,
+            _ => at.usfl7(self.first(at), 1.0),
         }
     }
 
@@ -84,7 +76,11 @@ pub(in super::super) fn thresholds(
     arm: Arm,
     number: u32,
 ) -> anyhow::Result<Figure> {
-    let pair = FitPair::of(number);
+    let pair = match number {
+        15 => FitPair::Shifted,
+        16 => FitPair::Trimmed,
+        _ => FitPair::Untrimmed,
+    };
     let mut panels = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let scope = Scope {
@@ -95,13 +91,11 @@ pub(in super::super) fn thresholds(
             arm,
             intensity,
         };
-        let read = Thresholds::new(&scope)?;
-        let apart = |at: &DemandFits| to_ssfl(pair.first(at), at, 1.0);
-        let apart = by_demand(&scope, &read, apart);
-        let places = (Range::Share, LEVEL);
-        let apart = draws.estimates(scope.tested, places, &apart);
+        let apart = by_demand(&scope, |at| at.to_ssfl(pair.first(at), 1.0))?;
+        let limits = (Range::Share, LEVEL);
+        let apart = draws.estimates(scope.tested, limits, &apart);
         for (place, apart) in apart.iter().enumerate() {
-            panels.push(panel(&scope, &read, pair, (place, apart))?);
+            panels.push(panel(&scope, pair, (place, apart))?);
         }
     }
     let heading = paper_heading(number, Some(arm));
@@ -124,12 +118,11 @@ pub(in super::super) fn thresholds(
 
 fn panel(
     scope: &Scope<'_>,
-    read: &Thresholds,
     pair: FitPair,
     (place, apart): (usize, &Estimate),
 ) -> anyhow::Result<ChartPanel> {
     let kind = scope.kind();
-    let whole = scope.draws.whole();
+    let (read, whole) = (Thresholds::new(scope)?, scope.draws.whole());
     let at = read.at(whole.of(kind), place).context("no capacities")?;
     let (first, second) = (pair.first(&at), pair.second(&at));
     let sample = at.sample.sorted();
@@ -139,7 +132,7 @@ fn panel(
         let Some(at) = read.at(draw.of(kind), place) else {
             return vec![f64::NAN; 2 * grid.len()];
         };
-        // On the scale of the normal score, as the bands of `fragility fit`.
+        // On the scale of the normal score, like the bands of `fragility fit`.
         let of = |fit: Option<Lognormal>| {
             let score =
                 |p: f64| if p > 0.0 { normal::quantile(p) } else { f64::NAN };
@@ -181,12 +174,12 @@ fn panel(
             "largest distance to the ECDF:".into(),
             format!(
                 "USFL {:.3}, SSFL {:.3}",
-                distance(first, &at.sample),
-                distance(second, &at.sample)
+                at.to_sample(first),
+                at.to_sample(second)
             ),
         ]);
     } else {
-        series.push(fitted(at_place, SSFL, at.fits.ssfl.as_ref(), &fine));
+        series.push(fitted(at_place, SSFL, at.ssfl.as_ref(), &fine));
         if second.is_some() {
             notes.push("largest distance to SSFL:".into());
             notes.push(apart.text("", |x| format!("{x:.3}")));
@@ -208,8 +201,8 @@ fn panel(
     ))
 }
 
-/// Ends of a panel's intensity axis: from below the least datum to what 97 %
-/// of the data do not exceed.
+/// Ends of a panel's intensity axis: from below the least datum to the 97 %
+/// quantile of the data.
 fn range(sample: &[f64]) -> (f64, f64) {
     let data = sample.iter().copied();
     let (least, _) = span(data, true).unwrap_or((1.0, 2.0));

@@ -25,14 +25,23 @@ pub(super) struct RecipeSummary {
     pub(super) area: f64,
 }
 
+impl RecipeSummary {
+    /// The summary of a recipe in an intensity measure.
+    pub(super) fn find(
+        all: &[Self],
+        recipe: Recipe,
+        im: Intensity,
+    ) -> Option<&Self> {
+        all.iter().find(|s| s.recipe == recipe && s.intensity == im)
+    }
+}
+
 /// Median distance over blocks and demands against the constant of Eq. 7.
 pub(super) fn figure(summaries: &[RecipeSummary], arm: Arm) -> Figure {
     let quantile_type = QuantileType::default();
     let panel = |intensity: Intensity| {
         let ks = |recipe: Recipe| {
-            let found = summaries
-                .iter()
-                .find(|s| s.recipe == recipe && s.intensity == intensity);
+            let found = RecipeSummary::find(summaries, recipe, intensity);
             found.map_or(f64::NAN, |s| s.ks)
         };
         let series = |label: &str, mark, y: Vec<f64>| {
@@ -89,8 +98,8 @@ pub(super) fn figure(summaries: &[RecipeSummary], arm: Arm) -> Figure {
     }
     .figure(format!(
         "By the median distance to the empirical fragility {}. The median \
-         is over 15 blocks and demands 0.15, 0.35 and 1.00, where the \
-         option is defined.",
+         is over 15 blocks and demands 0.15, 0.35 and 1.00, if the option is \
+         defined.",
         nearest.join(", ")
     ))
 }

@@ -10,7 +10,9 @@ use rocking_statistics::{Clusters, Estimate, ExtendedSample, Range};
 
 use super::row::{Quantiles, QuantityRow, RowGroup};
 use crate::analyses::normalised;
-use crate::distributions::{BlockSamples, Distributions, suite_distributions};
+use crate::distributions::{
+    BlockSamples, Distributions, SAMPLES, suite_distributions,
+};
 use crate::estimates::three_quantiles;
 use crate::facts::{Facts, SPECTRUM_PERIODS_S, facts};
 use crate::fits::THRESHOLDS;
@@ -22,8 +24,8 @@ use rocking_common::suites::StudySuite;
 /// Draws of the bootstrap.
 const REPLICATES: usize = 2000;
 
-/// All rows: both suites of the study against the embedded ones of the same
-/// kind.
+/// All rows: both suites of the study compared with the embedded suites of the
+/// same kind.
 pub(super) fn comparison_rows(
     results: &StudyResults,
 ) -> anyhow::Result<Vec<QuantityRow>> {
@@ -66,12 +68,12 @@ pub(super) fn comparison_rows(
     Ok(out)
 }
 
-/// Both suites of one kind.
+/// The embedded and the recorded suite of one kind.
 struct SuitePair {
     kind: &'static str,
     /// Records drawn once for all quantities: embedded, recorded.
     draws: [Vec<Vec<usize>>; 2],
-    /// The recorded earthquakes, which are fewer than embedded motions.
+    /// The recorded earthquakes, which are fewer than the embedded motions.
     clusters: Clusters,
     /// Number of records: embedded, recorded.
     records: [usize; 2],
@@ -79,25 +81,26 @@ struct SuitePair {
 
 impl SuitePair {
     fn row(&self, group: RowGroup, quantity: String) -> QuantityRow {
-        let side = |k: usize| Quantiles {
-            records: self.records[k],
-            low: f64::NAN,
-            middle: f64::NAN,
-            high: f64::NAN,
+        let nan = f64::NAN;
+        let side = |records: usize| Quantiles {
+            records,
+            low: nan,
+            middle: nan,
+            high: nan,
         };
         QuantityRow {
             suite: self.kind.into(),
             group,
             quantity,
-            p_rad_s: f64::NAN,
-            alpha_rad: f64::NAN,
-            edp: f64::NAN,
-            embedded: side(0),
-            recorded: side(1),
-            ratio: Estimate::exact(f64::NAN),
-            spread: Estimate::exact(f64::NAN),
-            distance: f64::NAN,
-            p_value: f64::NAN,
+            p_rad_s: nan,
+            alpha_rad: nan,
+            edp: nan,
+            embedded: side(self.records[0]),
+            recorded: side(self.records[1]),
+            ratio: Estimate::exact(nan),
+            spread: Estimate::exact(nan),
+            distance: nan,
+            p_value: nan,
         }
     }
 
@@ -148,7 +151,7 @@ impl SuitePair {
         recorded: &Distributions,
     ) -> Vec<QuantityRow> {
         let mut out = Vec::new();
-        for (k, kind) in ["original", "shifted"].into_iter().enumerate() {
+        for (k, kind) in SAMPLES.into_iter().enumerate() {
             for (e, r) in embedded.blocks.iter().zip(&recorded.blocks) {
                 let quantity = format!("{kind}_{}", embedded.intensity.name());
                 let mut row = self.row(RowGroup::Accepted, quantity);
@@ -206,8 +209,7 @@ impl SuitePair {
 }
 
 fn share(side: &mut Quantiles, block: &BlockSamples, k: usize) {
-    let (original, shifted) = block.shares();
-    side.middle = [original, shifted][k];
+    side.middle = block.shares()[k];
     if let Some((low, high)) = block.bands[k].as_ref().and_then(ends) {
         (side.low, side.high) = (low, high);
     }

@@ -12,7 +12,7 @@ use rocking_statistics::Estimate;
 /// Demands at which capacities are drawn.
 const SHOWN: [f64; 2] = [0.15, 1.0];
 
-/// Equality, as a grey line.
+/// A grey line at equality.
 fn one(range: (f64, f64)) -> Series {
     Series::new("", Mark::Dashed, vec![range.0, range.1], vec![1.0, 1.0])
 }
@@ -63,9 +63,11 @@ fn spectra(rows: &[QuantityRow], kind: &str) -> ChartPanel {
         })
         .collect();
     let series = |label: &str, embedded: bool| {
-        let sides = found.iter().map(|(_, row)| {
-            if embedded { row.embedded } else { row.recorded }
-        });
+        let side = |row: &QuantityRow| match embedded {
+            true => row.embedded,
+            false => row.recorded,
+        };
+        let sides = found.iter().map(|(_, row)| side(row));
         let x = found.iter().map(|(t, _)| *t).collect();
         let y = sides.clone().map(|s| s.middle).collect();
         let ends = sides.map(|s| (s.low, s.high)).collect();
@@ -114,7 +116,7 @@ fn blocks(
         let mut own =
             of_group(rows, RowGroup::Capacity, kind, intensity.name());
         own.retain(|r| r.p_rad_s == *p && r.edp == edp);
-        // Beside each other, not on each other.
+        // Side by side, so that the bars do not overlap.
         let shift = 0.006 * (k as f64 - 1.0);
         let x = own.iter().map(|r| r.alpha_rad + shift).collect();
         let ratios: Vec<Estimate> = own.iter().map(|r| r.ratio).collect();

@@ -19,7 +19,8 @@ named! {
     }
 }
 
-/// One side: 16, 50 and 84 %; or low end of the null band, share, high end.
+/// One side: the 16, 50 and 84 % quantiles; or low end of the null band, share,
+/// and high end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Quantiles {
     pub(super) records: usize,
@@ -36,8 +37,8 @@ impl Quantiles {
     }
 }
 
-/// What the interval of an estimate shows of two numbers that are equal where
-/// the value is `equal`, and alike where it is at most `limit` from there.
+/// Agreement of two numbers by the interval of an estimate. The value `equal`
+/// means equality; numbers are alike up to a distance `limit` from it.
 fn agreement(estimate: &Estimate, equal: f64, limit: f64) -> SuiteAgreement {
     let Some(interval) = estimate.interval() else {
         return SuiteAgreement::Open;
@@ -52,15 +53,15 @@ fn agreement(estimate: &Estimate, equal: f64, limit: f64) -> SuiteAgreement {
     }
 }
 
-/// What an interval shows of two numbers. One that holds equality shows no
-/// agreement: it may be wide.
+/// Agreement of two numbers by an interval. An interval that contains equality
+/// shows no agreement: it may be wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SuiteAgreement {
     /// They differ, and perhaps by more than the limit.
     Apart,
     /// They differ by less than the limit.
     Alike,
-    /// Neither, or there is no interval.
+    /// Neither is shown, or there is no interval.
     Open,
 }
 
@@ -77,7 +78,7 @@ pub(super) struct QuantityRow {
     pub(super) recorded: Quantiles,
     /// Embedded median over recorded, with its 95 % interval.
     pub(super) ratio: Estimate,
-    /// Embedded dispersion less recorded.
+    /// Embedded dispersion minus recorded dispersion.
     pub(super) spread: Estimate,
     /// Distance of the two empirical distributions, and its p-value.
     pub(super) distance: f64,
@@ -85,14 +86,14 @@ pub(super) struct QuantityRow {
 }
 
 impl QuantityRow {
-    /// Agreement of the medians, alike within `limit` of the recorded
-    /// one.
+    /// Agreement of the medians; alike means within the share `limit` of the
+    /// recorded median.
     pub(super) fn medians(&self, limit: f64) -> SuiteAgreement {
         agreement(&self.ratio, 1.0, limit)
     }
 
-    /// Agreement of the dispersions, alike within `limit` of the
-    /// recorded one.
+    /// Agreement of the dispersions; alike means within the share `limit` of the
+    /// recorded dispersion.
     pub(super) fn dispersions(&self, limit: f64) -> SuiteAgreement {
         agreement(&self.spread, 0.0, limit * self.recorded.dispersion())
     }
@@ -100,7 +101,7 @@ impl QuantityRow {
 
 const HEADER: &str = "suite,group,quantity,p_rad_s,alpha_rad,edp,embedded_records,embedded_low,embedded,embedded_high,recorded_records,recorded_low,recorded,recorded_high,ratio,ratio_low,ratio_high,embedded_dispersion,recorded_dispersion,dispersion_difference,dispersion_difference_low,dispersion_difference_high,ks_distance,ks_p_value";
 
-/// Four digits, more than so many records say; nothing where it is not finite.
+/// Four digits, more than the records support; an empty text if not finite.
 fn short(x: f64) -> String {
     if x.is_finite() { digits(x, 4) } else { String::new() }
 }
@@ -137,7 +138,7 @@ pub(super) fn to_csv(rows: &[QuantityRow]) -> String {
     table.finish()
 }
 
-/// Rows of a CSV that [`to_csv`] wrote; other lines are left out.
+/// Rows of a CSV by [`to_csv`]; other lines are left out.
 pub(super) fn from_csv(text: &str) -> Vec<QuantityRow> {
     let line = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
@@ -195,23 +196,16 @@ pub(super) fn of_motion<'a>(
     kind: &str,
     quantity: &str,
 ) -> Option<&'a QuantityRow> {
-    rows.iter().find(|r| {
-        r.group == RowGroup::Motion
-            && r.suite == kind
-            && r.quantity == quantity
-    })
+    of_group(rows, RowGroup::Motion, kind, quantity).first().copied()
 }
 
 /// The rows of a group, a suite and a quantity.
-pub fn of_group<'a>(
+pub(super) fn of_group<'a>(
     rows: &'a [QuantityRow],
     group: RowGroup,
     kind: &str,
     quantity: &str,
 ) -> Vec<&'a QuantityRow> {
-    rows.iter()
-        .filter(|r| {
-            r.group == group && r.suite == kind && r.quantity == quantity
-        })
-        .collect()
+    let rows = rows.iter().filter(|r| r.group == group && r.suite == kind);
+    rows.filter(|r| r.quantity == quantity).collect()
 }

@@ -1,5 +1,5 @@
-//! Files and folders as outputs: opened before the work, so that a bad place
-//! is reported at once, and written whole or not at all.
+//! Files and folders as outputs. They are opened before the work, so that a bad
+//! place is reported at once, and written whole or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Seek as _, Write as _};
@@ -23,8 +23,8 @@ mod unfinished;
 /// Bytes of an unfinished output that are held in memory, at most.
 const HELD_BYTES: usize = 64 << 20;
 
-/// A place to write to, opened and found writable. What is written piece by
-/// piece gets there when it is finished, and not at all otherwise.
+/// A writable place, opened. Pieces that are written get there only when the
+/// output is finished.
 ///
 /// A regular file is replaced at once and keeps its mode; through a link the
 /// linked file is. A device or a named pipe is written to. `-` is standard
@@ -37,10 +37,10 @@ pub struct Output {
 
 #[derive(Debug)]
 enum OutputSink {
-    Standard(SpooledTempFile),
-    /// A device or a named pipe.
-    Stream(PathBuf, SpooledTempFile),
-    /// Where the file goes, and its unfinished part.
+    /// A device or a named pipe (standard output if `None`), and what is held
+    /// for it.
+    Stream(Option<PathBuf>, SpooledTempFile),
+    /// Place of the file, and its unfinished part.
     File(PathBuf, NamedTempFile),
 }
 
@@ -60,10 +60,10 @@ enum OutputSink {
 #[derive(Debug, Default)]
 pub struct Outputs {
     inputs: Vec<PathBuf>,
-    /// Files to which those opened so far go: a device or a pipe keeps
-    /// nothing that could be lost.
+    /// Files of the outputs opened so far. A device or a pipe keeps nothing that
+    /// could be lost.
     files: Vec<PathBuf>,
-    /// Whether one of them goes to standard output.
+    /// Whether an output goes to standard output.
     standard: bool,
 }
 
@@ -76,14 +76,14 @@ impl Outputs {
     /// Opens `path`.
     ///
     /// # Errors
-    /// [`WriteError`] for a folder, a place that cannot be written to, a file
-    /// that is read, and the place of another output.
+    /// [`WriteError`] for a folder, a place that is not writable, an input file, and
+    /// the place of another output.
     pub fn open(&mut self, path: &Path) -> Result<Output, WriteError> {
         let sink = self.sink(path).map_err(WriteError::at(path))?;
         Ok(Output { path: path.to_owned(), sink })
     }
 
-    /// Opens `path`, where a place is given.
+    /// Opens `path`, if there is one.
     ///
     /// # Errors
     /// As [`Outputs::open`].
@@ -94,8 +94,8 @@ impl Outputs {
         path.map(|path| self.open(path)).transpose()
     }
 
-    /// Whether one of them goes to standard output, where then nothing else
-    /// is printed.
+    /// Whether an output goes to standard output, so that nothing else may be
+    /// printed there.
     pub fn take_standard_output(&self) -> bool {
         self.standard
     }
@@ -103,7 +103,7 @@ impl Outputs {
     fn sink(&mut self, path: &Path) -> io::Result<OutputSink> {
         let sink = OutputSink::open(path, &self.inputs)?;
         let is_taken = match &sink {
-            OutputSink::Standard(_) => replace(&mut self.standard, true),
+            OutputSink::Stream(None, _) => replace(&mut self.standard, true),
             OutputSink::Stream(..) => false,
             OutputSink::File(target, _) => {
                 let folder = fs::canonicalize(folder_of(target))?;
@@ -143,9 +143,7 @@ impl Output {
     pub fn add(&mut self, piece: impl AsRef<[u8]>) -> Result<(), WriteError> {
         let piece = piece.as_ref();
         match &mut self.sink {
-            OutputSink::Standard(held) | OutputSink::Stream(_, held) => {
-                held.write_all(piece)
-            }
+            OutputSink::Stream(_, held) => held.write_all(piece),
             OutputSink::File(_, part) => system::add(part.as_file(), piece),
         }
         .map_err(WriteError::at(&self.path))
@@ -165,14 +163,14 @@ impl OutputSink {
         let held = SpooledTempFile::new(HELD_BYTES);
         if path == Path::new("-") {
             standard_output()?;
-            return Ok(Self::Standard(held));
+            return Ok(Self::Stream(None, held));
         }
         let target = match fs::metadata(path) {
             Ok(found) if found.is_dir() => {
                 return Err(io::ErrorKind::IsADirectory.into());
             }
             Ok(found) if !found.is_file() => {
-                return Ok(Self::Stream(path.to_owned(), held));
+                return Ok(Self::Stream(Some(path.to_owned()), held));
             }
             Ok(_) => {
                 refuse_input(path, inputs)?;
@@ -201,7 +199,7 @@ impl OutputSink {
 
     fn finish(self) -> io::Result<()> {
         match self {
-            Self::Standard(mut part) => {
+            Self::Stream(None, mut part) => {
                 part.rewind()?;
                 let mut out = io::stdout();
                 let done = io::copy(&mut part, &mut out);
@@ -210,7 +208,7 @@ impl OutputSink {
                     done => done,
                 }
             }
-            Self::Stream(path, mut part) => {
+            Self::Stream(Some(path), mut part) => {
                 part.rewind()?;
                 let mut device = File::options().write(true).open(path)?;
                 io::copy(&mut part, &mut device).map(drop)

@@ -130,18 +130,13 @@ fn next(
 fn shift(mut found: Vec<f64>, mut flipped: Vec<f64>) -> f64 {
     found.sort_by(f64::total_cmp);
     flipped.sort_by(f64::total_cmp);
-    let mut largest = 0.0;
-    for share in [0.16, 0.5, 0.84] {
+    let change = |share: f64| {
         let k = (share * found.len() as f64) as usize;
-        let (Some(a), Some(b)) = (found.get(k), flipped.get(k)) else {
-            continue;
-        };
-        let change = if a == b { 0.0 } else { (b / a - 1.0).abs() };
-        if !(change <= largest) {
-            largest = change;
-        }
-    }
-    largest
+        let (a, b) = (found.get(k)?, flipped.get(k)?);
+        Some(if a == b { 0.0 } else { (b / a - 1.0).abs() })
+    };
+    let changes = [0.16, 0.5, 0.84].into_iter().filter_map(change);
+    changes.fold(0.0, |largest, x| if x <= largest { largest } else { x })
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! The paper's claims: declared as data in `validation/study/claims`, measured by
-//! [`super::measures`].
+//! The paper's claims: `validation/study/claims` declares them as data,
+//! [`super::measures`] measures them.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -23,46 +23,45 @@ const FILES: [(&str, &str); 4] = [
     ("fragilities.toml", include_str!("../claims/fragilities.toml")),
 ];
 
-/// A claim as it is declared, without results.
+/// A declared claim, without results.
 #[derive(Clone, Debug)]
 pub struct Declaration {
     /// The statement.
     pub claim: Claim,
-    /// How a finding is tested.
+    /// Test of a finding.
     pub test: Option<ClaimTest>,
 }
 
-/// How a finding is tested.
+/// Test of a finding.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimTest {
     /// Registered name of the measure.
     pub measure: ClaimMeasure,
-    /// Intensity that the measure is of; PGA where none is named.
+    /// Intensity measure; PGA if none is named.
     pub intensity: Option<Intensity>,
-    /// Suites that it is tested on.
+    /// Suites of the test.
     pub suites: Vec<SuiteSet>,
-    /// Arms that it is tested on.
+    /// Grids of the test.
     pub arms: Arms,
 }
 
-/// Arms of the grid that a claim is tested on.
+/// Grids on which a claim is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Arms {
-    /// Each that is drawn.
+    /// Every drawn grid.
     Drawn,
-    /// The one that figures share.
+    /// The grid that figures share.
     Common,
-    /// None: the grid does not enter.
+    /// No grid: the result does not depend on it.
     None,
 }
 
 /// The declared claims.
 ///
 /// # Panics
-/// If a file is not of the expected form: the files are compiled in, and a
-/// test reads them.
+/// If a file has another form. The files are compiled in, and a test reads them.
 #[must_use]
 pub fn declared() -> &'static [Declaration] {
     #[derive(Deserialize)]
@@ -106,7 +105,7 @@ impl Declaration {
         Ok(Self { claim: table.try_into()?, test: test.transpose()? })
     }
 
-    /// Refuses a claim that lacks something of its kind, or has too much.
+    /// Refuses a claim that lacks a field of its kind, or has a field too many.
     fn check(&self) -> Result<(), &'static str> {
         let Claim { yardsticks, measure, plain, case, .. } = &self.claim;
         let has_case = !case.is_empty();
@@ -129,7 +128,7 @@ impl Declaration {
         }
     }
 
-    /// The results by suite and arm; none of a claim that is not tested.
+    /// The results by suite and grid; empty for a claim without a test.
     fn results(&self, scope: &Scope<'_>) -> anyhow::Result<Vec<ClaimResult>> {
         let Some(test) = &self.test else { return Ok(Vec::new()) };
         let plan = &scope.results.plan;
@@ -138,18 +137,20 @@ impl Declaration {
             Arms::Common | Arms::None => vec![plan.common()],
         };
         let intensity = test.intensity.unwrap_or(Intensity::Pga);
-        let mut found = Vec::new();
-        for &tested in &test.suites {
-            for &arm in &arms {
-                let scope = Scope { tested, arm, intensity, ..*scope };
-                found.push(self.result(test, &scope)?);
-            }
-        }
-        Ok(found)
+        let places = test.suites.iter();
+        let places =
+            places.flat_map(|own| arms.iter().map(|arm| (*own, *arm)));
+        let scopes = places.map(|(tested, arm)| Scope {
+            tested,
+            arm,
+            intensity,
+            ..*scope
+        });
+        scopes.map(|scope| self.result(test, &scope)).collect()
     }
 
-    /// The result on the suite and arm of the scope: the words follow from
-    /// the numbers.
+    /// The result on the suite and grid of the scope. The verdicts follow from the
+    /// numbers.
     fn result(
         &self,
         test: &ClaimTest,
@@ -161,7 +162,7 @@ impl Declaration {
         let estimate = scope.estimate(range, &effect);
         let Claim { yardsticks, no_effect, .. } = &self.claim;
         let seen = Seen::of(yardsticks, &counts);
-        // What rests on something that is not there has no effect.
+        // A statement whose premise is missing has no effect.
         let effect = no_effect.filter(|_| seen != Seen::NotTestable);
         Ok(ClaimResult {
             suite: scope.tested,
@@ -180,7 +181,7 @@ impl Declaration {
 /// All claims with their results.
 ///
 /// # Errors
-/// Where a measure cannot be computed.
+/// If a measure cannot be computed.
 pub fn measured_claims(
     results: &StudyResults,
     draws: &Resamples,

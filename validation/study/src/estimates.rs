@@ -1,5 +1,4 @@
-//! Estimates that tables of the study show: medians, shares of records,
-//! paired ratios.
+//! Estimates in tables of the study: medians, means and quantiles.
 
 use rocking_statistics::boxplot::median_interval;
 use rocking_statistics::{Estimate, ExtendedSample, QuantileType, Range};
@@ -7,8 +6,8 @@ use rocking_statistics::{Estimate, ExtendedSample, QuantileType, Range};
 /// Level of the intervals.
 pub(crate) const LEVEL: f64 = 0.95;
 
-/// Median with its exact order-statistic interval; what was never reached
-/// counts as infinite, what is NaN does not count.
+/// Median with its exact order-statistic interval. A capacity that was never
+/// reached counts as infinite; NaN does not count.
 pub fn median(values: &[f64]) -> Estimate {
     let there: Vec<f64> =
         values.iter().copied().filter(|x| !x.is_nan()).collect();
@@ -23,7 +22,7 @@ pub fn median(values: &[f64]) -> Estimate {
         .unwrap_or(Estimate::exact(value))
 }
 
-/// Mean of the finite ones among some numbers.
+/// Mean of the finite values among some numbers.
 pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for x in values.into_iter().filter(|x| x.is_finite()) {
@@ -33,8 +32,8 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     sum / count
 }
 
-/// 16, 50 and 84 % quantiles of the default type; what was never reached
-/// counts as infinite.
+/// 16, 50 and 84 % quantiles of the default type. A capacity that was never
+/// reached counts as infinite.
 pub(crate) fn three_quantiles(values: &[f64]) -> anyhow::Result<[f64; 3]> {
     let sample = ExtendedSample::try_new(values)?;
     let at = |p| QuantileType::default().extended_quantile(&sample, p);

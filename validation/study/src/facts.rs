@@ -19,12 +19,12 @@ pub struct Facts {
     pub pga_g: f64,
     /// PGV/PGA over gravity, in s.
     pub velocity_ratio_s: f64,
-    /// PGA of the geometric mean of the pair over this component's.
+    /// PGA of the geometric mean of the pair over the PGA of this component.
     pub mean_over_study: Option<f64>,
-    /// AvgSA over the periods of a block, over PGA, by the frequency parameters
-    /// of the paper's blocks.
+    /// AvgSA over the periods of a block, divided by PGA, by frequency parameter of
+    /// the paper's blocks.
     pub average_ratios: Vec<f64>,
-    /// Intensity measures of the component applied, its spectrum at
+    /// Intensity measures of the study component, with its spectrum at
     /// [`SPECTRUM_PERIODS_S`].
     pub measures: Measures,
 }
@@ -32,7 +32,7 @@ pub struct Facts {
 /// Name and intensity measures of a motion's study component.
 ///
 /// # Errors
-/// Where nothing moves.
+/// For a motion of zeros.
 pub fn facts(motion: &StudyMotion) -> anyhow::Result<Facts> {
     let study = &motion.study;
     let pga_g = study.pga_g();

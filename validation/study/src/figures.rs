@@ -1,4 +1,4 @@
-//! The paper's figures, filled from the analyses.
+//! The paper's figures, made from the analyses.
 
 mod distributions;
 mod fragilities;
@@ -13,23 +13,24 @@ use crate::inference::Resamples;
 use crate::results::StudyResults;
 use rocking_draw::figures::Figure;
 
-/// Figures 1 to 18, in order; those of the grid's arms once for each arm
-/// drawn. Bands are of these draws of the records.
+/// Figures 1 to 18, in order; those that depend on the grid once for each drawn
+/// grid. Bands use these draws of the records.
 ///
 /// # Errors
-/// Where a curve cannot be read.
+/// If a curve cannot be read.
 pub fn paper_figures(
     results: &StudyResults,
     draws: &Resamples,
 ) -> anyhow::Result<Vec<Figure>> {
     let drawn = results.plan.drawn();
-    let mut out = vec![single::sketch()];
-    let one = results.plan.common();
-    out.push(single::motions(&results.ordinary, one, 2));
-    out.push(single::motions(&results.pulse, one, 3));
-    out.push(single::curves(&results.ordinary, one, 4)?);
-    out.push(single::curves(&results.pulse, one, 5)?);
-    let ordinary = &results.ordinary;
+    let (one, ordinary) = (results.plan.common(), &results.ordinary);
+    let mut out = vec![
+        single::sketch(),
+        single::motions(ordinary, one, 2),
+        single::motions(&results.pulse, one, 3),
+        single::curves(ordinary, one, 4)?,
+        single::curves(&results.pulse, one, 5)?,
+    ];
     for number in [6, 7] {
         for arm in &drawn {
             out.push(ratios::slendernesses(ordinary, *arm, number)?);

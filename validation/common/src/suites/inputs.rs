@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
+use anyhow::bail;
 use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
@@ -148,36 +149,8 @@ pub fn visit_zip<K, E: From<SuiteError>>(
     let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
     let index_limit = left / INDEX_PART;
-    if !has_end(&mut archive, size).map_err(unreadable(shown))? {
-        let cut =
-            "the archive is cut: expected a list of its files at its end";
-        return Err(unreadable(shown)(cut).into());
-    }
-    let opened = ZipArchive::new(&mut archive).map_err(unreadable(shown))?;
-    let start = opened.central_directory_start();
-    let mut doubled = Vec::new();
-    if opened.has_duplicate_names() {
-        let names = doubled_names(&mut archive, start);
-        doubled = names.map_err(unreadable(shown))?;
-    }
-    let mut archive = ZipArchive::new(archive).map_err(unreadable(shown))?;
-    if let Some((one, other)) = shared(&mut archive) {
-        let reason = format!(
-            "files {one} and {other} of the archive share their bytes: \
-             expected each file once"
-        );
-        return Err(unreadable(shown)(reason).into());
-    }
-    let mut names = Vec::new();
-    for name in archive.file_names() {
-        names.push(name.map_err(unreadable(shown))?.into_owned());
-    }
-    for name in doubled {
-        let found = archive.index_for_name_raw(&name);
-        let name = found.and_then(|index| archive.name_for_index(index));
-        let name = name.transpose().map_err(unreadable(shown))?;
-        names.extend(name.map(Into::into));
-    }
+    let (mut archive, names) =
+        opened(archive, size).map_err(unreadable(shown))?;
     let (base, names) = contents(names);
     let unpacked = |name: &str| {
         if name.split('/').any(|part| part == "..") {
@@ -196,8 +169,43 @@ pub fn visit_zip<K, E: From<SuiteError>>(
     Survey::of_files(shown, &names, options, unpacked, keep)
 }
 
-/// Two files of an archive that have bytes of it in common: by such, a small
-/// archive holds any number of records.
+/// An archive of `size` bytes, and the names of its files.
+fn opened<R: Read + Seek>(
+    mut archive: R,
+    size: u64,
+) -> anyhow::Result<(ZipArchive<R>, Vec<String>)> {
+    if !has_end(&mut archive, size)? {
+        bail!("the archive is cut: expected a list of its files at its end");
+    }
+    let list = ZipArchive::new(&mut archive)?;
+    let doubled = match list.has_duplicate_names() {
+        true => {
+            let start = list.central_directory_start();
+            doubled_names(&mut archive, start)?
+        }
+        false => Vec::new(),
+    };
+    let mut archive = ZipArchive::new(archive)?;
+    if let Some((one, other)) = shared(&mut archive) {
+        bail!(
+            "files {one} and {other} of the archive share their bytes: \
+             expected each file once"
+        );
+    }
+    let mut names = Vec::new();
+    for name in archive.file_names() {
+        names.push(name?.into_owned());
+    }
+    for name in doubled {
+        let found = archive.index_for_name_raw(&name);
+        let name = found.and_then(|index| archive.name_for_index(index));
+        names.extend(name.transpose()?.map(Into::into));
+    }
+    Ok((archive, names))
+}
+
+/// Two files of an archive that share bytes. By shared bytes a small archive could
+/// contain any number of records.
 fn shared(
     archive: &mut ZipArchive<impl Read + Seek>,
 ) -> Option<(String, String)> {

@@ -49,19 +49,17 @@ pub(super) fn stripe_demands(
     let adjusted_runs = run(&references(), Adjust::SlendernessAdjustment)?;
     // Stripes rise, and overturned blocks increase: a grid uses the first ones.
     let cut = |runs: &OnStripes<f64>, curves: &[Vec<ResponseCurve>], n| {
-        let blocks = runs.iter().zip(curves);
-        let of_block = blocks.map(|(runs, curves)| {
-            let stripes = used.iter().zip(runs).take(n);
-            let of_stripe = stripes.map(|(im, runs)| {
+        let of_block = |(runs, curves): (&Vec<Vec<f64>>, &Vec<_>)| {
+            let of_stripe = |(im, runs): (&f64, &Vec<f64>)| {
                 let each = runs.iter().zip(curves);
-                each.map(|(run, curve)| {
+                let each = each.map(|(run, curve): (_, &ResponseCurve)| {
                     on_stripe(*im, curve.overturning_im(), *run)
-                })
-                .collect()
-            });
-            of_stripe.collect()
-        });
-        of_block.collect::<OnStripes<f64>>()
+                });
+                each.collect()
+            };
+            used.iter().zip(runs).take(n).map(of_stripe).collect()
+        };
+        runs.iter().zip(curves).map(of_block).collect::<OnStripes<f64>>()
     };
     let of_arm = |(own, curves): (&ArmCurves, &[Vec<ResponseCurve>])| {
         let n = used.iter().filter(|im| is_used(**im, curves)).count();

@@ -43,13 +43,11 @@ pub(super) fn inverted(
         onsets.push((three_quantiles(&block.samples[0])?, block.shift));
         let last = block.overturning();
         cut = last.iter().filter(|x| !x.is_finite()).count();
-        let records = results.ordinary.records.iter().enumerate();
-        let shown: Vec<(&str, Vec<f64>)> = records
-            .map(|(record, facts)| {
-                let own = block.samples.iter().map(|s| s[record]).collect();
-                (facts.name.as_str(), own)
-            })
-            .collect();
+        let mut shown: Vec<(&str, Vec<f64>)> = Vec::new();
+        for (record, facts) in results.ordinary.records.iter().enumerate() {
+            let own = block.samples.iter().map(|s| s[record]).collect();
+            shown.push((&facts.name, own));
+        }
         let (low, high) = capacity_range(&shown, block.shift);
         let of = block.samples.iter().map(|s| three_quantiles(s));
         let of: Vec<[f64; 3]> = of.collect::<anyhow::Result<_>>()?;
@@ -59,13 +57,12 @@ pub(super) fn inverted(
             // Capacities that do not exceed the shift lie at the edge.
             let at = |im: f64| if im - less > low { im - less } else { low };
             // The shifted curves are the same numbers minus the shift.
-            let keyed = |one: Series, name: &str| match less == 0.0 {
-                true => one.keyed([
-                    intensity.name().into(),
-                    cell(block.shift),
-                    name.into(),
-                ]),
-                false => one.keyed([]),
+            let keyed = |one: Series, name: &str| {
+                if less > 0.0 {
+                    return one.keyed([]);
+                }
+                let (im, shift) = (intensity.name().into(), cell(block.shift));
+                one.keyed([im, shift, name.into()])
             };
             let mut series = Vec::new();
             for (name, ims) in &shown {
@@ -122,8 +119,7 @@ pub(super) fn inverted(
     if cut > 0 {
         let mark = Sample::Mark(Marker::Triangle, Ink::Text);
         legend.push(Entry::new(mark, "ends: never overturned"));
-        ends =
-            format!(" {cut} records never overturn: their curves end early.");
+        ends = format!(" {cut} records never overturn: their curves end.");
     }
     let heading = paper_heading(11, Some(arm));
     let layout = Layout {
@@ -146,8 +142,8 @@ pub(super) fn inverted(
         &layout,
         format!(
             "At the lowest demand the 84 % capacity is {:.2} times the 16 % \
-             one for PGA, and {:.2} times for PGV. Less IM_R it is {:.2} and \
-             {:.2} times.{ends}",
+             capacity for PGA, and {:.2} times for PGV. Above IM_R it is \
+             {:.2} and {:.2} times.{ends}",
             times(onsets[0], 0.0),
             times(onsets[1], 0.0),
             times(onsets[0], onsets[0].1),
@@ -212,7 +208,7 @@ pub(super) fn shares(
     let mut panels = Vec::new();
     let mut means = Vec::new();
     let mut fewest = usize::MAX;
-    let mut banded: Vec<Arm> = Vec::new();
+    let mut is_banded = false;
     for suite in results.suites() {
         for (sample, sample_name) in SAMPLES.into_iter().enumerate() {
             let mut shares: Vec<Share> = Vec::new();
@@ -221,9 +217,7 @@ pub(super) fn shares(
                 for (block, one) in found.blocks.iter().enumerate() {
                     let tests = one.tests[sample].iter().map(over_critical);
                     let band = one.bands[sample].as_ref().and_then(ends);
-                    if band.is_some() && !banded.contains(of) {
-                        banded.push(*of);
-                    }
+                    is_banded |= band.is_some();
                     shares.push(Share {
                         block,
                         arm,
@@ -276,19 +270,18 @@ pub(super) fn shares(
             ));
         }
     }
-    let mut legend: Vec<Entry> = Vec::new();
-    for (arm, marker) in drawn.iter().zip(ARMS) {
-        let words = common::arm_words(*arm);
-        legend.push(Entry::new(Sample::Mark(marker, Ink::Text), words));
-    }
+    let marks = drawn.iter().zip(ARMS).map(|(arm, marker)| {
+        let mark = Sample::Mark(marker, Ink::Text);
+        Entry::new(mark, common::arm_words(*arm))
+    });
+    let mut legend: Vec<Entry> = marks.collect();
     legend.push(Entry::new(
         Sample::Line(EXPECTED),
         format!("expected of a lognormal: {}", percent(1.0 - LEVEL, 0)),
     ));
-    if !banded.is_empty() {
-        let arms: Vec<&str> = banded.iter().map(|a| a.name()).collect();
-        let arms = arms.join(" and ");
-        let words = format!("95 % band of lognormal suites, grid {arms}");
+    if is_banded {
+        let grid = common.name();
+        let words = format!("95 % band of lognormal suites, grid {grid}");
         legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let layout = Layout {

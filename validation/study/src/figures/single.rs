@@ -28,27 +28,21 @@ pub(super) fn sketch() -> Figure {
 }
 
 pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
-    let panels: Vec<HistoryPanel> = suite
-        .single
-        .iter()
-        .zip(FREQUENCIES_RAD_S)
-        .flat_map(|(single, p_rad_s)| {
-            suite.chosen.iter().zip(&single.histories).map(
-                move |(record, histories)| HistoryPanel {
-                    p_rad_s,
-                    record: suite.records[*record].name.clone(),
-                    im: single.im,
-                    curves: histories
-                        .iter()
-                        .zip(SLENDERNESSES_RAD)
-                        .map(|((ratio, peak), alpha_rad)| {
-                            history(alpha_rad, ratio, peak.is_infinite())
-                        })
-                        .collect(),
-                },
-            )
-        })
-        .collect();
+    let mut panels = Vec::new();
+    for (single, p_rad_s) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
+        for (record, histories) in suite.chosen.iter().zip(&single.histories) {
+            let curves = histories.iter().zip(SLENDERNESSES_RAD);
+            let curves = curves.map(|((ratio, peak), alpha_rad)| {
+                history(alpha_rad, ratio, peak.is_infinite())
+            });
+            panels.push(HistoryPanel {
+                p_rad_s,
+                record: suite.records[*record].name.clone(),
+                im: single.im,
+                curves: curves.collect(),
+            });
+        }
+    }
     let heading = paper_heading(number, Some(arm));
     let distances = by_frequency(suite, |single| {
         format!("{:.3}", single.median_of(|a| a.distance))

@@ -162,16 +162,36 @@ pub(super) fn demand_ratios(scope: &Scope<'_>) -> MeasureResult {
     Ok(conforming(scope, cells, stockiest))
 }
 
-/// Figure 8: intensity given demand, and demand given intensity.
-pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
-    let stripes = scope.stripes()?;
+/// Factors from PGA to a measure, by frequency parameter, then by record.
+type Factors = [Vec<f64>; FREQUENCIES_RAD_S.len()];
+
+/// Factors of PGA itself.
+fn in_pga(scope: &Scope<'_>) -> Factors {
+    std::array::from_fn(|_| vec![1.0; scope.records()])
+}
+
+/// Capacities of all blocks and demands beside those of the reference block, in
+/// the measure of these factors.
+fn demand_pairs(
+    scope: &Scope<'_>,
+    factors: &Factors,
+) -> anyhow::Result<Vec<SamplePair>> {
     let mut pairs = Vec::new();
     for (frequency, slenderness) in compared_blocks() {
         for demand in DEMANDS {
-            let [own, reference] =
-                samples(scope, frequency, slenderness, demand)?;
-            pairs.push(pair(own, reference));
+            let own = samples(scope, frequency, slenderness, demand)?;
+            let own = own.map(|sample| scaled(sample, &factors[frequency]));
+            pairs.push(own.map(|sample| RecordRanks::new(&sample)));
         }
+    }
+    Ok(pairs)
+}
+
+/// Figure 8: intensity given demand, and demand given intensity.
+pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
+    let (stripes, pga) = (scope.stripes()?, in_pga(scope));
+    let mut pairs = demand_pairs(scope, &pga)?;
+    for (frequency, slenderness) in compared_blocks() {
         let levels = stripes.compared(frequency, Some(slenderness));
         pairs.extend(levels.map(|(_, own, reference)| pair(own, reference)));
     }
@@ -181,29 +201,19 @@ pub(super) fn quantiles(scope: &Scope<'_>) -> MeasureResult {
             "spread of the median overturning intensity over slendernesses, \
              p = {p}"
         );
-        let own = (0..SLENDERNESSES_RAD.len()).map(|s| (frequency, s));
-        found = found.and(&name, spread(scope, own, None)?);
+        let own = blocks().filter(|block| block.0 == frequency);
+        found = found.and(&name, spread(scope, own, &pga)?);
     }
     Ok(found)
 }
 
 /// Figure 8 in AvgSA: intensity given demand.
 pub(super) fn average_sa_quantiles(scope: &Scope<'_>) -> MeasureResult {
-    let factors =
-        |frequency| average_factors(&scope.suite().records, frequency);
-    let mut pairs = Vec::new();
-    for (frequency, slenderness) in compared_blocks() {
-        let factors = factors(frequency);
-        for demand in DEMANDS {
-            let own = samples(scope, frequency, slenderness, demand)?;
-            let own = own.map(|sample| scaled(sample, &factors));
-            pairs.push(own.map(|sample| RecordRanks::new(&sample)));
-        }
-    }
-    let mut found = coinciding(scope, pairs);
-    let average: Vec<Vec<f64>> =
-        (0..FREQUENCIES_RAD_S.len()).map(factors).collect();
-    for (factors, im) in [(None, "PGA"), (Some(&average[..]), "AvgSA")] {
+    let records = &scope.suite().records;
+    let average: Factors =
+        std::array::from_fn(|frequency| average_factors(records, frequency));
+    let mut found = coinciding(scope, demand_pairs(scope, &average)?);
+    for (im, factors) in [("PGA", &in_pga(scope)), ("AvgSA", &average)] {
         let name = format!(
             "spread of the median overturning intensity over all blocks, {im}"
         );
@@ -212,23 +222,18 @@ pub(super) fn average_sa_quantiles(scope: &Scope<'_>) -> MeasureResult {
     Ok(found)
 }
 
-/// Largest over smallest median overturning intensity of some blocks, minus 1;
-/// in PGA, or in a measure of these factors by frequency parameter. It has no
-/// interval: resamples only spread such a number more.
+/// Largest over smallest median overturning intensity of some blocks, minus 1,
+/// in the measure of these factors. It has no interval: resamples only spread
+/// such a number more.
 fn spread(
     scope: &Scope<'_>,
     blocks: impl Iterator<Item = (usize, usize)>,
-    factors: Option<&[Vec<f64>]>,
+    factors: &Factors,
 ) -> anyhow::Result<Estimate> {
     let mut medians = Vec::new();
     for (frequency, slenderness) in blocks {
         let [own, _] = samples(scope, frequency, slenderness, 1.0)?;
-        let ranks = match factors {
-            Some(factors) => {
-                RecordRanks::new(&scaled(own, &factors[frequency]))
-            }
-            None => RecordRanks::new(own),
-        };
+        let ranks = RecordRanks::new(&scaled(own, &factors[frequency]));
         medians.push(ranks.median(scope.every()));
     }
     let is_reached = medians.iter().all(|x| x.is_finite());

@@ -118,13 +118,6 @@ impl<'a> Scope<'a> {
         found.first().copied().unwrap_or(Estimate::exact(f64::NAN))
     }
 
-    /// Share `found` of `all`, counts by record.
-    pub(super) fn share(&self, found: &[u32], all: &[u32]) -> Replicates {
-        self.one(|counts| {
-            weighted_count(found, counts) / weighted_count(all, counts)
-        })
-    }
-
     /// Geometric mean of the medians of cells.
     pub(super) fn mean_median(&self, cells: &[RecordRanks]) -> Replicates {
         self.one(|counts| {
@@ -146,6 +139,45 @@ impl<'a> Scope<'a> {
     /// The multiplicities of the whole suite: every record once.
     pub(super) fn every(&self) -> &'a [u32] {
         self.draws.whole().of(self.kind())
+    }
+}
+
+/// Counts by record: things of a kind, and all things.
+pub(super) struct Tally {
+    found: Vec<u32>,
+    all: Vec<u32>,
+}
+
+impl Tally {
+    /// Nothing counted yet.
+    pub(super) fn new(records: usize) -> Self {
+        Self { found: vec![0; records], all: vec![0; records] }
+    }
+
+    /// Counts a thing of a record, and whether it is of the kind.
+    pub(super) fn add(&mut self, record: usize, is: bool) {
+        self.all[record] += 1;
+        self.found[record] += u32::from(is);
+    }
+
+    /// The numbers of things of the kind, and of all things.
+    pub(super) fn totals(&self) -> (usize, usize) {
+        let sum = |of: &[u32]| of.iter().sum::<u32>() as usize;
+        (sum(&self.found), sum(&self.all))
+    }
+
+    /// The count of the sample.
+    pub(super) fn count(&self) -> SampleCount {
+        let (found, all) = self.totals();
+        SampleCount::of(found, all)
+    }
+
+    /// The share over the draws.
+    pub(super) fn share(&self, scope: &Scope<'_>) -> Replicates {
+        scope.one(|counts| {
+            weighted_count(&self.found, counts)
+                / weighted_count(&self.all, counts)
+        })
     }
 }
 

@@ -1,13 +1,13 @@
 //! Section 4, Figures 2 to 5: measures of single records.
 
-use super::scope::{COINCIDE, MeasureResult, Measured, Scope, geometric_mean};
+use super::scope::{
+    COINCIDE, MeasureResult, Measured, Scope, Tally, geometric_mean,
+};
 use crate::analyses::{Deviation, SingleRecords};
 use crate::estimates::mean;
 use crate::inference::{Resample, least_counted};
 use rocking_common::findings::SampleCount;
-use rocking_common::paper::{
-    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, position,
-};
+use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind};
 use rocking_common::words::rounded_text;
 use rocking_statistics::resampling::RecordRanks;
 
@@ -20,25 +20,17 @@ fn by_record(
     RecordRanks::new(&each.collect::<Vec<f64>>())
 }
 
-/// Number of histories further than a distance from the reference's, and number
-/// of all histories, by record.
-fn further(scope: &Scope<'_>, than: f64) -> [Vec<u32>; 2] {
-    let n = scope.records();
-    let mut found = [vec![0_u32; n], vec![0_u32; n]];
-    let [far, all] = &mut found;
+/// Histories further than a distance from the reference's.
+fn further(scope: &Scope<'_>, than: f64) -> Tally {
+    let mut tally = Tally::new(scope.records());
     for single in &scope.suite().single {
         for (record, apart) in single.apart.iter().enumerate() {
             for a in apart.iter().filter(|a| a.distance.is_finite()) {
-                all[record] += 1;
-                far[record] += u32::from(a.distance > than);
+                tally.add(record, a.distance > than);
             }
         }
     }
-    found
-}
-
-fn sum(of: &[u32]) -> usize {
-    of.iter().sum::<u32>() as usize
+    tally
 }
 
 /// Histories further than this from the reference's are not the same.
@@ -47,9 +39,8 @@ const SAME: f64 = 0.05;
 /// Share of the histories of Figure 2 that are further than 5 % from the
 /// reference's.
 pub(super) fn histories_apart(scope: &Scope<'_>) -> Measured {
-    let [far, all] = further(scope, SAME);
-    let counts = [SampleCount::of(sum(&far), sum(&all))];
-    Measured::new(counts, scope.share(&far, &all), levels(scope))
+    let far = further(scope, SAME);
+    Measured::new([far.count()], far.share(scope), levels(scope))
 }
 
 /// The intensities of Figures 2 and 3.
@@ -64,13 +55,9 @@ fn levels(scope: &Scope<'_>) -> String {
 
 /// Median distance of histories of Figure 3; mean over frequency parameters.
 pub(super) fn history_distance(scope: &Scope<'_>) -> Measured {
-    let [far, all] = further(scope, SAME);
-    let [not_close, _] = further(scope, COINCIDE);
-    let n = sum(&all);
-    let counts = [
-        SampleCount::of(n - sum(&not_close), n),
-        SampleCount::of(sum(&far), n),
-    ];
+    let (not_close, n) = further(scope, COINCIDE).totals();
+    let counts =
+        [SampleCount::of(n - not_close, n), further(scope, SAME).count()];
     let single = &scope.suite().single;
     let cells: Vec<RecordRanks> =
         single.iter().map(|s| by_record(&s.apart, |a| a.distance)).collect();
@@ -144,24 +131,18 @@ pub(super) fn curves(scope: &Scope<'_>) -> Measured {
 /// of the five blocks have overturned and some have not.
 pub(super) fn fates(scope: &Scope<'_>) -> MeasureResult {
     let stripes = scope.stripes()?;
-    let n = scope.records();
-    let (mut mixed, mut all) = (vec![0_u32; n], vec![0_u32; n]);
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        let first = position(frequency, 0);
-        let blocks = &stripes.demands[first..][..SLENDERNESSES_RAD.len()];
+    let mut mixed = Tally::new(scope.records());
+    for blocks in stripes.demands.chunks(SLENDERNESSES_RAD.len()) {
         let used = blocks.iter().map(Vec::len).min().unwrap_or(0);
         for stripe in 0..used {
-            for record in 0..n {
+            for record in 0..scope.records() {
                 let fell =
                     |b: &&Vec<Vec<f64>>| b[stripe][record].is_infinite();
                 let fallen = blocks.iter().filter(fell).count();
-                all[record] += 1;
-                mixed[record] +=
-                    u32::from(fallen > 0 && fallen < blocks.len());
+                mixed.add(record, fallen > 0 && fallen < blocks.len());
             }
         }
     }
-    let counts = [SampleCount::of(sum(&mixed), sum(&all))];
-    let share = scope.share(&mixed, &all);
-    Ok(Measured::new(counts, share, "all records, p and stripes"))
+    let share = mixed.share(scope);
+    Ok(Measured::new([mixed.count()], share, "all records, p and stripes"))
 }

@@ -4,7 +4,7 @@
 use libm::log;
 
 use super::scope::{
-    self, COINCIDE, MeasureResult, Measured, Scope, compared_blocks,
+    self, COINCIDE, MeasureResult, Measured, Scope, Tally, compared_blocks,
     geometric_mean, weighted_count,
 };
 use crate::analyses::StripeDemands;
@@ -257,30 +257,23 @@ pub(super) fn adjusted_scope(scope: &Scope<'_>) -> MeasureResult {
 /// Share of the ratios of all cells that lie more than 10 % from 1.
 pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
     let cells = block_ratios(scope.stripes()?, &[0, 1, 2], &ALL, false);
-    let n = scope.records();
-    let (mut beyond_whiskers, mut ratios) = (0, 0);
+    let mut far = Tally::new(scope.records());
+    let mut beyond_whiskers = 0;
     for cell in &cells {
         let at = |p| cell.quantile(scope.every(), p);
         let (low, high) = (at(0.25), at(0.75));
         let reach = 1.5 * (high - low);
-        ratios += cell.records();
-        let lies = |x: f64| low - reach <= x && x <= high + reach;
-        beyond_whiskers += cell.each().filter(|(x, _)| !lies(*x)).count();
+        for (x, record) in cell.each() {
+            let lies = low - reach <= x && x <= high + reach;
+            beyond_whiskers += usize::from(!lies);
+            far.add(record, (x - 1.0).abs() > 0.10);
+        }
     }
-    let (mut far, mut all) = (vec![0_u32; n], vec![0_u32; n]);
-    for (x, record) in cells.iter().flat_map(RecordRanks::each) {
-        all[record] += 1;
-        far[record] += u32::from((x - 1.0).abs() > 0.10);
-    }
-    let [near, all_of_them] =
-        [all.iter().zip(&far).map(|(n, k)| n - k).sum(), all.iter().sum()]
-            .map(|n: u32| n as usize);
-    let counts = [SampleCount::of(near, all_of_them)];
-    let share = beyond_whiskers as f64 / ratios as f64;
-    Ok(Measured::new(counts, scope.share(&far, &all), "all ratios").and(
-        "beyond 1.5 times the interquartile range of their cell",
-        Estimate::exact(share),
-    ))
+    let (beyond, all) = far.totals();
+    let counts = [SampleCount::of(all - beyond, all)];
+    let share = Estimate::exact(beyond_whiskers as f64 / all as f64);
+    Ok(Measured::new(counts, far.share(scope), "all ratios")
+        .and("beyond 1.5 times the interquartile range of their cell", share))
 }
 
 /// The largest drop of the probability of overturning by resurrections on any

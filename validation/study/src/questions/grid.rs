@@ -8,6 +8,7 @@ use rocking_statistics::lognormal::fit_intervals;
 use super::answer::{Rows, StudyAnswer, count, number, word};
 use super::nulls;
 use crate::analyses::SuiteResults;
+use crate::distributions::BlockSamples;
 use crate::fits::Fits;
 use crate::results::StudyResults;
 use crate::ties::grid_alone;
@@ -102,42 +103,38 @@ fn rows(
     suite: &SuiteResults,
 ) -> anyhow::Result<Vec<GridRow>> {
     let of = |arm| suite.distributions(arm, Intensity::Pga);
-    let finest = of(results.plan.common())?;
-    (0..finest.blocks.len())
-        .map(|i| {
-            let mut row = GridRow {
-                rejected: [f64::NAN; 3],
-                distinct: [0; 3],
-                tied: [0; 3],
-                dispersions: [f64::NAN; 3],
-                grid_alone: grid_alone(&finest.blocks[i]).unwrap_or(f64::NAN),
-            };
-            for (arm, found) in ARMS.into_iter().map(of).enumerate() {
-                let Ok(block) = found.map(|d| &d.blocks[i]) else {
-                    continue;
-                };
-                let overturning = block.overturning();
-                row.rejected[arm] = 1.0 - block.shares()[1];
-                if arm < 2 {
-                    row.dispersions[2 * arm] =
-                        dispersion(overturning, block.shift);
-                }
-                row.distinct[arm] = distinct(overturning);
-                row.tied[arm] =
-                    block.tests[1].iter().filter(|a| tied(a)).count();
-            }
-            if let Ok(curves) = suite.curves(Arm::A) {
-                row.dispersions[1] = by_intervals(&curves[i], 1.0);
-            }
-            Ok(row)
-        })
-        .collect()
+    let finest = &of(results.plan.common())?.blocks;
+    let on_grids = ARMS.map(|arm| of(arm).ok());
+    let brackets = suite.curves(Arm::A).ok();
+    let row = |(i, finest): (usize, &BlockSamples)| {
+        let blocks = on_grids.map(|found| found.map(|d| &d.blocks[i]));
+        let each = |of: fn(&BlockSamples) -> f64| {
+            blocks.map(|block| block.map_or(f64::NAN, of))
+        };
+        let counts = |of: fn(&BlockSamples) -> usize| {
+            blocks.map(|block| block.map_or(0, of))
+        };
+        let [taken, bisected, _] = each(dispersion);
+        let intervals =
+            brackets.map_or(f64::NAN, |curves| by_intervals(&curves[i], 1.0));
+        GridRow {
+            rejected: each(|block| 1.0 - block.shares()[1]),
+            distinct: counts(|block| distinct(block.overturning())),
+            tied: counts(|block| {
+                block.tests[1].iter().filter(|test| tied(test)).count()
+            }),
+            dispersions: [taken, intervals, bisected],
+            grid_alone: grid_alone(finest).unwrap_or(f64::NAN),
+        }
+    };
+    Ok(finest.iter().enumerate().map(row).collect())
 }
 
-/// Dispersion above a shift by maximum likelihood; NaN without a fit.
-fn dispersion(values: &[f64], shift: f64) -> f64 {
-    let fits = ExtendedSample::try_new(values).map(|s| Fits::new(s, shift));
-    let fit = fits.ok().and_then(|fits| fits.ssfl);
+/// Dispersion of the overturnings above the shift by maximum likelihood; NaN
+/// without a fit.
+fn dispersion(block: &BlockSamples) -> f64 {
+    let sample = ExtendedSample::try_new(block.overturning()).ok();
+    let fit = sample.and_then(|own| Fits::new(own, block.shift).ssfl);
     fit.map_or(f64::NAN, |f| f.dispersion())
 }
 

@@ -19,17 +19,6 @@ const PLACES: [f64; 12] =
 /// Replicates at each of them.
 const REPLICATES: u64 = 2000;
 
-/// One block under the null of an estimated shift.
-struct NullRow {
-    /// Critical value with the shift estimated anew over the table's, at
-    /// [`PLACES`]; NaN if the joint model does not hold.
-    ratios: Vec<f64>,
-    /// Accepted share of the levels with the shift estimated anew.
-    anew: f64,
-    /// Largest share of repeated draws at any place.
-    redrawn: f64,
-}
-
 pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
     let mut table = Rows::default();
     let mut words = Vec::new();
@@ -38,10 +27,10 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
         let mut changes = Vec::new();
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
-            let row = of_block(&suite.records, block);
+            let (ratios, anew, redrawn) = of_block(&suite.records, block);
             let given = block.shares()[1];
             let finite: Vec<f64> =
-                row.ratios.into_iter().filter(|x| x.is_finite()).collect();
+                ratios.into_iter().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
             let middle = median(&finite).value();
             let without = PLACES.len() - finite.len();
@@ -50,14 +39,14 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
                 ("p_rad_s", number(block.p_rad_s, 0)),
                 ("alpha_rad", number(block.alpha_rad, 2)),
                 ("accepted_shift_as_given", number(given, 3)),
-                ("accepted_shift_estimated_anew", number(row.anew, 3)),
+                ("accepted_shift_estimated_anew", number(anew, 3)),
                 ("critical_value_ratio_least", number(least, 3)),
                 ("critical_value_ratio_median", number(middle, 3)),
                 ("critical_value_ratio_largest", number(most, 3)),
                 ("places_without_a_null", count(without)),
-                ("largest_share_drawn_again", number(row.redrawn, 3)),
+                ("largest_share_drawn_again", number(redrawn, 3)),
             ]);
-            changes.push(row.anew - given);
+            changes.push(anew - given);
             all_ratios.extend(finite);
         }
         let (least, most) = range(changes.iter().copied());
@@ -74,7 +63,10 @@ pub(super) fn nulls_part(results: &StudyResults) -> StudyAnswer {
     table.answer("null", words.join(" "))
 }
 
-fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
+/// One block with its shift estimated anew: critical value over the table's at
+/// [`PLACES`] (NaN if the joint model does not hold), accepted share of the levels,
+/// and largest share of repeated draws at any place.
+fn of_block(records: &[Facts], block: &BlockSamples) -> (Vec<f64>, f64, f64) {
     let onsets = factors(records, Intensity::Pgv, block.p_rad_s);
     let tabulated =
         LillieforsTable::embedded().critical_value(onsets.len(), LEVEL);
@@ -99,7 +91,7 @@ fn of_block(records: &[Facts], block: &BlockSamples) -> NullRow {
         tested += usize::from(over.is_finite());
         accepted += usize::from(over <= 1.0);
     }
-    NullRow { ratios, anew: accepted as f64 / tested as f64, redrawn }
+    (ratios, accepted as f64 / tested as f64, redrawn)
 }
 
 /// Linear interpolation over [`PLACES`].

@@ -22,9 +22,21 @@ const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
 /// Simulated samples of a shifted lognormal.
 const DRAWS: u64 = 1000;
 
-/// Trimmed against untrimmed: number of samples by [`TrimmingOutcome`].
+/// Kolmogorov distances of the trimmed and the untrimmed fragility; `None` for one
+/// that is not defined.
+type Distances = [Option<f64>; 2];
+
+/// Trimmed against untrimmed: numbers of samples.
 #[derive(Clone, Copy, Default)]
-struct OutcomeCounts([usize; 4]);
+struct Outcomes {
+    samples: usize,
+    /// The trimmed fragility is nearer.
+    nearer: usize,
+    /// Only the trimmed fragility is defined.
+    only: usize,
+    /// The trimmed fragility is not defined.
+    neither: usize,
+}
 
 pub(super) fn trimming_part(
     results: &StudyResults,
@@ -33,14 +45,14 @@ pub(super) fn trimming_part(
     let mut words = Vec::new();
     for (suite, found) in results.common() {
         let intensity = found.intensity;
-        let rows: Vec<(usize, [TrimmingOutcome; 4])> = found
+        let rows: Vec<(usize, [Distances; 4])> = found
             .blocks
             .par_iter()
             .flat_map_iter(|block| {
                 every(&block.samples, STRIDE).filter_map(|values| {
                     let sample = ExtendedSample::try_new(values).ok()?;
                     let class = class(skewness(values, block.shift)?);
-                    Some((class, outcomes(&sample, block.shift, None)))
+                    Some((class, distances(&sample, block.shift, None)))
                 })
             })
             .collect();
@@ -54,11 +66,11 @@ pub(super) fn trimming_part(
                 table.row_if(c == 0.25 || c == 1.0, cells);
             }
             let [low, .., high] = by_constant;
-            if high.samples() > 0 {
+            if high.samples > 0 {
                 shares.push(format!(
                     "{} for skewness {skewness} ({} samples; {} at c = 0.25)",
                     percent(high.share(), 0),
-                    high.samples(),
+                    high.samples,
                     percent(low.share(), 0),
                 ));
             }
@@ -87,23 +99,20 @@ pub(super) fn trimming_part(
     Ok(table.answer("trimming", words.join(" ")))
 }
 
-#[derive(Clone, Copy)]
-enum TrimmingOutcome {
-    Helps,
-    Harms,
-    OnlyTrimmed,
-    Neither,
-}
-
-impl OutcomeCounts {
-    fn samples(&self) -> usize {
-        self.0.iter().sum()
+impl Outcomes {
+    fn add(&mut self, of: Distances) {
+        self.samples += 1;
+        match of {
+            [Some(a), Some(b)] => self.nearer += usize::from(a < b),
+            [Some(_), None] => self.only += 1,
+            [None, _] => self.neither += 1,
+        }
     }
 
-    /// Samples in which the trimmed fragility is nearer, or the only one.
+    /// Share of the samples in which the trimmed fragility is nearer, or the only
+    /// one.
     fn share(&self) -> f64 {
-        let [helps, _, only, _] = self.0;
-        (helps + only) as f64 / self.samples() as f64
+        (self.nearer + self.only) as f64 / self.samples as f64
     }
 
     fn cells(
@@ -113,62 +122,56 @@ impl OutcomeCounts {
         skewness: &str,
         c: f64,
     ) -> Vec<(&'static str, TableCell)> {
-        let [helps, _, only, neither] = self.0.map(answer::count);
         vec![
             ("suite", word(suite)),
             ("im", word(im)),
             ("skewness", word(skewness)),
             ("c", number(c, 2)),
-            ("samples", answer::count(self.samples())),
-            ("trimmed_is_nearer", helps),
-            ("only_trimmed_is_defined", only),
-            ("neither_is_defined", neither),
+            ("samples", answer::count(self.samples)),
+            ("trimmed_is_nearer", answer::count(self.nearer)),
+            ("only_trimmed_is_defined", answer::count(self.only)),
+            ("neither_is_defined", answer::count(self.neither)),
             ("share_helped", number(self.share(), 3)),
         ]
     }
 }
 
-fn count(rows: &[(usize, [TrimmingOutcome; 4])]) -> [[OutcomeCounts; 4]; 4] {
-    let mut counts = [[OutcomeCounts::default(); 4]; 4];
-    for (class, outcomes) in rows {
-        for (count, outcome) in counts[*class].iter_mut().zip(outcomes) {
-            count.0[*outcome as usize] += 1;
+/// Outcomes by class of skewness, then by constant.
+fn count(rows: &[(usize, [Distances; 4])]) -> [[Outcomes; 4]; 4] {
+    let mut counts = [[Outcomes::default(); 4]; 4];
+    for (class, each) in rows {
+        for (count, of) in counts[*class].iter_mut().zip(each) {
+            count.add(*of);
         }
     }
     counts
 }
 
-/// The outcome by constant: which of the two fragilities is nearer to the truth,
-/// or to the empirical fragility if no truth is given.
-fn outcomes(
+/// Distances by constant from the truth, or from the empirical fragility if no
+/// truth is given.
+fn distances(
     sample: &ExtendedSample,
     shift: f64,
     truth: Option<&Lognormal>,
-) -> [TrimmingOutcome; 4] {
+) -> [Distances; 4] {
     CONSTANTS.map(|c| {
         let centre = Centre::FittedMedian;
-        let distance = |method| {
+        [trimmed(), MLE].map(|method| {
             let recipe = Recipe::Transformed { method, centre, c };
             let made = recipe.fragility(sample, shift).ok()?;
             match truth {
                 None => Some(made.kolmogorov_distance(sample)),
                 Some(truth) => made.distance(truth),
             }
-        };
-        match (distance(trimmed()), distance(MLE)) {
-            (Some(a), Some(b)) if a < b => TrimmingOutcome::Helps,
-            (Some(_), Some(_)) => TrimmingOutcome::Harms,
-            (Some(_), None) => TrimmingOutcome::OnlyTrimmed,
-            _ => TrimmingOutcome::Neither,
-        }
+        })
     })
 }
 
 /// Outcomes for samples of a shifted lognormal, judged by the truth.
-fn simulated(n: usize) -> anyhow::Result<[OutcomeCounts; 4]> {
+fn simulated(n: usize) -> anyhow::Result<[Outcomes; 4]> {
     let streams = Streams::new("study/trimming", 0);
     let truth = Lognormal::try_new(1.0, 0.0, 0.6)?;
-    let rows: Vec<(usize, [TrimmingOutcome; 4])> = (0..DRAWS)
+    let rows: Vec<(usize, [Distances; 4])> = (0..DRAWS)
         .into_par_iter()
         .filter_map(|index| {
             let mut stream = streams.stream(index);
@@ -176,7 +179,7 @@ fn simulated(n: usize) -> anyhow::Result<[OutcomeCounts; 4]> {
                 .map(|_| 1.0 + libm::exp(0.6 * standard_normal(&mut stream)))
                 .collect();
             let sample = ExtendedSample::try_new(&values).ok()?;
-            Some((0, outcomes(&sample, 1.0, Some(&truth))))
+            Some((0, distances(&sample, 1.0, Some(&truth))))
         })
         .collect();
     Ok(count(&rows)[0])
@@ -233,10 +236,8 @@ mod tests {
             })
             .collect();
         let sample = ExtendedSample::try_new(&values).expect("sample");
-        let found = outcomes(&sample, 1.0, None)[3];
-        assert!(matches!(
-            found,
-            TrimmingOutcome::Helps | TrimmingOutcome::OnlyTrimmed
-        ));
+        let mut found = Outcomes::default();
+        found.add(distances(&sample, 1.0, None)[3]);
+        assert_eq!((found.samples, found.nearer + found.only), (1, 1));
     }
 }

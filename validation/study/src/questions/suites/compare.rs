@@ -165,7 +165,7 @@ impl SuitePair {
         out
     }
 
-    /// The row with what two samples say.
+    /// The row with the numbers of two samples.
     fn filled(
         &self,
         mut row: QuantityRow,
@@ -184,14 +184,13 @@ impl SuitePair {
         };
         let (mut ratios, mut spreads) = (Vec::new(), Vec::new());
         for (e, r) in self.draws[0].iter().zip(&self.draws[1]) {
-            let (e, r) = (drawn(embedded, e)?, drawn(recorded, r)?);
-            ratios.push(libm::log(e[1] / r[1]));
-            spreads.push(dispersion(e) - dispersion(r));
+            let own = apart([drawn(embedded, e)?, drawn(recorded, r)?]);
+            ratios.push(own.0);
+            spreads.push(own.1);
         }
-        let [e, r] = points;
-        let ratio = self.estimate(libm::log(e[1] / r[1]), &ratios);
-        row.ratio = ratio.map(libm::exp);
-        row.spread = self.estimate(dispersion(e) - dispersion(r), &spreads);
+        let (ratio, spread) = apart(points);
+        row.ratio = self.estimate(ratio, &ratios).map(libm::exp);
+        row.spread = self.estimate(spread, &spreads);
         let found = kolmogorov_smirnov(
             &ExtendedSample::try_new(embedded)?,
             &ExtendedSample::try_new(recorded)?,
@@ -235,6 +234,9 @@ fn measures(facts: &Facts) -> Vec<(String, f64)> {
     out
 }
 
-fn dispersion([low, _, high]: [f64; 3]) -> f64 {
-    0.5 * libm::log(high / low)
+/// Logarithm of the ratio of medians, and difference of dispersions, of two
+/// samples with these quantiles.
+fn apart(both: [[f64; 3]; 2]) -> (f64, f64) {
+    let [e, r] = both.map(|[low, _, high]| 0.5 * libm::log(high / low));
+    (libm::log(both[0][1] / both[1][1]), e - r)
 }

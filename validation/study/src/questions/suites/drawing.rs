@@ -17,17 +17,17 @@ fn one(range: (f64, f64)) -> Series {
     Series::new("", Mark::Dashed, vec![range.0, range.1], vec![1.0, 1.0])
 }
 
+fn placed(name: &str) -> Heading {
+    Heading { place: Place::SuitesByBlock, ..heading(name) }
+}
+
 /// Ratios of the motions' measures, and spectra of both.
 pub(super) fn motions(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
     let mut panels: Vec<ChartPanel> =
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
-    Chart {
-        heading: Heading { place: Place::SuitesByBlock, ..heading("suites") },
-        panels,
-        columns: 2,
-    }
-    .figure(caption("suites"))
+    Chart { heading: placed("suites"), panels, columns: 2 }
+        .figure(caption("suites"))
 }
 
 fn ratios(rows: &[QuantityRow], kind: &str) -> ChartPanel {
@@ -94,15 +94,8 @@ pub(super) fn capacities(rows: &[QuantityRow], kinds: [&str; 2]) -> Figure {
             }
         }
     }
-    Chart {
-        heading: Heading {
-            place: Place::SuitesByBlock,
-            ..heading("suites-capacities")
-        },
-        panels,
-        columns: 2,
-    }
-    .figure(caption("suites-capacities"))
+    Chart { heading: placed("suites-capacities"), panels, columns: 2 }
+        .figure(caption("suites-capacities"))
 }
 
 fn blocks(

@@ -44,7 +44,7 @@ enum OutputSink {
     File(PathBuf, NamedTempFile),
 }
 
-/// The outputs of one command: none of them is a file that it reads, and no
+/// The outputs of one command. No output is a file that the command reads, and no
 /// two of them go to one place.
 ///
 /// ```
@@ -189,7 +189,7 @@ impl OutputSink {
         remove_left_behind(folder);
         let part =
             system::file_in(folder).map_err(|error| said(error, folder))?;
-        // Other runs leave alone what is locked.
+        // Other runs ignore a locked file.
         system::lock(part.as_file())?;
         if let Ok(found) = fs::metadata(&target) {
             system::set_permissions(part.as_file(), found.permissions())?;

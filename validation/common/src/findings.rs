@@ -92,7 +92,7 @@ impl StudySettings {
 pub struct SuiteSummary {
     /// Which of the two.
     pub kind: SuiteKind,
-    /// Where the records come from.
+    /// Origin of the records.
     pub source: String,
     /// Rule by which the component of a pair is chosen.
     pub component_rule: String,
@@ -159,7 +159,7 @@ pub struct Reevaluation {
     pub resolved_by_double_double: usize,
     /// Resolved by octuple precision.
     pub resolved_by_octuple: usize,
-    /// Resolved by none of these.
+    /// Not resolved.
     pub unresolved: usize,
     /// Outcomes that were wrong in double precision.
     pub wrong_in_double: usize,

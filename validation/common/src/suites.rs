@@ -19,10 +19,10 @@ use sha2::{Digest as _, Sha256};
 use inputs::read_suite;
 use remarks::Remarks;
 
-/// Where the records of a suite come from.
+/// Origin of the records of a suite.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SuiteSource {
-    /// The synthetic suite of these streams, embedded.
+    /// The embedded synthetic suite of these streams.
     Embedded {
         /// Seed of the streams.
         streams: &'static str,
@@ -59,10 +59,10 @@ impl fmt::Display for SuiteSource {
     }
 }
 
-/// The component a study uses, and the other of its pair.
+/// The study component and the other component of its pair.
 #[derive(Clone, Debug)]
 pub struct StudyMotion {
-    /// The component applied.
+    /// The study component, which acts on the block.
     pub study: Accelerogram,
     /// The other component, if the suite has it.
     pub other: Option<Accelerogram>,
@@ -73,17 +73,17 @@ pub struct StudyMotion {
 pub struct StudySuite {
     /// `ordinary` or `pulse-type`.
     pub kind: SuiteKind,
-    /// Where the records come from.
+    /// Origin of the records.
     pub source: SuiteSource,
-    /// Who chose the study component, in words.
+    /// Rule by which the study component was chosen, in words.
     pub component_rule: String,
-    /// Remarks on suspicious records; nothing for an embedded suite.
+    /// Remarks on suspicious records; empty for an embedded suite.
     pub remarks: Remarks,
-    /// Files of the folder or archive that are no records.
+    /// Files of the folder or archive that are not records.
     pub set_aside: SetAside,
     /// The motions, in the suite's order.
     pub motions: Vec<StudyMotion>,
-    /// The earthquakes that the motions belong to.
+    /// The earthquakes of the motions.
     pub clusters: Clusters,
 }
 
@@ -91,7 +91,7 @@ impl StudySuite {
     /// The embedded suites, ordinary and pulse-type.
     ///
     /// # Errors
-    /// None in practice: the samples are finite by construction.
+    /// Never in practice: the samples are finite by construction.
     pub fn embedded() -> anyhow::Result<[Self; 2]> {
         let of = |kind, streams, pairs: Vec<Pair>| Self {
             kind,
@@ -119,7 +119,7 @@ impl StudySuite {
     /// The suite in a folder or an index.
     ///
     /// # Errors
-    /// Naming the file that was refused, and why.
+    /// Naming a refused file and the reason.
     pub fn read(
         kind: SuiteKind,
         path: &Path,
@@ -177,7 +177,8 @@ impl StudySuite {
     }
 }
 
-/// Records by earthquake; each record by itself where the index names none.
+/// Records by earthquake; every record is its own cluster if the index names no
+/// earthquakes.
 pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
     let events = members.iter().map(|member| member.event.as_deref());
     let events: Option<Vec<&str>> = events.collect();
@@ -185,7 +186,7 @@ pub fn clusters<M>(members: &[&SuiteMember<M>]) -> Clusters {
     events.map_or_else(records, Clusters::from_labels)
 }
 
-/// Number of earthquakes, where they are known.
+/// Number of earthquakes, if they are known.
 pub fn earthquakes(clusters: &Clusters) -> Option<usize> {
     (clusters.unit() == SamplingUnit::Earthquake).then_some(clusters.count())
 }

@@ -38,7 +38,7 @@ pub struct Declaration {
 pub struct ClaimTest {
     /// Registered name of the measure.
     pub measure: ClaimMeasure,
-    /// Intensity measure; PGA if none is named.
+    /// Intensity measure; PGA by default.
     pub intensity: Option<Intensity>,
     /// Suites of the test.
     pub suites: Vec<SuiteSet>,

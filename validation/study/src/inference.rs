@@ -146,12 +146,22 @@ impl Resamples {
         let clusters = self.clusters(tested);
         let one = |(k, point): (usize, &f64)| {
             let own: Vec<f64> = of.rows.iter().map(|row| row[k]).collect();
-            clusters
-                .estimate(*point, &own, of.how, range, level)
-                .map_or(Estimate::exact(*point), |found| found.estimate)
+            estimate(clusters, *point, &own, (of.how, range, level))
         };
         of.points.par_iter().enumerate().map(one).collect()
     }
+}
+
+/// A number with its interval at a level by numbers of resampled earthquakes;
+/// without an interval if they give none.
+pub(crate) fn estimate(
+    clusters: &Clusters,
+    point: f64,
+    resamples: &[f64],
+    (how, range, level): (Resampling, Range, f64),
+) -> Estimate {
+    let found = clusters.estimate(point, resamples, how, range, level);
+    found.map_or(Estimate::exact(point), |found| found.estimate)
 }
 
 /// Numbers of a sample, and of its resamples.

@@ -102,7 +102,7 @@ measures! {
     StripeOutliers: Share, Share, stripes::outliers;
     /// Median paired ratios of intensities at equal demand.
     DemandRatios: One, NotNegative, capacities::demand_ratios;
-    /// 16, 50 and 84 % quantiles that coincide with those of the reference.
+    /// 16, 50 and 84 % quantiles that coincide with the reference's.
     Quantiles: Share, Share, capacities::quantiles;
     /// Median paired ratios, slenderness adjusted over records scaled.
     AdjustmentRatios: One, NotNegative, stripes::adjusted;
@@ -136,8 +136,7 @@ measures! {
     DistanceAverageSa: Probability, Difference, |s| distances::original(s, TestedMeasure::AverageSa);
     /// Reduction of the distance by shifting, in AvgSA.
     DistanceAverageSaGain: Probability, Difference, |s| distances::gain(s, TestedMeasure::AverageSa);
-    /// 16, 50 and 84 % quantiles in AvgSA that coincide with those of the
-    /// reference.
+    /// 16, 50 and 84 % quantiles in AvgSA that coincide with the reference's.
     QuantilesAverageSa: Share, Share, capacities::average_sa_quantiles;
     /// Gain in distance to the sample by shifting.
     ShiftGain: Probability, Difference, fragilities::shift_gain;

@@ -25,7 +25,7 @@ named! {
         Housner = "eta-housner",
         /// The other overturning criterion.
         OtherCriterion = "other-criterion",
-        /// The other component of each pair, where there is one.
+        /// The other component of each pair, if there is one.
         OtherComponent = "other-component",
     }
 }

@@ -1,4 +1,4 @@
-//! Effect of the grid of 0.01 g alone on Lilliefors' test: capacities of a
+//! Effect of only the grid of 0.01 g on Lilliefors' test: capacities of a
 //! shifted lognormal, each put on the next level of the grid.
 
 use libm::{exp, log, tan};

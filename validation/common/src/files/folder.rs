@@ -14,31 +14,31 @@ use super::unfinished::{
     remove_left_behind, said, state,
 };
 
-/// A folder to write files into, opened and found writable: all files or
-/// none; other files in it stay.
+/// A writable folder as an output: all files are written, or none. Other files in
+/// it stay.
 ///
-/// The files are made in an unfinished folder within it, so that it may be
-/// the root of a file system or a link. Before the first of them is put into
-/// place, a mark is set ([`is_interrupted`]), which goes when all are in
-/// place: whatever ends the run between, the mark stays. The next run
-/// replaces the files, and removes those of earlier runs that it does not
-/// write, as far as a manifest or a mark lists them and nobody changed them.
+/// The files are made in an unfinished folder within it, so that it may be the
+/// root of a file system or a link. A mark is set before the first file is put
+/// into place ([`is_interrupted`]), and removed when all files are in place. If
+/// the run ends in between, the mark stays. The next run replaces the files. It
+/// removes files of earlier runs that it does not write, if a manifest or a mark
+/// lists them and nobody changed them.
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
-    /// The unfinished folder and its lock, as long as there is one.
+    /// The unfinished folder and its lock, while there is one.
     part: Option<(PathBuf, File)>,
-    /// Whether the folder was made here and holds nothing yet.
+    /// Whether the folder was made here and is empty.
     made: bool,
-    /// Whether the folder must hold nothing else.
+    /// Whether the folder must contain nothing else.
     new: bool,
     /// Whether files are being put into place.
     moving: bool,
 }
 
 impl Drop for OutputFolder {
-    /// Leaves nothing unfinished but what is marked, and no folder that was
-    /// made for nothing.
+    /// Removes the unfinished folder unless it is marked, and the folder if it was
+    /// made here and is empty.
     fn drop(&mut self) {
         let part = self.part.take();
         if self.moving {
@@ -49,31 +49,31 @@ impl Drop for OutputFolder {
             return;
         }
         if let Some((part, _)) = part {
-            // What stays is removed by the next run.
+            // The next run removes what stays.
             let _ = system::remove_dir_all(&part);
         }
         if self.made {
-            // It stays where it holds anything.
+            // It stays if it contains anything.
             let _ = system::remove_dir(&self.path);
         }
     }
 }
 
 impl OutputFolder {
-    /// Opens the folder `path`, and makes it where there is none.
+    /// Opens the folder `path`, and makes it if it does not exist.
     ///
     /// # Errors
-    /// [`WriteError`] naming the folder; also where another run is putting
-    /// files into place there.
+    /// [`WriteError`] naming the folder; also if another run is putting files into
+    /// place there.
     pub fn open(path: &Path) -> Result<Self, WriteError> {
         Self::opened(path, false).map_err(WriteError::at(path))
     }
 
-    /// As [`OutputFolder::open`], for a folder that is not there or is empty but
-    /// for what an earlier run left unfinished.
+    /// Opens a folder that does not exist, or that contains at most unfinished files
+    /// of an earlier run.
     ///
     /// # Errors
-    /// As [`OutputFolder::open`], and for a folder that holds anything.
+    /// As [`OutputFolder::open`], and for a folder that contains anything else.
     pub fn open_new(path: &Path) -> Result<Self, WriteError> {
         Self::opened(path, true).map_err(WriteError::at(path))
     }
@@ -93,7 +93,7 @@ impl OutputFolder {
         let part = system::folder_in(&folder.path)
             .map_err(|error| said(error, &folder.path))?;
         let lock = part.join(LOCK);
-        // From here on it is removed where anything fails.
+        // From here on it is removed if anything fails.
         let (_, lock) = folder.part.insert((part, system::create(&lock)?));
         system::lock(lock)?;
         // A lock file with content had an owner.
@@ -101,8 +101,8 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Refuses a folder that holds anything but unfinished parts of runs that
-    /// have ended, and `own`.
+    /// Refuses a folder that contains anything but unfinished parts of ended runs
+    /// and `own`.
     fn refuse_used(&self, own: Option<&Path>) -> io::Result<()> {
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
@@ -117,14 +117,14 @@ impl OutputFolder {
         Ok(())
     }
 
-    /// Writes `files`, by their paths below the folder. Those named `last`
-    /// show that all are there: they are removed first and put into place
+    /// Writes `files`, by their paths below the folder. The files named `last`
+    /// show that all files are there: they are removed first and put into place
     /// last, in this order.
     ///
     /// # Errors
-    /// [`WriteError`] naming the file. Before all files are complete, nothing
-    /// in the folder changes; where they cannot all be put into place, the
-    /// folder is marked ([`is_interrupted`]).
+    /// [`WriteError`] naming the file. Nothing in the folder changes before all
+    /// files are complete. If they cannot all be put into place, the folder is
+    /// marked ([`is_interrupted`]).
     pub fn write(
         mut self,
         files: &BTreeMap<String, Vec<u8>>,
@@ -197,12 +197,12 @@ impl OutputFolder {
         Ok(())
     }
 
-    /// Sets the mark, which lists all files that this run and earlier ones
-    /// may have put into place, and returns what earlier ones left.
+    /// Sets the mark, which lists all files that this run and earlier runs may have
+    /// put into place. Returns the files that earlier runs left.
     fn mark(&self, files: &BTreeMap<String, Vec<u8>>) -> io::Result<Earlier> {
         let own = self.part.as_ref().map(|(part, _)| part.as_path());
         let mut earlier = Earlier::of(&self.path, own)?;
-        // Where there is no manifest, nothing is known.
+        // Without a manifest nothing is known.
         let manifest = fs::read_to_string(self.path.join(SUMS));
         earlier.text += &manifest.unwrap_or_default();
         let mut text = sums(files);
@@ -219,7 +219,7 @@ impl OutputFolder {
         match attempt() {
             Ok(()) => Ok(earlier),
             Err(error) => {
-                // Where it stays, the folder is refused until a run ends.
+                // If the mark stays, the folder is refused until a run ends.
                 let _ = system::remove_file(&mark);
                 Err(error)
             }
@@ -227,7 +227,7 @@ impl OutputFolder {
     }
 }
 
-/// Where files are made in an unfinished folder.
+/// Name of the place of new files in an unfinished folder.
 const FILES: &str = "files";
 
 /// Files that earlier runs put into a folder.
@@ -239,9 +239,9 @@ struct Earlier {
 }
 
 impl Earlier {
-    /// What the marks in `folder` list, without the mark in `own`, the
-    /// unfinished folder of this run. Refuses a folder into which another run
-    /// is putting files.
+    /// Lists of the marks in `folder`, without the mark in `own`, the unfinished
+    /// folder of this run. Refuses a folder into which another run is putting
+    /// files.
     fn of(folder: &Path, own: Option<&Path>) -> io::Result<Self> {
         let (mut text, mut parts) = (String::new(), Vec::new());
         for part in moving(folder).filter(|part| Some(&**part) != own) {
@@ -257,8 +257,8 @@ impl Earlier {
         Ok(Self { text, parts })
     }
 
-    /// Removes the files of earlier runs that are as those runs wrote them,
-    /// but for the names in `files`, and the folders that this empties.
+    /// Removes unchanged files of earlier runs, except for the names in `files`, and
+    /// the folders that this empties.
     fn remove_but(
         &self,
         folder: &Path,
@@ -278,7 +278,7 @@ impl Earlier {
             let inner = parents.filter(|inner| *inner != Path::new(""));
             emptied.extend(inner.map(|inner| folder.join(inner)));
         }
-        // Inner ones first. One that holds anything stays.
+        // Inner folders first. A folder that contains anything stays.
         for path in emptied.iter().rev() {
             let _ = system::remove_dir(path);
         }
@@ -286,7 +286,7 @@ impl Earlier {
     }
 }
 
-/// The error where another run is at work.
+/// The error if another run is at work.
 fn busy(part: &Path) -> io::Error {
     io::Error::new(
         io::ErrorKind::ResourceBusy,
@@ -298,8 +298,8 @@ fn busy(part: &Path) -> io::Error {
     )
 }
 
-/// Whether a run ended, or is at work, while it put files into place in
-/// `folder`, so that they are not of one run.
+/// Whether a run ended, or is at work, while it was putting files into `folder`:
+/// then they are not the files of one run.
 pub fn is_interrupted(folder: &Path) -> bool {
     moving(folder).next().is_some()
 }

@@ -1,14 +1,14 @@
-//! Standard output, and whether anybody can have what is written to it.
+//! Standard output, and whether anybody can receive what is written to it.
 
 use std::io;
 
 /// Standard output.
 ///
 /// # Errors
-/// An error where it is closed: what is written would be lost. The runtime
-/// opens /dev/null there, for reading and writing, before the program begins,
-/// so that this is what a closed one looks like. A caller that silences
-/// standard error in the same way wants the exit status alone.
+/// If it is closed: output would be lost. For a closed stream the runtime opens
+/// /dev/null for reading and writing before the program begins, which is how it is
+/// recognized. A caller that silences standard error in the same way wants only
+/// the exit status.
 pub fn standard_output() -> io::Result<io::Stdout> {
     let (out, error) = (io::stdout(), io::stderr());
     match is_void(&out) && !is_void(&error) {
@@ -20,8 +20,8 @@ pub fn standard_output() -> io::Result<io::Stdout> {
     }
 }
 
-/// Whether it is /dev/null, opened for reading and writing; a shell's
-/// `> /dev/null` opens it for writing alone.
+/// Whether a stream is /dev/null, opened for reading and writing; a shell's
+/// `> /dev/null` opens it only for writing.
 #[cfg(unix)]
 fn is_void(stream: &impl std::os::fd::AsFd) -> bool {
     use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};

@@ -1,5 +1,5 @@
-//! The manifest of a folder: the SHA-256 of each file that one run wrote, as
-//! `sha256sum` writes and checks it.
+//! The manifest of a folder: the SHA-256 of each file of one run, in the form of
+//! `sha256sum`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,7 +22,7 @@ pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
     files.iter().map(line).collect::<String>().into_bytes()
 }
 
-/// Why the files of a folder are not those of one run.
+/// Reason why the files of a folder are not the files of one run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FolderError {
@@ -32,7 +32,7 @@ pub enum FolderError {
          the command that wrote it completes it"
     )]
     Interrupted,
-    /// A file of the manifest is missing or is another.
+    /// A file of the manifest is missing or differs.
     #[error("{name}: {found}: expected the file of the run that wrote {SUMS}")]
     File {
         /// Its path below the folder.
@@ -56,12 +56,12 @@ pub enum FolderError {
     Unread(#[from] io::Error),
 }
 
-/// Whether a manifest says that the files of `folder` are of one run; false
-/// where there is no manifest.
+/// Whether a manifest confirms that the files of `folder` are of one run; false
+/// without a manifest.
 ///
 /// # Errors
-/// [`FolderError`] for a folder that a run left unfinished, for a file that is not
-/// as the manifest says, and for a manifest that cannot be read.
+/// [`FolderError`] for a folder that a run left unfinished, for a file that
+/// contradicts the manifest, and for a manifest that cannot be read.
 pub fn is_whole(folder: &Path) -> Result<bool, FolderError> {
     if moving(folder).next().is_some() {
         return Err(FolderError::Interrupted);

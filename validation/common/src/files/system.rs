@@ -1,5 +1,5 @@
-//! The calls of the file system that write outputs. Only this file makes
-//! them, so that a test can make any one of them fail.
+//! The calls of the file system that write outputs. Only this file makes them, so
+//! that a test can make any of them fail.
 
 use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{self, Write as _};
@@ -14,9 +14,9 @@ pub(super) const PART: (&str, &str) = (".rocking-", ".part");
 /// Whether another process holds the lock of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lock {
-    /// None does.
+    /// No process does.
     Free,
-    /// One does.
+    /// Another process does.
     Held,
     /// The file system has no locks, or the file cannot be opened.
     Unknown,
@@ -33,7 +33,7 @@ pub(super) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     sync(&file)
 }
 
-/// Writes all of it to an open file.
+/// Writes all bytes to an open file.
 pub(super) fn add(mut file: &File, content: &[u8]) -> io::Result<()> {
     begin("write").and_then(|()| file.write_all(content))
 }
@@ -46,7 +46,7 @@ pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     begin("rename").and_then(|()| fs::rename(from, to))
 }
 
-/// Removes a file, where there is one.
+/// Removes a file, if it exists.
 pub(super) fn remove_file(path: &Path) -> io::Result<()> {
     match begin("remove_file").and_then(|()| fs::remove_file(path)) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
@@ -63,8 +63,8 @@ pub(super) fn remove_dir_all(path: &Path) -> io::Result<()> {
     begin("remove_dir_all").and_then(|()| fs::remove_dir_all(path))
 }
 
-/// Names of what is unfinished, and its rights, of which the user's mask
-/// takes its part.
+/// Names and rights of unfinished files and folders. The user's mask reduces the
+/// rights.
 #[cfg_attr(not(unix), expect(unused_variables))]
 fn builder(mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
@@ -77,11 +77,11 @@ fn builder(mode: u32) -> Builder<'static, 'static> {
     builder
 }
 
-/// A new folder below `folder`, which nothing removes.
+/// A new folder below `folder`, which is not removed automatically.
 pub(super) fn folder_in(folder: &Path) -> io::Result<PathBuf> {
     begin("mkdir")?;
     let made = builder(0o777).tempdir_in(folder)?.keep();
-    // As `folder` is spelt, which the library makes absolute.
+    // Keeps the spelling of `folder`, which the library makes absolute.
     Ok(folder.join(made.file_name().unwrap_or_default()))
 }
 
@@ -110,8 +110,8 @@ pub(super) fn create(path: &Path) -> io::Result<File> {
     begin("create").and_then(|()| File::create(path))
 }
 
-/// Locks a file, so that other runs leave it alone. Where the file system
-/// has no locks, work goes on without one.
+/// Locks a file, so that other runs leave it alone. If the file system has no
+/// locks, work goes on without one.
 pub(super) fn lock(file: &File) -> io::Result<()> {
     match begin("lock").and_then(|()| file.lock()) {
         Err(error) if has_no_locks(&error) => Ok(()),
@@ -119,7 +119,7 @@ pub(super) fn lock(file: &File) -> io::Result<()> {
     }
 }
 
-/// The lock of a file, which is free again where it was.
+/// State of the lock of a file; a free lock stays free.
 pub(super) fn tried(path: &Path) -> io::Result<Lock> {
     let file = File::open(path)?;
     Ok(match begin("lock").map(|()| file.try_lock()) {
@@ -129,7 +129,7 @@ pub(super) fn tried(path: &Path) -> io::Result<Lock> {
     })
 }
 
-/// Whether an error of a lock says that the file system has none: Lustre
+/// Whether an error of a lock means that the file system has no locks: Lustre
 /// without `flock`, NFS without its daemon, some in user space.
 fn has_no_locks(error: &io::Error) -> bool {
     const NONE: [Errno; 3] = [Errno::NOSYS, Errno::OPNOTSUPP, Errno::NOLCK];
@@ -156,13 +156,13 @@ pub(super) mod faults {
     /// Which calls fail, and how.
     #[derive(Clone, Copy, Debug)]
     pub struct CallFault {
-        /// Their name; none for all calls.
+        /// Name of the calls; `None` for all calls.
         pub call: Option<&'static str>,
         /// How many such calls are made before.
         pub after: usize,
         /// Whether those after it fail, too.
         pub ongoing: bool,
-        /// What the system says.
+        /// Error code of the system.
         pub code: i32,
     }
 

@@ -1,4 +1,4 @@
-//! Unfinished files and folders, and why there are none.
+//! Unfinished files and folders.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -16,8 +16,8 @@ pub(super) const LOCK: &str = "lock";
 /// Mark in an unfinished folder whose files are being put into place.
 pub(super) const MOVING: &str = "moving";
 
-/// Age from which something unfinished, never locked, was left behind and is
-/// not just about to be locked.
+/// Age from which an unfinished file or folder that was never locked counts as left
+/// behind, not as about to be locked.
 pub(super) const LEFT_BEHIND: Duration = Duration::from_secs(10);
 
 /// A file that could not be written.
@@ -38,7 +38,7 @@ impl WriteError {
     }
 }
 
-/// The folder that holds `path`.
+/// The folder that contains `path`.
 pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -58,8 +58,8 @@ pub(super) fn said(error: io::Error, folder: &Path) -> io::Error {
     }
 }
 
-/// Removes what runs that have ended left in `folder`, but for marked
-/// folders, whose files are in place; what cannot be removed stays.
+/// Removes what ended runs left in `folder`, except for marked folders, whose files
+/// are in place. A part that cannot be removed stays.
 pub(super) fn remove_left_behind(folder: &Path) {
     for path in unfinished(folder) {
         if state(&path) != Some(Lock::Free) || path.join(MOVING).exists() {
@@ -72,9 +72,8 @@ pub(super) fn remove_left_behind(folder: &Path) {
     }
 }
 
-/// Whether a run is at work on something unfinished: its lock is free where
-/// none is, and unknown where somebody may just be about to lock it. None
-/// where it is gone.
+/// Whether a run is at work on an unfinished file or folder: its lock is free if
+/// not, and unknown if somebody may be about to lock it. `None` if it is gone.
 pub(super) fn state(path: &Path) -> Option<Lock> {
     let found = fs::metadata(path).ok()?;
     let lock = if found.is_dir() { path.join(LOCK) } else { path.to_owned() };
@@ -114,7 +113,7 @@ pub(super) fn unfinished(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Whether it is the name of something unfinished.
+/// Whether this is the name of an unfinished file or folder.
 pub(super) fn is_unfinished(name: &OsStr) -> bool {
     name.to_str()
         .is_some_and(|name| name.starts_with(PART.0) && name.ends_with(PART.1))

@@ -118,7 +118,7 @@ pub const LEVEL: f64 = 0.9;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Yardstick {
-    /// The number in words: `notches that hold 1`.
+    /// The number in words: `notches that contain 1`.
     pub words: String,
     /// Its unit.
     pub unit: Unit,
@@ -214,7 +214,7 @@ impl Seen {
     /// use rocking_common::findings::{Region, SampleCount, Seen};
     /// use rocking_common::findings::{Unit, Yardstick};
     /// let holds = Region::Above(0.5);
-    /// let words = "notches that hold 1".into();
+    /// let words = "notches that contain 1".into();
     /// let most = [Yardstick { words, unit: Unit::Share, holds }];
     /// let seen = |k, n| Seen::of(&most, &[SampleCount::of(k, n)]);
     /// assert_eq!(seen(30, 43), Seen::Yes);

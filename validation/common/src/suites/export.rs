@@ -1,5 +1,5 @@
-//! Suites as files: a folder of AT2 records and an index with their hashes,
-//! from which the same accelerograms are read, bit for bit.
+//! Suites as files: a folder of AT2 records and an index with their hashes. Reading
+//! them gives the same accelerograms, bit for bit.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use rocking_synthesis::Pair;
 use super::inputs::sha256_hex;
 use crate::table::Table;
 
-/// One record of a suite to be written.
+/// One record of an exported suite.
 pub struct ExportRow<'a> {
     /// The component.
     pub motion: &'a Accelerogram,
@@ -24,7 +24,7 @@ pub struct ExportRow<'a> {
     pub attributes: Vec<(&'a str, String)>,
 }
 
-/// The members of a suite, and what was done to them, in words.
+/// The members of a suite, with their processing in words.
 pub fn members<'a>(
     suite: &'a Suite,
     done: Option<&str>,
@@ -38,7 +38,7 @@ pub fn members<'a>(
     suite.members().iter().map(row).collect()
 }
 
-/// A member of a suite, whose motion this is.
+/// A member of a suite with its motion.
 pub fn member_of<'a, M>(
     motion: &'a Accelerogram,
     member: &'a SuiteMember<M>,
@@ -102,16 +102,16 @@ pub fn files(
     Ok(files)
 }
 
-/// A suite that is made into files, one record after the other.
+/// A suite that is exported, one record after the other.
 pub struct Packing<'a> {
     name: &'a str,
-    /// Columns of the index that not every record need have.
+    /// Columns of the index that a record may lack.
     extra: BTreeSet<&'a str>,
     index: Table,
 }
 
 impl<'a> Packing<'a> {
-    /// A suite `name` whose index has these columns beside its own.
+    /// A suite `name` whose index has these further columns.
     pub fn new(name: &'a str, extra: impl Iterator<Item = &'a str>) -> Self {
         let extra: BTreeSet<&str> = extra.collect();
         let header: Vec<&str> =
@@ -162,14 +162,14 @@ impl<'a> Packing<'a> {
     }
 }
 
-/// Whether a record's name is one that a file can have.
+/// Whether the name of a record can name a file.
 pub fn is_file_name(name: &str) -> bool {
     let fits = |c: char| !c.is_control() && !"/\\".contains(c);
     !name.is_empty() && name.chars().all(fits)
 }
 
-/// A record as AT2, five numbers of 25 characters a line: 17 digits, which
-/// give every double back.
+/// A record as AT2, five numbers of 25 characters per line: 17 digits, which
+/// restore every double.
 fn at2(motion: &Accelerogram) -> String {
     let samples = motion.samples_g();
     let mut text = format!(
@@ -185,8 +185,8 @@ fn at2(motion: &Accelerogram) -> String {
     text
 }
 
-/// A number in 25 characters, as Fortran's E25.16 writes it: three digits of
-/// an exponent leave no room for its letter.
+/// A number in 25 characters in Fortran's E25.16: an exponent of three digits
+/// leaves no room for its letter.
 fn fixed(x: f64) -> String {
     let text = format!("{x:.16e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -24,11 +24,11 @@ const LARGEST_RATIO: u64 = 6;
 /// Bytes to which an archive of any size may unpack.
 const SMALLEST_LIMIT: u64 = 1 << 20;
 
-/// The part of that which is left to an index, whose cells take more memory
-/// than samples.
+/// The limit of an index is this part of the limit of the archive: its cells take
+/// more memory than samples.
 const INDEX_PART: u64 = 12;
 
-/// About how many samples the records of one block have. A command holds the
+/// Approximate number of samples of the records of one block. A command keeps the
 /// records of one block and their curves at a time, however large the suite is.
 pub const BLOCK_SAMPLES: usize = 1 << 22;
 
@@ -43,8 +43,8 @@ pub fn read_suite(
     visit(path, read, Ok).and_then(Survey::into_suite)
 }
 
-/// Reads the suite at `path` and holds the profiles of its records, whose
-/// samples stay in their files: [`reread`] reads them.
+/// Reads the suite at `path` and keeps the profiles of its records. The samples
+/// stay in their files; [`reread`] reads them.
 ///
 /// # Errors
 /// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
@@ -61,11 +61,11 @@ pub fn profiles<E: From<SuiteError> + From<ProcessingError>>(
     Ok(survey.into_suite()?)
 }
 
-/// Reads the records of `chosen`, members of the suite of [`profiles`], again
-/// one after the other, and gives each to `each`.
+/// Reads the records of `chosen`, members of the suite of [`profiles`], again one
+/// after the other, and passes them to `each`.
 ///
 /// # Errors
-/// As [`profiles`]; [`SuiteError::Changed`] for a record that is another now;
+/// As [`profiles`]; [`SuiteError::Changed`] for a record that has changed;
 /// the first error of `each`.
 pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
     path: &Path,
@@ -93,7 +93,7 @@ pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
     left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
 }
 
-/// The files that the suite read from `path` is made of.
+/// The files of the suite that was read from `path`.
 pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     let base = match path.is_dir() {
         true => path,
@@ -103,8 +103,8 @@ pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     std::iter::once(path.to_owned()).chain(members).collect()
 }
 
-/// Reads every record of the folder, index or zip at `path`, checksums
-/// included, and holds what `keep` makes of each.
+/// Reads every record of the folder, index or zip at `path`, checksums included,
+/// and keeps the result of `keep` for each.
 ///
 /// # Errors
 /// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
@@ -121,7 +121,7 @@ pub fn visit<K, E: From<SuiteError>>(
     visit_zip(&shown, file, &read, keep)
 }
 
-/// Makes of a reason why the suite at `shown` cannot be read the error.
+/// The error for a reason why the suite at `shown` cannot be read.
 fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
     move |reason| SuiteError::Unreadable {
         path: shown.to_owned(),
@@ -131,12 +131,11 @@ fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
 
 /// Reads every record of the zip `archive`, which `shown` names in messages.
 ///
-/// All that is read from it may be six times its size and an index half of
-/// it (1 MiB and 85 KiB, if it is small), and no two of its files may have
-/// bytes in common. Reading 1 MiB takes less than 64 MiB of memory and a
-/// command that reads it less than 256 MiB, whoever packed it
-/// (`tests/memory.rs`); `study`, which keeps what all its figures draw, takes
-/// more where the file holds a valid record.
+/// The archive may unpack to six times its size and an index to half of its size
+/// (1 MiB and 85 KiB for a small archive), and no two of its files may share bytes.
+/// Reading 1 MiB takes less than 64 MiB of memory, and a command that reads it less
+/// than 256 MiB, even for a hostile archive (`tests/memory.rs`). `study` keeps the
+/// data of all its figures and takes more if the file contains a valid record.
 ///
 /// # Errors
 /// As [`visit`].
@@ -160,7 +159,7 @@ pub fn visit_zip<K, E: From<SuiteError>>(
         let mut bytes = Vec::new();
         let path = format!("{base}{name}");
         let done = unpack(&mut archive, &path, limit, &mut bytes);
-        // What is refused was read, too: a thousand such take no longer.
+        // Refused files count, too: a thousand of them take no longer.
         left = left.saturating_sub(bytes.len() as u64);
         done.map(|()| bytes).map_err(|reason| {
             Fault::Unreadable(reason).whole(&format!("{shown}/{name}"))
@@ -211,7 +210,7 @@ fn shared(
 ) -> Option<(String, String)> {
     let mut parts = Vec::new();
     for index in 0..archive.len() {
-        // One that cannot be found is refused where it is read.
+        // A file that cannot be found is refused when it is read.
         let Ok(file) = archive.by_index_raw(index) else { continue };
         let Some(data) = file.data_start() else { continue };
         let end = data.saturating_add(file.compressed_size());
@@ -226,8 +225,8 @@ fn shared(
     Some((name(overlap[0].2), name(overlap[1].2)))
 }
 
-/// Names in the central directory of an archive, from its `start` on, that
-/// came before; of files of one name, the archive itself knows the last.
+/// Repeated names in the central directory of an archive, which begins at `start`.
+/// Of several files with one name the archive gives only the last.
 fn doubled_names(
     archive: &mut (impl Read + Seek),
     start: u64,
@@ -237,12 +236,12 @@ fn doubled_names(
     loop {
         let (mut signature, mut head) = ([0; 4], [0; 42]);
         archive.read_exact(&mut signature)?;
-        // Behind the entries stands a record of another signature.
+        // A record of another signature follows the entries.
         if signature != *b"PK\x01\x02" {
             return Ok(doubled);
         }
         archive.read_exact(&mut head)?;
-        // Lengths of the name, of what is added to it, and of the comment.
+        // Lengths of the name, of the extra field, and of the comment.
         let length = |at: usize| u16::from_le_bytes([head[at], head[at + 1]]);
         let mut name = vec![0; usize::from(length(24))];
         archive.read_exact(&mut name)?;
@@ -254,8 +253,8 @@ fn doubled_names(
     }
 }
 
-/// Whether an archive of `size` bytes has the record that ends every zip: 22
-/// bytes and a comment of at most 65,535.
+/// Whether an archive of `size` bytes has the record at the end of every zip: 22
+/// bytes and a comment of at most 65,535 bytes.
 fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
     let mut end = Vec::new();
     archive.seek(SeekFrom::Start(size.saturating_sub(22 + 65_535)))?;
@@ -263,9 +262,9 @@ fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
     Ok(end.windows(4).any(|bytes| bytes == b"PK\x05\x06"))
 }
 
-/// The folder of an archive that PEER's search results lie in, if any, and
-/// the files in it, by name; hidden files and folders are left out, and a
-/// part `..` hides nothing.
+/// The folder of an archive that contains PEER's search results, if any, and the
+/// files in it, by name. Hidden files and folders are left out; a part `..` hides
+/// nothing.
 fn contents(names: Vec<String>) -> (String, Vec<String>) {
     let base = names
         .iter()
@@ -294,8 +293,8 @@ pub fn is_zip(path: &Path) -> bool {
         .is_ok_and(|()| start == *b"PK\x03\x04")
 }
 
-/// Reads one file of an archive, if it is no larger than `limit` bytes; what
-/// was read of another is left in `bytes`.
+/// Reads one file of an archive, if it is no larger than `limit` bytes. The bytes
+/// that were read of a larger file stay in `bytes`.
 fn unpack(
     archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
@@ -303,7 +302,7 @@ fn unpack(
     bytes: &mut Vec<u8>,
 ) -> Result<(), String> {
     let file = archive.by_name(name).map_err(|e| e.to_string())?;
-    // What the archive says of the size is a hint, and may be false.
+    // The size in the archive is a hint and may be false.
     bytes.reserve(file.size().min(limit) as usize + 1);
     let read = file.take(limit + 1).read_to_end(bytes);
     read.map_err(|e| e.to_string())?;

@@ -1,5 +1,4 @@
-//! Remarks on suspicious records of a command, reported wherever its
-//! results are.
+//! Remarks on suspicious records of a command, reported with its results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,12 +31,12 @@ const GRAVEST: [&str; 16] = [
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks {
     records: usize,
-    /// Records whose interval, and whose unit, the caller gave.
+    /// Numbers of records whose interval, and whose unit, the caller gave.
     given: (usize, usize),
-    /// Name of a record and the remarks on it, each code once, in the
-    /// records' order.
+    /// Names of records with their remarks, each code once, in the order of the
+    /// records.
     found: Vec<(String, Vec<Remark>)>,
-    /// Where the remarks on a record are.
+    /// Position of the remarks on a record.
     places: BTreeMap<String, usize>,
 }
 
@@ -75,8 +74,8 @@ impl Remarks {
         codes.iter().map(Remark::code).collect::<Vec<_>>().join(" ")
     }
 
-    /// For how many of the records the caller's interval and unit were
-    /// taken, where the files of others state theirs.
+    /// Numbers of records with the caller's interval and unit, if the files of other
+    /// records state their own.
     pub fn given(&self) -> Vec<String> {
         let (dt, unit) = self.given;
         let all = [("--dt", dt, "interval"), ("--units", unit, "unit")];
@@ -92,8 +91,8 @@ impl Remarks {
         some.map(words).collect()
     }
 
-    /// Each code with the number of its records, and the first record's
-    /// remark; the gravest first.
+    /// Each code with the number of its records and the remark on the first record,
+    /// the gravest first.
     fn by_code(&self) -> Vec<(&'static str, usize, &str, &Remark)> {
         let mut all: Vec<(&'static str, usize, &str, &Remark)> = Vec::new();
         for (name, remarks) in &self.found {
@@ -125,8 +124,8 @@ impl Remarks {
     }
 }
 
-/// The number of records with remarks, and for each code its number, its
-/// first record and the remark on that.
+/// The number of records with remarks, and for each code the number of its records,
+/// the first record and the remark on it.
 impl Serialize for Remarks {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]

@@ -19,15 +19,15 @@ use rocking_common::paper::{
 pub const HISTORY_INTERVAL_S: f64 = 0.01;
 
 /// Intensities PGA/(g tan alpha) at which histories of both suites are
-/// compared: from just above uplift to where blocks begin to overturn.
+/// compared: from just above uplift to the onset of overturning.
 pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
 
 /// Intensity, and rotation over slenderness that the smallest blocks must reach
-/// there while they stand, for a record to be shown alone. Its figures then show
+/// there while they stand, for a record to be shown by itself. Its figures then show
 /// motions and curves, not a fall.
 const ROCKS: (f64, f64) = (1.5, 0.05);
 
-/// The records that are shown alone: ranks 1/6, 3/6 and 5/6 of PGV/PGA among
+/// The records that are shown by themselves: ranks 1/6, 3/6 and 5/6 of PGV/PGA among
 /// the records under which the smallest block of every slenderness rocks
 /// ([`ROCKS`]), or among all records if fewer than three qualify. The curves are
 /// by block, then by record.

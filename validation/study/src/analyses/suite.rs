@@ -32,7 +32,7 @@ pub struct StripeDemands {
 pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.
     pub kind: SuiteKind,
-    /// Where the records come from.
+    /// Origin of the records.
     pub source: SuiteSource,
     /// Rule by which the study component was chosen, in words.
     pub component_rule: String,

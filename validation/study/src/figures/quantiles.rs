@@ -112,7 +112,7 @@ fn levels(groups: &[Series]) -> (f64, f64) {
     (low, 1.06_f64.mul_add(high - low, low))
 }
 
-/// `84 %`, `50 %`, `16 %` where the curves leave, or where they end.
+/// `84 %`, `50 %`, `16 %` at the point where the curves leave the panel or end.
 fn edge_words(groups: &[Series]) -> Vec<Series> {
     let words = |(quantile, words): (usize, &str)| {
         let ends = groups.iter().filter_map(|g| overturns(g, quantile));

@@ -170,8 +170,8 @@ fn in_pga(scope: &Scope<'_>) -> Factors {
     std::array::from_fn(|_| vec![1.0; scope.records()])
 }
 
-/// Capacities of all blocks and demands beside those of the reference block, in
-/// the measure of these factors.
+/// Pairs of capacities of a block and of the reference block, for all blocks and
+/// demands, in the measure of these factors.
 fn demand_pairs(
     scope: &Scope<'_>,
     factors: &Factors,

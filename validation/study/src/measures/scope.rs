@@ -13,7 +13,7 @@ use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, SuiteKind,
 };
 
-/// Input of a measure: results, draws, suite, arm and intensity measure.
+/// Input of a measure: results, draws, suite, grid and intensity measure.
 #[derive(Clone, Copy)]
 pub struct Scope<'a> {
     /// The analyses.
@@ -26,7 +26,7 @@ pub struct Scope<'a> {
     pub tested: SuiteSet,
     /// The grid.
     pub arm: Arm,
-    /// The intensity measure: PGA if the claim names none.
+    /// The intensity measure: PGA by default.
     pub intensity: Intensity,
 }
 

@@ -104,6 +104,11 @@ fn furthest(scope: &Scope<'_>, cells: &[RecordRanks]) -> Estimate {
     Estimate::exact(all.reduce(f64::max).unwrap_or(f64::NAN))
 }
 
+/// Place of a measurement over these cells.
+fn place(cells: &[RecordRanks]) -> String {
+    format!("{} cells that count", cells.len())
+}
+
 const FURTHEST: &str = "largest distance of a median ratio from 1";
 
 /// Median ratios that conform to 1 by their notches, over the cells that
@@ -114,9 +119,8 @@ pub(super) fn conforming(
     effect: Vec<RecordRanks>,
 ) -> Measured {
     let cells = scope.counted(cells);
-    let at = format!("{} cells that count", cells.len());
     let effect = scope.mean_median(&scope.counted(effect));
-    Measured::new([notches(scope, &cells)], effect, at)
+    Measured::new([notches(scope, &cells)], effect, place(&cells))
         .and(FURTHEST, furthest(scope, &cells))
 }
 
@@ -170,8 +174,8 @@ pub(super) fn small_amplitudes(scope: &Scope<'_>) -> MeasureResult {
     Ok(Measured::number(effect, LOWEST))
 }
 
-/// Distance of a median from 1 that counts as none once the closed form is
-/// divided out.
+/// Largest distance from 1 of a median that conforms once the closed form is divided
+/// out.
 const CORRECTED: f64 = 0.005;
 
 /// Medians with the closed form divided out, beside the plain medians. The effect
@@ -184,11 +188,10 @@ fn corrected_beside(
     let [corrected, plain] = [corrected, plain].map(|c| scope.counted(c));
     let share =
         |cells: &[RecordRanks]| Estimate::exact(notches(scope, cells).value);
-    let at = format!("{} cells that count", corrected.len());
     let counts = [near_1(scope, &corrected, CORRECTED)];
     let [left, effect] =
         effect.map(|own| scope.mean_median(&scope.counted(own)));
-    Measured::new(counts, effect, at)
+    Measured::new(counts, effect, place(&corrected))
         .and(
             "the same ratio of theta/sin(alpha)",
             scope.estimate(Range::NotNegative, &left),
@@ -231,9 +234,8 @@ const ROUNDED: f64 = 0.05;
 pub(super) fn adjusted(scope: &Scope<'_>) -> MeasureResult {
     let cells = scope.counted(adjusted_cells(scope, |x, _, _| x)?);
     let counts = [near_1(scope, &cells, ROUNDED)];
-    let at = format!("{} cells that count", cells.len());
     let notches = Estimate::exact(notches(scope, &cells).value);
-    Ok(Measured::new(counts, scope.mean_median(&cells), at)
+    Ok(Measured::new(counts, scope.mean_median(&cells), place(&cells))
         .and("notches that hold 1", notches)
         .and(FURTHEST, furthest(scope, &cells)))
 }
@@ -278,10 +280,7 @@ pub(super) fn outliers(scope: &Scope<'_>) -> MeasureResult {
 
 /// The largest drop of the probability of overturning by resurrections on any
 /// stripe, in any block.
-fn largest_drop(
-    scope: &Scope<'_>,
-    stripes: &StripeDemands,
-) -> anyhow::Result<Estimate> {
+fn largest_drop(scope: &Scope<'_>, stripes: &StripeDemands) -> Estimate {
     let count = |flags: &&Vec<bool>| flags.iter().filter(|x| **x).count();
     // The first of equal stripes, from behind.
     let stripes = stripes.stands_again.iter().flatten().rev();
@@ -290,7 +289,7 @@ fn largest_drop(
     let drop = |counts: &[u32]| {
         weighted_count(&stand, counts) / f64::from(counts.iter().sum::<u32>())
     };
-    Ok(scope.estimate(Range::Share, &scope.one(drop)))
+    scope.estimate(Range::Share, &scope.one(drop))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
@@ -317,7 +316,7 @@ pub(super) fn resurrections(scope: &Scope<'_>) -> MeasureResult {
         .and("p = 3 and 4", part(one, all))
         .and(
             "largest drop of the probability of overturning",
-            largest_drop(scope, stripes)?,
+            largest_drop(scope, stripes),
         ))
 }
 

@@ -12,15 +12,16 @@ use rocking_procedures::fragility::options::{Centre, Recipe};
 use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::resampling::Resampling;
 use rocking_statistics::{
-    Clusters, ExtendedSample, Lognormal, QuantileType, Range,
+    Clusters, Estimate, ExtendedSample, Lognormal, QuantileType, Range,
 };
 
 use self::drawing::RecipeSummary;
 use super::answer::{Rows, StudyAnswer, TableCell, count, number, word};
 use super::trimming;
 use crate::distributions::BlockSamples;
-use crate::estimates::median;
+use crate::estimates::{LEVEL, median};
 use crate::fits::{BLOCK, MLE, THRESHOLDS, trimmed};
+use crate::inference::estimate;
 use crate::results::StudyResults;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
@@ -40,9 +41,7 @@ struct RecipeFit<'a> {
     /// The fragility, or the reason why there is none.
     fragility: Result<Lognormal, String>,
     /// Kolmogorov and area distance to the empirical fragility.
-    distances: [f64; 2],
-    /// Intervals of the distances.
-    intervals: [(f64, f64); 2],
+    distances: [Estimate; 2],
     /// Number of bootstrap draws in which the recipe is defined.
     used: usize,
 }
@@ -147,12 +146,11 @@ fn entries<'a>(
             let area = f.area_distance(&sample);
             [f.kolmogorov_distance(&sample), area.unwrap_or(f64::NAN)]
         });
-        let interval = |k: usize| {
-            let of = [Range::Share, Range::NotNegative][k];
-            let (point, how) = (distances[k], Resampling::Bootstrap);
-            let found = clusters.estimate(point, &drawn[k], how, of, 0.95);
-            found.map_or((f64::NAN, f64::NAN), |e| e.estimate.ends())
-        };
+        let distances = [0, 1].map(|k| {
+            let range = [Range::Share, Range::NotNegative][k];
+            let how = (Resampling::Bootstrap, range, LEVEL);
+            estimate(clusters, distances[k], &drawn[k], how)
+        });
         RecipeFit {
             recipe,
             intensity,
@@ -160,7 +158,6 @@ fn entries<'a>(
             edp,
             fragility: fragility.map_err(|e| e.to_string()),
             distances,
-            intervals: [interval(0), interval(1)],
             used: drawn[0].len(),
         }
     });
@@ -178,7 +175,7 @@ fn summaries(entries: &[RecipeFit<'_>]) -> Vec<RecipeSummary> {
             let own = entries.iter().filter(is);
             let defined = own.clone().filter(|e| e.fragility.is_ok());
             let of = |k: usize| -> Vec<f64> {
-                defined.clone().map(|e| e.distances[k]).collect()
+                defined.clone().map(|e| e.distances[k].value()).collect()
             };
             let ks = of(0);
             out.push(RecipeSummary {
@@ -230,7 +227,7 @@ fn words(summaries: &[RecipeSummary]) -> String {
 fn by_block(entries: &[RecipeFit<'_>]) -> String {
     let mut table = Rows::default();
     for e in entries {
-        let fragility = e.fragility.as_ref();
+        let (fragility, [ks, area]) = (e.fragility.as_ref(), e.distances);
         let of = |f: fn(&Lognormal) -> f64| six(fragility.map_or(f64::NAN, f));
         table.row(vec![
             ("im", word(e.intensity.name())),
@@ -244,12 +241,12 @@ fn by_block(entries: &[RecipeFit<'_>]) -> String {
             ("ln_median", of(Lognormal::log_mean)),
             ("dispersion", of(Lognormal::dispersion)),
             ("shift", of(Lognormal::shift)),
-            ("ks_distance", six(e.distances[0])),
-            ("ks_low", six(e.intervals[0].0)),
-            ("ks_high", six(e.intervals[0].1)),
-            ("area_distance", six(e.distances[1])),
-            ("area_low", six(e.intervals[1].0)),
-            ("area_high", six(e.intervals[1].1)),
+            ("ks_distance", six(ks.value())),
+            ("ks_low", six(ks.ends().0)),
+            ("ks_high", six(ks.ends().1)),
+            ("area_distance", six(area.value())),
+            ("area_low", six(area.ends().0)),
+            ("area_high", six(area.ends().1)),
             ("draws_used", word(e.used.to_string())),
             (
                 "undefined_because",

@@ -16,6 +16,7 @@ use crate::distributions::{
 use crate::estimates::three_quantiles;
 use crate::facts::{Facts, SPECTRUM_PERIODS_S, facts};
 use crate::fits::THRESHOLDS;
+use crate::inference::estimate;
 use crate::normality::ends;
 use crate::results::StudyResults;
 use rocking_common::paper::{BLOCKS, demand_index};
@@ -200,10 +201,8 @@ impl SuitePair {
     }
 
     fn estimate(&self, value: f64, replicates: &[f64]) -> Estimate {
-        let (how, range) = (Resampling::Bootstrap, Range::Real);
-        let found =
-            self.clusters.estimate(value, replicates, how, range, 0.95);
-        found.map_or(Estimate::exact(value), |found| found.estimate)
+        let how = (Resampling::Bootstrap, Range::Real, 0.95);
+        estimate(&self.clusters, value, replicates, how)
     }
 }
 

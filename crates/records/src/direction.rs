@@ -1,8 +1,9 @@
-//! Where a sensor points: by what a format's header says of it, or else by
-//! the end of the file's name.
+//! Direction of a sensor: by the header of a format, or else by the end of the
+//! file's name.
 //!
-//! A format's row says if a bare number is an azimuth; elsewhere it is a code
-//! (KiK-net) or the number of a channel or a file. A reader may say more.
+//! The row of a format says if a bare number is an azimuth; in other formats it
+//! is a code (KiK-net) or the number of a channel or a file. A reader may give
+//! the direction directly.
 
 use super::text;
 
@@ -49,7 +50,7 @@ const VERTICAL: [&str; 10] =
 const SEPARATORS: [char; 3] = ['-', '_', '.'];
 
 impl Direction {
-    /// This direction, or where it is unknown, the other.
+    /// This direction or, if it is unknown, the other.
     pub(super) fn or(self, other: impl FnOnce() -> Self) -> Self {
         if self == Self::Unknown { other() } else { self }
     }
@@ -82,37 +83,32 @@ impl Direction {
         words.map(of).find(|d| *d != Self::Unknown).unwrap_or_default()
     }
 
-    /// The direction by the name of a file without its ending. PEER names
-    /// AT2 files by azimuth (`azimuths`): the numbers of others are running
-    /// ones.
+    /// The direction by the name of a file without its ending. PEER names AT2
+    /// files by azimuth (`azimuths`); in other names the numbers only count.
     pub(super) fn of_name(name: &str, azimuths: bool) -> Self {
-        let end = name.rsplit(SEPARATORS).next().unwrap_or("");
-        let whole = end.len() == name.len();
-        let by_end = || match end.trim_end_matches(['1', '2']) {
+        let end = name.rsplit_once(SEPARATORS).map(|(_, end)| end);
+        let by_end = |end: &str| match end.trim_end_matches(['1', '2']) {
             // KiK-net's two sensors.
             axis @ ("NS" | "EW" | "UD") => Self::of_word(axis),
             _ => Self::of_word(end),
         };
-        let known = if whole { Self::Unknown } else { by_end() };
-        known
-            .or(|| {
-                let mut parts = name.split('.');
-                let code = parts.find(|part| is_code(part));
-                code.map_or(Self::Unknown, Self::of_word)
-            })
+        let by_azimuth = |number: &str| match azimuths && is_azimuth(number) {
+            true => Self::Horizontal,
+            false => Self::Unknown,
+        };
+        let code = || name.split('.').find(|part| is_code(part));
+        end.map_or(Self::Unknown, by_end)
+            .or(|| code().map_or(Self::Unknown, Self::of_word))
             .or(|| match glued(name) {
-                Some((_, end)) if !is_azimuth(end) => Self::of_word(end),
-                Some(_) if azimuths => Self::Horizontal,
-                _ => Self::Unknown,
+                Some((_, end)) => Self::of_word(end).or(|| by_azimuth(end)),
+                None => Self::Unknown,
             })
-            .or(|| match azimuths && !whole && is_azimuth(end) {
-                true => Self::Horizontal,
-                false => Self::Unknown,
-            })
+            .or(|| end.map_or(Self::Unknown, by_azimuth))
     }
 }
 
-/// A code of band, instrument and component, as FDSN networks write it.
+/// Whether a text is a code of band, instrument and component, as FDSN networks
+/// write it.
 pub(super) fn is_code(part: &str) -> bool {
     matches!(
         part.as_bytes(),
@@ -141,8 +137,8 @@ pub(super) fn is_azimuth(word: &str) -> bool {
         && word.parse::<u16>().is_ok_and(|degrees| degrees <= 360)
 }
 
-/// A name without and its orientation, where no separator stands before it:
-/// three digits, or two letters after a digit.
+/// A name without its orientation, and the orientation, if no separator is
+/// between them: three digits, or two letters after a digit.
 pub(super) fn glued(name: &str) -> Option<(&str, &str)> {
     let split = |n: usize| {
         let at = name.len().checked_sub(n)?;

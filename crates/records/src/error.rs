@@ -37,6 +37,9 @@ pub struct RecordError {
     pub fault: Fault,
 }
 
+/// What reading gives, or why the file is refused.
+pub(crate) type Result<T, E = RecordError> = std::result::Result<T, E>;
+
 /// Line and column, each after a colon.
 fn place(line: Option<usize>, column: Option<usize>) -> String {
     let known = line.into_iter().chain(column);

@@ -1,11 +1,11 @@
-//! Samples in lines of several numbers: by the file's field width, or with
-//! room between.
+//! Samples in lines of several numbers, in fields of one width or with
+//! separators.
 
 use std::collections::BTreeMap;
 
 use super::number::{self, Form};
 use super::text::{Text, excerpt};
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::quality::Remark;
 
 /// Width of a field and number of fields in a full line.
@@ -17,7 +17,7 @@ pub(super) struct FieldLayout {
     pub(super) per_line: usize,
     /// Characters by which the first field of a line is narrower.
     pub(super) missing: usize,
-    /// Whether numbers are each written in their own form.
+    /// Whether each number is written in its own form.
     varied: bool,
 }
 
@@ -27,7 +27,7 @@ impl FieldLayout {
         Self { width, per_line, missing: 0, varied: false }
     }
 
-    /// The same fields, for numbers that are each written in their own form.
+    /// The same fields, for numbers each written in its own form.
     pub(super) const fn varied(self) -> Self {
         Self { varied: true, ..self }
     }
@@ -40,12 +40,12 @@ impl FieldLayout {
     }
 }
 
-/// The layout that at least half of the lines `first..end` have, if the
-/// numbers end one width apart, the first field being `missing` characters
-/// narrower; `None` for free text.
+/// The layout of at least half of the lines `first..end`, if the numbers end
+/// one width apart and the first field is `missing` characters narrower;
+/// `None` for free text.
 ///
-/// The last line may be short. A file of one number a line is free text: its
-/// width says nothing.
+/// The last line may be short. A file of one number a line is free text,
+/// because its width says nothing.
 pub(super) fn infer(
     text: &Text<'_>,
     first: usize,
@@ -55,10 +55,9 @@ pub(super) fn infer(
     let count = end.saturating_sub(first);
     let full = if count > 1 { count - 1 } else { count };
     let mut votes: BTreeMap<FieldLayout, usize> = BTreeMap::new();
-    for line in text.lines_from(first).take(full) {
-        if let Some(layout) = layout_of(line, missing) {
-            *votes.entry(layout).or_default() += 1;
-        }
+    let lines = text.lines_from(first).take(full);
+    for layout in lines.filter_map(|line| layout_of(line, missing)) {
+        *votes.entry(layout).or_default() += 1;
     }
     let (layout, votes) = votes.into_iter().max_by_key(|(_, n)| *n)?;
     (2 * votes >= full).then_some(layout)
@@ -93,8 +92,8 @@ pub(super) fn read(
     first: usize,
     end: usize,
     layout: Option<FieldLayout>,
-) -> Result<Vec<f64>, RecordError> {
-    // Counted first: a vector that grows takes three times the room.
+) -> Result<Vec<f64>> {
+    // Counted first: a growing vector takes three times the memory.
     let count = match layout {
         Some(layout) => text.bytes(first, end) / layout.width + 1,
         None => text
@@ -117,16 +116,16 @@ pub(super) fn read(
 }
 
 /// Reads `count` numbers in full lines of a layout from the line of index
-/// `first` on, and says which line is next.
+/// `first` on; also gives the index of the next line.
 ///
 /// # Errors
-/// As of [`read`], and for fewer lines or numbers.
+/// As [`read`], and for fewer lines or numbers.
 pub(super) fn block(
     text: &Text<'_>,
     first: usize,
     count: usize,
     layout: FieldLayout,
-) -> Result<(Vec<f64>, usize), RecordError> {
+) -> Result<(Vec<f64>, usize)> {
     let end = first.saturating_add(count.div_ceil(layout.per_line));
     if end > text.len() {
         let lines = text.len().saturating_sub(first);
@@ -141,21 +140,15 @@ pub(super) fn block(
 struct LineReader<'t, 'a> {
     text: &'t Text<'a>,
     index: usize,
-    /// The first number's form, which all have unless they are `varied`.
+    /// Form of the first number, and of the others unless they are `varied`.
     form: Option<Form>,
     varied: bool,
     samples: Vec<f64>,
 }
 
 impl LineReader<'_, '_> {
-    fn refuse(
-        &self,
-        byte: usize,
-        found: &str,
-        expected: String,
-    ) -> RecordError {
-        let fault = Fault::Number { found: excerpt(found), expected };
-        self.text.at(self.index, byte, fault)
+    fn refuse<T>(&self, byte: usize, fault: Fault) -> Result<T> {
+        Err(self.text.at(self.index, byte, fault))
     }
 
     fn number(
@@ -163,38 +156,32 @@ impl LineReader<'_, '_> {
         byte: usize,
         found: &str,
         expected: impl Fn() -> String,
-    ) -> Result<(), RecordError> {
+    ) -> Result<()> {
         match number::read(found) {
             Some((value, form)) if value.is_finite() => {
                 let first = *self.form.get_or_insert(form);
                 if form != first && !self.varied {
-                    return Err(self.refuse(byte, found, describe(first)));
+                    let fault = Fault::number(found, describe(first));
+                    return self.refuse(byte, fault);
                 }
                 self.samples.push(value);
                 Ok(())
             }
-            Some(_) => {
-                let fault = Fault::NotFinite(excerpt(found));
-                Err(self.text.at(self.index, byte, fault))
-            }
-            None => Err(self.refuse(byte, found, expected())),
+            Some(_) => self.refuse(byte, Fault::NotFinite(excerpt(found))),
+            None => self.refuse(byte, Fault::number(found, expected())),
         }
     }
 
-    fn fixed(
-        &mut self,
-        layout: FieldLayout,
-        last: bool,
-    ) -> Result<(), RecordError> {
+    fn fixed(&mut self, layout: FieldLayout, last: bool) -> Result<()> {
         let FieldLayout { width, per_line, missing, .. } = layout;
         let line = self.text.line(self.index).unwrap_or("").trim_end();
         let full = width * per_line - missing;
         if line.len() > full {
-            // The text may hold a character of several bytes there.
+            // The text may have a character of several bytes there.
             let rest = line.get(full..).unwrap_or(line);
             let expected =
                 format!("{per_line} numbers of {width} characters a line");
-            return Err(self.refuse(full, rest, expected));
+            return self.refuse(full, Fault::number(rest, expected));
         }
         let written = (line.len() + missing).div_ceil(width);
         let count = if last { written } else { per_line };
@@ -205,14 +192,14 @@ impl LineReader<'_, '_> {
             let expected = || format!("a number of {width} characters");
             let byte = place.start + field.len() - found.len();
             if field.len() < place.len() {
-                return Err(self.refuse(byte, found, expected()));
+                return self.refuse(byte, Fault::number(found, expected()));
             }
             self.number(byte, found, expected)?;
         }
         Ok(())
     }
 
-    fn free(&mut self) -> Result<(), RecordError> {
+    fn free(&mut self) -> Result<()> {
         let line = self.text.line(self.index).unwrap_or("");
         let mut at = 0;
         for part in line.split([' ', '\t', ',']) {
@@ -269,18 +256,15 @@ impl Forms {
         self.count > 2 && !self.later_varied && self.before != self.second
     }
 
-    /// What to remark about a text that ends within a line: nothing where
-    /// the numbers' one form tells that the last number is whole.
+    /// The remark on a text that ends within a line; none if the form of the
+    /// numbers shows that the last number is whole.
     ///
     /// # Errors
-    /// A last number that was cut, where that is visible: fewer digits than
-    /// all numbers before, a shorter exponent, or none in a number that may
-    /// be what an exponent follows. A cut without an exponent leaves a number
-    /// nearer to zero.
-    pub(super) fn check_ended(
-        &self,
-        text: &Text<'_>,
-    ) -> Result<Vec<Remark>, RecordError> {
+    /// A last number that was visibly cut: it has fewer digits than all numbers
+    /// before, a shorter exponent, or no exponent although its size
+    /// suggests one. A cut in a number without an exponent leaves a number nearer to
+    /// zero.
+    pub(super) fn check_ended(&self, text: &Text<'_>) -> Result<Vec<Remark>> {
         let (Some(before), Some(last), false) =
             (self.before, self.last, text.is_ended)
         else {
@@ -309,8 +293,8 @@ impl Forms {
     }
 }
 
-/// What stands before an exponent is no smaller than this (`0.1e-3`), unless
-/// it is zero.
+/// The number before an exponent is no smaller than this (`0.1e-3`), unless it
+/// is zero.
 const LEAST_MANTISSA: f64 = 0.1;
 
 fn describe(form: Form) -> String {
@@ -326,11 +310,11 @@ fn describe(form: Form) -> String {
     }
 }
 
-/// Reads one number a line, and their forms.
+/// Reads one number a line, and the forms of the numbers.
 pub(super) fn column<'a>(
     text: &Text<'_>,
     lines: impl Iterator<Item = (usize, &'a str)>,
-) -> Result<(Vec<f64>, Forms), RecordError> {
+) -> Result<(Vec<f64>, Forms)> {
     let mut samples = Vec::with_capacity(text.len());
     let mut forms = Forms::default();
     for (index, line) in lines {
@@ -341,12 +325,12 @@ pub(super) fn column<'a>(
     Ok((samples, forms))
 }
 
-/// The number that a line or a field of it is, and its form.
+/// The number in a line or in one of its fields, and its form.
 pub(super) fn one_number(
     text: &Text<'_>,
     index: usize,
     found: &str,
-) -> Result<(f64, Form), RecordError> {
+) -> Result<(f64, Form)> {
     let found = found.trim();
     match number::read(found) {
         Some(known) if known.0.is_finite() => Ok(known),

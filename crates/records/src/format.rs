@@ -1,5 +1,5 @@
-//! Formats of record files: a module each, whose row in [`Format::ALL`] says
-//! all that readers, documentation and tests know of it.
+//! Formats of record files, a module for each. The row of a format in
+//! [`Format::ALL`] has everything that readers, documentation and tests need.
 
 mod afad;
 mod at2;
@@ -17,20 +17,23 @@ mod smc;
 use rocking::units::AccelerationUnit;
 
 use crate::direction::Direction;
-use crate::error::RecordError;
+use crate::error::Result;
 use crate::quality::Remark;
 use crate::text::Text;
+
+/// The unit of many networks.
+const GAL: AccelerationUnit = AccelerationUnit::CentimetrePerSecondSquared;
 
 /// What a format states about its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Header {
-    /// Number of samples, sampling interval and unit, as a rule.
+    /// Number of samples, sampling interval and, in most files, unit.
     Full,
     /// Number of samples and sampling interval.
     NoUnit,
-    /// Sampling interval, by the times, and in some files the unit.
+    /// Sampling interval, by the times, and the unit in some files.
     NoCount,
-    /// Nothing but in some files the unit.
+    /// Only the unit, and only in some files.
     Missing,
 }
 
@@ -44,21 +47,21 @@ pub struct Format {
     pub files: &'static str,
     /// Who writes such files.
     pub source: &'static str,
-    /// What a file without a distinctive header consists of, for messages;
-    /// empty for other files.
+    /// Contents of a file without a distinctive header, for messages; empty for
+    /// other files.
     pub content: &'static str,
     /// What a file states about its samples.
     pub header: Header,
-    /// Whether a number of another width or form than the others is refused.
+    /// Whether a number is refused if its width or form differs from the others.
     pub is_fixed: bool,
     /// Whether a number that names a channel is an azimuth in degrees.
     pub azimuths: bool,
-    /// Whether a number at the end of a file's name is one, too.
+    /// Whether a number at the end of a file's name is an azimuth.
     pub(crate) azimuth_in_name: bool,
     /// Whether the content is of this format.
     pub(crate) recognises: fn(&Text<'_>) -> bool,
     /// Reads all acceleration channels.
-    pub(crate) read: fn(&Text<'_>) -> Result<Vec<Channel>, RecordError>,
+    pub(crate) read: fn(&Text<'_>) -> Result<Vec<Channel>>,
 }
 
 impl Format {
@@ -79,7 +82,7 @@ impl Format {
         &csv::FORMAT,
     ];
 
-    /// What most formats have in common.
+    /// Common values of most formats.
     const BASE: Self = Self {
         name: "",
         files: "",
@@ -105,7 +108,7 @@ impl Format {
         Self::ALL.iter().copied().find(|format| format.name == name)
     }
 
-    /// All formats by name, those that state all of their samples first.
+    /// All formats, those with the most complete header first, then by name.
     #[must_use]
     pub fn by_name() -> Vec<&'static Self> {
         let mut all = Self::ALL.to_vec();
@@ -126,21 +129,32 @@ impl PartialEq for Format {
     }
 }
 
-/// One component as a format's reader finds it, in the file's own unit.
+/// One component as the reader of a format finds it, in the unit of the file.
 #[derive(Default)]
 pub(crate) struct Channel {
     pub(crate) dt: Option<f64>,
     pub(crate) unit: Option<AccelerationUnit>,
     pub(crate) samples: Vec<f64>,
-    /// What the file calls the channel.
+    /// Name of the channel in the file.
     pub(crate) label: Option<String>,
-    /// Event and station, where the file names both.
+    /// Event and station, if the file names both.
     pub(crate) site: Option<String>,
-    /// Where the sensor points, by the header alone; the label says it where
-    /// this is `None`.
+    /// Direction of the sensor by the header; if `None`, the label gives it.
     pub(crate) direction: Option<Direction>,
     /// Whether the sensor is in a borehole.
     pub(crate) borehole: bool,
     /// What is suspicious about the text.
     pub(crate) remarks: Vec<Remark>,
+}
+
+impl Channel {
+    /// A channel by its sampling interval (s), unit and samples.
+    fn of(
+        dt: impl Into<Option<f64>>,
+        unit: impl Into<Option<AccelerationUnit>>,
+        samples: Vec<f64>,
+    ) -> Self {
+        let (dt, unit) = (dt.into(), unit.into());
+        Self { dt, unit, samples, ..Self::default() }
+    }
 }

@@ -22,24 +22,24 @@ const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);
 const INTERVAL_RANGE_S: (f64, f64) = (1e-4, 0.1);
 /// Consecutive samples at the peak that mean clipping.
 const CLIPPED_SAMPLES: usize = 3;
-/// Time with the same non-zero sample, in s, that means a dead channel.
+/// Time (s) with the same non-zero sample that means a dead channel.
 const FLAT_S: f64 = 0.5;
-/// Share of the interval that a time may be off constant steps.
+/// Allowed distance of a time from constant steps, over the interval.
 const TIMES_OFF: f64 = 0.01;
 /// Share of PGV that the velocity at the end may reach.
 const END_VELOCITY: f64 = 0.1;
 /// Share of PGA that the mean may reach.
 const OFFSET: f64 = 0.01;
-/// Time of exact zeros at one end, in s, that means padding.
+/// Time (s) of exact zeros at one end that means padding.
 const PADDING_S: f64 = 1.0;
 /// Correlation about the peaks above which two records are one.
 const SAME_RECORDING: f64 = 0.98;
-/// Samples on each side of the peak that are compared, at most and, in all,
-/// at least.
+/// The most samples on each side of the peak that are compared, and the fewest
+/// on both sides together.
 const COMPARED_SAMPLES: usize = 512;
 const LEAST_COMPARED: usize = 64;
-/// Samples on each side of the peak that are compared first, and the
-/// correlation of them above which the others are.
+/// Samples on each side of the peak that are compared first. The others are
+/// compared only if the correlation of the first exceeds the second number.
 const FEW_SAMPLES: usize = 32;
 const NOT_YET_DIFFERENT: f64 = 0.8;
 
@@ -152,8 +152,8 @@ coded! {
             "the last line has no line end: its number is taken as written; was the file cut?"
         )]
         LastLine = "last-line",
-        /// The two components of a pair differ in interval. Another length
-        /// is no fault: measures of a pair put zeros behind the shorter one.
+        /// The two components of a pair differ in interval. They may differ in
+        /// length: measures of a pair put zeros behind the shorter one.
         #[error("{0} has another sampling interval: no measure of the pair")]
         UnequalComponents(String) = "unequal-components",
         /// Other records with the same motion.
@@ -173,7 +173,7 @@ coded! {
 }
 
 impl Remark {
-    /// What to remark on times up to `off_s` from constant steps `dt_s`.
+    /// The remark on times up to `off_s` from constant steps `dt_s`, if any.
     pub(super) fn of_times(dt_s: f64, off_s: f64) -> Option<Self> {
         let near = off_s <= TIMES_OFF * dt_s;
         (!near).then_some(Self::Times { dt_s, off_s })
@@ -188,21 +188,21 @@ fn and_others(more: usize) -> String {
     }
 }
 
-/// A record to be remarked on, beside others.
+/// A record to be judged beside others.
 #[derive(Clone, Debug)]
 pub struct RemarkInput<'a> {
     /// The record.
     pub profile: Cow<'a, Profile>,
     /// Name of its pair.
     pub pair: Option<&'a str>,
-    /// What its reading found.
+    /// Remarks of its reading.
     pub read: &'a [Remark],
-    /// What the caller gave because its file states none.
+    /// Values of the caller that the file does not state.
     pub given: Fallback,
 }
 
 impl<'a> RemarkInput<'a> {
-    /// A record, the name of its pair, and what its reading found.
+    /// A record, the name of its pair, and the remarks of its reading.
     #[must_use]
     pub fn of(
         record: &Accelerogram,
@@ -277,30 +277,18 @@ pub fn remarks(record: &Accelerogram) -> Vec<Remark> {
     found
 }
 
-/// Longest run of equal consecutive samples for which `counts` holds.
+/// Longest run of equal consecutive samples for which `counts` is true.
 fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
-    let mut longest = 0;
-    let mut run = 0;
-    let mut last = f64::NAN;
-    for &sample in samples {
-        run = match (counts(sample), sample == last) {
-            (true, true) => run + 1,
-            (true, false) => 1,
-            (false, _) => 0,
-        };
-        last = sample;
-        longest = longest.max(run);
-    }
-    longest
+    let runs = samples.chunk_by(|a, b| a == b).filter(|run| counts(run[0]));
+    runs.map(<[f64]>::len).max().unwrap_or(0)
 }
 
-/// For each record, the others that look like one recording with it, if any:
-/// index of the first of them, absolute correlation with it, and how many there
-/// are.
+/// For each record, the others that seem to be the same recording, if any: the
+/// index of the first, the absolute correlation with it, and their number.
 ///
-/// Compared are pairs of equal interval, aligned at their peaks: 32 samples
-/// on each side, and where these are alike, up to 512; scale, sign and mean
-/// do not matter.
+/// Records of equal interval are compared, aligned at their peaks: 32 samples on
+/// each side and, if these are alike, up to 512. Scale, sign and mean do not
+/// matter.
 fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {
@@ -320,7 +308,7 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
             (*first, *with_first) = (by, correlation);
         }
     };
-    // Some records against all later ones, so that these are read once.
+    // A few records against all later ones, so that these are read once.
     for from in (0..records.len()).step_by(TILE) {
         let to = records.len().min(from + TILE);
         for j in from + 1..records.len() {
@@ -336,9 +324,9 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     found
 }
 
-/// What is suspicious about each of several records: what their reading
-/// found, [`remarks`], components of a pair that are not alike, and records
-/// that look like one recording.
+/// Remarks on each of several records: those of their reading, [`remarks`],
+/// components of a pair that are not alike, and records that seem to be the
+/// same recording.
 #[must_use]
 pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     let mut found: Vec<Vec<Remark>> = records
@@ -346,8 +334,8 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
         .map(|one| [one.read, &one.profile.remarks].concat())
         .collect();
     let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (i, RemarkInput { pair, .. }) in records.iter().enumerate() {
-        if let Some(pair) = pair {
+    for (i, record) in records.iter().enumerate() {
+        if let Some(pair) = record.pair {
             pairs.entry(pair).or_default().push(i);
         }
     }
@@ -369,16 +357,16 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     found
 }
 
-/// Sums that are taken side by side.
+/// Number of sums that are computed side by side.
 const LANES: usize = 8;
 
-/// Records that are compared with all later ones together.
+/// Number of records that are compared with all later ones together.
 const TILE: usize = 16;
 
 /// Samples near a peak less their mean, of length 1.
 type NearPeak = [f32; 2 * FEW_SAMPLES];
 
-/// Whether two motions are surely not yet alike near their peaks.
+/// Whether two motions are certainly too different near their peaks.
 fn differ(first: &Option<NearPeak>, second: &Option<NearPeak>) -> bool {
     let (Some(first), Some(second)) = (first, second) else { return false };
     let mut sums = [0.0_f32; LANES];
@@ -390,7 +378,7 @@ fn differ(first: &Option<NearPeak>, second: &Option<NearPeak>) -> bool {
         }
     }
     let sum = sums.iter().fold(0.0, |sum, part| sum + f64::from(*part));
-    // In single precision, to a margin.
+    // With a margin for single precision.
     !(sum.abs() > NOT_YET_DIFFERENT - 1e-4)
 }
 
@@ -406,7 +394,7 @@ fn correlation(first: &Profile, second: &Profile) -> f64 {
         let x = &first.about_peak[part(first)];
         of_samples(x, &second.about_peak[part(second)])
     };
-    // A quick look, which spares most of the work.
+    // A quick test, which saves most of the work.
     let few = before.min(FEW_SAMPLES) + after.min(FEW_SAMPLES);
     if few >= FEW_SAMPLES {
         let near = about(before.min(FEW_SAMPLES), after.min(FEW_SAMPLES));

@@ -6,7 +6,7 @@ use std::path::Path;
 use rocking::accelerogram::{Accelerogram, result_name};
 
 use crate::direction::{self, Direction};
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, RecordError, Result};
 use crate::format::{Channel, Format};
 use crate::quality::Remark;
 use crate::record::{Agreement, Fallback, INTERVALS_S, ReadOptions, Record};
@@ -47,7 +47,7 @@ pub(crate) fn settle_one(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
-) -> Result<Agreement, RecordError> {
+) -> Result<Agreement> {
     let mut records = settle(file, bytes, options, None)?;
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
@@ -100,14 +100,14 @@ pub fn read_as(
     settled.into_iter().map(Agreement::agreed).collect()
 }
 
-/// Reads all components of a file, in this format, or in the format that its
-/// content shows. A value of the caller counts if the file states none.
+/// Reads all components of a file, in the given format or in the format that
+/// its content shows. A value of the caller counts if the file states none.
 pub(crate) fn settle(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
     format: Option<&'static Format>,
-) -> Result<Vec<Agreement>, RecordError> {
+) -> Result<Vec<Agreement>> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
         return Err(Fault::Gravity(gravity).whole(file));
@@ -161,8 +161,9 @@ pub fn file_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
             if found.is_dir() { "a folder" } else { "a device or pipe" };
         return Err(refuse(format!("it is {kind}: expected a file")));
     }
+    let long = || refuse(format!("it has more than {MOST_BYTES} bytes"));
     if found.len() > MOST_BYTES {
-        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+        return Err(long());
     }
     let mut bytes = Vec::new();
     bytes
@@ -171,15 +172,15 @@ pub fn file_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
     let file = std::fs::File::open(path).map_err(failed)?;
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MOST_BYTES {
-        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+        return Err(long());
     }
     Ok(bytes)
 }
 
-/// Bytes of a file, at most: places in it are numbers of 32 bits.
+/// The largest size of a file: places in it are numbers of 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64;
 
-/// Whether the content is a record's in one of the formats.
+/// Whether the content is a record in one of the formats.
 pub(crate) fn is_record(bytes: &[u8]) -> bool {
     let Ok(content) = text::decode("", bytes) else { return false };
     Text::new("", &content).is_ok_and(|text| Format::of(&text).is_some())
@@ -198,15 +199,14 @@ fn unknown(text: &Text<'_>) -> RecordError {
     text.on_line(index, Fault::UnknownFormat { found, expected })
 }
 
-/// Name of the file at `path`, without its folder; what is no UTF-8 in it is
-/// replaced.
+/// Name of the file at `path`, without its folder; invalid UTF-8 is replaced.
 pub(crate) fn name_of(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// File name without folders and without what follows the last dot, unless
-/// that is the component (K-NET's `.EW`, EMOD3D's `.090` and `.ver`).
+/// File name without folders and without its ending, unless the ending is the
+/// component (K-NET's `.EW`, EMOD3D's `.090` and `.ver`).
 pub(crate) fn stem(file: &str) -> &str {
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     match name.rsplit_once('.') {
@@ -228,7 +228,7 @@ fn complete(
     channel: Channel,
     several: bool,
     options: &ReadOptions,
-) -> Result<Agreement, RecordError> {
+) -> Result<Agreement> {
     let fail = |fault: Fault| fault.whole(text.file);
     let given =
         Fallback { dt: channel.dt.is_none(), unit: channel.unit.is_none() };
@@ -261,8 +261,8 @@ fn complete(
     for sample in &mut samples {
         *sample /= per_gravity;
     }
+    // The name of a file of several channels gives the direction of none.
     let mut name = stem(text.file).to_owned();
-    // The name of a file of several channels tells of none of them.
     let label = channel.label.as_deref().unwrap_or("");
     let stated = channel.direction;
     let stated =
@@ -278,13 +278,12 @@ fn complete(
     if channel.borehole {
         remarks.push(Remark::Borehole);
     }
-    if let Some(label) = channel.label.as_ref().filter(|_| several) {
+    if several && channel.label.is_some() {
         name = format!("{name}:{}", label.replace(' ', "_"));
     }
-    let borehole = channel.borehole;
-    let (channel, site) = (channel.label, channel.site);
+    let Channel { label: channel, site, borehole, .. } = channel;
     // Components of one site are a pair of that name.
-    for text in [Some(name.as_str()), site.as_deref()].into_iter().flatten() {
+    for text in std::iter::once(&name).chain(&site) {
         result_name(text).map_err(|error| fail(error.into()))?;
     }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)

@@ -5,7 +5,7 @@ use rocking::units::{self, AccelerationUnit};
 use sha2::{Digest as _, Sha256};
 
 use crate::direction::Direction;
-use crate::error::RecordError;
+use crate::error::Result;
 use crate::format::Format;
 use crate::quality::Remark;
 
@@ -92,13 +92,13 @@ pub struct Record {
 /// a file that belongs to no suite.
 pub(crate) struct Agreement {
     pub(crate) record: Record,
-    pub(crate) dt: Result<(), RecordError>,
-    pub(crate) unit: Result<(), RecordError>,
+    pub(crate) dt: Result<()>,
+    pub(crate) unit: Result<()>,
 }
 
 impl Agreement {
     /// The record, if nothing given contradicts its file.
-    pub(crate) fn agreed(self) -> Result<Record, RecordError> {
+    pub(crate) fn agreed(self) -> Result<Record> {
         self.dt.and(self.unit).map(|()| self.record)
     }
 }

@@ -45,8 +45,9 @@ pub enum Uneven {
     },
     /// A time that contradicts a constant step.
     #[error(
-        "time {found_s} s: expected {}, a constant step from the times before",
-        times(*found_s, *expected_s)
+        "time {found_s} s: expected {}, a constant step from the times before{}",
+        times(*found_s, *expected_s),
+        if *coarse { ", or times with more digits" } else { "" }
     )]
     Step {
         /// Index of the time, from 0.
@@ -55,20 +56,8 @@ pub enum Uneven {
         found_s: f64,
         /// Least and largest time in s that the times before allow.
         expected_s: (f64, f64),
-    },
-    /// A time that is off the step, in times too coarse to show whether one is
-    /// missing.
-    #[error(
-        "time {found_s} s: expected {}, a constant step from the times before, or times with more digits",
-        times(*found_s, *expected_s)
-    )]
-    Coarse {
-        /// Index of the time, from 0.
-        index: usize,
-        /// The time in s.
-        found_s: f64,
-        /// Least and largest time in s that the times before allow.
-        expected_s: (f64, f64),
+        /// Whether the times are too coarse to show whether one is missing.
+        coarse: bool,
     },
     /// Steps that differ by more than 1 % fit the times.
     #[error(
@@ -83,13 +72,13 @@ pub enum Uneven {
 }
 
 impl Uneven {
-    /// Index of the time that shows it, from 0.
+    /// Index from 0 of the time at fault, if one is.
     #[must_use]
     pub fn index(&self) -> Option<usize> {
         match self {
-            Self::NotFinite { index }
-            | Self::Step { index, .. }
-            | Self::Coarse { index, .. } => Some(*index),
+            Self::NotFinite { index } | Self::Step { index, .. } => {
+                Some(*index)
+            }
             _ => None,
         }
     }
@@ -125,7 +114,7 @@ pub struct Digits {
 }
 
 impl Digits {
-    /// Most decimals that are looked at: a double has fewer.
+    /// The most decimals that are considered: a double has fewer.
     const MOST: i32 = 18;
 
     /// The digits of the shortest texts that are read as these times.
@@ -141,7 +130,7 @@ impl Digits {
         digits
     }
 
-    /// Takes account of a time as it is written, in this form.
+    /// Adds a time as it is written, in this form.
     pub(super) fn add(&mut self, time: &str, form: Form) {
         let (mantissa, exponent) = time.split_at(time.len() - form.exponent);
         let exponent = exponent.trim_start_matches(['e', 'E', 'd', 'D']);
@@ -177,8 +166,8 @@ fn power_of_ten(exponent: i32) -> f64 {
 /// Error of a number rounded to single precision, over the number.
 const SINGLE: f64 = 1.0 / (1_u32 << 24) as f64;
 
-/// Part of the mean step that a time may always be off: what is left by sums
-/// in double precision.
+/// Part of the mean step by which a time may always be off: the error of sums in
+/// double precision.
 const SLACK: f64 = 1e-6;
 
 /// Part of the mean step that distinguishes a missing time from a rounded one.
@@ -239,16 +228,15 @@ pub fn interval(
     };
     let written = |i: usize| resolution_s(i) * (1.0 + SLACK) + slack(i);
     if !(written(0).max(written(1)) < RESOLVED * mean) {
-        return Err(match exact {
-            Uneven::Step { index, found_s, expected_s } if second > start => {
-                Uneven::Coarse { index, found_s, expected_s }
+        let (index, found_s, expected_s) = match exact {
+            Uneven::Step { index, found_s, expected_s, .. }
+                if second > start =>
+            {
+                (index, found_s, expected_s)
             }
-            _ => Uneven::Coarse {
-                index: 1,
-                found_s: second,
-                expected_s: (start + mean, start + mean),
-            },
-        });
+            _ => (1, second, (start + mean, start + mean)),
+        };
+        return Err(Uneven::Step { index, found_s, expected_s, coarse: true });
     }
     let fault = match constant(times_s, written, |_| 0.0) {
         Ok(steps) => return steps.sampling(times_s),
@@ -311,7 +299,7 @@ impl Steps {
             fits(step).then_some((1.0 / scale, step))
         });
         let whole = 1.0 / (1.0 / middle).round();
-        // Neighbours of a kind are that far apart.
+        // The first number is the distance to the next step of its kind.
         let whole = fits(whole).then_some((whole * whole, whole));
         let plain = match (decimal, whole) {
             (Some(decimal), Some(whole)) if whole.0 > decimal.0 => Some(whole),
@@ -355,7 +343,8 @@ fn constant(
             }
             let within = allowed(index);
             let expected_s = (start + from - within, start + to + within);
-            return Err(Uneven::Step { index, found_s, expected_s });
+            let coarse = false;
+            return Err(Uneven::Step { index, found_s, expected_s, coarse });
         }
     }
     Ok(Steps { least_s: rise.slope, most_s: -fall.slope })

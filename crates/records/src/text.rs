@@ -1,13 +1,13 @@
-//! A file as numbered lines, and the faults found in them.
+//! The text of a file as numbered lines, and the faults found in them.
 
 use std::borrow::Cow;
 
 use super::number;
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, RecordError, Result};
 use rocking::stop;
 use rocking::units::AccelerationUnit;
 
-/// Lines of one file; faults are built here, so that each carries its place.
+/// Lines of one file. Faults are built here, so that each has its place.
 pub(super) struct Text<'a> {
     pub(super) file: &'a str,
     text: &'a str,
@@ -18,12 +18,9 @@ pub(super) struct Text<'a> {
     pub(super) is_ended: bool,
 }
 
-/// Bytes as text: UTF-16 with its mark, UTF-8, else Latin-1 (station names);
-/// control characters mean that it is none.
-pub(super) fn decode<'a>(
-    file: &str,
-    bytes: &'a [u8],
-) -> Result<Cow<'a, str>, RecordError> {
+/// Bytes as text: UTF-16 if they begin with its mark, else UTF-8, else Latin-1
+/// (station names). Bytes with control characters are not text.
+pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>> {
     if let Some(text) = utf_16(file, bytes)? {
         let control = |c: char| c.is_ascii() && is_control(c as u8);
         return match text.find(control) {
@@ -57,7 +54,7 @@ fn is_control(byte: u8) -> bool {
 }
 
 /// A text in UTF-16 that says so by its byte order mark.
-fn utf_16(file: &str, bytes: &[u8]) -> Result<Option<String>, RecordError> {
+fn utf_16(file: &str, bytes: &[u8]) -> Result<Option<String>> {
     let unit: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
         [0xfe, 0xff, ..] => u16::from_be_bytes,
@@ -89,6 +86,11 @@ fn latin_1(bytes: &[u8]) -> String {
 }
 
 impl Fault {
+    /// A text instead of the expected number.
+    pub(crate) fn number(found: &str, expected: String) -> Self {
+        Self::Number { found: excerpt(found), expected }
+    }
+
     /// The fault of a file as a whole.
     #[must_use]
     pub fn whole(self, file: &str) -> RecordError {
@@ -99,10 +101,7 @@ impl Fault {
 
 impl<'a> Text<'a> {
     /// Text with at least one line that is not blank.
-    pub(super) fn new(
-        file: &'a str,
-        text: &'a str,
-    ) -> Result<Self, RecordError> {
+    pub(super) fn new(file: &'a str, text: &'a str) -> Result<Self> {
         if u32::try_from(text.len()).is_err() {
             let reason = "a text of more than 4 GiB".to_owned();
             return Err(Fault::Unreadable(reason).whole(file));
@@ -153,7 +152,7 @@ impl<'a> Text<'a> {
         Some(line.trim_end_matches(['\r', '\n']))
     }
 
-    /// Lines that are no comment, which begins with `#`, and their indices.
+    /// Lines that do not begin with `#`, and their indices.
     pub(super) fn data(&self) -> impl Iterator<Item = (usize, &'a str)> {
         self.lines().enumerate().filter(|(_, line)| !line.starts_with('#'))
     }
@@ -171,8 +170,8 @@ impl<'a> Text<'a> {
         self.lines_from(0)
     }
 
-    /// Index of the line after the last one, from index `first` on, that has
-    /// a digit or is meant as a number: some programs write words after their
+    /// Index of the line after the last line, from index `first` on, with a
+    /// digit or a word for a number: some programs write words after their
     /// numbers.
     pub(super) fn end_of_numbers(&self, first: usize) -> usize {
         let number = |index: &usize| {
@@ -206,7 +205,7 @@ impl<'a> Text<'a> {
         self.on_line(self.len() - 1, fault)
     }
 
-    /// A line that is not what its place asks for.
+    /// A header line with another content than the expected one.
     pub(super) fn header(
         &self,
         index: usize,
@@ -216,7 +215,7 @@ impl<'a> Text<'a> {
         self.differs(index, found, expected)
     }
 
-    /// Something in a header that is not what its place asks for.
+    /// A part of a header with another content than the expected one.
     pub(super) fn differs(
         &self,
         index: usize,
@@ -232,15 +231,14 @@ impl<'a> Text<'a> {
         self.on_line(index, Fault::Quantity(found))
     }
 
-    /// What stands on a line where numbers belong.
+    /// A text on a line instead of the expected numbers.
     pub(super) fn no_number(
         &self,
         index: usize,
         found: &str,
         expected: &str,
     ) -> RecordError {
-        let (found, expected) = (excerpt(found), expected.to_owned());
-        self.on_line(index, Fault::Number { found, expected })
+        self.on_line(index, Fault::number(found, expected.to_owned()))
     }
 
     /// The unit that a line names.
@@ -248,19 +246,19 @@ impl<'a> Text<'a> {
         &self,
         index: usize,
         named: &str,
-    ) -> Result<AccelerationUnit, RecordError> {
+    ) -> Result<AccelerationUnit> {
         let refuse = || self.on_line(index, Fault::Unit(excerpt(named)));
         AccelerationUnit::parse(named).ok_or_else(refuse)
     }
 
-    /// The number of samples found up to the line of index `index` against
-    /// the stated one.
+    /// Compares the number of samples up to the line of index `index` with the
+    /// stated number.
     pub(super) fn check_count(
         &self,
         index: usize,
         found: usize,
         expected: usize,
-    ) -> Result<(), RecordError> {
+    ) -> Result<()> {
         if found == expected {
             return Ok(());
         }
@@ -277,22 +275,33 @@ pub(super) fn excerpt(text: &str) -> String {
     text.chars().take(37).chain("...".chars()).collect()
 }
 
-/// Byte after the end of `word` in `line`, whatever the case, where it
-/// stands as a word of its own.
-pub(super) fn after_word(line: &str, word: &str) -> Option<usize> {
+/// The text after the first `word` in `line`, in upper or lower case, if
+/// neither a letter nor `_` precedes or follows it.
+pub(super) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
     let bytes = line.as_bytes();
     let letter = |i: usize| {
         bytes.get(i).is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_')
     };
-    (word.len()..=bytes.len()).find(|&end| {
+    let end = (word.len()..=bytes.len()).find(|&end| {
         let start = end - word.len();
         bytes[start..end].eq_ignore_ascii_case(word.as_bytes())
             && (start == 0 || !letter(start - 1))
             && !letter(end)
-    })
+    });
+    Some(&line[end?..])
 }
 
-/// Whether `line` contains `part`, whatever the case.
+/// The first word of a text, empty if it has none.
+pub(super) fn first_word(text: &str) -> &str {
+    text.split_ascii_whitespace().next().unwrap_or("")
+}
+
+/// A text that is not empty, as a name.
+pub(super) fn named(text: &str) -> Option<String> {
+    Some(text).filter(|text| !text.is_empty()).map(str::to_owned)
+}
+
+/// Whether `line` contains `part`, in upper or lower case.
 pub(super) fn contains(line: &str, part: &str) -> bool {
     line.as_bytes()
         .windows(part.len())

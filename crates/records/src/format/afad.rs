@@ -9,23 +9,21 @@
 //!        N-S          E-W          U-D
 //! ```
 //!
-//! The peaks are those of the samples as they are written, and are checked.
-//! What AFAD gives out today is ESM's format.
+//! The peaks of the samples, as they are written, must be those of the header.
+//! AFAD's files of today are in the format of ESM.
 
-use super::{Channel, Format};
-use crate::error::{Fault, RecordError};
+use super::{Channel, Format, GAL};
+use crate::error::{Fault, Result};
 use crate::fields::one_number;
-use crate::keys;
 use crate::number::{self, Form};
 use crate::text::{Text, excerpt};
-use rocking::units::AccelerationUnit;
 
 const COUNT: &str = "NUMBER OF DATA";
 const INTERVAL: &str = "SAMPLING INTERVAL (sec)";
 const PEAKS: &str = "RAW PGA VALUES (gal)";
 const COLUMNS: [&str; 3] = ["N-S", "E-W", "U-D"];
 
-/// Header lines among which that of the columns is sought.
+/// Number of lines that are searched for the names of the columns.
 const HEADER_LINES: usize = 40;
 
 /// The format.
@@ -33,15 +31,15 @@ pub(super) static FORMAT: Format = Format {
     name: "afad",
     files: "AFAD until 2018",
     source: "Türkiye",
-    recognises: |text| keys::has(text, [INTERVAL, COUNT]),
+    recognises: |text| text.has([INTERVAL, COUNT]),
     read,
     ..Format::BASE
 };
 
 /// Reads the three components.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let dt = keys::positive(text, INTERVAL, "")?;
-    let count = keys::count(text, COUNT)?;
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
+    let dt = text.positive(INTERVAL, "")?;
+    let count = text.count(COUNT)?;
     let peaks = peaks(text)?;
     let is_head =
         |line: &str| line.split_ascii_whitespace().eq(COLUMNS.iter().copied());
@@ -51,32 +49,23 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     })?;
     let columns = samples(text, head + 1)?;
     text.check_count(text.len() - 1, columns[0].len(), count)?;
-    let unit = AccelerationUnit::CentimetrePerSecondSquared;
     let channel = |((samples, name), peak): ((Vec<f64>, &str), f64)| {
         // Header and samples have the same decimals.
         let allowed = 1e-6 * peak.abs() + 1e-6;
-        keys::check_peak(text, &samples, peak, allowed, unit)?;
-        Ok(Channel {
-            dt: Some(dt),
-            unit: Some(unit),
-            samples,
-            label: Some(name.to_owned()),
-            ..Channel::default()
-        })
+        text.check_peak(&samples, peak, allowed, GAL)?;
+        let label = Some(name.to_owned());
+        Ok(Channel { label, ..Channel::of(dt, GAL, samples) })
     };
     columns.into_iter().zip(COLUMNS).zip(peaks).map(channel).collect()
 }
 
 /// The peaks, each after its column's name in round brackets.
-fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
-    let (index, found) = keys::value(text, PEAKS)?;
+fn peaks(text: &Text<'_>) -> Result<[f64; 3]> {
+    let (index, found) = text.value(PEAKS)?;
     let mut words = found.split_ascii_whitespace();
     let mut peaks = [0.0; 3];
     for (peak, column) in peaks.iter_mut().zip(COLUMNS) {
-        let named = words.next().is_some_and(|word| {
-            word.strip_prefix('(').and_then(|w| w.strip_suffix(')'))
-                == Some(column)
-        });
+        let named = words.next() == Some(format!("({column})").as_str());
         let value = words.next().and_then(number::finite);
         *peak = value.filter(|_| named).ok_or_else(|| {
             let expected = "peaks such as (N-S) 1.2 (E-W) 1.3 (U-D) 0.9";
@@ -86,15 +75,12 @@ fn peaks(text: &Text<'_>) -> Result<[f64; 3], RecordError> {
     Ok(peaks)
 }
 
-/// The numbers of one line: where each ends, its value and its form.
+/// The numbers of one line: end, value and form of each.
 type SampleRow = [(usize, f64, Form); 3];
 
-/// The columns from the line of index `first` on. All numbers have the first
-/// one's form and end where those of the first line do.
-fn samples(
-    text: &Text<'_>,
-    first: usize,
-) -> Result<[Vec<f64>; 3], RecordError> {
+/// The columns from the line of index `first` on. All numbers must have the
+/// form of the first number, and end at the same places as on the first line.
+fn samples(text: &Text<'_>, first: usize) -> Result<[Vec<f64>; 3]> {
     let mut columns = [const { Vec::new() }; 3];
     let mut before: Option<SampleRow> = None;
     for (index, line) in text.lines().enumerate().skip(first) {
@@ -112,11 +98,7 @@ fn samples(
     Ok(columns)
 }
 
-fn row(
-    text: &Text<'_>,
-    index: usize,
-    line: &str,
-) -> Result<SampleRow, RecordError> {
+fn row(text: &Text<'_>, index: usize, line: &str) -> Result<SampleRow> {
     let mut row = Vec::with_capacity(COLUMNS.len());
     for word in line.split_ascii_whitespace() {
         // Both are parts of one text.

@@ -1,22 +1,33 @@
 //! PEER's AT2: a few lines of header, then fixed-width samples.
 //!
-//! Generations differ in the line that counts: `NPTS=  4096, DT= .0100 SEC`
-//! with or without commas, unit, filter poles and blanks, and the oldest
-//! `4096  .0100  NPTS, DT` with the values first. Lines without a digit after
-//! the samples (`*** End Data ***`) are left out.
+//! Generations differ in the counting line: `NPTS=  4096, DT= .0100 SEC`
+//! with or without commas, unit, filter poles and blanks, and in the oldest
+//! files `4096  .0100  NPTS, DT`. Lines without a digit after the samples
+//! (`*** End Data ***`) are ignored.
 
 use super::csv::bracketed;
 use super::{Channel, Format};
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::fields;
 use crate::number;
 use crate::text::{self, Text, excerpt};
 use rocking::units::AccelerationUnit;
 
-/// Header lines among which the counting line is sought.
+/// Number of lines that are searched for the counting line.
 const HEADER_LINES: usize = 20;
 
 const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
+
+/// Parts of the first lines of a file without a counting line.
+const TITLES: [&str; 4] = [
+    "STRONG MOTION DATABASE",
+    "STRONG-MOTION DATA",
+    "TIME SERIES IN UNITS OF",
+    "TIME HISTORY IN UNITS OF",
+];
+
+/// What may end a unit.
+const MARKS: [char; 4] = ['.', ',', ';', ':'];
 
 /// The format.
 pub(super) static FORMAT: Format = Format {
@@ -32,23 +43,18 @@ pub(super) static FORMAT: Format = Format {
 
 /// Whether the content is AT2's.
 fn recognises(text: &Text<'_>) -> bool {
-    let named = |line: &str| {
-        text::contains(line, "STRONG MOTION DATABASE")
-            || text::contains(line, "STRONG-MOTION DATA")
-            || text::contains(line, "TIME SERIES IN UNITS OF")
-            || text::contains(line, "TIME HISTORY IN UNITS OF")
-    };
-    counting_line(text).is_some() || text.lines().take(4).any(named)
+    let titled = |line| TITLES.iter().any(|title| text::contains(line, title));
+    counting_line(text).is_some() || text.lines().take(4).any(titled)
 }
 
 fn counting_line(text: &Text<'_>) -> Option<usize> {
     text.lines()
         .take(HEADER_LINES)
-        .position(|line| text::after_word(line, "NPTS").is_some())
+        .position(|line| text::after(line, "NPTS").is_some())
 }
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let Some(counting) = counting_line(text) else {
         return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
     };
@@ -63,11 +69,10 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let samples = fields::read(text, first, end, layout)?;
     text.check_count(end - 1, samples.len(), count)?;
     let label = component(text);
-    Ok(vec![Channel { dt, unit, samples, label, ..Channel::default() }])
+    Ok(vec![Channel { label, ..Channel::of(dt, unit, samples) }])
 }
 
-/// The component, which ends the second line: event, date, station,
-/// component.
+/// The component. The second line has event, date, station and component.
 fn component(text: &Text<'_>) -> Option<String> {
     let mut parts = text.line(1)?.rsplit(',');
     let last = parts.next()?.trim();
@@ -76,29 +81,24 @@ fn component(text: &Text<'_>) -> Option<String> {
 }
 
 /// The unit named before the counting line.
-fn unit(
-    text: &Text<'_>,
-    counting: usize,
-) -> Result<Option<AccelerationUnit>, RecordError> {
+fn unit(text: &Text<'_>, counting: usize) -> Result<Option<AccelerationUnit>> {
     for (index, line) in text.lines().take(counting).enumerate() {
-        let Some(end) = after_units_of(line) else {
+        let units = text::after(line, "UNITS");
+        let Some(rest) = units.and_then(|rest| text::after(rest, "OF")) else {
             match in_unit(line) {
                 Some(None) => return Err(text.quantity(index)),
                 Some(unit) => return Ok(unit),
                 None => continue,
             }
         };
+        let title = &line[..line.len() - rest.len()];
         let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
-        if other.iter().any(|name| text::contains(&line[..end], name)) {
+        if other.iter().any(|name| text::contains(title, name)) {
             return Err(text.quantity(index));
         }
-        let named = line[end..]
-            .split_ascii_whitespace()
-            .next()
-            .unwrap_or("")
-            .trim_end_matches(['.', ',', ';', ':']);
+        let named = text::first_word(rest).trim_end_matches(MARKS);
         let refuse = || {
-            let place = line.len() - line[end..].trim_start().len();
+            let place = line.len() - rest.trim_start().len();
             text.at(index, place, Fault::Unit(excerpt(named)))
         };
         return AccelerationUnit::parse(named).map(Some).ok_or_else(refuse);
@@ -109,43 +109,31 @@ fn unit(
 /// The unit of a line such as `ACCELERATION IN G`, `Accelerations (g)` or
 /// `The units are (g)`; `Some(None)` for the unit of another quantity.
 fn in_unit(line: &str) -> Option<Option<AccelerationUnit>> {
-    let named = |words: &[&str]| {
-        words.iter().find_map(|word| text::after_word(line, word))
-    };
-    let unit = |end: usize| {
-        let rest = &line[end..];
-        let word = text::after_word(rest, "IN").map(|from| &rest[from..]);
+    let named =
+        |words: &[&str]| words.iter().find_map(|word| text::after(line, word));
+    let unit = |rest| {
+        let word = text::after(rest, "IN");
         let word = word.and_then(|rest| rest.split_whitespace().next());
         word.or_else(|| bracketed(rest).next())
     };
     let units = ["ACCELERATION", "ACCELERATIONS", "ACC", "UNITS", "UNIT"];
-    if let Some(end) = named(&units) {
-        let word = unit(end)?.trim_end_matches(['.', ',', ';', ':']);
+    if let Some(rest) = named(&units) {
+        let word = unit(rest)?.trim_end_matches(MARKS);
         return AccelerationUnit::parse(word).map(Some);
     }
-    let end = named(&["VELOCITY", "DISPLACEMENT"])?;
-    let word = unit(end)?.to_ascii_lowercase();
+    let rest = named(&["VELOCITY", "DISPLACEMENT"])?;
+    let word = unit(rest)?.to_ascii_lowercase();
     let length = ["cm", "m", "in", "mm"];
     let other = word.split(['/', '.', ',']).next().unwrap_or("");
     length.contains(&other).then_some(None)
 }
 
-fn after_units_of(line: &str) -> Option<usize> {
-    let units = text::after_word(line, "UNITS")?;
-    let of = text::after_word(&line[units..], "OF")?;
-    Some(units + of)
-}
-
-/// Number of samples and sampling interval of the counting line.
-fn counts(
-    text: &Text<'_>,
-    index: usize,
-) -> Result<(usize, Option<f64>), RecordError> {
+/// The number of samples and the sampling interval on the counting line.
+fn counts(text: &Text<'_>, index: usize) -> Result<(usize, Option<f64>)> {
     let line = text.line(index).unwrap_or("");
     let after = |word| {
-        text::after_word(line, word).map(|end| {
-            line[end..].trim_start_matches([' ', '\t', '=', ':', ','])
-        })
+        let rest = text::after(line, word)?;
+        Some(rest.trim_start_matches([' ', '\t', '=', ':', ',']))
     };
     let starts_number = |rest: &str| {
         rest.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
@@ -187,7 +175,7 @@ fn read_interval(rest: &str) -> Result<f64, Fault> {
     let unit = unit.split(|c: char| !c.is_alphanumeric()).next().unwrap_or("");
     let known = ["", "S", "SEC", "SECS", "SECOND", "SECONDS", "NPTS"];
     let plain = known.iter().any(|name| unit.eq_ignore_ascii_case(name));
-    // A pole count may follow directly where the unit is missing.
+    // If the unit is missing, a number of filter poles may follow directly.
     if plain || unit.bytes().all(|b| b.is_ascii_digit()) {
         return Ok(seconds);
     }

@@ -5,17 +5,17 @@
 //! per second and samples per channel; `063-GL` in a channel's line is an
 //! azimuth and a place in or under the building. The peak behind it is checked.
 
-use super::{Channel, Format};
+use super::{Channel, Format, GAL};
 use crate::direction::Direction;
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::fields::{self, FieldLayout};
+use crate::keys::check_peak;
 use crate::number;
 use crate::text::Text;
-use rocking::units::AccelerationUnit;
 
 const LAYOUT: FieldLayout = FieldLayout::even(8, 10);
 
-/// What the first line states.
+/// The contents of the first line.
 struct FirstLine<'a> {
     event: String,
     channels: usize,
@@ -54,7 +54,7 @@ fn head<'a>(text: &Text<'a>) -> Option<FirstLine<'a>> {
 }
 
 /// Reads every channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let head = head(text).ok_or_else(|| {
         text.header(0, "a date, a time and three counts of channels, samples")
     })?;
@@ -81,36 +81,28 @@ fn channel(
     head: &FirstLine<'_>,
     index: usize,
     rows: usize,
-) -> Result<Channel, RecordError> {
+) -> Result<Channel> {
     let line = text.line(index).unwrap_or("");
     let label = line.get(..10).unwrap_or(line).trim();
-    let peak = line.get(10..20).unwrap_or("").trim();
+    let peak = number::finite(line.get(10..20).unwrap_or("").trim());
     let named = !label.is_empty() && !label.contains('.');
-    let Some(peak) = number::finite(peak).filter(|_| named) else {
-        let expected = "a channel's name and peak in 10 characters each";
-        return Err(text.header(index, expected));
-    };
+    let peak = peak.filter(|_| named).ok_or_else(|| {
+        text.header(index, "a channel's name and peak in 10 characters each")
+    })?;
     let first = index + 1;
     let end = first.saturating_add(rows).min(text.len());
     let samples = fields::read(text, first, end, Some(LAYOUT))?;
     text.check_count(end - 1, samples.len(), head.count)?;
-    let unit = AccelerationUnit::CentimetrePerSecondSquared;
-    let found = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-    let expected = peak.abs();
     // The peak has the digits of the samples.
-    if !((found - expected).abs() <= 1.5e-3) {
-        return Err(text.on_line(index, Fault::Peak { found, expected, unit }));
-    }
+    check_peak(&samples, peak, 1.5e-3, GAL)
+        .map_err(|fault| text.on_line(index, fault))?;
     let (azimuth, place) = label.split_once('-').unwrap_or((label, ""));
     let known = !head.station.is_empty() && !place.is_empty();
     let site = format!("{} {} {place}", head.event, head.station);
     Ok(Channel {
-        dt: Some(1.0 / head.per_second as f64),
-        unit: Some(unit),
-        samples,
         label: Some(label.to_owned()),
         site: Some(site).filter(|_| known),
         direction: Some(Direction::of_label(azimuth, true)),
-        ..Channel::default()
+        ..Channel::of(1.0 / head.per_second as f64, GAL, samples)
     })
 }

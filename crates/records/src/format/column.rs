@@ -1,13 +1,13 @@
 //! One value a line and no header; lines that begin with `#` are comments.
-//! A unit that the comments state in brackets is the samples'.
+//! The comments may state the unit of the samples in brackets.
 //!
-//! Nothing in such a file tells a line that was dropped, doubled or changed:
-//! an index's `npts` or `sha256` does. A file that ends within a number is
-//! refused where the number's form tells it.
+//! Nothing in such a file shows that a line was dropped, doubled or changed;
+//! `npts` or `sha256` of an index does. A file that ends within a number is
+//! refused if the form of the number shows it.
 
 use super::{Channel, Format, Header};
 use super::{counted, csv};
-use crate::error::RecordError;
+use crate::error::Result;
 use crate::fields::{self, Forms};
 use crate::number;
 use crate::text::Text;
@@ -34,21 +34,17 @@ fn recognises(text: &Text<'_>) -> bool {
 }
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let (samples, forms) = fields::column(text, text.data())?;
     check_first(text, &samples, &forms)?;
     let remarks = forms.check_ended(text)?;
     let unit = csv::comments(text)?.acceleration;
-    Ok(vec![Channel { unit, samples, remarks, ..Channel::default() }])
+    Ok(vec![Channel { remarks, ..Channel::of(None, unit, samples) }])
 }
 
-/// Refuses a first line that is a count or an interval, and a whole number or
-/// gravity before an interval: a factor that some programs write there.
-fn check_first(
-    text: &Text<'_>,
-    samples: &[f64],
-    forms: &Forms,
-) -> Result<(), RecordError> {
+/// Refuses a first line that is a count or an interval. Also refuses a whole
+/// number or gravity before an interval: some programs write a factor there.
+fn check_first(text: &Text<'_>, samples: &[f64], forms: &Forms) -> Result<()> {
     let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
     let mut lines = text.data();
     let (index, line) = lines.next().unwrap_or_default();

@@ -10,15 +10,15 @@
 //! .020 SEC. (UNITS: CM/SEC/SEC)`, whose first line shows the field width.
 //! CSMIP V1 (raw): `35000 Accelerogram points at 100 pts/sec in units of g.
 //! Format: (8f9.6)`. Velocity and displacement blocks are passed over. A file
-//! of several channels that ends after one of them leaves no trace of the
+//! of several channels that ends after one of them shows no trace of the
 //! others.
 //!
-//! Count, interval, duration and peak are held against whatever else the
-//! header says of them (`stated.rs`).
+//! Count, interval, duration and peak are compared with everything else that
+//! the header states about them (`stated.rs`).
 
 use super::{Channel, Format};
 use crate::direction::Direction;
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::fields::{self, FieldLayout};
 use crate::number;
 use crate::text::{self, Text, excerpt};
@@ -51,7 +51,7 @@ fn announces(line: &str) -> bool {
 }
 
 fn is_cosmos(line: &str) -> bool {
-    text::after_word(line, "pts").is_some()
+    text::after(line, "pts").is_some()
         && text::contains(line, "units=")
         && text::contains(line, "format=")
 }
@@ -73,7 +73,7 @@ fn ends_block(line: &str) -> bool {
 }
 
 /// Reads every acceleration channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let mut channels = Vec::new();
     let mut head = 0;
     let mut reals = Vec::new();
@@ -83,7 +83,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let here = index;
         index += 1;
         if text::contains(line, "integer-header values follow") {
-            // Codes of the station and the sensor; no sample hangs on them.
+            // Codes of the station and the sensor, which no sample needs.
             integers = numeric_header(text, here).unwrap_or_default().0;
             continue;
         }
@@ -92,7 +92,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             continue;
         }
         if ends_block(line) {
-            // Its samples were read just before, or nothing announced them.
+            // Its samples were read on the lines before.
             if here != head || here == 0 {
                 let expected = "samples, announced before their end";
                 return Err(text.header(here, expected));
@@ -122,12 +122,9 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             let direction = Direction::of_label(&name, true)
                 .or(|| stated::oriented(&std::mem::take(&mut integers)));
             channels.push(Channel {
-                dt,
-                unit,
-                samples,
                 label: Some(label),
                 direction: Some(direction),
-                ..Channel::default()
+                ..Channel::of(dt, unit, samples)
             });
         }
         head = index;
@@ -146,18 +143,15 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     Ok(channels)
 }
 
-/// A block is followed by words, never by more numbers.
-fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
+/// Refuses more numbers after a block: only words may follow.
+fn after_block(text: &Text<'_>, end: usize) -> Result<()> {
     match text.line(end).filter(|line| number::is_data(line)) {
         Some(line) => Err(text.no_number(end, line, "the end of the samples")),
         None => Ok(()),
     }
 }
 
-fn announced<'a>(
-    text: &Text<'a>,
-    index: usize,
-) -> Result<SampleBlock<'a>, RecordError> {
+fn announced<'a>(text: &Text<'a>, index: usize) -> Result<SampleBlock<'a>> {
     let line = text.line(index).unwrap_or("");
     let header = |expected| text.header(index, expected);
     let trimmed = line.trim_start();
@@ -167,10 +161,7 @@ fn announced<'a>(
         .parse()
         .map_err(|_| header("a number of samples before the quantity"))?;
     let first = || fields::layout_of(text.line(index + 1).unwrap_or(""), 0);
-    let layout = match is_csmip(line) {
-        true => layout(line).or_else(first),
-        false => layout(line),
-    };
+    let layout = layout(line).or_else(|| first().filter(|_| is_csmip(line)));
     let layout = layout.ok_or_else(|| header("a format such as (8F10.3)"))?;
     if count == 0 {
         return Err(header("a positive number of samples"));
@@ -192,16 +183,16 @@ fn announced<'a>(
 /// Quantity, unit and interval that a line states behind its count.
 type Announcement<'a> = (&'a str, &'a str, Option<f64>);
 
-/// What CSMIP V1 announces.
+/// The announcement of CSMIP V1.
 fn raw<'a>(
     text: &Text<'_>,
     index: usize,
     rest: &'a str,
-) -> Result<Announcement<'a>, RecordError> {
+) -> Result<Announcement<'a>> {
     let lower = rest.to_ascii_lowercase();
     let after = |part: &str| {
         let from = lower.find(part).map_or(rest.len(), |at| at + part.len());
-        rest[from..].split_ascii_whitespace().next().unwrap_or("")
+        text::first_word(&rest[from..])
     };
     let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
     match number::finite(after(RAW_RATE)).filter(|rate| *rate > 0.0) {
@@ -210,12 +201,12 @@ fn raw<'a>(
     }
 }
 
-/// What CSMIP V2 announces.
+/// The announcement of CSMIP V2.
 fn equally_spaced<'a>(
     text: &Text<'_>,
     index: usize,
     rest: &'a str,
-) -> Result<Announcement<'a>, RecordError> {
+) -> Result<Announcement<'a>> {
     let spaced = "equally spaced at";
     let at = rest.to_ascii_lowercase().find(spaced).unwrap_or(0);
     let after = rest[at + spaced.len()..].trim_start();
@@ -237,11 +228,11 @@ fn equally_spaced<'a>(
 /// The Fortran format of one kind of number in a line: `(8F10.3)`,
 /// `(8(1PE10.4E1))`; after the word `format`, or at the end.
 fn layout(line: &str) -> Option<FieldLayout> {
-    let open = match text::after_word(line, "format") {
-        Some(end) => end + line[end..].find('(')?,
-        None => line.rfind('(')?,
+    let open = match text::after(line, "format") {
+        Some(rest) => &rest[rest.find('(')?..],
+        None => &line[line.rfind('(')?..],
     };
-    let format = line[open..].trim_start_matches('(');
+    let format = open.trim_start_matches('(');
     let letter =
         format.find(|c: char| "FEGIfegi".contains(c)).filter(|at| *at > 0)?;
     let count = |text: &str| {
@@ -257,34 +248,30 @@ fn layout(line: &str) -> Option<FieldLayout> {
 
 /// The values of the integer or real header announced on line `index`, and
 /// the index of the line after it.
-fn numeric_header(
-    text: &Text<'_>,
-    index: usize,
-) -> Result<(Vec<f64>, usize), RecordError> {
+fn numeric_header(text: &Text<'_>, index: usize) -> Result<(Vec<f64>, usize)> {
     let line = text.line(index).unwrap_or("");
     let header = |expected| text.header(index, expected);
-    let count = line.split_ascii_whitespace().next();
-    let count: usize = count
-        .and_then(|word| word.parse().ok())
-        .ok_or_else(|| header("a number of header values"))?;
+    let count: usize = text::first_word(line)
+        .parse()
+        .map_err(|_| header("a number of header values"))?;
     let layout =
         layout(line).ok_or_else(|| header("a format such as (5F15.6)"))?;
     let end = index.saturating_add(1 + count.div_ceil(layout.per_line));
     if end > text.len() {
         return Err(text.at_end(Fault::Ends("the header values")));
     }
-    // Values of a header have each their own number of decimals.
+    // Each value of a header has its own number of decimals.
     let layout = Some(layout.varied());
     let values = fields::read(text, index + 1, end, layout)?;
     if values.len() != count {
         return Err(header("as many values as the line says"));
     }
-    // One value more would have shifted those after it.
+    // One more value would have shifted the values after it.
     after_block(text, end)?;
     Ok((values, end))
 }
 
-/// The channel's number with its name, and the name alone, by its header:
+/// The channel's number with its name, and its name, by its header:
 /// `Chan 1: 90 deg`, `Chan ?: 90 Deg` or `COMP N08W`.
 fn label<'a>(
     mut header: impl Iterator<Item = &'a str>,
@@ -295,8 +282,7 @@ fn label<'a>(
             let name = name.split_ascii_whitespace().next()?;
             return Some((format!("{number} {name}"), name.to_owned()));
         }
-        let end = text::after_word(line, "chan")?;
-        let rest = line[end..].trim_start();
+        let rest = text::after(line, "chan")?.trim_start();
         let known = |c: &char| c.is_ascii_digit() || *c == '?';
         let stated = rest.chars().take_while(known).count();
         let after = rest[stated..].trim_start().strip_prefix(':')?;

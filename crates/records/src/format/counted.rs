@@ -1,5 +1,5 @@
-//! A name, number of samples and interval, samples: many programs pass records
-//! on in this form.
+//! A name, number of samples and interval, samples: many programs exchange
+//! records in this form.
 //!
 //! eqsig: a name, `910 0.0100`, one sample a line. EMOD3D: station and
 //! component, count and interval with six numbers more, six samples a line.
@@ -7,11 +7,11 @@
 //! line. El Centro as used in teaching: `1559 points at equal spacing of 0.02
 //! sec`, `The units are (g)`, `*** Begin data ***`, 8F10.5, `*** End Data
 //! ***`. Two lines, a count and an interval, may precede one column.
-//! Only the fourth states a unit.
+//! Only the El Centro form states a unit.
 
 use super::csv::bracketed;
 use super::{Channel, Format, Header};
-use crate::error::RecordError;
+use crate::error::Result;
 use crate::fields;
 use crate::number::{self, is_data};
 use crate::text::{self, Text};
@@ -26,7 +26,7 @@ const WORDS_LINES: usize = 6;
 /// Numbers of EMOD3D's second line.
 const EMOD3D: usize = 8;
 
-/// What the head states.
+/// The contents of the head.
 struct CountLine {
     count: usize,
     dt_s: f64,
@@ -58,8 +58,8 @@ fn head(text: &Text<'_>) -> Option<CountLine> {
     })
 }
 
-/// `910 0.0100`, and more numbers in some programs, above samples: not two per
-/// line, which would be times and samples.
+/// `910 0.0100`, and more numbers in some programs, above samples. If the next
+/// line has two numbers, they are a time and a sample, not two samples.
 fn one_line(text: &Text<'_>, index: usize) -> Option<CountLine> {
     let words = text.line(index)?.split_ascii_whitespace();
     let words: Vec<&str> = words.take(EMOD3D + 1).collect();
@@ -90,7 +90,7 @@ fn in_words(text: &Text<'_>) -> Option<CountLine> {
     Some(CountLine { count, dt_s, numbers: 2, first })
 }
 
-/// A count and an interval on lines of their own, before that many samples.
+/// A count and an interval on a line each, before this number of samples.
 fn two_lines(text: &Text<'_>) -> Option<CountLine> {
     let (count, dt_s) = (count(text.line(0)?)?, interval(text.line(1)?)?);
     let (numbers, first) = (2, 2);
@@ -118,7 +118,7 @@ pub(super) fn interval(text: &str) -> Option<f64> {
 }
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let CountLine { count, dt_s, numbers, first } =
         head(text).ok_or_else(|| {
             text.header(0, "a count and an interval, such as `910 0.0100`")
@@ -149,10 +149,9 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         samples
     };
     text.check_count(end - 1, samples.len(), count)?;
-    // EMOD3D: station, component, and what the writer adds.
+    // EMOD3D: station, component, and additions of the writer.
     let component = text.line(0).filter(|_| numbers == EMOD3D);
     let component = component.and_then(|l| l.split_ascii_whitespace().nth(1));
     let label = component.map(str::to_owned);
-    let (dt, rest) = (Some(dt_s), Channel::default());
-    Ok(vec![Channel { dt, unit, samples, label, remarks, ..rest }])
+    Ok(vec![Channel { label, remarks, ..Channel::of(dt_s, unit, samples) }])
 }

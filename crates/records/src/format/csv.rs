@@ -1,17 +1,17 @@
 //! Two columns, time and acceleration, with one header line or none.
 //!
 //! Separator: semicolon, comma, tab or blanks. A header names the columns and
-//! may state their units (`time_ms`, `acc [m/s2]`); lines that begin with `#`
-//! are comments, and may state units in brackets. Cells may be quoted. A first
-//! column that is no time is refused, except the row number that pandas writes
-//! under no name or `index`. The first sample counts as t = 0, whatever its
-//! time.
-//! Lines dropped at either end leave no trace: an index's `npts` tells. A
-//! file that ends within a number is refused where the number's form tells
+//! may state their units (`time_ms`, `acc [m/s2]`). Lines that begin with `#`
+//! are comments, and may state units in brackets. Cells may be quoted. The
+//! first column must be a time; only pandas may write the number of the row
+//! before it, under no name or `index`. The first sample counts as t = 0,
+//! whatever its time.
+//! Lines dropped at either end leave no trace; `npts` of an index shows them. A
+//! file that ends within a number is refused if the form of the number shows
 //! it.
 
 use super::{Channel, Format, Header};
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::fields::{Forms, one_number};
 use crate::number;
 use crate::quality::Remark;
@@ -38,18 +38,20 @@ pub(super) static FORMAT: Format = Format {
 /// Whether the first or second line has two numbers.
 fn recognises(text: &Text<'_>) -> bool {
     let mut lines = text.data().map(|(_, line)| line);
-    let numbers = |line: Option<&str>, count: usize| {
-        line.is_some_and(|line| {
-            let parts = split(line);
-            parts.len() == count && parts.iter().all(|p| number::is_number(p))
-        })
+    let numbers = |line: &str, count: usize| {
+        let parts = split(line);
+        parts.len() == count && are_numbers(&parts)
     };
-    let (first, second) = (lines.next(), lines.next());
-    let columns = if first.is_some_and(is_numbered) { 3 } else { 2 };
-    numbers(first, 2) || numbers(second, columns)
+    let Some(first) = lines.next() else { return false };
+    let columns = if is_numbered(first) { 3 } else { 2 };
+    numbers(first, 2) || lines.next().is_some_and(|l| numbers(l, columns))
 }
 
-/// The columns of a line, without quotes; of more than three, four.
+fn are_numbers(parts: &[&str]) -> bool {
+    parts.iter().all(|part| number::is_number(part))
+}
+
+/// The cells of a line, without quotes; at most the first four.
 fn split(line: &str) -> Vec<&str> {
     let line = line.trim();
     for separator in [';', ','] {
@@ -81,7 +83,7 @@ fn is_numbered(line: &str) -> bool {
 }
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let mut times = Vec::with_capacity(text.len());
     let mut samples = Vec::with_capacity(text.len());
     let mut digits = Digits::default();
@@ -91,25 +93,21 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut numbered = false;
     for (index, line) in text.data() {
         let parts = split(line);
-        if head && !parts.iter().all(|p| number::is_number(p)) {
+        if std::mem::take(&mut head) && !are_numbers(&parts) {
             numbered = is_numbered(line);
             let named = &parts[usize::from(numbered)..];
             units = units.and(header(text, index, named)?);
-            head = false;
             continue;
         }
-        head = false;
-        let cells = match parts.as_slice() {
-            [number, cells @ ..] if numbered => {
-                let row = times.len();
-                if number.parse::<usize>() != Ok(row) {
-                    let expected = format!("{row}, the row's number");
-                    return Err(text.no_number(index, number, &expected));
-                }
-                cells
-            }
-            cells => cells,
-        };
+        let before = usize::from(numbered).min(parts.len());
+        let (number, cells) = parts.split_at(before);
+        let row = times.len();
+        if let [number] = number
+            && number.parse() != Ok(row)
+        {
+            let expected = format!("{row}, the row's number");
+            return Err(text.no_number(index, number, &expected));
+        }
         let &[time, value] = cells else {
             let expected = "two numbers, time and acceleration";
             return Err(text.no_number(index, line, expected));
@@ -136,12 +134,11 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         text.on_line(line, fault.into())
     })?;
     remarks.extend(Remark::of_times(dt_s, off_s));
-    let (dt, unit) = (Some(dt_s), units.acceleration);
-    Ok(vec![Channel { dt, unit, samples, remarks, ..Channel::default() }])
+    let unit = units.acceleration;
+    Ok(vec![Channel { remarks, ..Channel::of(dt_s, unit, samples) }])
 }
 
-/// Index of the line of sample `i`: what is no comment, after the header if
-/// there is one.
+/// Index of the line of sample `i`, after comments and the header.
 fn line_of(text: &Text<'_>, times: &[f64], i: usize) -> usize {
     let header = text.data().count() - times.len();
     text.data().nth(header + i).map_or(0, |(index, _)| index)

@@ -10,18 +10,16 @@
 //! Acceleration:  Peak  -2080.5 mm/s/s at  23.28 s     RMS   145.6 mm/s/s
 //! ```
 //!
-//! Text and numbers of the header both state count, interval and duration;
-//! they must agree, and the peak must be that of the samples. Numbers have as
-//! many decimals as their field has room for.
+//! Text and numbers of the header both state count, interval and duration, and
+//! must agree. The peak of the header must be the peak of the samples. Numbers
+//! have as many decimals as fit into their field.
 
-use super::{Channel, Format};
+use super::{Channel, Format, GAL};
 use crate::direction::Direction;
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, RecordError, Result};
 use crate::fields::{self, FieldLayout};
-use crate::keys;
 use crate::number;
 use crate::text::{self, Text};
-use rocking::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 16;
 const INTEGER_LINES: usize = 4;
@@ -60,18 +58,18 @@ fn is_first(line: &str) -> bool {
 }
 
 /// Reads the three components.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
     let mut channels = Vec::with_capacity(COMPONENTS);
-    let mut first = 0;
+    let mut end = 0;
     for _ in 0..COMPONENTS {
-        let (channel, end) = component(text, first)?;
+        let channel;
+        (channel, end) = component(text, end)?;
         channels.push(channel);
-        first = end;
     }
-    match text.line(first) {
-        None => Ok(channels),
-        Some(_) => Err(text.header(first, "three components")),
+    if end < text.len() {
+        return Err(text.header(end, "three components"));
     }
+    Ok(channels)
 }
 
 /// The header of the component that begins on the line of index `first`.
@@ -92,20 +90,15 @@ impl ComponentHeader<'_, '_> {
 
     /// The number that follows `word` on a line, and what follows it.
     fn after(&self, place: usize, word: &str) -> Option<(f64, &str)> {
-        let line = self.line(place);
-        let end = text::after_word(line, word)?;
-        let rest = line[end..].trim_start();
-        let number = rest.split_ascii_whitespace().next()?;
+        let rest = text::after(self.line(place), word)?.trim_start();
+        let number = text::first_word(rest);
         Some((number::finite(number)?, &rest[number.len()..]))
     }
 }
 
 /// The component that begins on the line of index `first`, and the index of
 /// the line after it.
-fn component(
-    text: &Text<'_>,
-    first: usize,
-) -> Result<(Channel, usize), RecordError> {
+fn component(text: &Text<'_>, first: usize) -> Result<(Channel, usize)> {
     let integers = first + TEXT_LINES;
     let reals = integers + INTEGER_LINES;
     let samples = reals + REAL_LINES;
@@ -117,36 +110,29 @@ fn component(
         return Err(header.refuse(0, "the first line of a component"));
     }
     let integers = fields::read(text, integers, reals, Some(LAYOUT))?;
-    let layout = Some(LAYOUT.varied());
-    let reals = fields::read(text, reals, samples, layout)?;
+    let layout = LAYOUT.varied();
+    let reals = fields::read(text, reals, samples, Some(layout))?;
     let counts = counts(&header, &integers)?;
     let dt = interval(&header, &reals, counts[0])?;
-    let mut end = samples;
-    let mut blocks = Vec::with_capacity(counts.len());
-    for count in counts {
-        let values;
-        (values, end) = fields::block(text, end, count, LAYOUT.varied())?;
-        blocks.push(values);
+    let [points, others @ ..] = counts;
+    let (mut samples, mut end) = fields::block(text, samples, points, layout)?;
+    for count in others {
+        (_, end) = fields::block(text, end, count, layout)?;
     }
-    let mut samples = blocks.swap_remove(0);
     for sample in &mut samples {
         *sample /= PER_GAL;
     }
-    let unit = AccelerationUnit::CentimetrePerSecondSquared;
     let peak = peak(&header)? / PER_GAL;
     // Large samples have fewer decimals than the text.
     let allowed = 1e-4 * peak.abs() + 0.06 / PER_GAL;
-    keys::check_peak(text, &samples, peak, allowed, unit)?;
+    text.check_peak(&samples, peak, allowed, GAL)?;
     let name = header.line(COMPONENT);
     let name = name.strip_prefix("Component").unwrap_or("").trim();
     let label = name.split("  ").next().unwrap_or("");
     let channel = Channel {
-        dt: Some(dt),
-        unit: Some(unit),
-        samples,
-        label: (!label.is_empty()).then(|| label.to_owned()),
+        label: text::named(label),
         direction: Some(direction(label)),
-        ..Channel::default()
+        ..Channel::of(dt, GAL, samples)
     };
     Ok((channel, end))
 }
@@ -165,7 +151,7 @@ fn direction(component: &str) -> Direction {
 fn counts(
     header: &ComponentHeader<'_, '_>,
     integers: &[f64],
-) -> Result<[usize; 3], RecordError> {
+) -> Result<[usize; 3]> {
     let count = |place: usize| {
         let found = integers.get(place - 1).copied().unwrap_or(-1.0);
         let fine = (0.0..1e9).contains(&found);
@@ -177,12 +163,10 @@ fn counts(
     let [points, velocity, displacement] = COUNTS;
     let counts = [count(points)?, count(velocity)?, count(displacement)?];
     let same = |(stated, _)| stated == counts[0] as f64 && stated > 0.0;
-    match header.after(POINTS, "points").is_some_and(same) {
-        true => Ok(counts),
-        false => {
-            Err(header.refuse(POINTS, "the number of points of integer 34"))
-        }
+    if header.after(POINTS, "points").is_some_and(same) {
+        return Ok(counts);
     }
+    Err(header.refuse(POINTS, "the number of points of integer 34"))
 }
 
 /// The interval (s) of `count` samples.
@@ -190,7 +174,7 @@ fn interval(
     header: &ComponentHeader<'_, '_>,
     reals: &[f64],
     count: usize,
-) -> Result<f64, RecordError> {
+) -> Result<f64> {
     let stated = header.after(INTERVAL, "intervals of");
     let stated = stated.or_else(|| header.after(INTERVAL, "at"));
     let fits = |(dt_s, unit): &(f64, &str)| {
@@ -216,9 +200,9 @@ fn interval(
 }
 
 /// The peak acceleration in mm/s2.
-fn peak(header: &ComponentHeader<'_, '_>) -> Result<f64, RecordError> {
+fn peak(header: &ComponentHeader<'_, '_>) -> Result<f64> {
     let is_unit = |unit: &str| unit.trim_start().starts_with("mm/s/s");
-    let raw = text::after_word(header.line(INTERVAL), "units");
+    let raw = text::after(header.line(INTERVAL), "units");
     let readings = header.after(INTERVAL, "units of");
     let fits = |(factor, unit)| factor == 1.0 && is_unit(unit);
     if raw.is_some() && !readings.is_some_and(fits) {

@@ -1,9 +1,8 @@
 //! RESORCE: `key : value` lines, then 5E14.7 samples with no room between.
 
 use super::{Channel, Format};
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::fields::{self, FieldLayout};
-use crate::keys;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
@@ -15,17 +14,15 @@ pub(super) static FORMAT: Format = Format {
     name: "resorce",
     files: "RESORCE",
     source: "Europe",
-    recognises: |text| {
-        keys::has(text, ["Time Increment (s)", "Number of Data"])
-    },
+    recognises: |text| text.has(["Time Increment (s)", "Number of Data"]),
     read,
     ..Format::BASE
 };
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let dt = keys::positive(text, "Time Increment (s)", "")?;
-    let count = keys::count(text, "Number of Data")?;
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
+    let dt = text.positive("Time Increment (s)", "")?;
+    let count = text.count("Number of Data")?;
     let title = text
         .lines()
         .take(HEADER_LINES)
@@ -45,12 +42,11 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     text.check_count(text.len() - 1, samples.len(), count)?;
     let peak = "PGA (m/s/s)";
     let si = unit == AccelerationUnit::MetrePerSecondSquared;
-    if si && keys::find(text, peak).is_some() {
-        let expected = keys::positive(text, peak, "")?;
+    if si && text.find(peak).is_some() {
+        let expected = text.positive(peak, "")?;
         // The header has the samples' digits.
-        keys::check_peak(text, &samples, expected, 1e-6 * expected, unit)?;
+        text.check_peak(&samples, expected, 1e-6 * expected, unit)?;
     }
-    let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
-    let (dt, unit) = (Some(dt), Some(unit));
-    Ok(vec![Channel { dt, unit, samples, label, ..Channel::default() }])
+    let label = text.label("Orientation");
+    Ok(vec![Channel { label, ..Channel::of(dt, unit, samples) }])
 }

@@ -1,15 +1,13 @@
 //! USGS SMC: 11 lines of text, 48 integers (8I10), 50 reals (5E15.7),
 //! comments, then samples in 8E10.4, in cm/s2.
 //!
-//! The text names event, station and component; the reals 30 and 32 are the
-//! largest and the least sample, and are checked.
+//! The text names event, station and component. The largest and the least
+//! sample must be the reals 30 and 32.
 
-use super::{Channel, Format};
-use crate::error::{Fault, RecordError};
+use super::{Channel, Format, GAL};
+use crate::error::{Fault, Result};
 use crate::fields::{self, FieldLayout};
-use crate::keys;
-use crate::text::Text;
-use rocking::units::AccelerationUnit;
+use crate::text::{self, Text};
 
 const TEXT_LINES: usize = 11;
 const INTEGERS: FieldLayout = FieldLayout::even(8, 10);
@@ -18,7 +16,7 @@ const REALS: FieldLayout = FieldLayout::even(5, 15);
 const REAL_LINES: usize = 10;
 const SAMPLES: FieldLayout = FieldLayout::even(8, 10);
 
-/// What real values stay below: the null value is 1.7e38.
+/// Above the known real values: the null value is 1.7e38.
 const NULL: f64 = 1e38;
 
 const KINDS: [&str; 6] = [
@@ -36,25 +34,21 @@ pub(super) static FORMAT: Format = Format {
     files: "SMC",
     source: "USGS",
     azimuths: true,
-    recognises,
+    recognises: |text| is_one_of(text, &KINDS),
     read,
     ..Format::BASE
 };
 
-/// Whether the first line names one of the format's kinds.
-fn recognises(text: &Text<'_>) -> bool {
-    let line = first_line(text).trim_start().to_ascii_uppercase();
-    KINDS.iter().any(|kind| line.starts_with(kind))
-}
-
-fn first_line<'a>(text: &Text<'a>) -> &'a str {
-    text.line(0).unwrap_or("")
+/// Whether the first line names one of `kinds`.
+fn is_one_of(text: &Text<'_>, kinds: &[&str]) -> bool {
+    let line = text.line(0).unwrap_or("");
+    let line = line.trim_start().to_ascii_uppercase();
+    kinds.iter().any(|kind| line.starts_with(kind))
 }
 
 /// Reads the file's one channel.
-fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let kind = first_line(text).trim_start().to_ascii_uppercase();
-    if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
+fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
+    if !is_one_of(text, &KINDS[..2]) {
         return Err(text.quantity(0));
     }
     let reals = TEXT_LINES + INTEGER_LINES;
@@ -75,8 +69,7 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         })
     };
     if integers.len() != INTEGER_LINES * INTEGERS.per_line {
-        let fault = Fault::Ends("48 integers");
-        return Err(text.on_line(reals - 1, fault));
+        return Err(text.on_line(reals - 1, Fault::Ends("48 integers")));
     }
     let first = comments.saturating_add(count(16)?);
     let expected = count(17)?;
@@ -87,21 +80,13 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     }
     let samples = fields::read(text, first, text.len(), Some(SAMPLES))?;
     text.check_count(text.len() - 1, samples.len(), expected)?;
-    let unit = AccelerationUnit::CentimetrePerSecondSquared;
-    check_peak(text, &samples, &reals, unit)?;
+    check_peak(text, &samples, &reals)?;
     let (label, site) = component(text);
-    let (dt, unit) = (Some(dt), Some(unit));
-    let rest = Channel::default();
-    Ok(vec![Channel { dt, unit, samples, label, site, ..rest }])
+    Ok(vec![Channel { label, site, ..Channel::of(dt, GAL, samples) }])
 }
 
-/// The peak against the largest and the least sample in the header.
-fn check_peak(
-    text: &Text<'_>,
-    samples: &[f64],
-    reals: &[f64],
-    unit: AccelerationUnit,
-) -> Result<(), RecordError> {
+/// Compares the peak with the largest and the least sample in the header.
+fn check_peak(text: &Text<'_>, samples: &[f64], reals: &[f64]) -> Result<()> {
     let known = |place: usize| {
         reals.get(place - 1).copied().filter(|x| x.abs() < NULL)
     };
@@ -110,7 +95,7 @@ fn check_peak(
     };
     let expected = largest.abs().max(least.abs());
     // Samples have four digits.
-    keys::check_peak(text, samples, expected, 1e-3 * expected, unit)
+    text.check_peak(samples, expected, 1e-3 * expected, GAL)
 }
 
 /// The component, and event with station, by the lines `1989 10 18 ...` and
@@ -129,11 +114,11 @@ fn component(text: &Text<'_>) -> (Option<String>, Option<String>) {
         text.split_ascii_whitespace().collect::<Vec<_>>().join(" ")
     };
     let site = format!("{} {}", words(event), words(station));
-    ((!name.is_empty()).then(|| name.to_owned()), Some(site))
+    (text::named(name), Some(site))
 }
 
 /// The interval from the second real value, samples per second.
-fn interval(text: &Text<'_>, reals: &[f64]) -> Result<f64, RecordError> {
+fn interval(text: &Text<'_>, reals: &[f64]) -> Result<f64> {
     match reals.get(1) {
         // The null value is 1.7e38.
         Some(&rate) if rate > 0.0 && rate < 1e6 => Ok(1.0 / rate),

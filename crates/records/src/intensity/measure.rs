@@ -122,40 +122,36 @@ pub struct ScalarRow {
     value: fn(&Measures) -> f64,
 }
 
+impl ScalarRow {
+    /// A measure that is proportional to the acceleration.
+    const fn of(
+        symbol: &'static str,
+        unit: &'static str,
+        value: fn(&Measures) -> f64,
+    ) -> Self {
+        Self { symbol, short: symbol, unit, is_squared: false, value }
+    }
+}
+
 impl ScalarMeasure {
     /// The row of the measure.
     #[must_use]
     pub const fn row(self) -> ScalarRow {
         match self {
-            Self::Pgd => ScalarRow {
-                symbol: "PGD",
-                short: "PGD",
-                unit: "m",
-                is_squared: false,
-                value: |m| m.pgd_m,
-            },
+            Self::Pgd => ScalarRow::of("PGD", "m", |m| m.pgd_m),
             Self::Arias => ScalarRow {
-                symbol: "Arias intensity",
                 short: "√Arias",
-                unit: "m/s",
                 is_squared: true,
-                value: |m| m.arias_intensity_m_s,
+                ..ScalarRow::of("Arias intensity", "m/s", |m| {
+                    m.arias_intensity_m_s
+                })
             },
-            Self::Cav => ScalarRow {
-                symbol: "CAV",
-                short: "CAV",
-                unit: "m/s",
-                is_squared: false,
-                value: |m| m.cav_m_s,
-            },
+            Self::Cav => ScalarRow::of("CAV", "m/s", |m| m.cav_m_s),
             Self::PgvDuration => ScalarRow {
-                symbol: "PGV D5-75^(1/4)",
                 short: "PGV D",
-                unit: "m s^(-3/4)",
-                is_squared: false,
-                value: |m| {
+                ..ScalarRow::of("PGV D5-75^(1/4)", "m s^(-3/4)", |m| {
                     m.pgv_m_s * m.significant_duration_5_75_s.sqrt().sqrt()
-                },
+                })
             },
         }
     }
@@ -216,15 +212,15 @@ impl FromStr for IntensityMeasure {
         let found = match (kind.as_str(), rest) {
             ("sa", Some(t)) => period(t).map(Self::Sa),
             ("avgsa", Some("rocking")) => Some(Self::RockingSa(None)),
-            ("avgsa", Some(list)) if list.starts_with("rocking:") => {
-                let p = list.split_once(':').and_then(|(_, p)| period(p));
-                p.and_then(RockingBand::try_new)
-                    .map(|band| Self::RockingSa(Some(band)))
-            }
-            ("avgsa", Some(list)) => {
-                let periods: Option<_> = list.split(',').map(period).collect();
-                periods.map(Self::AverageSa)
-            }
+            ("avgsa", Some(list)) => match list.strip_prefix("rocking:") {
+                Some(p) => period(p)
+                    .and_then(RockingBand::try_new)
+                    .map(|band| Self::RockingSa(Some(band))),
+                None => {
+                    let periods_s = list.split(',').map(period);
+                    periods_s.collect::<Option<_>>().map(Self::AverageSa)
+                }
+            },
             ("column", Some(name))
                 if !name.is_empty() && result_name(name).is_ok() =>
             {
@@ -243,8 +239,7 @@ impl FromStr for IntensityMeasure {
                 .into_iter()
                 .chain(ScalarMeasure::ALL.map(ScalarMeasure::name))
                 .chain(["sa:T", "avgsa:T1,T2,.. (periods in s)"])
-                .chain(["avgsa:rocking"])
-                .chain(["column:NAME"])
+                .chain(["avgsa:rocking", "column:NAME"])
                 .collect(),
         })
     }

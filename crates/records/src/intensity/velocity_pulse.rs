@@ -39,10 +39,10 @@ const PERIOD_OVER_SCALE: f64 = 1.4;
 /// Steps between the least and the largest scale.
 const SCALES: f64 = 50.0;
 
-/// Candidates that are tried.
+/// Number of candidates that are tried.
 const CANDIDATES: usize = 5;
 
-/// Wavelets that make a pulse.
+/// Number of wavelets in a pulse.
 const WAVELETS: usize = 10;
 
 /// Half-width of the neighbourhood of a wavelet, in scales.
@@ -86,8 +86,8 @@ pub fn pulse(candidates: &[Candidate]) -> Option<&Candidate> {
     candidates.iter().find(|c| c.is_pulse())
 }
 
-/// The five candidates of a pair, the largest coefficient first; fewer where
-/// nothing is left to look at. The longer component is cut to the shorter.
+/// The five candidates of a pair, the largest coefficient first; fewer if
+/// nothing is left to search. The longer component is cut to the shorter.
 ///
 /// # Errors
 /// [`IntensityError`] for gravity that is not positive, sampling intervals
@@ -144,18 +144,12 @@ pub fn candidates(
 
 /// Cumulative trapezoid, from rest.
 fn velocity(samples: &[f64], half_interval: f64) -> Vec<f64> {
-    let (mut sum, mut last) = (0.0, 0.0);
-    samples
-        .iter()
-        .enumerate()
-        .map(|(i, a)| {
-            if i > 0 {
-                sum += last + a;
-            }
-            last = *a;
-            half_interval * sum
-        })
-        .collect()
+    let mut sum = 0.0;
+    let later = samples.windows(2).map(|pair| {
+        sum += pair[0] + pair[1];
+        half_interval * sum
+    });
+    std::iter::once(0.0).chain(later).collect()
 }
 
 /// Coefficients of both components, by scale, then by sample.
@@ -171,11 +165,9 @@ impl CoefficientMap {
         let widest = scales.last().map_or(0, |a| 8 * a);
         let size = (n + widest).next_power_of_two();
         // Both real motions in one complex transform.
-        let mut motion: Vec<(f64, f64)> = velocities[0]
-            .iter()
-            .copied()
-            .zip(velocities[1].iter().copied())
-            .collect();
+        let [first, second] = velocities;
+        let both = first.iter().zip(second).map(|(a, b)| (*a, *b));
+        let mut motion: Vec<(f64, f64)> = both.collect();
         motion.resize(size, (0.0, 0.0));
         let transform = Transform::new(size);
         transform.apply(&mut motion);
@@ -189,22 +181,15 @@ impl CoefficientMap {
             transform.apply(&mut kernel);
             // Correlation: the product with the conjugate, transformed back
             // by the conjugate's transform.
-            let mut product: Vec<(f64, f64)> = motion
-                .iter()
-                .zip(&kernel)
-                .map(|(m, k)| {
-                    let (re, im) =
-                        (m.0 * k.0 + m.1 * k.1, m.1 * k.0 - m.0 * k.1);
-                    (re, -im)
-                })
-                .collect();
+            let product = motion.iter().zip(&kernel).map(|(m, k)| {
+                let im = m.1 * k.0 - m.0 * k.1;
+                (m.0 * k.0 + m.1 * k.1, -im)
+            });
+            let mut product: Vec<(f64, f64)> = product.collect();
             transform.apply(&mut product);
             let scale = 1.0 / size as f64;
-            product
-                .iter()
-                .take(n)
-                .map(|(re, im)| (scale * re, -scale * im))
-                .collect()
+            let scaled = product.iter().map(|c| (scale * c.0, -scale * c.1));
+            scaled.take(n).collect()
         };
         Self(scales.iter().map(of).collect())
     }
@@ -217,15 +202,14 @@ impl CoefficientMap {
             for (column, c) in line.iter().enumerate() {
                 let power = c.0.mul_add(c.0, c.1 * c.1);
                 if power > most {
-                    most = power;
-                    found = Some((row, column, *c));
+                    (most, found) = (power, Some((row, column, *c)));
                 }
             }
         }
         found
     }
 
-    /// Takes out all columns strictly within `reach` of one.
+    /// Sets all columns strictly within `reach` of one to zero.
     fn block(&mut self, column: usize, reach: f64) {
         for line in &mut self.0 {
             for (i, c) in line.iter_mut().enumerate() {

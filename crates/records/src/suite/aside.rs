@@ -1,4 +1,4 @@
-//! What a folder or an archive holds beside the records of its suite.
+//! Contents of a folder or an archive beside the records of its suite.
 
 use std::fmt;
 
@@ -7,8 +7,8 @@ use crate::error::{Fault, RecordError};
 use rocking::accelerogram::EscapedName;
 
 coded! {
-    /// Why something in a folder or an archive is no record of the suite, and no
-    /// fault of the suite either.
+    /// Why something in a folder or an archive is not a record of the suite, yet
+    /// no fault of the suite.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     #[cfg_attr(feature = "serde", derive(serde::Serialize))]
     #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -22,9 +22,9 @@ coded! {
         Format = "format",
         /// A history of velocity or displacement, or a spectrum.
         Quantity = "quantity",
-        /// A file that the index in the folder does not name.
+        /// A file that is not in the index of the folder.
         Unlisted = "unlisted",
-        /// A file of an archive under a name that comes again.
+        /// A file of an archive whose name occurs again.
         Doubled = "doubled",
         /// A file of an archive whose name leads out of it.
         Outside = "outside",
@@ -56,7 +56,7 @@ impl AsideReason {
         })
     }
 
-    /// What `count` of them are, after the number.
+    /// The words after the number `count`.
     fn words(self, count: usize) -> &'static str {
         let one = count == 1;
         match self {
@@ -83,17 +83,17 @@ impl AsideReason {
 pub struct Aside {
     /// File, relative to the folder or archive.
     pub file: String,
-    /// Why it is no record of the suite.
+    /// Why it is not a record of the suite.
     pub reason: AsideReason,
     /// What was found, and what was expected.
     pub error: RecordError,
 }
 
 impl Aside {
-    /// `file` of a folder or an archive, which was refused.
+    /// A refused `file` of a folder or an archive.
     ///
     /// # Errors
-    /// `error` itself, where it is a fault of the suite.
+    /// `error` itself if it is a fault of the suite.
     pub(super) fn of(
         file: &str,
         error: RecordError,
@@ -119,8 +119,8 @@ pub struct AsideCount<'a> {
     pub first: &'a str,
 }
 
-/// All that was set aside when a suite was read; in words, the number for
-/// each reason with the first file.
+/// Everything that was set aside when a suite was read. Displays as the number
+/// of files for each reason, with the first file.
 ///
 /// ```
 /// use rocking_records::{Suite, ReadOptions};
@@ -145,13 +145,13 @@ pub struct AsideCount<'a> {
 pub struct SetAside(Vec<Aside>);
 
 impl SetAside {
-    /// Whether nothing was.
+    /// Whether nothing was set aside.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Everything, in the order in which it was met.
+    /// Everything, in the order of reading.
     #[must_use]
     pub fn all(&self) -> &[Aside] {
         &self.0
@@ -199,13 +199,12 @@ impl serde::Serialize for SetAside {
 
 impl fmt::Display for SetAside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, count) in self.counts().into_iter().enumerate() {
-            let AsideCount { reason, files, first } = count;
-            let comma = if i == 0 { "" } else { ", " };
+        let counts = self.counts().into_iter();
+        let counts = counts.map(|AsideCount { reason, files, first }| {
             let (words, first) = (reason.words(files), EscapedName(first));
-            write!(f, "{comma}{files} {words} (first: {first})")?;
-        }
-        Ok(())
+            format!("{files} {words} (first: {first})")
+        });
+        f.write_str(&counts.collect::<Vec<_>>().join(", "))
     }
 }
 

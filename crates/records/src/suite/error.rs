@@ -15,13 +15,13 @@ pub enum SuiteError {
     Unreadable {
         /// Folder or index.
         path: String,
-        /// What the system said.
+        /// Message of the operating system.
         reason: String,
     },
     /// A record was refused.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// There is no record in it.
+    /// A folder or index without a record.
     #[error(
         "{path}: no readable record in it: expected at least one{}",
         instead(set_aside)
@@ -29,7 +29,7 @@ pub enum SuiteError {
     Empty {
         /// Folder or index.
         path: String,
-        /// What is in it instead.
+        /// Its contents instead.
         set_aside: SetAside,
     },
     /// An index without a column `file`, or a row that does not fit.
@@ -44,7 +44,7 @@ pub enum SuiteError {
         /// What should.
         expected: String,
     },
-    /// A record that is not what its row in the index says.
+    /// A record that contradicts its row in the index.
     #[error(
         "{path}:{line}: {file} has {quantity} {found}: expected {expected}, which the index states"
     )]
@@ -97,12 +97,12 @@ pub enum SuiteError {
     },
 }
 
-/// What is there instead of records.
+/// Contents of the folder instead of records.
 fn instead(set_aside: &SetAside) -> String {
-    match set_aside.is_empty() {
-        true => String::new(),
-        false => format!("; set aside: {set_aside}"),
+    if set_aside.is_empty() {
+        return String::new();
     }
+    format!("; set aside: {set_aside}")
 }
 
 impl SuiteError {

@@ -33,14 +33,13 @@ pub(super) struct IndexRow {
     cells: Vec<String>,
 }
 
-/// Characters of a column's name, at most: every record carries the names.
+/// The most bytes in the name of a column: every record has a copy.
 const LONGEST_NAME: usize = 64;
 
-/// Records of an index, at most: four times the largest database of its
-/// kind.
+/// The most records in an index: four times the largest database of its kind.
 const MOST_ROWS: usize = 100_000;
 
-/// Columns that mean something; others are attributes.
+/// Columns with a meaning; others are attributes.
 const COLUMNS: [&str; 12] = [
     "file",
     "name",
@@ -84,7 +83,7 @@ fn is_file(cell: &str) -> bool {
     cell.eq_ignore_ascii_case("file")
 }
 
-/// What separates the cells under a head.
+/// Separator of the cells under a head.
 fn separator(head: &str) -> char {
     let semicolons = head.contains(';') && !head.contains(',');
     if semicolons { ';' } else { ',' }
@@ -127,7 +126,7 @@ impl Index {
     }
 }
 
-/// What the rows of an index have in common.
+/// Common parts of the rows of an index.
 struct IndexHead {
     path: String,
     columns: Vec<Arc<str>>,
@@ -176,8 +175,8 @@ impl IndexHead {
         SuiteError::Index { path: self.path.clone(), line, found, expected }
     }
 
-    /// Refuses cells that results cannot carry: all of them become names of
-    /// files, of records and of attributes, and what these are.
+    /// Refuses cells that results cannot contain: all of them become names of
+    /// files, records or attributes, or values of attributes.
     fn check_names(
         &self,
         line: usize,
@@ -222,7 +221,7 @@ impl IndexHead {
         Ok(cells)
     }
 
-    /// The row whose column `name` has the file.
+    /// A row; its column `name` has the file.
     fn row(
         self: &Rc<Self>,
         line: usize,
@@ -255,13 +254,13 @@ impl IndexHead {
 }
 
 impl IndexRow {
-    /// A cell that is there and not empty.
+    /// A cell that exists and is not empty.
     fn cell(&self, name: &str) -> Option<&str> {
         let cell = self.cells[self.head.place(name)?].as_str();
         Some(cell).filter(|cell| !cell.is_empty())
     }
 
-    /// The earthquake, which the index states for all records or for none.
+    /// The earthquake, which an index states for all records or for none.
     fn event(&self) -> Result<Option<String>, SuiteError> {
         let stated = |name: &&str| self.head.place(name).is_some();
         let name = ["event", PEER_EVENT].into_iter().find(stated);
@@ -274,20 +273,23 @@ impl IndexRow {
         self.head.refuse(self.line, found, expected)
     }
 
-    fn mismatch(
+    fn mismatch<T>(
         &self,
         quantity: &'static str,
-        found: String,
-        expected: &str,
-    ) -> SuiteError {
-        SuiteError::Mismatch {
-            path: self.head.path.clone(),
-            line: self.line,
-            file: self.file.clone(),
+        found: impl ToString,
+        expected: impl ToString,
+    ) -> Result<T, SuiteError> {
+        let (path, file) = (self.head.path.clone(), self.file.clone());
+        let (found, expected) = (found.to_string(), expected.to_string());
+        let line = self.line;
+        Err(SuiteError::Mismatch {
+            path,
+            line,
+            file,
             quantity,
             found,
-            expected: expected.to_owned(),
-        }
+            expected,
+        })
     }
 
     fn positive(&self, name: &'static str) -> Result<Option<f64>, SuiteError> {
@@ -298,8 +300,8 @@ impl IndexRow {
         }
     }
 
-    /// Reads the row's record from `content` and checks what the row says
-    /// about it. `see` settles what only the caller states.
+    /// Reads the record of the row from `content` and checks it against the row.
+    /// `see` settles the values that only the caller states.
     pub(super) fn member(
         &self,
         content: &[u8],
@@ -309,7 +311,7 @@ impl IndexRow {
         if let Some(expected) = self.cell("sha256") {
             let found = sha256_hex(content);
             if !found.eq_ignore_ascii_case(expected) {
-                return Err(self.mismatch("sha256", found, expected));
+                return self.mismatch("sha256", found, expected);
             }
         }
         let unit = |cell| {
@@ -318,10 +320,12 @@ impl IndexRow {
         };
         let unit = self.cell("units").map(unit).transpose()?;
         let dt_s = self.positive("dt_s")?;
-        let mut read_options = *options;
-        read_options.unit = unit.or(options.unit);
-        read_options.dt_s = dt_s.or(options.dt_s);
-        let mut settled = settle_one(&self.file, content, &read_options)?;
+        let given = ReadOptions {
+            dt_s: dt_s.or(options.dt_s),
+            unit: unit.or(options.unit),
+            ..*options
+        };
+        let mut settled = settle_one(&self.file, content, &given)?;
         // The row describes only this file.
         if dt_s.is_some() {
             settled.dt?;
@@ -367,7 +371,7 @@ impl IndexRow {
         if let Some(cell) = self.cell("format") {
             let found = record.format.name;
             if found != cell {
-                return Err(self.mismatch("format", found.to_owned(), cell));
+                return self.mismatch("format", found, cell);
             }
         }
         if let Some(cell) = self.cell("npts") {
@@ -376,7 +380,7 @@ impl IndexRow {
                 .parse()
                 .map_err(|_| self.refuse(cell, "a number of samples"))?;
             if found != expected {
-                return Err(self.mismatch("npts", found.to_string(), cell));
+                return self.mismatch("npts", found, cell);
             }
         }
         let peaks = [
@@ -386,8 +390,7 @@ impl IndexRow {
         for (name, found) in peaks {
             let Some(expected) = self.positive(name)? else { continue };
             if !((found - expected).abs() <= PEAK_TOLERANCE * expected) {
-                let found = format!("{found:.6}");
-                return Err(self.mismatch(name, found, &expected.to_string()));
+                return self.mismatch(name, format!("{found:.6}"), expected);
             }
         }
         Ok(())

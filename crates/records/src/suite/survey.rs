@@ -1,4 +1,4 @@
-//! Reading all that a folder or an index lists.
+//! Reading every record that a folder or an index lists.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,9 +16,9 @@ use rocking::accelerogram::result_name;
 /// The index in a folder or archive as PEER's site delivers it.
 const PEER_RESULTS: &str = "_SearchResults.csv";
 
-/// What a folder or index holds, refused records included.
+/// The contents of a folder or an index, refused records included.
 ///
-/// Of each record that was read it has what the caller kept: the whole
+/// For each record that was read it contains what the caller kept: the whole
 /// [`SuiteMember`], its profile, or nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey<K = SuiteMember> {
@@ -26,10 +26,10 @@ pub struct Survey<K = SuiteMember> {
     path: String,
     /// Name of the suite.
     name: String,
-    /// Every record that was looked for, in the index's order or by file
-    /// name; pairs found by name are known to the suite only.
+    /// Every record that was sought, in the index's order or by file name. Only
+    /// a [`Suite`] has the pairs that are found by name.
     pub members: Vec<Result<K, SuiteError>>,
-    /// What the folder or archive holds beside the records.
+    /// Other contents of the folder or archive.
     pub set_aside: SetAside,
     study_rule: StudyRule,
     paired: bool,
@@ -50,9 +50,9 @@ impl Survey {
 }
 
 impl<K> Survey<K> {
-    /// Reads every record of the folder or index at `path`, or the record
-    /// file there, one after the other in their order, and holds what `keep`
-    /// makes of each.
+    /// Reads every record of the folder or index at `path`, or the record file
+    /// there, one after the other in their order, and keeps the result of `keep`
+    /// for each.
     ///
     /// ```
     /// use std::path::Path;
@@ -80,9 +80,9 @@ impl<K> Survey<K> {
             contents(path, "", options.recursive, &mut files, &mut others)?;
             others.sort_by(|a, b| a.file.cmp(&b.file));
             let names: Vec<String> = files.keys().cloned().collect();
-            let bytes = |name: &str| {
-                let own = || path.join(name);
-                file_bytes(&files.get(name).cloned().unwrap_or_else(own))
+            let bytes = |name: &str| match files.get(name) {
+                Some(file) => file_bytes(file),
+                None => file_bytes(&path.join(name)),
             };
             let mut survey =
                 Self::of_files(&shown, &names, options, bytes, keep)?;
@@ -103,11 +103,11 @@ impl<K> Survey<K> {
         Self::of_index(&shown, &bytes, options, read, keep)
     }
 
-    /// Reads every record among the files of a folder or archive, given by
-    /// its path, the files' names and a function that gives the bytes of
-    /// each, and holds what `keep` makes of it. If one of them is PEER's
-    /// `_SearchResults.csv`, that is the index. A name that comes twice is
-    /// read once.
+    /// Reads every record among the files of a folder or archive, and keeps the
+    /// result of `keep` for each. The arguments are the path, the names of the
+    /// files, and a function that gives the bytes of a file. If one of the files
+    /// is PEER's `_SearchResults.csv`, it is the index. A file whose name occurs
+    /// twice is read once.
     ///
     /// # Errors
     /// [`SuiteError`] where an index cannot be read, and the first error of
@@ -138,14 +138,7 @@ impl<K> Survey<K> {
                 survey.refuse(name, Fault::Unlisted.whole(&shown));
             }
         } else {
-            survey = Self {
-                path: path.to_owned(),
-                name: container(path).to_owned(),
-                members: Vec::new(),
-                set_aside: SetAside::default(),
-                study_rule: StudyRule::FirstName,
-                paired: false,
-            };
+            survey = Self::empty(path, container(path));
             let mut given = FallbackUse::default();
             for name in names {
                 let shown = Path::new(path).join(name).display().to_string();
@@ -174,7 +167,19 @@ impl<K> Survey<K> {
         Ok(survey)
     }
 
-    /// Takes what was refused as set aside, or as a fault of the suite.
+    /// A survey without records, whose pairs are found by name.
+    fn empty(path: &str, name: &str) -> Self {
+        Self {
+            path: path.to_owned(),
+            name: name.to_owned(),
+            members: Vec::new(),
+            set_aside: SetAside::default(),
+            study_rule: StudyRule::FirstName,
+            paired: false,
+        }
+    }
+
+    /// Sets a refused file aside, or adds its error as a fault of the suite.
     fn refuse(&mut self, name: &str, error: RecordError) {
         match Aside::of(name, error) {
             Ok(aside) => self.set_aside.extend([aside]),
@@ -190,30 +195,24 @@ impl<K> Survey<K> {
         mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
     ) -> Result<Self, E> {
         let Index { rows, paired, study_rule } = Index::parse(path, bytes)?;
-        let mut members = Vec::with_capacity(rows.len());
+        // PEER's index has the name of its folder.
+        let folder = path.strip_suffix(PEER_RESULTS).map(container);
+        let name = folder.filter(|folder| !folder.is_empty());
+        let empty = Self::empty(path, name.unwrap_or(stem(path)));
+        let mut survey = Self { paired, study_rule, ..empty };
         let mut given = FallbackUse::default();
         for row in rows {
             let bytes = file_bytes(&row.file).map_err(SuiteError::from);
             let member = bytes.and_then(|bytes| {
                 row.member(&bytes, options, |settled| given.see(settled))
             });
-            members.push(match member {
+            survey.members.push(match member {
                 Ok(member) => Ok(keep(member)?),
                 Err(error) => Err(error),
             });
         }
-        members.extend(given.unused());
-        // An index as PEER names it has its folder's name.
-        let folder = path.strip_suffix(PEER_RESULTS).map(container);
-        let name = folder.filter(|folder| !folder.is_empty());
-        Ok(Self {
-            path: path.to_owned(),
-            name: name.unwrap_or(stem(path)).to_owned(),
-            members,
-            set_aside: SetAside::default(),
-            study_rule,
-            paired,
-        })
+        survey.members.extend(given.unused());
+        Ok(survey)
     }
 }
 
@@ -242,8 +241,8 @@ impl<M: MemberMotion> Survey<SuiteMember<M>> {
     }
 }
 
-/// How the files of a suite take what the caller gave: which of it any file
-/// took, and the first file that contradicts it.
+/// Use of the caller's values in a suite: the values that any file took, and
+/// the first file that contradicts each.
 #[derive(Default)]
 struct FallbackUse {
     taken: Fallback,
@@ -261,7 +260,7 @@ impl FallbackUse {
         record
     }
 
-    /// The first contradiction of what no file took.
+    /// The first contradiction of each value that no file took.
     fn unused<K>(self) -> impl Iterator<Item = Result<K, SuiteError>> {
         let dt = self.dt.filter(|_| !self.taken.dt);
         let unit = self.unit.filter(|_| !self.taken.unit);
@@ -269,16 +268,16 @@ impl FallbackUse {
     }
 }
 
-/// Name of a folder, whole, or of a zip without its ending.
+/// Name of a folder, or of a zip file without its ending.
 fn container(path: &str) -> &str {
     let path = path.trim_end_matches('/');
     let name = path.rsplit('/').next().unwrap_or(path);
     name.strip_suffix(".zip").unwrap_or(name)
 }
 
-/// A record of a folder as a member of the suite, unless it is vertical or
-/// from a borehole, or results cannot carry the file's name. The name of the
-/// folder `within` the suite's precedes the record's.
+/// A record of a folder as a member of the suite. Refuses a vertical record, a
+/// record from a borehole, and a file name that results cannot contain. The name
+/// of the folder `within` the suite's folder precedes the name of the record.
 fn horizontal(
     shown: &str,
     file: &str,
@@ -307,9 +306,9 @@ fn horizontal(
     Ok(member)
 }
 
-/// Adds the files of the folder `within` of `root` by their names from there,
-/// and what else is in it; hidden things are left out. Links to folders are
-/// not entered: they may lead back.
+/// Adds the files of the folder `within` of `root` by their names relative to
+/// `root`, and the other contents except hidden ones. Links to folders are not
+/// followed: they may lead back.
 fn contents(
     root: &Path,
     within: &str,
@@ -317,11 +316,9 @@ fn contents(
     files: &mut BTreeMap<String, PathBuf>,
     others: &mut Vec<Aside>,
 ) -> Result<(), SuiteError> {
-    // Joined to nothing, it would end in a separator.
-    let path = &match within {
-        "" => root.to_owned(),
-        _ => root.join(within),
-    };
+    let joined = root.join(within);
+    // Joined to an empty name, the path would end in a separator.
+    let path = if within.is_empty() { root } else { &joined };
     let fail = |error: std::io::Error| SuiteError::Unreadable {
         path: path.display().to_string(),
         reason: error.to_string(),
@@ -334,34 +331,24 @@ fn contents(
         }
         let name = format!("{within}{name}");
         let own = std::fs::symlink_metadata(&file);
-        if recursive && own.is_ok_and(|found| found.is_dir()) {
+        if recursive && own.as_ref().is_ok_and(|found| found.is_dir()) {
             contents(root, &format!("{name}/"), recursive, files, others)?;
             continue;
         }
+        let is_link = own.is_ok_and(|found| found.is_symlink());
+        let closed = std::io::ErrorKind::PermissionDenied;
         let fault = match std::fs::metadata(&file) {
-            Ok(found) if found.is_dir() => Some(Fault::Folder),
-            Ok(found) if !found.is_file() => Some(Fault::Device),
-            Err(_) if leads_nowhere(&file) => Some(Fault::DeadLink),
+            Ok(found) if found.is_dir() => Fault::Folder,
+            Ok(found) if !found.is_file() => Fault::Device,
+            Err(error) if is_link && error.kind() != closed => Fault::DeadLink,
             // A file that cannot be read is refused when it is read.
-            Ok(_) | Err(_) => None,
-        };
-        let shown = format!("{}/{name}", root.display());
-        let other = fault.map(|fault| Aside::of(&name, fault.whole(&shown)));
-        match other {
-            Some(Ok(aside)) => others.push(aside),
-            _ => {
+            Ok(_) | Err(_) => {
                 files.insert(name, file);
+                continue;
             }
-        }
+        };
+        let error = fault.whole(&format!("{}/{name}", root.display()));
+        others.push(Aside::of(&name, error)?);
     }
     Ok(())
-}
-
-/// Whether there is a link at `path`, and nothing where it leads.
-fn leads_nowhere(path: &Path) -> bool {
-    let is_link = std::fs::symlink_metadata(path)
-        .is_ok_and(|found| found.file_type().is_symlink());
-    let closed = std::io::ErrorKind::PermissionDenied;
-    let there = std::fs::metadata(path);
-    is_link && there.is_err_and(|error| error.kind() != closed)
 }

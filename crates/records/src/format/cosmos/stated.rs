@@ -1,14 +1,13 @@
-//! What the header of a channel says of its series, held against the series.
+//! Statements of a channel's header about its series, compared with the series.
 
 use crate::direction::Direction;
-use crate::error::{Fault, RecordError};
-use crate::keys;
+use crate::error::{Fault, RecordError, Result};
 use crate::number;
 use crate::text::{self, Text};
 use rocking::units::AccelerationUnit;
 
-/// Places of what COSMOS's real header says of the series, from 1 (COSMOS
-/// strong-motion format 1.20, Table 8).
+/// Places in COSMOS's real header, from 1 (COSMOS strong-motion format 1.20,
+/// Table 8).
 const INTERVAL_MS: usize = 62;
 const DURATION_S: usize = 63;
 const PEAK: usize = 64;
@@ -16,11 +15,11 @@ const PEAK: usize = 64;
 /// Place in COSMOS's integer header of the sensor's orientation, from 1.
 const ORIENTATION: usize = 54;
 
-/// What stands for an unknown value.
+/// The null value.
 const UNKNOWN: f64 = -999.0;
 
-/// Share of a stated peak by which the samples may miss it: the header has
-/// three digits or more.
+/// Relative difference that is allowed between a stated peak and the samples:
+/// the header has three digits or more.
 const PEAK_SHARE: f64 = 2e-3;
 
 const SAME_COUNT: &str = "the number of points that announces the samples";
@@ -64,8 +63,8 @@ impl<'a> ChannelHeader<'_, 'a> {
         self.text.header(self.head + at, expected)
     }
 
-    /// What follows `words` on the first line that has them, its place, and
-    /// the line.
+    /// The first line with `words`: its place, the text after them, and the
+    /// line.
     fn after(&self, words: &str) -> Option<(usize, &'a str, &'a str)> {
         self.lines().enumerate().find_map(|(at, line)| {
             let from = line.to_ascii_lowercase().find(words)? + words.len();
@@ -74,17 +73,16 @@ impl<'a> ChannelHeader<'_, 'a> {
         })
     }
 
-    /// Refuses another number of points. A corrected record's header has the
-    /// number of points before its correction too, in capitals.
-    pub(super) fn check_count(&self, count: usize) -> Result<(), RecordError> {
+    /// Refuses another number of points. The header of a corrected record also
+    /// has the number of points before the correction, in capitals.
+    pub(super) fn check_count(&self, count: usize) -> Result<()> {
         let raw = self.lines().next().is_some_and(|line| {
             text::contains(line.trim_start().get(..4).unwrap_or(""), "unco")
         });
         let Some((at, rest, line)) = self.after("no. of points") else {
             return Ok(());
         };
-        let stated = rest.split_ascii_whitespace().next();
-        let same = stated.and_then(|n| n.parse().ok()) == Some(count);
+        let same = text::first_word(rest).parse() == Ok(count);
         if same || !(raw || line.trim_start().starts_with("No. of Points")) {
             return Ok(());
         }
@@ -95,7 +93,7 @@ impl<'a> ChannelHeader<'_, 'a> {
     pub(super) fn unit(
         &self,
         announced: &str,
-    ) -> Result<Option<AccelerationUnit>, RecordError> {
+    ) -> Result<Option<AccelerationUnit>> {
         if announced.is_empty() {
             return Ok(self.peak().and_then(|(_, unit)| unit));
         }
@@ -114,13 +112,12 @@ impl<'a> ChannelHeader<'_, 'a> {
     pub(super) fn of_csmip(
         &self,
         series: &ChannelSeries<'_>,
-    ) -> Result<Option<f64>, RecordError> {
+    ) -> Result<Option<f64>> {
         let dt_s = series.dt_s;
         let stated = "equally-spaced intervals of";
         if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
-            let word = rest.split_ascii_whitespace().next().unwrap_or("");
             let same = |x: f64| (x - dt_s).abs() <= 1e-6 * dt_s;
-            if !number::finite(word).is_some_and(same) {
+            if !number::finite(text::first_word(rest)).is_some_and(same) {
                 return Err(self.differs(at, SAME_INTERVAL));
             }
         }
@@ -137,7 +134,7 @@ impl<'a> ChannelHeader<'_, 'a> {
         &self,
         reals: &[f64],
         series: &ChannelSeries<'_>,
-    ) -> Result<Option<f64>, RecordError> {
+    ) -> Result<Option<f64>> {
         let value = |place: usize| {
             reals.get(place - 1).copied().filter(|x| *x != UNKNOWN)
         };
@@ -150,13 +147,11 @@ impl<'a> ChannelHeader<'_, 'a> {
         }
         let dt_s = interval_ms.map(|ms| ms / 1000.0);
         let line = text.line(announced).unwrap_or("");
-        let approx = text::after_word(line, "approx").and_then(|end| {
-            let word = line[end..].split_ascii_whitespace().next()?;
-            word.parse::<f64>().ok()
-        });
+        let approx = text::after(line, "approx")
+            .and_then(|rest| text::first_word(rest).parse::<f64>().ok());
         if let Some(dt_s) = dt_s {
             let found_s = series.samples.len() as f64 * dt_s;
-            // The line has whole seconds, the header a sample more or less.
+            // The line is rounded to seconds; the header may differ by a sample.
             let stated = [(value(DURATION_S), 0.0), (approx, 1.0)];
             for (expected_s, rounded_s) in stated {
                 let Some(expected_s) = expected_s else { continue };
@@ -173,13 +168,9 @@ impl<'a> ChannelHeader<'_, 'a> {
         Ok(dt_s)
     }
 
-    fn check_peak(
-        &self,
-        series: &ChannelSeries<'_>,
-        peak: f64,
-    ) -> Result<(), RecordError> {
+    fn check_peak(&self, series: &ChannelSeries<'_>, peak: f64) -> Result<()> {
         let Some(unit) = series.unit else { return Ok(()) };
         let allowed = PEAK_SHARE * peak.abs();
-        keys::check_peak(self.text, series.samples, peak, allowed, unit)
+        self.text.check_peak(series.samples, peak, allowed, unit)
     }
 }

@@ -1,22 +1,22 @@
-//! What a header line or a comment says of two columns.
+//! Units of two columns, by a header line or a comment.
 
-use crate::error::{Fault, RecordError};
+use crate::error::{Fault, Result};
 use crate::text::{Text, excerpt};
 use rocking::units::AccelerationUnit;
 
 /// Units of two columns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Units {
-    /// Units of the time column in one second.
+    /// Number of units of the time column in one second.
     pub(super) per_second: f64,
-    /// Unit of acceleration, where it is stated.
+    /// Unit of acceleration, if it is stated.
     pub(crate) acceleration: Option<AccelerationUnit>,
 }
 
 impl Units {
     const UNSTATED: Self = Self { per_second: 1.0, acceleration: None };
 
-    /// These units, or where another states them, the other's.
+    /// These units, replaced by those that `other` states.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             per_second: self.per_second.max(other.per_second),
@@ -29,14 +29,12 @@ impl Units {
 ///
 /// # Errors
 /// [`Fault::Unit`] for a unit of acceleration that is not known.
-pub(crate) fn comments(text: &Text<'_>) -> Result<Units, RecordError> {
+pub(crate) fn comments(text: &Text<'_>) -> Result<Units> {
     let mut units = Units::UNSTATED;
-    let comments = text
-        .lines()
-        .enumerate()
-        .take_while(|(i, line)| line.starts_with('#') || *i == 0);
-    for (index, line) in comments {
-        let Some(line) = line.strip_prefix('#') else { continue };
+    for (index, line) in text.lines().enumerate() {
+        let Some(line) = line.strip_prefix('#') else {
+            if index == 0 { continue } else { break }
+        };
         let lower = line.to_ascii_lowercase();
         let named = ["acc", "a(", "a [", "a (", "unit"];
         if !named.iter().any(|name| lower.contains(name)) {
@@ -48,8 +46,7 @@ pub(crate) fn comments(text: &Text<'_>) -> Result<Units, RecordError> {
             } else if let Some(per_second) = per_second(name) {
                 units.per_second = per_second;
             } else if is_unit(name) {
-                let fault = Fault::Unit(excerpt(name));
-                return Err(text.on_line(index, fault));
+                return Err(text.on_line(index, Fault::Unit(excerpt(name))));
             }
         }
     }
@@ -61,7 +58,7 @@ fn is_unit(name: &str) -> bool {
     name.contains("/s") || name.contains("s-2") || name.contains("s^-2")
 }
 
-/// Units of this name in one second.
+/// Number of units of this name in one second.
 fn per_second(name: &str) -> Option<f64> {
     let name = name.trim().to_ascii_lowercase();
     match name.as_str() {
@@ -88,7 +85,7 @@ pub(super) fn header(
     text: &Text<'_>,
     index: usize,
     cells: &[&str],
-) -> Result<Units, RecordError> {
+) -> Result<Units> {
     let line = text.line(index).unwrap_or("");
     let (time, value) = columns(line, cells);
     let (time, time_unit) = named(&time);

@@ -1,5 +1,6 @@
-//! Fragilities as files of other programs: a module for each format, whose row
-//! in [`ExchangeFormat::ALL`] says all that commands and Python know of it.
+//! Fragilities as files of other programs, a module for each format. The row of a
+//! format in [`ExchangeFormat::ALL`] has everything that commands and Python
+//! need.
 
 mod csv;
 mod nrml;
@@ -17,7 +18,7 @@ use crate::fragility::{BlockFragility, Id, crossed_by};
 use crate::table::number;
 
 /// Largest error in probability of a shifted fragility that is written as
-/// points: a tenth of what one record in two hundred is worth.
+/// points: a tenth of the share of one record in two hundred.
 pub const TOLERANCE: f64 = 5e-4;
 
 /// Probability that is cut off at either end of a range of intensities.
@@ -42,7 +43,7 @@ pub enum ExchangeError {
         /// The fragility.
         id: Id,
     },
-    /// A measure that the other program does not know.
+    /// A measure that the other program lacks.
     #[error("{id}: {format} has no measure {im}: expected {expected}")]
     Measure {
         /// The fragility.
@@ -51,7 +52,7 @@ pub enum ExchangeError {
         format: &'static str,
         /// The measure.
         im: String,
-        /// Measures that it has.
+        /// Measures of the program.
         expected: &'static str,
     },
     /// A block without a limit state.
@@ -89,7 +90,7 @@ pub enum ExchangeError {
         /// The intensity with its unit.
         im: String,
     },
-    /// Points that pelicun takes for one.
+    /// Points that pelicun cannot distinguish.
     #[error(
         "{id}: points closer than 1e-8 {unit}, which pelicun takes for one: \
          expected a larger dispersion"
@@ -100,10 +101,10 @@ pub enum ExchangeError {
         /// Unit of the intensity.
         unit: &'static str,
     },
-    /// Points that are none.
+    /// Invalid points.
     #[error(transparent)]
     Points(#[from] PointsError),
-    /// Parameters that a change of unit makes none.
+    /// Parameters that are invalid after a change of unit.
     #[error(transparent)]
     Lognormal(#[from] LognormalError),
 }
@@ -113,7 +114,7 @@ pub enum ExchangeError {
 pub struct Texts {
     /// The main file.
     pub main: String,
-    /// The file beside it, where the format has one.
+    /// The file beside it, if the format has one.
     pub beside: Option<String>,
 }
 
@@ -123,16 +124,16 @@ pub struct Texts {
 pub struct ExchangeFormat {
     /// Name, as commands and Python spell it.
     pub name: &'static str,
-    /// What its files hold, for the help.
+    /// Contents of its files, for the help.
     pub help: &'static str,
-    /// Cells of its row in `docs/exchange.md`: the program that reads its
-    /// files, intensity measures, and what becomes of a shift.
+    /// Cells of its row in `docs/exchange.md`: the program that reads its files,
+    /// intensity measures, and treatment of a shift.
     pub cells: &'static str,
     /// Extension of the main file.
     pub extension: &'static str,
     /// Extension of a second file beside it.
     pub beside: Option<&'static str>,
-    /// Whether an assessment has its files.
+    /// Whether an assessment writes its files.
     pub in_assessment: bool,
     /// Whether the curves of limit states may cross.
     may_cross: bool,
@@ -140,12 +141,24 @@ pub struct ExchangeFormat {
     texts: fn(&[BlockFragility]) -> Result<Texts, ExchangeError>,
 }
 
+impl BlockFragility {
+    /// The refusal of a format that lacks the measure.
+    fn unknown(
+        &self,
+        format: &'static str,
+        expected: &'static str,
+    ) -> ExchangeError {
+        let (id, im) = (self.id.clone(), self.im.to_string());
+        ExchangeError::Measure { id, format, im, expected }
+    }
+}
+
 impl ExchangeFormat {
     /// All formats.
     pub const ALL: &[&Self] =
         &[&nrml::FORMAT, &pelicun::FORMAT, &pact::FORMAT, &csv::FORMAT];
 
-    /// What most formats have in common.
+    /// Common values of most formats.
     const BASE: Self = Self {
         name: "",
         help: "",
@@ -168,8 +181,8 @@ impl ExchangeFormat {
     /// The fragilities in this format.
     ///
     /// # Errors
-    /// [`ExchangeError`] for a fragility that the format cannot hold, and,
-    /// but in CSV, for limit states whose curves cross.
+    /// [`ExchangeError`] for a fragility that the format cannot express and,
+    /// except in CSV, for limit states whose curves cross.
     pub fn texts(
         &self,
         fragilities: &[BlockFragility],
@@ -187,22 +200,15 @@ impl ExchangeFormat {
             return Err(ExchangeError::NoState { id });
         }
         let totals = one.totals(1.0)?;
-        let crossed = totals.windows(2).find_map(|pair| {
-            let [(own, law), (next, after)] = pair else { return None };
-            let im = crossed_by(law, after, CROSSING)?;
-            Some((im, &own.name, &next.name))
-        });
-        match crossed {
-            Some((im, name, next)) if !self.may_cross => {
-                Err(ExchangeError::Crossing {
-                    id,
-                    name: name.clone(),
-                    next: next.clone(),
-                    im: format!("{} {}", number(im), one.im.unit()),
-                })
+        let pairs = totals.iter().zip(totals.iter().skip(1));
+        for ((own, law), (next, after)) in pairs.filter(|_| !self.may_cross) {
+            if let Some(im) = crossed_by(law, after, CROSSING) {
+                let im = format!("{} {}", number(im), one.im.unit());
+                let (name, next) = (own.name.clone(), next.name.clone());
+                return Err(ExchangeError::Crossing { id, name, next, im });
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 }
 

@@ -1,8 +1,8 @@
 //! A fragility of one block, in the unit of the ground motion.
 //!
-//! A fragility in PGA or PGV is dimensionless in the statistics. Other
-//! programs take one block's own PGA or PGV, each in the unit that it expects:
-//! OpenQuake PGA in g and PGV in cm/s, pelicun and PACT in g and m/s.
+//! A fragility in PGA or PGV is dimensionless in the statistics. Other programs
+//! need the PGA or PGV of one block, in their own units: OpenQuake PGA in g and
+//! PGV in cm/s, pelicun and PACT in g and m/s.
 
 use std::fmt;
 use std::str::FromStr;
@@ -18,12 +18,12 @@ use rocking_statistics::lognormal::LognormalError;
 
 use crate::table::number;
 
-/// Most characters of a name that OpenQuake takes.
+/// The most characters of a name in OpenQuake.
 const LONGEST: usize = 75;
 
-/// A name that every reader takes: ASCII letters, digits, `_` and `:`, at
-/// most 75. OpenQuake takes no dot and no slash in a name, and pelicun splits
-/// one at `-`.
+/// A name that every reader accepts: at most 75 ASCII letters, digits, `_` and
+/// `:`. OpenQuake accepts no dot and no slash in a name, and pelicun splits names
+/// at `-`.
 ///
 /// ```
 /// use rocking_exchange::Id;
@@ -59,8 +59,8 @@ impl fmt::Display for Id {
 }
 
 impl Id {
-    /// The name of a block by its parameters, in all their digits, so that
-    /// two blocks never share one.
+    /// The name of a block by its parameters, with all their digits, so that two
+    /// blocks never share a name.
     ///
     /// ```
     /// use rocking::Block;
@@ -71,7 +71,7 @@ impl Id {
     /// ```
     ///
     /// # Errors
-    /// Where the digits make it too long.
+    /// A name that is too long because of the digits.
     pub fn of(block: &Block) -> Result<Self, String> {
         let digits = |x: f64| x.to_string().replace('.', "_");
         let alpha = digits(block.slenderness_rad());
@@ -80,22 +80,23 @@ impl Id {
     }
 }
 
-/// The fragilities of one block, one a limit state.
+/// The fragilities of one block, one for each limit state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlockFragility {
     /// Its name.
     pub id: Id,
     /// The block.
     pub block: Block,
-    /// Coefficient of restitution, where it is known.
+    /// Coefficient of restitution, if known.
     pub eta: Option<f64>,
     /// The intensity measure of the ground motion.
     pub im: IntensityMeasure,
     /// Limit states in the order of rising damage.
     pub limit_states: Vec<LimitState>,
-    /// Where they come from, in words.
+    /// Origin of the fragilities, in words.
     pub origin: String,
-    /// The error of the model, which files hold beside the records' scatter.
+    /// The error of the model, which files state beside the scatter of the
+    /// records.
     pub model_error: ModelError,
 }
 
@@ -103,8 +104,8 @@ pub struct BlockFragility {
 pub(crate) type StateTotal<'a> = (&'a LimitState, TotalFragility);
 
 impl BlockFragility {
-    /// The limit states with their totals, in the unit of which one of the
-    /// block's own has `units`.
+    /// The limit states with their totals, in a unit of which the block's own
+    /// unit has `units`.
     pub(crate) fn totals(
         &self,
         units: f64,
@@ -117,9 +118,8 @@ impl BlockFragility {
         totals.collect()
     }
 
-    /// Where the fragilities come from, and their parts: the law of the
-    /// records and the error of the model; the origin alone where there is no
-    /// such error.
+    /// The origin of the fragilities and, if there is an error of the model, the
+    /// parts: the law of the records and this error.
     pub(crate) fn described(&self) -> String {
         if self.model_error.is_none() {
             return self.origin.clone();
@@ -151,20 +151,20 @@ impl BlockFragility {
 pub struct LimitState {
     /// Its name.
     pub name: Id,
-    /// Probability of reaching it by the records alone, in the unit of the
-    /// block's own intensity measure: g for PGA, m/s for PGV.
+    /// Probability of reaching it, by the scatter of the records only, in the unit
+    /// of the block's intensity measure: g for PGA, m/s for PGV.
     pub fragility: Lognormal,
 }
 
-/// Steps in the score at which two curves are compared.
+/// Number of steps in the score at which two curves are compared.
 const STEPS: i32 = 1000;
 
 /// Largest score at which two curves are compared.
 const LARGEST_SCORE: f64 = 8.0;
 
-/// The intensity at which the probability of `next`, a state of greater
-/// damage, is most above that of `own`, where it is above it by more than
-/// `tolerance`.
+/// The intensity at which the probability of `next`, a state of greater damage,
+/// exceeds the probability of `own` most; `None` if it exceeds it by `tolerance`
+/// or less.
 pub(crate) fn crossed_by(
     own: &TotalFragility,
     next: &TotalFragility,
@@ -179,9 +179,8 @@ pub(crate) fn crossed_by(
     (above(worst) > tolerance).then_some(worst)
 }
 
-/// The number of g (PGA) or of m/s (PGV) that makes a dimensionless
-/// intensity of 1: tan alpha, and g tan alpha/p; Eq. 2 has alpha in place of
-/// tan alpha.
+/// The PGA in g or the PGV in m/s at a dimensionless intensity of 1: tan alpha, or
+/// g tan alpha/p; Eq. 2 has alpha instead of tan alpha.
 ///
 /// ```
 /// use rocking::Block;
@@ -205,8 +204,8 @@ pub fn unit_intensity(
     intensity.of(threshold_g, velocity_m_s)
 }
 
-/// Where a fragility comes from, if the size and the measure of its sample
-/// alone are known.
+/// The origin of a fragility if only the size and the measure of its sample are
+/// known.
 ///
 /// ```
 /// use rocking_records::intensity::IntensityMeasure;

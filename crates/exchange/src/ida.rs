@@ -14,14 +14,14 @@ use crate::columns::IDA;
 use crate::read::{Cells, FileError, reader, rows};
 use crate::table::Table;
 
-/// Names of what became of an analysis.
+/// Names of outcomes of an analysis.
 const OUTCOMES: [&str; 5] =
     ["no-uplift", "rocked", "overturned", "overturned-refined", "unresolved"];
 
-/// The place of [`OUTCOMES`] that the refined end of a bracket has.
+/// The outcome of the refined end of a bracket.
 const REFINED: &str = OUTCOMES[3];
 
-/// What all rows of a table share.
+/// The settings of all rows of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// Frequency parameter in rad/s.
@@ -30,9 +30,9 @@ pub struct Setting {
     pub eta: f64,
     /// Equation of motion.
     pub model: Model,
-    /// Order of the Taylor polynomial, if it was fixed. A table of a fixed
-    /// order is written, to be compared with others, but not read: its errors
-    /// come from the order, not from chance, so it allows no statistics.
+    /// Order of the Taylor polynomial, if it was fixed. A table of a fixed order
+    /// is written, for comparisons, but not read: its errors come from the
+    /// order, not from chance, so it allows no statistics.
     pub order: Option<Order>,
     /// Overturning criterion.
     pub overturn: Overturning,
@@ -40,7 +40,7 @@ pub struct Setting {
     pub by: Adjust,
     /// Gravity in m/s2.
     pub gravity_m_s2: f64,
-    /// What was done to the records.
+    /// Processing of the records, in words.
     pub processing: String,
     /// Program, version and commit.
     pub software: String,
@@ -61,23 +61,23 @@ pub struct IdaRow {
     pub intensity_pga: f64,
     /// p PGV/(g tan alpha).
     pub intensity_pgv: f64,
-    /// Peak |theta|/alpha; infinite where overturned.
+    /// Peak |theta|/alpha; infinite if overturned.
     pub edp: f64,
     /// `no-uplift`, `rocked`, `overturned`, `overturned-refined` or
     /// `unresolved`.
     pub outcome: &'static str,
-    /// Margin to the other fate, in units of alpha.
+    /// Margin to the other outcome, in units of alpha.
     pub margin: f64,
-    /// What reading the record found suspicious.
+    /// Codes of the remarks on the record.
     pub remarks: String,
-    /// Earthquake of the record; empty where it is not known.
+    /// Earthquake of the record; empty if unknown.
     pub event: String,
 }
 
 /// The table of one analysis of a suite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdaTable {
-    /// What all rows share.
+    /// Settings of all rows.
     pub setting: Setting,
     /// The rows, by record, then level.
     pub rows: Vec<IdaRow>,
@@ -90,26 +90,26 @@ pub struct IdaTable {
 pub struct Curves {
     /// Records and their curves, in the order of the table.
     pub curves: Vec<(String, ResponseCurve)>,
-    /// The records by earthquake, where the table says it.
+    /// The records by earthquake, if the table states it.
     pub clusters: Clusters,
     /// IM_R: 1 for PGA, the lowest onset for another measure.
     pub im_r: f64,
     /// Rows past their record's first overturning, not used.
     pub after_overturning: usize,
-    /// Whether the measure is the square of the curves' intensity, so that
-    /// the curves stay linear in the acceleration.
+    /// Whether the measure is the square of the curves' intensity, which stays
+    /// linear in the acceleration.
     pub squared: bool,
 }
 
 impl Curves {
-    /// The curves alone, in the order of the table.
+    /// The curves without their records, in the order of the table.
     #[must_use]
     pub fn into_curves(self) -> Vec<ResponseCurve> {
         self.curves.into_iter().map(|(_, curve)| curve).collect()
     }
 
-    /// The curves against a measure whose values at intensity 1 are these:
-    /// proportional to the intensity, or to its square.
+    /// The curves against another measure, proportional to the intensity or to
+    /// its square; `at_one` has its value at intensity 1 for each curve.
     ///
     /// # Errors
     /// [`CapacityError::Factor`] for a value that is not positive.
@@ -136,9 +136,9 @@ impl Curves {
 }
 
 impl IdaTable {
-    /// The table of these curves of an analysis; `about` is what was done to
-    /// the records, and the program; `known` gives what is remarked on a
-    /// record, and its earthquake, empty where it is not known.
+    /// The table of the curves of an analysis. The pair of texts is the
+    /// processing of the records and the program; `known` gives the codes of the
+    /// remarks on a record, and its earthquake, empty if unknown.
     #[must_use]
     pub fn of(
         curves: &[IdaCurve],
@@ -281,22 +281,22 @@ impl IdaTable {
         self.by_record().map(|rows| rows[0].record.as_str())
     }
 
-    /// The earthquakes of the records, in the order of the table; none where
-    /// the table does not say them.
+    /// The earthquakes of the records, in the order of the table; `None` if the
+    /// table does not state them.
     #[must_use]
     pub fn events(&self) -> Option<Vec<&str>> {
         let events = self.by_record().map(|rows| rows[0].event.as_str());
         events.map(|event| Some(event).filter(|e| !e.is_empty())).collect()
     }
 
-    /// The records by earthquake, where the table says it.
+    /// The records by earthquake, if the table states it.
     #[must_use]
     pub fn clusters(&self) -> Clusters {
         let records = || Clusters::singletons(self.records().count());
         self.events().map_or_else(records, Clusters::from_labels)
     }
 
-    /// Slenderness angle in rad of the block; none where it is adjusted.
+    /// Slenderness angle in rad of the block; `None` if it is adjusted.
     #[must_use]
     pub fn alpha_rad(&self) -> Option<f64> {
         let first = self.rows.first().map(|row| row.alpha_rad);
@@ -309,7 +309,7 @@ impl IdaTable {
     /// else the first overturned row of the scan.
     ///
     /// # Errors
-    /// [`CapacityError`] where the rows of a record make no curve.
+    /// [`CapacityError`] if the rows of a record make no curve.
     pub fn curves(
         &self,
         measure: Intensity,
@@ -319,14 +319,13 @@ impl IdaTable {
         let (mut curves, mut after_overturning) = (Vec::new(), 0);
         for rows in self.by_record() {
             let end = rows.iter().position(|row| row.edp == f64::INFINITY);
-            let standing = &rows[..end.unwrap_or(rows.len())];
+            let (standing, above) = rows.split_at(end.unwrap_or(rows.len()));
             let vertices: Vec<(f64, f64)> =
                 standing.iter().map(|row| (im(row), row.edp)).collect();
             let refined = rows.iter().find(|row| row.is_refined());
-            let overturning = refined.or(end.map(|i| &rows[i])).map(im);
-            after_overturning += end.map_or(0, |i| {
-                rows[i + 1..].iter().filter(|row| !row.is_refined()).count()
-            });
+            let overturning = refined.or(above.first()).map(im);
+            let later = above.iter().skip(1).filter(|row| !row.is_refined());
+            after_overturning += later.count();
             let record = rows[0].record.clone();
             match ResponseCurve::try_new(&vertices, overturning) {
                 Ok(curve) => curves.push((record, curve)),
@@ -343,7 +342,7 @@ impl IdaTable {
     }
 }
 
-/// The name of what became of an analysis.
+/// The name of the outcome of an analysis.
 fn outcome(point: &IdaPoint) -> &'static str {
     match point.outcome {
         _ if !point.resolution.resolved => OUTCOMES[4],
@@ -381,24 +380,24 @@ impl Setting {
         })
     }
 
-    /// Refuses a row of another analysis than the first.
+    /// Refuses a row of another analysis.
     fn holds(
         &self,
         cells: &Cells<'_>,
         first: &Cells<'_>,
     ) -> Result<(), FileError> {
         let alpha = (self.by == Adjust::RecordScaling).then_some("alpha_rad");
-        let names = alpha.into_iter().chain(["p_rad_s"]);
-        let places = names.map(|name| IDA.place(name));
-        let mut shared = places.chain(IDA.place("eta")..IDA.columns.len());
-        match shared.find(|&k| cells.fields[k] != first.fields[k]) {
-            None => Ok(()),
-            Some(k) => Err(cells.error(format_args!(
-                "{} is {}: expected {}, as on the first row: a table of one \
-                 analysis",
-                IDA.columns[k].name, &cells.fields[k], &first.fields[k]
-            ))),
+        let last = IDA.columns[IDA.place("eta")..].iter().map(|own| own.name);
+        for name in alpha.into_iter().chain(["p_rad_s"]).chain(last) {
+            let (found, expected) = (cells.text(name), first.text(name));
+            if found != expected {
+                return Err(cells.error(format_args!(
+                    "{name} is {found}: expected {expected}, as on the first \
+                     row: a table of one analysis"
+                )));
+            }
         }
+        Ok(())
     }
 }
 

@@ -5,6 +5,7 @@ mod closed;
 use std::fmt::Display;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::str::FromStr;
 
 use csv::StringRecord;
@@ -26,7 +27,7 @@ pub use closed::Closed;
 pub struct FileError {
     /// The file.
     pub path: PathBuf,
-    /// Line number from 1, where one line is at fault.
+    /// Line number from 1, if one line is at fault.
     pub line: Option<u64>,
     /// What was found and what was expected.
     pub message: String,
@@ -49,9 +50,11 @@ impl FileError {
 pub struct Cells<'a> {
     path: &'a Path,
     layout: &'a Layout,
+    /// Places of the columns of the layout among the fields.
+    places: Rc<[Option<usize>]>,
     /// Line number from 1.
     pub line: u64,
-    pub(crate) fields: StringRecord,
+    fields: StringRecord,
 }
 
 impl Cells<'_> {
@@ -61,13 +64,14 @@ impl Cells<'_> {
         FileError::new(self.path, self.line, message)
     }
 
-    /// The text of a cell.
+    /// The text of a cell, empty if the table lacks the column.
     ///
     /// # Panics
     /// As [`Layout::place`].
     #[must_use]
     pub fn text(&self, column: &str) -> &str {
-        &self.fields[self.layout.place(column)]
+        let place = self.places[self.layout.place(column)];
+        place.map_or("", |place| &self.fields[place])
     }
 
     /// A refusal of one cell.
@@ -79,7 +83,7 @@ impl Cells<'_> {
         ))
     }
 
-    /// A cell that is a name that results can carry, or empty.
+    /// A cell that is empty or a valid name for results.
     ///
     /// # Errors
     /// [`FileError`] for a control character, and for a formula.
@@ -94,7 +98,8 @@ impl Cells<'_> {
     /// The value of a cell.
     ///
     /// # Errors
-    /// [`FileError`] for a cell that is no such value, or that does not fit.
+    /// [`FileError`] for a cell that is not a value of the type, or for which
+    /// `fits` is false.
     pub fn parsed<T: FromStr>(
         &self,
         column: &str,
@@ -106,8 +111,8 @@ impl Cells<'_> {
     }
 }
 
-/// A reader of CSV from outside, which fails at the end of a file within a
-/// quoted cell; lines that begin with `comment` are left out.
+/// A reader of CSV, which fails if the file ends within a quoted cell; lines that
+/// begin with `comment` are ignored.
 pub fn reader<R: Read>(
     from: R,
     trim: csv::Trim,
@@ -118,7 +123,7 @@ pub fn reader<R: Read>(
     builder.from_reader(Closed::new(from, comment))
 }
 
-/// A refusal of text that is no CSV; `path` is its name in messages.
+/// A refusal of text that is not CSV; `path` is its name in messages.
 #[must_use]
 pub fn no_csv(path: &Path, error: csv::Error) -> FileError {
     match error.into_kind() {
@@ -137,38 +142,29 @@ pub fn no_csv(path: &Path, error: csv::Error) -> FileError {
 }
 
 /// The lines of a table; `path` is its name in messages. Columns are found by
-/// name, and the cells are in the order of the layout; those of a missing
-/// column are empty. A table without the column of the schema is read,
-/// one of another schema is refused.
+/// name, in any order. A table without the column of the schema is read; a
+/// table with another schema is refused.
 ///
 /// # Errors
-/// [`FileError`] for text that is no CSV, and for other columns.
+/// [`FileError`] for text that is not CSV, and for other columns.
 pub fn rows<'a, R: Read>(
     layout: &'a Layout,
     reader: &'a mut csv::Reader<R>,
     path: &'a Path,
 ) -> Result<impl Iterator<Item = Result<Cells<'a>, FileError>>, FileError> {
     let header = reader.headers().map_err(|e| no_csv(path, e))?;
-    let places = layout
-        .places(header)
-        .map_err(|message| FileError::new(path, 1, message))?;
-    let is_ordered =
-        (0..).zip(&places).all(|(own, place)| place.is_none_or(|p| p == own));
+    let places = layout.places(header);
+    let places = places.map_err(|message| FileError::new(path, 1, message))?;
+    let places: Rc<[_]> = places.into();
     Ok(reader.records().map(move |fields| {
         stop::point();
-        let mut fields = fields.map_err(|e| no_csv(path, e))?;
+        let fields = fields.map_err(|e| no_csv(path, e))?;
         let line = fields.position().map_or(0, csv::Position::line);
-        if !is_ordered {
-            let cell =
-                |place: &Option<usize>| place.map_or("", |p| &fields[p]);
-            fields = places.iter().map(cell).collect();
-        }
-        let cells = Cells { path, layout, line, fields };
-        let schema = layout.columns.len();
-        let cell = cells.fields.get(schema);
-        let cell = cell.filter(|_| places[schema].is_some());
-        // A table without the column is read.
-        if cell.is_none_or(|cell| cell == SCHEMA.to_string()) {
+        let schema = places[layout.columns.len()].map(|p| &fields[p]);
+        let is_ours = schema.is_none_or(|cell| cell == SCHEMA.to_string());
+        let places = Rc::clone(&places);
+        let cells = Cells { path, layout, places, line, fields };
+        if is_ours {
             return Ok(cells);
         }
         let expected = format_args!("{SCHEMA}, the schema of this program");
@@ -188,8 +184,8 @@ mod tests {
         let rows = rows.map_err(|error| error.to_string())?;
         let cells = |cells: Result<Cells<'_>, FileError>| {
             let cells = cells.map_err(|error| error.to_string())?;
-            let all = cells.fields.iter().take(4).map(str::to_owned);
-            Ok(all.collect())
+            let names = OUTCOMES.columns.iter().map(|column| column.name);
+            Ok(names.map(|name| cells.text(name).to_owned()).collect())
         };
         rows.map(cells).collect()
     }

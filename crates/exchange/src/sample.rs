@@ -1,6 +1,6 @@
-//! Sample files: one value a line, `>3.2` for one censored at 3.2, `inf` for
-//! one censored at a limit that is not known, `#` comments.
-//! The comment behind a value is the name of its record, and a second one the
+//! Sample files: one value a line, `>3.2` for a value censored at 3.2, `inf` for
+//! a value censored at an unknown limit, comments after `#`.
+//! The comment behind a value is the name of its record, and a second comment the
 //! earthquake: `1.8 # RSN6-180 # Imperial Valley-02`.
 
 use std::fmt::{self, Display, Write as _};
@@ -17,11 +17,11 @@ use rocking_statistics::{
 use crate::ida::{Curves, IdaTable};
 use crate::read::FileError;
 
-/// Largest relative difference between a parameter of a block and that of a
-/// sample: the median moves by about as much.
+/// Largest relative difference between a parameter of a block and the parameter
+/// of a sample: the median changes by about as much.
 const MOST_DIFFERENT: f64 = 0.01;
 
-/// How the line begins that says what the values are.
+/// Beginning of the line that describes the values.
 const SAMPLE_OF: &str = "# Sample of ";
 
 /// The block and model that a sample file names.
@@ -38,7 +38,7 @@ pub struct SampleSetting {
 }
 
 impl SampleSetting {
-    /// Of the comment line that `rocking capacities` writes second.
+    /// The setting on the second comment line of `rocking capacities`.
     fn of(line: &str) -> Option<Self> {
         let mut words = line.strip_prefix("# alpha ")?.split(", ");
         let number = |text: &str| text.parse().ok();
@@ -54,12 +54,11 @@ impl SampleSetting {
         })
     }
 
-    /// Whether capacities of this setting in a measure are those of a block.
-    /// Those in a dimensionless measure hold for another slenderness, which
-    /// is why it is used.
+    /// Checks that capacities of this setting apply to a block. Capacities in a
+    /// dimensionless measure apply to any slenderness.
     ///
     /// # Errors
-    /// Words, where the setting has a parameter that differs.
+    /// The parameter that differs, in words.
     pub fn holds_for(
         &self,
         block: &Block,
@@ -83,7 +82,7 @@ impl SampleSetting {
     }
 }
 
-/// What it states, to stand behind other words.
+/// The stated parameters, to be put behind other words.
 impl Display for SampleSetting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, value, unit) in [
@@ -105,16 +104,16 @@ impl Display for SampleSetting {
 pub struct SampleFile {
     path: PathBuf,
     values: Vec<f64>,
-    /// Limits of the censored values, where the file states them.
+    /// Limits of the censored values, if the file states them.
     limits: Vec<Option<f64>>,
     lines: Vec<u64>,
     /// Names behind the values.
     names: Vec<Option<String>>,
     /// Earthquakes behind the names.
     events: Vec<Option<String>>,
-    /// What the values are, where the file says it.
+    /// Description of the values, if the file has one.
     of: Option<String>,
-    /// The block and model that the file says.
+    /// The block and model that the file states.
     pub setting: SampleSetting,
 }
 
@@ -122,7 +121,7 @@ impl SampleFile {
     /// Reads the text of a file; `path` is its name in messages.
     ///
     /// # Errors
-    /// [`FileError`] for a line that does not hold one number.
+    /// [`FileError`] for a line that is not one number.
     pub fn parse(text: &str, path: &Path) -> Result<Self, FileError> {
         let mut file = Self { path: path.to_owned(), ..Self::default() };
         for (line, text) in (1..).zip(text.lines()) {
@@ -132,21 +131,19 @@ impl SampleFile {
             if let Some(found) = SampleSetting::of(text) {
                 file.setting = found;
             }
-            let (content, comment) =
-                text.split_once('#').unwrap_or((text, ""));
-            let (name, event) =
-                comment.split_once('#').unwrap_or((comment, ""));
-            let [content, name, event] = [content, name, event].map(str::trim);
+            let mut parts = text.splitn(3, '#').map(str::trim);
+            let [content, name, event] =
+                [(); 3].map(|()| parts.next().unwrap_or(""));
             if content.is_empty() {
                 continue;
             }
+            let refuse = |found: &str, expected: &str| {
+                let message = format!("found `{found}`: expected {expected}");
+                FileError::new(path, line, message)
+            };
             let (value, limit) = parse(content).ok_or_else(|| {
                 let found: String = content.chars().take(40).collect();
-                let message = format!(
-                    "found `{found}`: expected one number, >LIMIT or inf on \
-                     the line"
-                );
-                FileError::new(path, line, message)
+                refuse(&found, "one number, >LIMIT or inf on the line")
             })?;
             file.values.push(value);
             file.limits.push(limit);
@@ -158,8 +155,7 @@ impl SampleFile {
             {
                 let expected = "VALUE # RECORD # EARTHQUAKE on every line \
                                 with a value, or on none";
-                let message = format!("found `{text}`: expected {expected}");
-                return Err(FileError::new(path, line, message));
+                return Err(refuse(text, expected));
             }
             file.names.push(known(name));
             file.events.push(known(event));
@@ -171,7 +167,7 @@ impl SampleFile {
     /// level.
     ///
     /// # Errors
-    /// [`CapacityError`] for a level that is none.
+    /// [`CapacityError`] for an invalid level.
     pub fn text(
         table: &IdaTable,
         suite: &Curves,
@@ -180,13 +176,14 @@ impl SampleFile {
         rule: InversionRule,
     ) -> Result<String, CapacityError> {
         let setting = &table.setting;
-        let alpha_rad = table.alpha_rad().map(|alpha| alpha.to_string());
+        let alpha_rad = table.alpha_rad();
+        let alpha_rad = alpha_rad.map_or("adjusted".into(), |a| a.to_string());
         let mut text = format!(
             "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
              # alpha {} rad, p {} rad/s, eta {}, {}, overturned at {}, \
              {}, g {} m/s2, processing: {}, {}\n",
             measure.words(),
-            alpha_rad.as_deref().unwrap_or("adjusted"),
+            alpha_rad,
             setting.p_rad_s,
             setting.eta,
             setting.model,
@@ -213,31 +210,31 @@ impl SampleFile {
         Ok(text)
     }
 
-    /// Refuses another file that states that it is a sample of something else.
+    /// Refuses another file that states another description of its values.
     ///
     /// # Errors
     /// [`FileError`] of the other file.
     pub fn same_kind(&self, other: &Self) -> Result<(), FileError> {
-        match (&self.of, &other.of) {
-            (Some(expected), Some(found)) if expected != found => {
-                let message = format_args!(
-                    "a sample of {found}: expected one of {expected}, as the \
-                     other file"
-                );
-                Err(other.error(None, message))
-            }
-            _ => Ok(()),
+        if let (Some(expected), Some(found)) = (&self.of, &other.of)
+            && expected != found
+        {
+            let message = format_args!(
+                "a sample of {found}: expected one of {expected}, as the \
+                 other file"
+            );
+            return Err(other.error(None, message));
         }
+        Ok(())
     }
 
-    /// Names of the records of the values; none if a value has no name.
+    /// Names of the records of the values; empty if a value has no name.
     #[must_use]
     pub fn records(&self) -> Vec<&str> {
         let names = self.names.iter().map(Option::as_deref);
         names.collect::<Option<_>>().unwrap_or_default()
     }
 
-    /// Earthquakes of the values; none if the file does not state them.
+    /// Earthquakes of the values; empty if the file does not state them.
     #[must_use]
     pub fn events(&self) -> Vec<&str> {
         let events = self.events.iter().map(Option::as_deref);
@@ -254,23 +251,23 @@ impl SampleFile {
         FileError::new(&self.path, line, message)
     }
 
-    /// What the file says that its values are, in words.
+    /// Description of the values in the file.
     #[must_use]
     pub fn of(&self) -> Option<&str> {
         self.of.as_deref()
     }
 
-    /// What its values measure, in the words of the file.
+    /// The measure of the values, in the words of the file.
     #[must_use]
     pub fn unit(&self) -> Option<&str> {
         self.of().and_then(|of| of.split(" at EDP ").next())
     }
 
-    /// The intensity measure, that of the file or the one given; `None`
-    /// where neither says one.
+    /// The intensity measure of the file, or else the given one; `None` without
+    /// either.
     ///
     /// # Errors
-    /// [`FileError`] where they differ.
+    /// [`FileError`] if they differ.
     pub fn im(
         &self,
         given: Option<&IntensityMeasure>,
@@ -287,13 +284,13 @@ impl SampleFile {
         }
     }
 
-    /// The values in the order of the lines, infinite where censored.
+    /// The values in the order of the lines, infinite if censored.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The values by earthquake, where the file says it.
+    /// The values by earthquake, if the file states it.
     #[must_use]
     pub fn clusters(&self) -> Clusters {
         match self.events().as_slice() {
@@ -329,7 +326,7 @@ impl SampleFile {
     }
 }
 
-/// A value, infinite where it is censored, and the limit behind `>`.
+/// A value, infinite if it is censored, and the limit behind `>`.
 fn parse(text: &str) -> Option<(f64, Option<f64>)> {
     let Some(limit) = text.strip_prefix('>') else {
         return number(text).map(|value| (value, None));
@@ -338,8 +335,8 @@ fn parse(text: &str) -> Option<(f64, Option<f64>)> {
     Some((f64::INFINITY, Some(limit)))
 }
 
-/// A number, or infinity where the text says so: a number too large for a
-/// double is not silently infinite.
+/// A number, or infinity if the text says `inf`: a number too large for a double
+/// is not silently infinite.
 fn number(text: &str) -> Option<f64> {
     let value = text.parse::<f64>().ok().filter(|x| !x.is_nan())?;
     let says_so = text.to_ascii_lowercase().contains("inf");

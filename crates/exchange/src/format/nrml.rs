@@ -1,13 +1,13 @@
 //! OpenQuake's fragility models, NRML 0.5, as version 3.26 reads them.
 //!
 //! - Its `mean` and `stddev` are of the intensity, not of its logarithm.
-//! - Its lognormal has no shift, and `noDamageLimit` cuts a curve, it does
-//!   not move it: a shifted fragility is written as points.
+//! - Its lognormal has no shift, and `noDamageLimit` cuts a curve without moving
+//!   it: a shifted fragility is written as points.
 //! - A level below `minIML` is raised to it before it is compared with
 //!   `noDamageLimit`: `minIML` may not be above that.
-//! - One list of limit states holds for all functions, and a function has one
-//!   list of levels for all its limit states.
-//! - Its average spectral acceleration does not say its periods.
+//! - All functions have one list of limit states, and a function has one list of
+//!   levels for all its limit states.
+//! - Its average spectral acceleration does not state its periods.
 //! - A model has one description: it states each origin once, and of many
 //!   origins the first.
 
@@ -34,7 +34,7 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 const SPACE: &str = "http://openquake.org/xmlns/nrml/0.5";
 
-/// Origins that a description states.
+/// The most origins in a description.
 const MOST_ORIGINS: usize = 5;
 
 fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
@@ -72,8 +72,7 @@ fn states(one: &BlockFragility) -> String {
 /// Each origin once, or the first and the number of the others.
 fn description(fragilities: &[BlockFragility]) -> String {
     let mut origins: Vec<String> = Vec::new();
-    for one in fragilities {
-        let own = one.described();
+    for own in fragilities.iter().map(BlockFragility::described) {
         if !origins.contains(&own) {
             origins.push(own);
         }
@@ -84,7 +83,7 @@ fn description(fragilities: &[BlockFragility]) -> String {
     }
 }
 
-/// OpenQuake's name of a measure, and the number of its units in one of ours.
+/// OpenQuake's name of a measure, and the number of its units in our unit.
 fn measure(
     one: &BlockFragility,
 ) -> Result<(String, Option<f64>), ExchangeError> {
@@ -96,13 +95,9 @@ fn measure(
         IntensityMeasure::AverageSa(_) | IntensityMeasure::RockingSa(_) => {
             ("AvgSA".into(), None)
         }
-        other => {
-            return Err(ExchangeError::Measure {
-                id: one.id.clone(),
-                format: "NRML",
-                im: other.to_string(),
-                expected: "pga, pgv, sa:T, avgsa:T1,T2,.. or avgsa:rocking",
-            });
+        _ => {
+            let expected = "pga, pgv, sa:T, avgsa:T1,T2,.. or avgsa:rocking";
+            return Err(one.unknown("NRML", expected));
         }
     })
 }
@@ -159,18 +154,17 @@ fn discrete<'a>(
     for law in laws.clone() {
         levels.extend(points(*law, TOLERANCE)?.iter().map(|point| point.0));
     }
-    // Nine digits are written, and levels rise strictly; a level of nothing
-    // is none to OpenQuake.
+    // Nine digits are written, and levels must rise. OpenQuake refuses a level of
+    // zero.
     levels.sort_by(f64::total_cmp);
     levels.dedup_by_key(|level| number(*level));
     levels.retain(|level| *level > 0.0);
-    let last = levels.last().copied();
-    let at = |law: &TotalFragility, level: f64| match Some(level) == last {
-        true => 1.0,
-        false => law.cdf(level),
-    };
-    let curves =
-        laws.map(|law| levels.iter().map(|level| at(law, *level)).collect());
+    let curves = laws.map(|law| {
+        let mut curve: Vec<f64> =
+            levels.iter().map(|level| law.cdf(*level)).collect();
+        curve.last_mut().into_iter().for_each(|last| *last = 1.0);
+        curve
+    });
     let curves = curves.collect();
     Ok((levels, curves))
 }

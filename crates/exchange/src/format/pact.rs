@@ -16,10 +16,10 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     ..ExchangeFormat::BASE
 };
 
-/// Median and dispersion in the form in which FEMA P-58's PACT takes them.
+/// Median and dispersion as FEMA P-58's PACT expects them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pact {
-    /// What of the ground motion: PGA or PGV.
+    /// Measure of the ground motion: PGA or PGV.
     pub demand: &'static str,
     /// Unit of the median: g or m/s.
     pub unit: &'static str,
@@ -30,8 +30,8 @@ pub struct Pact {
 }
 
 impl Pact {
-    /// Of a fragility in g or m/s; none where it has a shift, which PACT does
-    /// not know.
+    /// The parameters of a fragility in g or m/s; `None` if it has a shift, which
+    /// PACT lacks.
     ///
     /// ```
     /// use rocking_statistics::Lognormal;
@@ -68,13 +68,9 @@ fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
     ]);
     for one in fragilities {
         let id = &one.id;
+        let intensity = one.im.dimensionless();
         let intensity =
-            one.im.dimensionless().ok_or_else(|| ExchangeError::Measure {
-                id: id.clone(),
-                format: "PACT",
-                im: one.im.to_string(),
-                expected: "pga or pgv",
-            })?;
+            intensity.ok_or_else(|| one.unknown("PACT", "pga or pgv"))?;
         for (state, total) in one.totals(1.0)? {
             let closed = total.closed();
             let pact = closed

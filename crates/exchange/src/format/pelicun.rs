@@ -5,7 +5,7 @@
 //!   "x1,x2,..|p1,p2,..", which begins with probability 0, ends with 1, and whose steps exceed 1e-8.
 //! - A limit state `LSk` is followed by `LSk+1`; the damage states `DSk` are
 //!   counted through all of them.
-//! - A name with `-` is split at it wherever a component is named by it.
+//! - Where a component is named, a name with `-` is split there.
 //! - `Demand-Directional` is 1: for a component without direction pelicun
 //!   multiplies the larger of two demands by 1.2, and the intensity here is
 //!   that of the component applied.
@@ -30,7 +30,7 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     ..ExchangeFormat::BASE
 };
 
-/// Steps that pelicun distinguishes from none.
+/// The smallest step that pelicun distinguishes from zero.
 const LEAST_STEP: f64 = 1e-8;
 
 fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
@@ -79,14 +79,7 @@ fn demand(
         IntensityMeasure::Sa(period_s) => {
             (format!("Spectral Acceleration|{period_s:?}"), "g")
         }
-        other => {
-            return Err(ExchangeError::Measure {
-                id: one.id.clone(),
-                format: "pelicun",
-                im: other.to_string(),
-                expected: "pga, pgv or sa:T",
-            });
-        }
+        _ => return Err(one.unknown("pelicun", "pga, pgv or sa:T")),
     })
 }
 
@@ -103,12 +96,9 @@ fn law(
             let unit = one.im.unit();
             return Err(ExchangeError::Narrow { id: one.id.clone(), unit });
         }
-        let join = |each: fn(&(f64, f64)) -> f64| {
-            let words: Vec<String> =
-                points.iter().map(|point| number(each(point))).collect();
-            words.join(",")
-        };
-        let both = format!("{}|{}", join(|p| p.0), join(|p| p.1));
+        let (x, p): (Vec<_>, Vec<_>) =
+            points.iter().map(|(x, p)| (number(*x), number(*p))).unzip();
+        let both = format!("{}|{}", x.join(","), p.join(","));
         return Ok(["multilinear_CDF".into(), both, String::new()]);
     };
     let (median, beta) = (law.median(), law.dispersion());
@@ -118,22 +108,18 @@ fn law(
 fn json(fragilities: &[BlockFragility]) -> String {
     let mut library = Map::new();
     for one in fragilities {
-        let (alpha, p) =
-            (one.block.slenderness_rad(), one.block.frequency_rad_s());
         let states = one.limit_states.iter().zip(1..).map(|(state, k)| {
-            let description = state.name.to_string();
             let damage = json!({
-                "Description": description,
+                "Description": state.name.to_string(),
                 "RepairAction": "Not stated",
             });
-            let name = format!("DS{k}");
-            (format!("LS{k}"), json!({ name: damage }))
+            (format!("LS{k}"), json!({ format!("DS{k}"): damage }))
         });
         let entry = json!({
             "Description": format!(
                 "Free-standing rigid block, alpha {} rad, p {} rad/s",
-                number(alpha),
-                number(p),
+                number(one.block.slenderness_rad()),
+                number(one.block.frequency_rad_s()),
             ),
             "Comments": one.described(),
             "SuggestedComponentBlockSize": "1 EA",

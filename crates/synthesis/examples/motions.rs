@@ -5,7 +5,7 @@
 //! cargo run -p rocking-synthesis --example motions -- ordinary.csv
 //! ```
 //!
-//! The study components count. Nothing here asks how a block answers.
+//! Only the study components count, and no response of a block is computed.
 
 use std::error::Error;
 use std::path::Path;
@@ -27,8 +27,8 @@ const P_RAD_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
 
 const GRAVITY_M_S2: f64 = 9.80665;
 
-/// What the table needs of one motion: natural logarithms of measures by their
-/// labels, PGA and PGV first, and (t_PGV - t_PGA)/D5-75.
+/// A motion in the table: natural logarithms of measures by their labels, PGA and
+/// PGV first, and (t_PGV - t_PGA)/D5-75.
 type MotionMoments = (Vec<(String, f64)>, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -38,10 +38,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         print(path, suite.study_components().map(|m| &m.accelerogram))?;
     }
     if paths.is_empty() {
-        for (kind, pairs) in SuiteKind::ALL
-            .into_iter()
-            .zip([rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?])
-        {
+        let suites = [rocking_synthesis::ordinary, rocking_synthesis::pulse];
+        for (kind, pairs) in SuiteKind::ALL.into_iter().zip(suites) {
+            let pairs = pairs()?;
             let name = format!("embedded {kind}");
             print(&name, pairs.iter().map(|pair| &pair.components[0]))?;
             println!("adjusted to");
@@ -92,17 +91,14 @@ fn measured(motion: &Accelerogram) -> Result<MotionMoments, Box<dyn Error>> {
     let sa: Vec<f64> =
         m.spectral_acceleration_g.iter().map(|sa| libm::log(*sa)).collect();
     let (own, averages) = sa.split_at(PERIODS_S.len());
-    for (period, sa) in PERIODS_S.iter().zip(own) {
-        rows.push((format!("SA {period} s"), *sa));
-    }
-    for (p, ten) in P_RAD_S.iter().zip(averages.chunks(10)) {
-        rows.push((format!("AvgSA p={p}"), moments(ten)[0]));
-    }
-    let neighbours = PERIODS_S.windows(6).zip(own.windows(6));
-    for (periods, six) in neighbours.skip(2).take(6) {
-        let label = format!("{}..{} s", periods[0], periods[5]);
-        rows.push((label, moments(six)[0]));
-    }
+    let single = PERIODS_S.iter().zip(own);
+    rows.extend(single.map(|(t, sa)| (format!("SA {t} s"), *sa)));
+    let tens = P_RAD_S.iter().zip(averages.chunks(10));
+    rows.extend(tens.map(|(p, ten)| (format!("AvgSA p={p}"), mean(ten))));
+    let sixes = PERIODS_S.windows(6).zip(own.windows(6)).skip(2).take(6);
+    rows.extend(
+        sixes.map(|(t, six)| (format!("{}..{} s", t[0], t[5]), mean(six))),
+    );
     Ok((rows, delay))
 }
 
@@ -114,15 +110,8 @@ fn print<'a>(
         motions.map(measured).collect::<Result<_, _>>()?;
     println!("{name}: {} motions", motions.len());
     println!(
-        "{:>10} {:>9} {:>7} {:>9} {:>7} {:>8} {:>8} {:>8}",
-        "measure",
-        "mean",
-        "sd ln",
-        "med/PGA",
-        "sd ln",
-        "rho PGA",
-        "rho PGV",
-        "med/mean"
+        "   measure      mean   sd ln   med/PGA   sd ln  rho PGA  rho PGV \
+         med/mean"
     );
     let column = |k: usize| -> Vec<f64> {
         motions.iter().map(|(rows, _)| rows[k].1).collect()
@@ -154,9 +143,12 @@ fn print<'a>(
     Ok(())
 }
 
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 fn moments(values: &[f64]) -> [f64; 2] {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
+    let (n, mean) = (values.len() as f64, mean(values));
     let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     [mean, (squares / (n - 1.0)).sqrt()]
 }

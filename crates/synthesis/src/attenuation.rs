@@ -1,6 +1,5 @@
-//! Spectral accelerations and durations that earthquakes of given magnitude,
-//! distance and site have in the median, how much they scatter and how they
-//! are correlated.
+//! Spectral accelerations and durations for given magnitude, distance and site:
+//! medians, scatter and correlation.
 
 use std::f64::consts::{LN_10, PI};
 
@@ -178,14 +177,11 @@ pub(super) fn between_components() -> [f64; QUANTITIES] {
 /// Published correlation of the deviations of two quantities of one component,
 /// for all of them: the rows of the strict lower triangle.
 pub(super) fn correlation() -> Vec<Vec<f64>> {
-    let mut lower: Vec<Vec<f64>> = PERIODS_S
-        .iter()
-        .enumerate()
-        .map(|(k, one)| {
-            let before = PERIODS_S[..k].iter();
-            before.map(|other| between_periods(*one, *other)).collect()
-        })
-        .collect();
+    let row = |k: usize| {
+        let before = PERIODS_S[..k].iter();
+        before.map(|other| between_periods(PERIODS_S[k], *other)).collect()
+    };
+    let mut lower: Vec<Vec<f64>> = (0..PERIODS_S.len()).map(row).collect();
     lower.push(PERIODS_S.map(with_velocity).to_vec());
     // PGV goes with duration as waves of 1 s do.
     let durations = PERIODS_S.iter().chain(&[1.0]);

@@ -1,4 +1,4 @@
-//! Largest values of a motion and of what it moves.
+//! Largest values of a motion and of its effects.
 
 use std::f64::consts::PI;
 
@@ -9,14 +9,14 @@ use crate::pair::GRAVITY_M_S2;
 /// Damping ratio of the response spectrum.
 const DAMPING: f64 = 0.05;
 
-/// A quantity of the target as the largest value of an answer to the samples.
+/// A quantity of the target as the largest value of a response to the samples.
 pub(super) enum Peak {
     Acceleration,
     Velocity,
     Resonator(Resonator),
 }
 
-/// The largest value of an answer.
+/// The largest value of a response.
 pub(super) struct SamplePeak {
     pub(super) size: f64,
     /// 1 or -1.
@@ -26,7 +26,7 @@ pub(super) struct SamplePeak {
 }
 
 impl Peak {
-    /// Of quantity `k` of a target.
+    /// The peak that is quantity `k` of a target.
     pub(super) fn of(k: usize) -> Self {
         match k {
             0 => Self::Acceleration,
@@ -63,8 +63,8 @@ impl Peak {
         }
     }
 
-    /// What the samples up to the instant found are multiplied with for the
-    /// value there; those that are missing at the front count nothing.
+    /// Factors of the samples up to the instant found, whose products sum to the
+    /// value there; factors that are missing at the front are zero.
     pub(super) fn weights(&self, found: &SamplePeak) -> Vec<f64> {
         match self {
             Self::Acceleration => vec![found.sign],
@@ -77,13 +77,11 @@ impl Peak {
             Self::Resonator(oscillator) => {
                 let mut state = [0.0; 4];
                 let last = oscillator.memory.min(found.at);
-                let mut weights: Vec<f64> = (0..=last)
-                    .map(|i| {
-                        let push = if i == 0 { found.sign } else { 0.0 };
-                        oscillator.step(&mut state, push)
-                    })
-                    .collect();
-                weights.reverse();
+                let mut weights = vec![0.0; last + 1];
+                weights[last] = found.sign;
+                for weight in weights.iter_mut().rev() {
+                    *weight = oscillator.step(&mut state, *weight);
+                }
                 weights
             }
         }
@@ -105,14 +103,14 @@ fn largest(values: impl Iterator<Item = f64>) -> SamplePeak {
 }
 
 /// A damped oscillator under samples joined by straight lines, exact at the
-/// samples (Nigam and Jennings 1969). The largest value at a sample is below
-/// the true peak by 5 % at most at 0.1 s and less at longer periods: enough
-/// for corrections, which is why the core's slower measures are not asked.
+/// samples (Nigam and Jennings 1969). The largest value at a sample is below the
+/// true peak by at most 5 % at 0.1 s, and less at longer periods. That is
+/// accurate enough for corrections and faster than the measures of records.
 pub(super) struct Resonator {
     period_s: f64,
     back: [f64; 2],
     push: [f64; 3],
-    /// Samples after which an answer has decayed to a hundredth.
+    /// Number of samples after which a response has decayed to a hundredth.
     memory: usize,
 }
 
@@ -127,15 +125,15 @@ impl Resonator {
         let f = (2.0 * DAMPING * DAMPING - 1.0) / (w * ratio * DT_S);
         let b0 = 1.0 - g + s * f + c * g;
         let b2 = e * e * (1.0 + g) + s * f - c * g;
-        // A lasting push of 1 has the answer 1.
+        // The response to a constant push of 1 is 1.
         let b1 = 1.0 - 2.0 * c + e * e - b0 - b2;
         let memory = (4.6 / (DAMPING * w * DT_S)).ceil() as usize;
         let back = [2.0 * c, e * e];
         Self { period_s, back, push: [b0, b1, b2], memory }
     }
 
-    /// Answer to the next sample; the state has the last two samples and
-    /// answers.
+    /// Response to the next sample; the state has the last two samples and
+    /// responses.
     #[inline(always)]
     fn step(&self, state: &mut [f64; 4], x: f64) -> f64 {
         let ([a1, a2], [b0, b1, b2]) = (self.back, self.push);

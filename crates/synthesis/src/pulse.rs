@@ -14,7 +14,7 @@ use crate::noise::DT_S;
 use crate::pair::{GRAVITY_M_S2, Scenario};
 use crate::special::beta_quantile;
 
-/// The model is cut at so many standard deviations.
+/// Errors are cut at this multiple of their standard deviation.
 const CUT: f64 = 2.0;
 
 /// The modified Mavroeidis-Papageorgiou velocity pulse (Dabaghi and Der
@@ -41,12 +41,10 @@ impl PulseModel {
         // Definite for these constants; a test holds it.
         let factor = cholesky(&CORRELATION).unwrap_or_default();
         let errors = correlate(&factor, &draws.normals(CORRELATION.len()));
-        let u: Vec<f64> = mean(scenario)
-            .iter()
-            .zip(&errors)
-            .zip(&DEVIATION)
-            .map(|((mean, e), sd)| sd.mul_add(e.clamp(-CUT, CUT), *mean))
-            .collect();
+        let mut u = mean(scenario);
+        for ((u, e), sd) in u.iter_mut().zip(&errors).zip(&DEVIATION) {
+            *u = sd.mul_add(e.clamp(-CUT, CUT), *u);
+        }
         let gamma =
             beta_quantile(normal::cdf(u[2]), 1.303_261_78, 3.968_580_84);
         Self {

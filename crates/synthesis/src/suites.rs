@@ -1,4 +1,4 @@
-//! The two suites: what they are drawn from, and their pairs.
+//! The two suites: their parameters, and their pairs.
 
 use rayon::prelude::*;
 
@@ -10,8 +10,8 @@ use crate::pair::{
 use crate::targets::{self, Design, Target};
 use crate::waves;
 
-/// Ordinary motions. Earthquakes and distances follow the record list: how
-/// many pairs it has of each earthquake, magnitude, reverse faulting.
+/// Ordinary motions. Earthquakes and distances follow the record list; of each
+/// earthquake it has the number of pairs, the magnitude, and reverse faulting.
 #[rustfmt::skip]
 pub(super) const ORDINARY: Design = Design {
     name: "ordinary",
@@ -24,13 +24,9 @@ pub(super) const ORDINARY: Design = Design {
         (1, 6.8, true), (1, 7.35, true), (1, 7.14, false), (1, 7.37, false),
         (1, 7.13, false), (1, 6.8, true),
     ],
-    distances_km: &[[0.0, 0.5],
-        [0.1, 3.9],
-        [0.25, 8.3],
-        [0.5, 15.2],
-        [0.75, 23.0],
-        [0.9, 28.7],
-        [1.0, 70.0],
+    distances_km: &[
+        [0.0, 0.5], [0.1, 3.9], [0.25, 8.3], [0.5, 15.2], [0.75, 23.0],
+        [0.9, 28.7], [1.0, 70.0],
     ],
     pulses: false,
     recorded: &moments::ORDINARY,

@@ -11,16 +11,16 @@ use crate::pair::{
 use crate::peaks::Peak;
 use crate::pulse::PulseModel;
 
-/// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and
-/// the ends at which it is cut. The list has no sites: these are chosen, for
-/// the firm soils and soft rocks that stations stand on.
+/// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and the
+/// ends at which it is cut. The list has no sites: these values are chosen for the
+/// usual firm soils and soft rocks of stations.
 const VS30_M_S: [f64; 4] = [380.0, 0.43, 180.0, 1000.0];
 
-/// How often ratios to PGA are bent, and moments then restored: the one
-/// disturbs the other less each time.
+/// Number of rounds in which ratios to PGA are bent and moments then restored:
+/// each disturbs the other less from round to round.
 const BENDS: usize = 5;
 
-/// What a suite is drawn from.
+/// Parameters of a suite.
 pub(super) struct Design {
     /// Start of the names of its components.
     pub(super) name: &'static str,
@@ -48,10 +48,10 @@ pub(super) struct Target {
     pub(super) components: [[f64; QUANTITIES]; 2],
 }
 
-/// The targets of the whole suite: drawn pair by pair, then transformed so
-/// that the first components have the recorded moments, and nearly the recorded
-/// medians of ratios to PGA. A pair whose PGA is not above 0.14 g then is drawn
-/// again, until all are.
+/// The targets of the whole suite: drawn pair by pair, then transformed so that the
+/// first components have the recorded moments, and nearly the recorded medians of
+/// ratios to PGA. Then pairs with a PGA of 0.14 g or less are drawn again, until
+/// there are none.
 pub(super) fn conditioned(
     suite: &Design,
 ) -> Result<Vec<Target>, SynthesisError> {
@@ -80,10 +80,8 @@ pub(super) fn conditioned(
             return Ok(drawn);
         };
         if attempt == MOST_DRAWS {
-            return Err(SynthesisError::Weak {
-                suite: suite.seed,
-                pair: *pair as u64 + 1,
-            });
+            let (suite, pair) = (suite.seed, *pair as u64 + 1);
+            return Err(SynthesisError::Weak { suite, pair });
         }
         for i in weak {
             drawn[i] = draw(i, attempt);
@@ -91,8 +89,8 @@ pub(super) fn conditioned(
     }
 }
 
-/// One pair of an earthquake without conditions. Deviations have a part that
-/// all pairs of the earthquake share.
+/// One pair of an earthquake without conditions. A part of the deviations is
+/// common to all pairs of the earthquake.
 pub(super) fn draw(
     suite: &Design,
     earthquake: usize,
@@ -112,10 +110,9 @@ pub(super) fn draw(
         rrup_km,
         vs30_m_s: vs30.clamp(softest, hardest),
         reverse,
-        towards_site_km: if suite.pulses {
-            draws.uniform(5.0, 40.0)
-        } else {
-            0.0
+        towards_site_km: match suite.pulses {
+            true => draws.uniform(5.0, 40.0),
+            false => 0.0,
         },
     };
     let factor = factor();
@@ -136,9 +133,8 @@ pub(super) fn draw(
         components[1][k] += between * common[k] + within * second;
     }
     let pulse = suite.pulses.then(|| PulseModel::draw(&scenario, &mut draws));
-    for (out, samples) in
-        components.iter_mut().zip(pulse.iter().flat_map(PulseModel::samples))
-    {
+    let pulses = pulse.iter().flat_map(PulseModel::samples);
+    for (out, samples) in components.iter_mut().zip(pulses) {
         for (k, x) in out.iter_mut().enumerate().take(PGV + 1) {
             // Peaks of pulse and other waves do not meet.
             let part = Peak::of(k).found(&samples).size;

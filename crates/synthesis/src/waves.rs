@@ -246,44 +246,37 @@ impl Noise<'_> {
         let spacing_s = FLUCTUATION_TIME * self.envelope.d5_75_s;
         // Between two nodes the weights are cosine and sine of one angle,
         // so that the variance is 1 throughout.
-        let places: Vec<(usize, f64, f64)> = (0..n)
-            .map(|i| {
-                let place = i as f64 * DT_S / spacing_s;
-                let node = place as usize;
-                let angle = FRAC_PI_2 * (place - node as f64);
-                let (sin, cos) = libm::sincos(angle);
-                (node, cos, sin)
-            })
-            .collect();
+        let place = |i: usize| {
+            let place = i as f64 * DT_S / spacing_s;
+            let node = place as usize;
+            let (sin, cos) = libm::sincos(FRAC_PI_2 * (place - node as f64));
+            (node, cos, sin)
+        };
+        let places: Vec<(usize, f64, f64)> = (0..n).map(place).collect();
         let nodes = nodes_of(n, self.envelope.d5_75_s);
         let [shared, own] = FLUCTUATION;
-        (0..BANDS)
-            .map(|band| {
-                let values: Vec<f64> = draws
-                    .normals(nodes)
-                    .iter()
-                    .zip(self.common)
-                    .map(|(z, c)| own * z + shared * c)
-                    .collect();
-                let mut x = draws.normals(n);
-                let hz = band_hz(band);
-                for (i, x) in x.iter_mut().enumerate() {
-                    let (node, cos, sin) = places[i];
-                    let ln = cos * values[node] + sin * values[node + 1];
-                    let gain = filter_gain(hz, content[i]);
-                    *x *= envelope[i] * gain * libm::exp(ln);
-                }
-                resonate(x.iter_mut(), hz);
-                resonate(x.iter_mut().rev(), hz);
-                high_pass(&mut x, self.corner_hz);
-                let squares = x.iter().fold(0.0, |s, a| s + a * a);
-                let scale = 1.0 / (squares / n as f64).sqrt();
-                for a in &mut x {
-                    *a *= scale;
-                }
-                x
-            })
-            .collect()
+        let band = |band| {
+            let mut values = draws.normals(nodes);
+            for (z, c) in values.iter_mut().zip(self.common) {
+                *z = own * *z + shared * c;
+            }
+            let mut x = draws.normals(n);
+            let hz = band_hz(band);
+            for (i, x) in x.iter_mut().enumerate() {
+                let (node, cos, sin) = places[i];
+                let ln = cos * values[node] + sin * values[node + 1];
+                let gain = filter_gain(hz, content[i]);
+                *x *= envelope[i] * gain * libm::exp(ln);
+            }
+            resonate(x.iter_mut(), hz);
+            resonate(x.iter_mut().rev(), hz);
+            high_pass(&mut x, self.corner_hz);
+            let squares = x.iter().fold(0.0, |s, a| s + a * a);
+            let scale = 1.0 / (squares / n as f64).sqrt();
+            x.iter_mut().for_each(|a| *a *= scale);
+            x
+        };
+        (0..BANDS).map(band).collect()
     }
 }
 
@@ -399,15 +392,13 @@ fn matched(
             *left += 0.5 * libm::log(rest.max(0.1));
         }
     }
-    let mut ln_gains: Vec<f64> = packets
-        .iter()
-        .map(|packet| {
-            let x = -libm::log(packet.hz);
-            // Above 10 Hz spectra of acceleration fall.
-            let above = 3.0 * (-libm::log(10.0) - x);
-            read_off(&left, x) - above.max(0.0)
-        })
-        .collect();
+    let first = |packet: &Packet| {
+        let x = -libm::log(packet.hz);
+        // Above 10 Hz spectra of acceleration fall.
+        let above = 3.0 * (-libm::log(10.0) - x);
+        read_off(&left, x) - above.max(0.0)
+    };
+    let mut ln_gains: Vec<f64> = packets.iter().map(first).collect();
     let size = peaks[0].found(&sum(&packets, &ln_gains, n)).size;
     for gain in &mut ln_gains {
         *gain += left[0] - libm::log(size);
@@ -416,21 +407,17 @@ fn matched(
         packets.push(pulse);
         ln_gains.push(pulse_gain);
     }
-    let prior: Vec<Vec<f64>> = packets
-        .iter()
-        .map(|a| packets.iter().map(|b| a.alike(b)).collect())
-        .collect();
+    let alike = |a: &Packet| packets.iter().map(|b| a.alike(b)).collect();
+    let prior: Vec<Vec<f64>> = packets.iter().map(alike).collect();
     let mut best = (f64::INFINITY, Vec::new());
     for round in 0..=CORRECTIONS {
         stop::point();
         let samples = sum(&packets, &ln_gains, n);
         let found: Vec<SamplePeak> =
             peaks.iter().map(|peak| peak.found(&samples)).collect();
-        let missed: Vec<f64> = found
-            .iter()
-            .zip(target)
-            .map(|(found, target)| target - libm::log(found.size))
-            .collect();
+        let both = found.iter().zip(target);
+        let missed = both.map(|(peak, due)| due - libm::log(peak.size));
+        let missed: Vec<f64> = missed.collect();
         let total = missed.iter().enumerate().fold(0.0, |sum, (k, m)| {
             sum + (m / softness(k)) * (m / softness(k))
         });
@@ -440,31 +427,26 @@ fn matched(
         if round == CORRECTIONS {
             break;
         }
-        let slopes: Vec<Vec<f64>> = peaks
-            .iter()
-            .zip(&found)
-            .map(|(peak, found)| {
-                let weights = peak.weights(found);
-                let slope = |(packet, gain): (&Packet, &f64)| {
-                    if !(packet.hz < peak.highest_hz()) {
-                        return 0.0;
-                    }
-                    let share = packet.product(&weights, found.at);
-                    libm::exp(*gain) * share / found.size
-                };
-                packets.iter().zip(&ln_gains).map(slope).collect()
-            })
-            .collect();
-        let spread: Vec<Vec<f64>> = slopes
-            .iter()
-            .map(|row| prior.iter().map(|p| product(p, row)).collect())
-            .collect();
+        let slopes = |(peak, found): (&Peak, &SamplePeak)| {
+            let weights = peak.weights(found);
+            let slope = |(packet, gain): (&Packet, &f64)| {
+                if !(packet.hz < peak.highest_hz()) {
+                    return 0.0;
+                }
+                let share = packet.product(&weights, found.at);
+                libm::exp(*gain) * share / found.size
+            };
+            packets.iter().zip(&ln_gains).map(slope).collect()
+        };
+        let slopes: Vec<Vec<f64>> =
+            peaks.iter().zip(&found).map(slopes).collect();
+        let spread =
+            |row: &Vec<f64>| prior.iter().map(|p| product(p, row)).collect();
+        let spread: Vec<Vec<f64>> = slopes.iter().map(spread).collect();
         let weights = solved(&slopes, &spread, &missed);
         for (b, gain) in ln_gains.iter_mut().enumerate() {
-            let step = spread
-                .iter()
-                .zip(&weights)
-                .fold(0.0, |sum, (row, w)| sum + row[b] * w);
+            let rows = spread.iter().zip(&weights);
+            let step = rows.fold(0.0, |sum, (row, w)| sum + row[b] * w);
             *gain += step.clamp(-LARGEST_CORRECTION, LARGEST_CORRECTION);
         }
     }
@@ -488,23 +470,20 @@ fn solved(
     spread: &[Vec<f64>],
     missed: &[f64],
 ) -> Vec<f64> {
-    let scale: Vec<f64> = (0..missed.len())
-        .map(|k| {
-            let soft = softness(k);
-            1.0 / (soft * soft + product(&spread[k], &slopes[k])).sqrt()
-        })
-        .collect();
-    let lower: Vec<Vec<f64>> = (0..missed.len())
-        .map(|k| {
-            let with = |j: usize| {
-                scale[k] * scale[j] * product(&spread[k], &slopes[j])
-            };
-            (0..k).map(with).collect()
-        })
-        .collect();
+    let n = missed.len();
+    let scale = |k: usize| {
+        let soft = softness(k);
+        1.0 / (soft * soft + product(&spread[k], &slopes[k])).sqrt()
+    };
+    let scale: Vec<f64> = (0..n).map(scale).collect();
+    let entry = |k: usize, j: usize| {
+        scale[k] * scale[j] * product(&spread[k], &slopes[j])
+    };
+    let row = |k| (0..k).map(|j| entry(k, j)).collect();
+    let lower: Vec<Vec<f64>> = (0..n).map(row).collect();
     // Definite because D is.
     let factor = cholesky(&lower).unwrap_or_default();
-    let mut x: Vec<f64> = Vec::with_capacity(missed.len());
+    let mut x: Vec<f64> = Vec::with_capacity(n);
     for (k, row) in factor.iter().enumerate() {
         let rest = scale[k] * missed[k] - dot(row, &x);
         x.push(rest / row[k]);

@@ -8,7 +8,7 @@ use rocking_exchange::table::Table;
 
 use crate::reference::{Value, reference};
 
-/// The answers of a code, a place for each quantity of the data set.
+/// The answers of a code, with a place for each quantity of the data set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answers(Vec<Option<Value>>);
 
@@ -21,17 +21,14 @@ impl Answers {
         Self(vec![None; reference().items.len()])
     }
 
-    /// Reads a CSV with the columns `scene,quantity,value`; a line that is
-    /// not there, or whose value is empty, is no answer. `path` is its name
-    /// in messages.
+    /// Reads a CSV with the columns `scene,quantity,value`. A missing line or an
+    /// empty value is no answer. `path` is its name in messages.
     ///
     /// # Errors
-    /// [`FileError`] for other columns, a scene or quantity that is not in
-    /// the data set or stands twice, and a value of another kind.
+    /// [`FileError`] for other columns, a scene or quantity that is not in the
+    /// data set or occurs twice, and a value of another kind.
     pub fn parse(text: &str, path: &Path) -> Result<Self, FileError> {
         let mut csv = reader(text.as_bytes(), csv::Trim::All, None);
-        let refuse =
-            |line, message: String| FileError::new(path, line, message);
         let no_csv = |e| no_csv(path, e);
         let header = csv.headers().map_err(no_csv)?;
         if !header.iter().eq(COLUMNS) {
@@ -39,23 +36,22 @@ impl Answers {
             let expected = COLUMNS.join(",");
             let message =
                 format!("found columns `{found}`: expected `{expected}`");
-            return Err(refuse(1, message));
+            return Err(FileError::new(path, 1, message));
         }
         let mut answers = Self::none();
         for row in csv.records() {
             let row = row.map_err(no_csv)?;
-            let line = row.position().map_or(0, csv::Position::line);
-            let refused = answers.add([&row[0], &row[1], &row[2]]);
-            refused.map_err(|message| refuse(line, message))?;
+            let line = row.position().map(csv::Position::line);
+            let added = answers.add([&row[0], &row[1], &row[2]]);
+            added.map_err(|message| FileError::new(path, line, message))?;
         }
         Ok(answers)
     }
 
-    /// Adds the answer of a scene, a quantity and a value; an empty value is
-    /// no answer.
+    /// Adds a value for a quantity of a scene; an empty value is no answer.
     ///
     /// # Errors
-    /// What was found and what was expected.
+    /// The found and the expected text.
     pub fn add(
         &mut self,
         [scene, quantity, value]: [&str; 3],

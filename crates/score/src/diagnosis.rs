@@ -1,52 +1,53 @@
 //! Which mistake explains the answers of a code.
 //!
-//! Each hypothesis predicts every answer: the certified values (no mistake),
-//! the values of a wrong model or of two at once, or the certified values
-//! moved along one input's derivatives. What is left of an answer is judged
-//! against a scatter `s K^n`, K the condition of the quantity, by the
-//! heavy-tailed law of Cauchy, with the `s` and the `n` (0, 1/2 or 1) that
-//! suit the hypothesis best.
+//! Each hypothesis predicts every answer: the certified values (no mistake), the
+//! values of a wrong model or of two at once, or the certified values moved along
+//! the derivatives by one input. The rest of an answer is compared with a scatter
+//! `s K^n`, where K is the condition of the quantity, by the heavy-tailed Cauchy
+//! distribution, with the `s` and the `n` (0, 1/2 or 1) that suit the hypothesis
+//! best.
 
 use serde::Serialize;
 
 use crate::answers::Answers;
 use crate::reference::{INPUTS, Item, SceneExcitation, Value, reference};
 
-/// Fewest answers of which anything is said.
+/// The fewest numbers for a diagnosis.
 const FEWEST: usize = 12;
-/// Gain in log-likelihood over no mistake that a mistake must bring.
+/// Required gain in log-likelihood of a mistake over no mistake.
 const GAIN: f64 = 20.0;
-/// Loss in log-likelihood within which two hypotheses are not told apart.
+/// Difference in log-likelihood up to which two hypotheses are not
+/// distinguished.
 const TIE: f64 = 6.0;
-/// Share of what deviates that a mistake must explain, or that must agree.
+/// Share of the deviating answers that a mistake must explain.
 const SHARE: f64 = 0.9;
-/// Largest part of a deviation that may be left where it is explained.
+/// Largest part of an explained deviation that may be left.
 const LEFT: f64 = 0.4;
-/// Scatters beyond which an answer deviates.
+/// Multiple of the scatter beyond which an answer deviates.
 const BEYOND: f64 = 10.0;
-/// Largest scatter of answers that are explained.
+/// Largest scatter of explained answers.
 const COARSEST: f64 = 1e-2;
-/// Relative error within which a right code answers, at a condition of 1.
+/// Largest relative error of a right code, at a condition of 1.
 const RIGHT: f64 = 1e-3;
 /// Largest product of a factor less one and a condition for which an answer
 /// moves along a straight line.
 const STRAIGHT: f64 = 0.3;
-/// Share of the answers that must agree so well where no mistake is found.
+/// Share of the answers that must have at most this error if no mistake is
+/// found.
 const AGREE: f64 = 0.99;
-/// Scatters that are tried: from the digits of the wrong models' values up.
+/// Scatters that are tried, from the precision of the wrong models' values up.
 const SCATTERS: std::ops::Range<i32> = -36..0;
 /// Powers of the condition with which the scatter may grow.
 const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// What is wrong with a code.
+/// The diagnosis of a code.
 #[derive(Clone, Debug, Serialize)]
 pub struct Diagnosis {
     /// The verdict.
     pub verdict: CodeVerdict,
-    /// What explains the answers; several where the answers given cannot
-    /// tell them apart.
+    /// The explanations; several if the answers cannot distinguish them.
     pub explanations: Vec<Explanation>,
-    /// Relative scatter of the answers about the explanation, or about the
+    /// Relative scatter of the answers around the explanation, or around the
     /// certified values, at a condition of 1.
     pub scatter: Option<f64>,
 }
@@ -68,14 +69,14 @@ pub enum CodeVerdict {
 /// One explanation of the answers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// One mistake, or two that are made together.
+    /// One mistake, or two that occur together.
     pub mistakes: Vec<Mistake>,
-    /// Factor on the input at fault, where the mistake is one of an input
-    /// and its size was found.
+    /// Factor on the input at fault, if the mistake is in an input and its size
+    /// was found.
     pub factor: Option<f64>,
-    /// Answers that deviate from the certified values, or should.
+    /// Number of answers that deviate from the certified values, or should.
     pub deviating: usize,
-    /// Those among them that the explanation accounts for.
+    /// Number of these answers that the explanation predicts.
     pub explained: usize,
 }
 
@@ -84,9 +85,9 @@ pub struct Explanation {
 pub struct Mistake {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its description.
     pub what: &'static str,
-    /// What to look at.
+    /// Advice on where to look.
     pub look_at: &'static str,
 }
 
@@ -96,7 +97,7 @@ fn mistake(name: &str) -> Mistake {
     Mistake { name: name.to_owned(), what, look_at }
 }
 
-/// An answer, and how far it may scatter.
+/// An answer with its error and its condition.
 #[derive(Clone)]
 struct Residual {
     item: &'static Item,
@@ -106,10 +107,10 @@ struct Residual {
     error: f64,
 }
 
-/// Relative distance of two values, 1 at most; 1 where one has no value.
+/// Relative distance of two values, 1 at most; 1 if the second is missing.
 ///
-/// Two counts beyond the certified one are alike: where a block rests too
-/// soon, its impacts are infinitely many, and a code stops somewhere.
+/// Two counts above the certified count have no distance: if a block comes to rest
+/// too soon, its impacts are infinitely many, and a code stops somewhere.
 fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
     use Value::{Count, Number};
     match (a, b, &item.value) {
@@ -121,9 +122,9 @@ fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
     }
 }
 
-/// What a hypothesis leaves of each answer, and what it moved.
+/// A hypothesis, by its distances from the answers and the certified values.
 struct Hypothesis {
-    /// Distance of each answer from what is predicted.
+    /// Distance of each answer from its prediction.
     left: Vec<f64>,
     /// Distance of each prediction from the certified value.
     moved: Vec<f64>,
@@ -164,13 +165,13 @@ impl Hypothesis {
         Self { left, moved, scatter, likelihood }
     }
 
-    /// That there is no mistake.
+    /// The hypothesis of no mistake.
     fn none(given: &[Residual]) -> Self {
         let errors = given.iter().map(|g| g.error).collect();
         Self::new(given, errors, vec![0.0; given.len()])
     }
 
-    /// Answers that deviate or should, and those that it explains.
+    /// Number of answers that deviate or should, and of those that it explains.
     fn account(&self, given: &[Residual]) -> (usize, usize) {
         let sizes = given.iter().zip(&self.left).zip(&self.moved);
         let deviating = sizes.filter_map(|((given, left), moved)| {
@@ -178,8 +179,8 @@ impl Hypothesis {
             let limit = BEYOND * given.allowed(self.scatter);
             (size > limit).then_some(*left <= LEFT * size)
         });
-        let all: Vec<bool> = deviating.collect();
-        (all.len(), all.iter().filter(|good| **good).count())
+        let all = deviating.clone().count();
+        (all, deviating.filter(|good| *good).count())
     }
 
     fn explains(&self, given: &[Residual]) -> bool {
@@ -190,8 +191,8 @@ impl Hypothesis {
 }
 
 impl Residual {
-    /// How the value moves with an input; a release is no ground motion, of
-    /// whose size one may be wrong.
+    /// Derivative of the value by an input. A release has no ground motion whose
+    /// size could be wrong.
     fn rate(&self, input: usize) -> f64 {
         let scene = reference().scene(self.item);
         let still = matches!(scene.excitation, SceneExcitation::Free);
@@ -204,8 +205,8 @@ impl Residual {
     }
 }
 
-/// The answers given, with their conditions; that of a fate or a count is the
-/// largest of its scene.
+/// The answers with their conditions. An outcome or a count has the largest
+/// condition of its scene.
 fn given(answers: &Answers) -> Vec<Residual> {
     let set = reference();
     let mut worst = vec![1.0_f64; set.scenes.len()];
@@ -224,8 +225,8 @@ fn given(answers: &Answers) -> Vec<Residual> {
     found.collect()
 }
 
-/// Says which mistake explains the answers, if any; mistakes `withheld` are
-/// not known.
+/// Finds the mistake that explains the answers, if any; mistakes in `withheld` are
+/// not considered.
 #[must_use]
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
@@ -263,11 +264,11 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
 /// A hypothesis with its names and its factor.
 type Named = (Vec<String>, Option<f64>, Hypothesis);
 
-/// The best of all: those that explain, and as few mistakes as explain.
+/// The best hypotheses: those that explain the answers with the fewest mistakes.
 fn best(mut all: Vec<Named>, given: &[Residual], least: f64) -> Vec<Named> {
     let best = all.iter().map(|(_, _, h)| h.likelihood);
     let best = best.fold(f64::NEG_INFINITY, f64::max);
-    // Rivals must be clearly worse, whether or not they explain all.
+    // Rivals must be clearly worse, even if they do not explain the answers.
     all.retain(|(_, _, h)| {
         h.likelihood > (best - TIE).max(least) && h.explains(given)
     });
@@ -283,14 +284,12 @@ fn models(given: &[Residual], withheld: &[&str], least: f64) -> Vec<Named> {
         !name.split('+').any(|name| withheld.contains(&name))
     });
     let all = names.map(|(model, name)| {
-        let of = |g: &Residual| g.item.wrong[model].clone();
-        let left = given.iter().map(|g| {
-            let predicted = of(g);
-            apart(g.item, &g.value, predicted.as_ref())
-        });
-        let moved =
-            given.iter().map(|g| apart(g.item, &g.item.value, of(g).as_ref()));
-        let one = Hypothesis::new(given, left.collect(), moved.collect());
+        let off = |g: &Residual, value: &Value| {
+            apart(g.item, value, g.item.wrong[model].as_ref())
+        };
+        let left = given.iter().map(|g| off(g, &g.value)).collect();
+        let moved = given.iter().map(|g| off(g, &g.item.value)).collect();
+        let one = Hypothesis::new(given, left, moved);
         (name.split('+').map(str::to_owned).collect(), None, one)
     });
     best(all.collect(), given, least)
@@ -302,7 +301,7 @@ fn inputs(all: &[Residual]) -> Vec<Named> {
         let Some(by) = factor_less_one(all, input) else {
             return Vec::new();
         };
-        // Where a straight line holds, which must be most of the answers.
+        // Most answers must move along a straight line.
         let holds = |g: &&Residual| by.abs() * g.condition < STRAIGHT;
         let given: Vec<Residual> = all.iter().filter(holds).cloned().collect();
         if 2 * given.len() < all.len() {
@@ -316,7 +315,7 @@ fn inputs(all: &[Residual]) -> Vec<Named> {
     found
 }
 
-/// The factor on an input that the answers say, less one: the weighted median.
+/// The factor on an input by the answers, less one: a weighted median.
 fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
     let says = given.iter().filter_map(|g| {
         let (x, c) = g.value.number().zip(g.item.value.number())?;
@@ -335,23 +334,22 @@ fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
     Some(middle?.0).filter(|by| *by != 0.0)
 }
 
-/// The answers explained by a factor on one input, if they are.
+/// The hypothesis of a factor on one input, if it explains the answers.
 fn input_off(given: &[Residual], input: usize, by: f64) -> Vec<Named> {
-    let moved: Vec<f64> = given
+    let moved = given
         .iter()
-        .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by))
-        .collect();
-    let left = given.iter().zip(&moved).map(|(g, moved)| {
+        .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by));
+    let left = given.iter().zip(moved.clone()).map(|(g, moved)| {
         let numbers = g.value.number().zip(g.item.value.number());
         numbers.map_or(g.error, |(x, c)| {
-            // What is left of a straight line is of the second order.
+            // The deviation from a straight line is of second order.
             let bent = by * g.condition;
             let curved = bent * bent;
             (((x - c) / c - moved).abs() - curved).clamp(0.0, 1.0)
         })
     });
     let left = left.collect();
-    let moved = moved.into_iter().map(|m| m.abs().min(1.0)).collect();
+    let moved = moved.map(|moved| moved.abs().min(1.0)).collect();
     let one = Hypothesis::new(given, left, moved);
     let names = vec![INPUTS[input].to_owned()];
     let least = Hypothesis::none(given).likelihood + GAIN;

@@ -10,14 +10,14 @@ use rocking::number::Real;
 use crate::answers::Answers;
 use crate::reference::{Problem, SceneExcitation, Value, reference};
 
-/// Rotations are asked at multiples of this, s.
+/// Interval of the times of requested rotations, s.
 const GRID_S: f64 = 1.0 / 64.0;
 
-/// What a run of the core says of the quantities of a scene, in its numbers.
+/// A run of the core for a scene, in the arithmetic of `N`.
 #[derive(Clone, Debug)]
 pub struct OwnResponse<N> {
     response: Response<N>,
-    /// +1, or -1 where the scene was run with the other side up.
+    /// +1, or -1 if the scene was mirrored.
     sign: f64,
 }
 
@@ -25,7 +25,7 @@ impl OwnResponse<f64> {
     /// Runs a scene in double precision.
     ///
     /// # Errors
-    /// Why the core refused the scene.
+    /// The core's reason to refuse the scene.
     pub fn double(scene: &Problem) -> Result<Self, String> {
         Self::run(scene, respond)
     }
@@ -35,7 +35,7 @@ impl<N: Real> OwnResponse<N> {
     /// Runs a scene in the arithmetic of `N`.
     ///
     /// # Errors
-    /// Why the core refused the scene.
+    /// The core's reason to refuse the scene.
     pub fn precise(scene: &Problem) -> Result<Self, String> {
         Self::run(scene, respond_precise::<N>)
     }
@@ -80,20 +80,20 @@ impl<N: Real> OwnResponse<N> {
         Ok(Self { response, sign: if theta < 0.0 { -1.0 } else { 1.0 } })
     }
 
-    /// The fate, as the core names it.
+    /// The outcome, as the core names it.
     #[must_use]
     pub fn fate(&self) -> &'static str {
         self.response.outcome.name()
     }
 
-    /// Impacts until a time, s.
+    /// Number of impacts until a time, s.
     #[must_use]
     pub fn impacts(&self, until_s: f64) -> usize {
         let times = self.response.impacts.iter().map(|i| i.time_s.to_f64());
         times.filter(|t| *t <= until_s).count()
     }
 
-    /// A quantity that is a number; none where the run has none.
+    /// A quantity that is a number; `None` if the run has none.
     #[must_use]
     pub fn number(&self, scene: &Problem, quantity: &str) -> Option<N> {
         let found = &self.response;
@@ -127,22 +127,19 @@ impl<N: Real> OwnResponse<N> {
     }
 
     fn value(&self, scene: &Problem, quantity: &str) -> Option<Value> {
-        match quantity {
-            "fate" => Some(Value::Fate(self.fate().into())),
-            "impacts" => {
-                Some(Value::Count(self.impacts(scene.impacts_until_s) as u64))
-            }
-            _ => {
-                self.number(scene, quantity).map(|x| Value::Number(x.to_f64()))
-            }
-        }
+        let impacts = || self.impacts(scene.impacts_until_s) as u64;
+        Some(match quantity {
+            "fate" => Value::Fate(self.fate().into()),
+            "impacts" => Value::Count(impacts()),
+            _ => Value::Number(self.number(scene, quantity)?.to_f64()),
+        })
     }
 }
 
-/// The answers of the core in double precision, as it comes.
+/// The answers of the core in double precision, with its defaults.
 ///
 /// # Errors
-/// Why the core refused a scene.
+/// The core's reason to refuse a scene.
 pub fn own_answers() -> Result<Answers, String> {
     answers_of(OwnResponse::double)
 }

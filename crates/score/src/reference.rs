@@ -6,9 +6,10 @@ use std::sync::LazyLock;
 
 use rocking::excitation::{PulseKind, PulseName};
 use rocking::integrator::{Model, Overturning};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
-/// The scenes and what is asked of each, as JSON.
+/// The scenes and the quantities of each, as JSON.
 pub const SCENES: &str = rocking_fixtures::text("benchmark/scenes.json");
 const CERTIFIED: &str = rocking_fixtures::text("benchmark/certified.csv");
 const WRONG: &str = rocking_fixtures::text("benchmark/wrong-models.csv");
@@ -17,7 +18,7 @@ const MISTAKES: &str = rocking_fixtures::text("benchmark/mistakes.csv");
 /// Inputs whose relative derivatives are known, as the columns name them.
 pub const INPUTS: [&str; 5] = ["alpha", "p", "eta", "size", "clock"];
 
-/// A block, what moves it, and what is asked; inputs in SI units.
+/// A block, its excitation, and the requested quantities; inputs in SI units.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Problem {
     /// Its name, unique in the set.
@@ -28,7 +29,7 @@ pub struct Problem {
     pub kind: String,
     /// Equation of motion.
     pub equation: Model,
-    /// What ends the run.
+    /// Criterion that ends the run.
     pub overturning: Overturning,
     /// Slenderness angle, rad.
     pub alpha_rad: f64,
@@ -40,24 +41,22 @@ pub struct Problem {
     pub g_m_s2: f64,
     /// Rotation from which the block is released, rad.
     pub initial_theta_rad: f64,
-    /// What moves the ground.
+    /// Motion of the ground.
     pub excitation: SceneExcitation,
-    /// When the rotation is asked, s.
+    /// Times of the requested rotations, s.
     pub theta_times_s: Vec<f64>,
-    /// Until when impacts are counted, s.
+    /// Time until which impacts are counted, s.
     pub impacts_until_s: f64,
-    /// Everything that is asked has happened before, s.
+    /// Time by which all requested quantities have occurred, s.
     pub end_s: f64,
 }
 
 /// Ground motion of a scene.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(try_from = "Fields")]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum SceneExcitation {
     /// None.
     Free,
-    /// A pulse, its amplitude in m/s2.
-    Pulse(PulseKind),
     /// Samples in m/s2 at an interval in s, linear between them.
     Samples {
         /// Interval, s.
@@ -65,53 +64,36 @@ pub enum SceneExcitation {
         /// Samples, m/s2.
         samples_m_s2: Vec<f64>,
     },
+    /// A pulse, its amplitude in m/s2.
+    #[serde(untagged, deserialize_with = "pulse")]
+    Pulse(PulseKind),
 }
 
-/// An excitation as the file has it.
-#[derive(Deserialize)]
-struct Fields {
-    kind: String,
-    samples_m_s2: Option<Vec<f64>>,
-    #[serde(flatten)]
-    numbers: BTreeMap<String, serde_json::Value>,
-}
-
-impl TryFrom<Fields> for SceneExcitation {
-    type Error = String;
-
-    fn try_from(fields: Fields) -> Result<Self, String> {
-        let number = |name: &str| {
-            let found = fields.numbers.get(name);
-            found.and_then(serde_json::Value::as_f64).ok_or_else(|| {
-                format!("excitation {}: no number {name}", fields.kind)
-            })
-        };
-        match (fields.kind.as_str(), &fields.samples_m_s2) {
-            ("free", None) => Ok(Self::Free),
-            ("samples", Some(samples)) => Ok(Self::Samples {
-                dt_s: number("dt_s")?,
-                samples_m_s2: samples.clone(),
-            }),
-            (name, _) => {
-                let name: PulseName = text(name.parse())?;
-                let kind = name.kind(|parameter| {
-                    number(&parameter.name().replace('-', "_"))
-                });
-                kind.map(Self::Pulse)
-            }
-        }
+/// A pulse by its name and its parameters.
+fn pulse<'de, D: Deserializer<'de>>(from: D) -> Result<PulseKind, D::Error> {
+    #[derive(Deserialize)]
+    struct Fields {
+        kind: PulseName,
+        #[serde(flatten)]
+        parameters: BTreeMap<String, serde_json::Value>,
     }
+    let fields = Fields::deserialize(from)?;
+    fields.kind.kind(|parameter| {
+        let found = fields.parameters.get(&parameter.name().replace('-', "_"));
+        let number = found.and_then(serde_json::Value::as_f64);
+        number.ok_or_else(|| D::Error::custom(format!("no {parameter}")))
+    })
 }
 
 fn text<T, E: Display>(found: Result<T, E>) -> Result<T, String> {
     found.map_err(|error| error.to_string())
 }
 
-/// What a code says of a quantity.
+/// Answer of a code for a quantity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// The fate, as the core names it.
+    /// The outcome, as the core names it.
     Fate(String),
     /// A number of impacts.
     Count(u64),
@@ -119,14 +101,14 @@ pub enum Value {
     Number(f64),
 }
 
-/// Names of fates.
+/// Names of outcomes.
 const FATES: [&str; 3] = ["no-uplift", "rocked", "overturned"];
 
 impl Value {
     /// Reads the value of a quantity.
     ///
     /// # Errors
-    /// What was expected.
+    /// The expected value, in words.
     pub fn parse(quantity: &str, text: &str) -> Result<Self, String> {
         let number = text.parse::<f64>().ok();
         match quantity {
@@ -137,13 +119,12 @@ impl Value {
                 .map(|n| Self::Count(n as u64))
                 .ok_or_else(|| "expected a count".into()),
             _ => number.filter(|x| x.is_finite()).map(Self::Number).ok_or(
-                "expected a finite number, or nothing where it is missing"
-                    .into(),
+                "expected a finite number, or nothing if it is missing".into(),
             ),
         }
     }
 
-    /// The number, where it is one.
+    /// The number, if it is one.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         match self {
@@ -153,7 +134,7 @@ impl Value {
     }
 }
 
-/// A quantity of a scene: its certified value, and what is known of it.
+/// A quantity of a scene, with its certified value and its properties.
 #[derive(Clone, Debug)]
 pub struct Item {
     /// Index of the scene.
@@ -166,13 +147,13 @@ pub struct Item {
     pub value: Value,
     /// Uncertainty of the certified value.
     pub uncertainty: f64,
-    /// Sum of the relative derivatives by the inputs, in size.
+    /// Sum of the absolute relative derivatives by the inputs.
     pub condition: f64,
-    /// Digits that double precision can get; none of fates and counts.
+    /// Digits that double precision can reach; `None` for outcomes and counts.
     pub attainable: Option<f64>,
     /// Relative derivatives by [`INPUTS`].
     pub rates: [f64; 5],
-    /// What each wrong model says; none where it has no such value.
+    /// Answer of each wrong model; `None` if it has no such value.
     pub wrong: Vec<Option<Value>>,
 }
 
@@ -185,7 +166,7 @@ pub struct Reference {
     pub items: Vec<Item>,
     /// Names of the wrong models; `+` joins two mistakes.
     pub models: Vec<String>,
-    /// For each single mistake and each input: what it is, what to look at.
+    /// For each single mistake and each input: its description, and advice.
     pub mistakes: BTreeMap<String, [String; 2]>,
     places: BTreeMap<(String, String), usize>,
 }

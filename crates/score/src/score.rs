@@ -1,4 +1,4 @@
-//! Digits of answers, against what can be attained.
+//! Digits of answers, compared with the digits that can be reached.
 
 use serde::Serialize;
 
@@ -6,21 +6,35 @@ use crate::answers::Answers;
 use crate::diagnosis::{Diagnosis, diagnose};
 use crate::reference::{Item, Value, reference};
 
-/// The score of a code's answers, and what is wrong with the code.
+/// The score of a code's answers, and the diagnosis of the code.
 #[derive(Clone, Debug, Serialize)]
 pub struct Score {
     /// Version of the data set.
     pub data_set: &'static str,
-    /// Quantities asked.
+    /// Number of quantities in the data set.
     pub asked: usize,
-    /// Quantities answered.
+    /// Number of quantities answered.
     pub answered: usize,
     /// The five levels.
     pub levels: Vec<LevelScore>,
-    /// What is wrong with the code.
+    /// The diagnosis of the code.
     pub diagnosis: Diagnosis,
     /// Every quantity that was answered.
     pub quantities: Vec<QuantityScore>,
+}
+
+impl Score {
+    /// Median of the digits of all numbers answered, if there are any.
+    ///
+    /// ```
+    /// let score = rocking_score::score(&rocking_score::own_answers()?);
+    /// assert!(score.median_digits() > Some(13.0));
+    /// # Ok::<(), String>(())
+    /// ```
+    #[must_use]
+    pub fn median_digits(&self) -> Option<f64> {
+        middle(&sorted_digits(self.quantities.iter()))
+    }
 }
 
 /// The score on a level of difficulty.
@@ -30,26 +44,26 @@ pub struct LevelScore {
     pub level: u8,
     /// The level in words.
     pub kind: String,
-    /// Numbers asked.
+    /// How many numbers the data set has.
     pub asked: usize,
-    /// Numbers answered.
+    /// How many of these numbers were answered.
     pub answered: usize,
     /// Median of the digits of the numbers answered.
     pub median_digits: Option<f64>,
     /// Fewest digits of the numbers answered.
     pub worst_digits: Option<f64>,
-    /// Share of the numbers answered that have all digits that double
-    /// precision can get.
+    /// Share of the numbers answered that have all digits that double precision
+    /// can reach.
     pub attained_share: Option<f64>,
-    /// Fates that are right.
+    /// Number of right outcomes.
     pub fates_right: usize,
-    /// Fates that are wrong.
+    /// Number of wrong outcomes.
     pub fates_wrong: usize,
-    /// Fates that are missing.
+    /// Number of missing outcomes.
     pub fates_missing: usize,
-    /// Counts of impacts that are right.
+    /// Number of right counts of impacts.
     pub counts_right: usize,
-    /// Counts of impacts that are wrong.
+    /// Number of wrong counts of impacts.
     pub counts_wrong: usize,
 }
 
@@ -64,12 +78,13 @@ pub struct QuantityScore {
     pub value: Value,
     /// The certified value, as a double.
     pub certified: &'static Value,
-    /// -log10 of the relative error, from 0 to what can be attained; none
-    /// of fates and counts.
+    /// -log10 of the relative error, from 0 to `attainable_digits`; `None` for
+    /// outcomes and counts.
     pub digits: Option<f64>,
-    /// Digits that can be attained; none of fates and counts.
+    /// Digits that double precision can reach; `None` for outcomes and counts.
     pub attainable_digits: Option<f64>,
-    /// True where the digits reach that, or a fate or count is right.
+    /// True if the digits reach this number, or if an outcome or a count is
+    /// right.
     pub attained: bool,
 }
 
@@ -78,9 +93,9 @@ pub struct QuantityScore {
 pub struct Code {
     /// Name of the code.
     pub code: String,
-    /// `default`, as it is shipped, or `best`, the finest setting tried.
+    /// `default`, as delivered, or `best`, the finest setting tried.
     pub setting: String,
-    /// Version of the code, where it has one.
+    /// Version of the code, if it has one.
     pub version: String,
     /// 1 to 5.
     pub level: u8,
@@ -88,9 +103,9 @@ pub struct Code {
     pub median_digits: f64,
     /// Its fewest digits.
     pub worst_digits: f64,
-    /// Fates that are wrong.
+    /// Number of wrong outcomes.
     pub fates_wrong: usize,
-    /// Fates that were answered.
+    /// Number of outcomes answered.
     pub fates_answered: usize,
 }
 
@@ -109,7 +124,7 @@ pub fn codes() -> Vec<Code> {
 
 fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
     let exact = item.value.number().zip(value.number());
-    // The least error that a double can show is 0; it has every digit.
+    // An error of 0 has every digit.
     let found = exact.map(|(c, x)| -libm::log10(((x - c) / c).abs()));
     let cap = item.attainable;
     let attained = match (found, cap) {
@@ -129,7 +144,7 @@ fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
     }
 }
 
-/// Scores answers, and says what is wrong with the code.
+/// Scores answers, and diagnoses the code.
 #[must_use]
 pub fn score(answers: &Answers) -> Score {
     let set = reference();
@@ -171,23 +186,21 @@ fn level_score(
     };
     let numbers = of(|v| matches!(v, Value::Number(_)));
     let asked = numbers.clone().count();
-    let given: Vec<&QuantityScore> =
-        numbers.filter_map(|(_, row)| row.as_ref()).collect();
-    let mut digits: Vec<f64> =
-        given.iter().filter_map(|row| row.digits).collect();
-    digits.sort_by(f64::total_cmp);
-    let attained = given.iter().filter(|row| row.attained).count();
-    let any = !given.is_empty();
+    let given = numbers.filter_map(|(_, row)| row.as_ref());
+    let digits = sorted_digits(given.clone());
+    let answered = given.clone().count();
+    let attained = given.filter(|row| row.attained).count();
     let fate: fn(&Value) -> bool = |v| matches!(v, Value::Fate(_));
     let impacts: fn(&Value) -> bool = |v| matches!(v, Value::Count(_));
     LevelScore {
         level,
         kind: kind.unwrap_or_default(),
         asked,
-        answered: given.len(),
-        median_digits: any.then(|| middle(&digits)),
+        answered,
+        median_digits: middle(&digits),
         worst_digits: digits.first().copied(),
-        attained_share: any.then(|| attained as f64 / given.len() as f64),
+        attained_share: (answered > 0)
+            .then(|| attained as f64 / answered as f64),
         fates_right: count(fate, Some(true)),
         fates_wrong: count(fate, Some(false)),
         fates_missing: count(fate, None),
@@ -196,8 +209,18 @@ fn level_score(
     }
 }
 
-/// The median of numbers in order.
-fn middle(sorted: &[f64]) -> f64 {
+/// The digits of answers, in order.
+fn sorted_digits<'a>(
+    answers: impl Iterator<Item = &'a QuantityScore>,
+) -> Vec<f64> {
+    let mut digits: Vec<f64> = answers.filter_map(|row| row.digits).collect();
+    digits.sort_by(f64::total_cmp);
+    digits
+}
+
+/// The median of numbers in order, if there are any.
+fn middle(sorted: &[f64]) -> Option<f64> {
     let n = sorted.len();
-    0.5 * (sorted[(n - 1) / 2] + sorted[n / 2])
+    let low = sorted.get(n.checked_sub(1)? / 2)?;
+    Some(0.5 * (low + sorted[n / 2]))
 }

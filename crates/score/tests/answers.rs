@@ -26,7 +26,7 @@ fn answers_that_are_refused() {
         (
             "scene,quantity,value\nfree-half,rest_time_s,NaN\n",
             "a.csv:2: free-half, rest_time_s: found `NaN`: expected a finite \
-             number, or nothing where it is missing",
+             number, or nothing if it is missing",
         ),
         (
             "scene,quantity,value\nfree-half,fate,stands\n",

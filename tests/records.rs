@@ -152,7 +152,7 @@ fn bad_input_gives_one_message_and_status_2() {
         ("binary", "rocking: binary: byte 0x02 at offset 4: expected text\n"),
         (
             "column.txt",
-            "rocking: column.txt: no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index\n",
+            "rocking: column.txt: no sampling interval in the file: expected --dt in s or a column `dt_s` in an index\n",
         ),
         (
             "column.txt --dt -0.01",
@@ -164,7 +164,7 @@ fn bad_input_gives_one_message_and_status_2() {
         ),
         (
             "good.AT2 --dt 0.02",
-            "rocking: good.AT2: sampling interval 0.02 s was given: expected 0.01 s, which the file states\n",
+            "rocking: good.AT2: given sampling interval 0.02 s: expected 0.01 s, as in the file\n",
         ),
         (
             "missing.AT2",

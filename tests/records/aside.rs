@@ -152,7 +152,7 @@ fn a_name_that_comes_twice_in_a_zip_is_reported() {
         bytes[at] = b'A';
     }
     fs::write(folder.join("two.zip"), &bytes).unwrap();
-    let words = "1 under a name that comes again (first: A_0.csv)";
+    let words = "1 under a repeated name (first: A_0.csv)";
     let out = answer(&folder, "records two.zip");
     assert!(out.contains("doubled"), "{out}");
     // The last one is read, as by what unpacks it.
@@ -241,7 +241,7 @@ fn a_file_named_as_outside_its_zip_is_reported() {
     assert_eq!(found["set_aside"].as_array().unwrap().len(), 2);
     assert_eq!(found["set_aside"][1]["code"], "outside");
     let error = failure(&folder, "records s.zip --strict");
-    let expected = "rocking: --strict: set aside: 2 named as outside the \
+    let expected = "rocking: --strict: set aside: 2 with a path outside the \
                     archive (first: ../b.AT2)";
     assert!(error.starts_with(expected), "{error}");
 }
@@ -296,6 +296,6 @@ fn what_is_given_serves_the_files_that_state_none() {
     assert_eq!((status, same), (0, notes));
     fs::remove_file(folder.join("s/b.txt")).unwrap();
     let error = failure(&folder, command);
-    let expected = "rocking: s/a.AT2: unit m/s2 was given: expected g";
+    let expected = "rocking: s/a.AT2: given unit m/s2: expected g";
     assert!(error.contains(expected), "{error}");
 }

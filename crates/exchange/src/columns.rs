@@ -1,32 +1,31 @@
-//! Columns of the tables that commands write and read. `columns.txt` is the
-//! one place that names them, and `docs/tables.md` is made of it.
+//! Columns of the tables that commands write and read. Only `columns.txt` names
+//! them, and `docs/tables.md` is generated from it.
 //!
-//! A table that a command writes ends with the column `schema`. It is a
-//! column and no comment line, since pandas, Polars and DuckDB take a first
-//! line of comment for the header.
+//! A table that a command writes ends with the column `schema`. It is a column
+//! instead of a comment line, because pandas, Polars and DuckDB read a first
+//! comment line as the header.
 
 use std::sync::LazyLock;
 
-/// Number of the shape of all tables and JSON that commands write. It rises
-/// when a column or a field changes its name, its unit or its meaning.
+/// Version of the form of all tables and JSON that commands write. It rises when
+/// a column or a field changes its name, its unit or its meaning.
 pub const SCHEMA: u32 = 1;
 
-/// Name of the column that has [`SCHEMA`].
+/// Name of the column of [`SCHEMA`].
 pub const SCHEMA_COLUMN: &str = "schema";
 
-/// A column: its name, what its cells are, their unit and their meaning.
+/// A column: its name, and the kind, unit and meaning of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name in the header line.
     pub name: &'static str,
-    /// What the cells are: `text`, `number` (`inf` is one, and an empty cell
-    /// a missing one), `count` (whole numbers) or `flag` (`true`, `false`).
+    /// Kind of the cells: `text`, `number` (also `inf`; an empty cell is a missing
+    /// number), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
-    /// Whether a table that is read may lack it: `?` after the kind of its
-    /// cells.
+    /// Whether an input table may lack it: `?` after the kind of its cells.
     pub is_optional: bool,
-    /// Unit; `1` for a number without one, `own` for that of the sample or
-    /// the fragility, empty for other cells.
+    /// Unit; `1` for a number without unit, `own` for the unit of the sample or the
+    /// fragility, empty for other cells.
     pub unit: &'static str,
     /// Meaning.
     pub meaning: &'static str,
@@ -37,7 +36,7 @@ pub struct Column {
 pub struct Layout {
     /// Name of the table.
     pub name: &'static str,
-    /// Which commands write and read it, and what a row is.
+    /// The commands that write and read it, and the meaning of a row.
     pub about: &'static str,
     /// Whether a command writes it; it then ends with the schema number.
     pub is_written: bool,
@@ -84,9 +83,8 @@ impl Layout {
             Self { name, about: "", is_written: false, columns: Vec::new() };
         for line in include_str!("columns.txt").lines() {
             let mut parts = line.splitn(5, '|').map(str::trim);
-            let mut next = || parts.next().unwrap_or_default();
-            let (table, column, cells) = (next(), next(), next());
-            let (unit, meaning) = (next(), next());
+            let [table, column, cells, unit, meaning] =
+                [(); 5].map(|()| parts.next().unwrap_or_default());
             if table == name && column.is_empty() {
                 layout.about = meaning;
                 layout.is_written = cells == "written";
@@ -118,8 +116,8 @@ impl Layout {
         self.names().position(|name| name == column).expect("a known column")
     }
 
-    /// Places of the columns, and of the schema number behind them, in a
-    /// header line of any order: none for a column that may be missing.
+    /// Places of the columns, and of the schema number behind them, in a header
+    /// line of any order; `None` for an optional column that is missing.
     ///
     /// ```
     /// use rocking_exchange::columns::OUTCOMES;
@@ -131,23 +129,19 @@ impl Layout {
     /// ```
     ///
     /// # Errors
-    /// What was found and what was expected.
+    /// The found and the expected columns, in words.
     pub fn places<'a>(
         &self,
         header: impl IntoIterator<Item = &'a str>,
     ) -> Result<Vec<Option<usize>>, String> {
         let header: Vec<&str> = header.into_iter().collect();
         let place = |name: &str| header.iter().position(|own| *own == name);
-        let own = self.columns.iter().map(|column| column.name);
         let schema = self.is_written.then(|| place(SCHEMA_COLUMN)).flatten();
-        let places: Vec<Option<usize>> =
-            own.map(place).chain([schema]).collect();
-        let missing = self
-            .columns
-            .iter()
-            .zip(&places)
-            .any(|(column, place)| place.is_none() && !column.is_optional);
-        // A name that is not known, or that comes again, has no place.
+        let own = self.columns.iter().map(|column| place(column.name));
+        let places: Vec<Option<usize>> = own.chain([schema]).collect();
+        let mut both = self.columns.iter().zip(&places);
+        let missing = both.any(|(own, at)| at.is_none() && !own.is_optional);
+        // An unknown or repeated name has no place.
         if missing || places.iter().flatten().count() != header.len() {
             let names = |optional: bool| {
                 let own = self.columns.iter();
@@ -159,9 +153,7 @@ impl Layout {
                 expected += &format!(", and, if known, `{}`", names(true));
             }
             let found: String = header.join(",").chars().take(200).collect();
-            return Err(format!(
-                "found columns `{found}`: expected {expected}"
-            ));
+            return Err(format!("found columns `{found}`: expected {expected}"));
         }
         Ok(places)
     }

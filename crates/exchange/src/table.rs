@@ -12,12 +12,12 @@ use crate::columns::{Layout, SCHEMA};
 /// ```
 pub struct Table {
     csv: csv::Writer<Vec<u8>>,
-    /// What every row ends with: the schema number, where the table has one.
+    /// Last cell of every row: the schema number, if the table has it.
     last: Option<String>,
 }
 
 impl Table {
-    /// A table with this header line, whose cells need no quotes.
+    /// A table with this header line, without cells that need quotes.
     #[must_use]
     pub fn headed(line: &str) -> Self {
         Self::new(&line.split(',').collect::<Vec<_>>())
@@ -73,8 +73,8 @@ pub fn body(text: &str) -> &str {
     text.split_once('\n').map_or("", |(_, rows)| rows)
 }
 
-/// A number as a cell: nine significant digits at most, `inf` or `-inf`,
-/// empty where there is none (NaN).
+/// A number as a cell: at most nine significant digits, `inf` or `-inf`; empty for
+/// NaN.
 #[must_use]
 pub fn number(x: f64) -> String {
     digits(x, 9)
@@ -104,7 +104,7 @@ pub fn optional(x: Option<f64>) -> String {
     x.map_or_else(String::new, number)
 }
 
-/// Cells of a line of CSV; a quoted cell has no line break in it.
+/// Cells of a line of CSV, without line breaks in quoted cells.
 #[must_use]
 pub fn cells(line: &str) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new();

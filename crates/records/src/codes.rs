@@ -1,6 +1,6 @@
-//! Enumerations whose variants have a short name for programs.
+//! Enumerations with a short name for each variant.
 
-/// Gives each variant its short name, written behind it.
+/// Gives each variant the short name that is written behind it.
 macro_rules! coded {
     ($(#[$meta:meta])+ pub enum $enum:ident {
         $(
@@ -18,7 +18,7 @@ macro_rules! coded {
         }
 
         impl $enum {
-            /// Short name of the reason, the same in every version.
+            /// Short name, the same in every version.
             #[must_use]
             pub fn code(&self) -> &'static str {
                 match self {

@@ -1,5 +1,5 @@
-//! Why a file was refused: which file, where in it, what was found, what
-//! was expected.
+//! Why a file was refused: the file, the place, the found and the expected
+//! content.
 
 use thiserror::Error;
 
@@ -20,7 +20,7 @@ use rocking::units::AccelerationUnit;
 /// let error = rocking_records::read("cut.AT2", cut, &ReadOptions::default());
 /// assert_eq!(
 ///     error.unwrap_err().to_string(),
-///     "cut.AT2:5: 3 samples: expected 4, the number that the file states"
+///     "cut.AT2:5: 3 samples: expected 4, as in the file"
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -33,7 +33,7 @@ pub struct RecordError {
     pub line: Option<usize>,
     /// Character of the line, counted from 1.
     pub column: Option<usize>,
-    /// What is wrong.
+    /// The fault.
     pub fault: Fault,
 }
 
@@ -47,22 +47,22 @@ fn place(line: Option<usize>, column: Option<usize>) -> String {
 }
 
 coded! {
-    /// What is wrong with a record.
+    /// The fault of a record.
     #[derive(Clone, Debug, PartialEq, Error)]
     #[non_exhaustive]
     pub enum Fault {
         /// The file could not be read.
         #[error("cannot be read: {0}")]
         Unreadable(String) = "unreadable",
-        /// There is nothing in it.
+        /// An empty file.
         #[error("empty file: expected a record")]
         Empty = "empty",
-        /// A byte that no text has.
+        /// A byte that no text contains.
         #[error("byte {byte:#04x} at offset {offset}: expected text")]
         NotText {
             /// The byte.
             byte: u8,
-            /// Where it is, from 0.
+            /// Its place, from 0.
             offset: usize,
         } = "not-text",
         /// A text in UTF-16 that cannot be read.
@@ -78,24 +78,24 @@ coded! {
             /// Formats that can be read.
             expected: String,
         } = "unknown-format",
-        /// A header that says something else than it should.
+        /// A header with another content than the expected one.
         #[error("{found:?}: expected {expected}")]
         Header {
-            /// What stands there.
+            /// The content found.
             found: String,
-            /// What should.
+            /// The content expected.
             expected: &'static str,
         } = "header",
-        /// The file ends before something it must have.
+        /// A file that ends before a required part.
         #[error("the file ends: expected {0}")]
         Ends(&'static str) = "ends",
         /// Velocity, displacement or a spectrum.
         #[error("{0:?}: expected an acceleration history")]
         Quantity(String) = "quantity",
-        /// A vertical component where horizontal ones are wanted.
+        /// A vertical component instead of a horizontal one.
         #[error("{0:?} is a vertical component: expected a horizontal one")]
         Vertical(String) = "vertical",
-        /// A name, of the file or in it, that results cannot carry.
+        /// A name, of the file or in it, that results cannot contain.
         #[error(transparent)]
         Name(#[from] NameError) = "name",
         /// A folder in a folder of records.
@@ -104,41 +104,35 @@ coded! {
         /// A link in a folder of records.
         #[error("a link to nothing: expected a file")]
         DeadLink = "dead-link",
-        /// Something in a folder of records that may never end.
+        /// A device, pipe or socket in a folder of records, which may never end.
         #[error("a device, a pipe or a socket: expected a file")]
         Device = "device",
         /// One of two files of an archive.
         #[error(
-            "its name comes again in the archive: expected each name once, and the last is read"
+            "repeated name in the archive: expected each name once; the last file is read"
         )]
         Doubled = "doubled",
         /// A file of an archive whose name leads out of it.
-        #[error(
-            "its name in the archive has a part `..`: expected a place inside"
-        )]
+        #[error("name with `..` in the archive: expected a path inside it")]
         Outside = "outside",
-        /// A file beside an index that lists the suite.
+        /// A file that is not in the index of its folder.
         #[error(
             "not in the index of the folder: expected a row for each record of the suite"
         )]
         Unlisted = "unlisted",
-        /// A sensor in a borehole where one at the surface is wanted.
-        #[error(
-            "{0:?} is from a sensor in a borehole: expected one at the surface"
-        )]
+        /// A record from a borehole instead of the surface.
+        #[error("{0:?} is a borehole record: expected a surface record")]
         Borehole(String) = "borehole",
-        /// A unit of acceleration that is not known.
+        /// An unknown unit of acceleration.
         #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
         Unit(String) = "unit",
         /// Neither the file nor the caller states a unit.
         #[error(
-            "no unit in the file: expected it to be given, as --units g|m/s2|cm/s2 or in a column `units` of an index"
+            "no unit in the file: expected --units g|m/s2|cm/s2 or a column `units` in an index"
         )]
         UnitMissing = "unit-missing",
         /// The caller's unit and the file's differ.
-        #[error(
-            "unit {given} was given: expected {stated}, which the file states"
-        )]
+        #[error("given unit {given}: expected {stated}, as in the file")]
         UnitConflict {
             /// Unit in the file.
             stated: AccelerationUnit,
@@ -150,7 +144,7 @@ coded! {
         Gravity(f64) = "gravity",
         /// Neither the file nor the caller states a sampling interval.
         #[error(
-            "no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
+            "no sampling interval in the file: expected --dt in s or a column `dt_s` in an index"
         )]
         IntervalMissing = "interval-missing",
         /// A sampling interval that is not positive and finite.
@@ -158,12 +152,12 @@ coded! {
         Interval(String) = "interval",
         /// A sampling interval (s) that no record has.
         #[error(
-            "sampling interval {0:?} s: expected 1e-6 to 10 s; what is longer or shorter is no interval or not in s"
+            "sampling interval {0:?} s: expected 1e-6 to 10 s; is it an interval, and in s?"
         )]
         IntervalRange(f64) = "interval-range",
         /// The caller's sampling interval and the file's differ.
         #[error(
-            "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
+            "given sampling interval {given_s} s: expected {stated_s} s, as in the file"
         )]
         IntervalConflict {
             /// Interval in the file in s.
@@ -171,19 +165,17 @@ coded! {
             /// Interval of the caller in s.
             given_s: f64,
         } = "interval-conflict",
-        /// The number of samples is not the one that the file states.
-        #[error(
-            "{found} samples: expected {expected}, the number that the file states"
-        )]
+        /// A number of samples that differs from the number in the file.
+        #[error("{found} samples: expected {expected}, as in the file")]
         Count {
-            /// Samples in the file.
+            /// Number of samples found.
             found: usize,
-            /// Samples that the header promises.
+            /// Number of samples in the header.
             expected: usize,
         } = "count",
         /// Count and interval contradict the duration in the header.
         #[error(
-            "samples for {found_s} s: expected {expected_s} s, which the file states"
+            "samples for {found_s} s: expected {expected_s} s, the duration in the file"
         )]
         Duration {
             /// Number of samples times the interval, in s.
@@ -191,23 +183,23 @@ coded! {
             /// Duration in the header in s.
             expected_s: f64,
         } = "duration",
-        /// Something that is not the number expected there.
+        /// A text instead of the expected number.
         #[error("{found:?}: expected {expected}")]
         Number {
-            /// What stands there.
+            /// The text found.
             found: String,
-            /// What should.
+            /// The text expected.
             expected: String,
         } = "number",
         /// NaN, an infinity, or a number beyond the range of a double.
         #[error("{0:?}: expected a finite number")]
         NotFinite(String) = "not-finite",
-        /// Times that do not advance by one step.
+        /// Times without a constant step.
         #[error(transparent)]
         Step(#[from] Uneven) = "step",
         /// The samples contradict the peak in the header.
         #[error(
-            "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"
+            "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak in the file"
         )]
         Peak {
             /// Largest absolute sample.
@@ -217,10 +209,10 @@ coded! {
             /// Unit of both.
             unit: AccelerationUnit,
         } = "peak",
-        /// The file holds several components where one was asked for.
+        /// Several components instead of one.
         #[error("{0} acceleration channels: expected one")]
         SeveralChannels(usize) = "several-channels",
-        /// The samples make no accelerogram.
+        /// Samples that are not a valid accelerogram.
         #[error(transparent)]
         Samples(#[from] AccelerogramError) = "samples",
     }

@@ -222,38 +222,30 @@ impl LineReader<'_, '_> {
 /// The forms of numbers that are read one a line.
 #[derive(Default)]
 pub(super) struct Forms {
-    count: usize,
-    before: Option<Form>,
-    varied: bool,
-    last: Option<Form>,
-    second: Option<Form>,
-    later_varied: bool,
-    /// The shortest exponent before the last number, if any has one.
-    exponent: Option<usize>,
-    last_value: f64,
+    first: Option<Form>,
+    /// How many numbers before the last have each form.
+    before: BTreeMap<Form, usize>,
+    last: Option<(f64, Form)>,
 }
 
 impl Forms {
     /// Adds the next number and its form.
     pub(super) fn push(&mut self, value: f64, form: Form) {
-        self.count += 1;
-        self.last_value = value;
-        if let Some(last) = self.last.filter(|last| last.exponent > 0) {
-            let shortest = self.exponent.unwrap_or(last.exponent);
-            self.exponent = Some(shortest.min(last.exponent));
-        }
-        if self.count > 1 {
-            let second = *self.second.get_or_insert(form);
-            self.later_varied |= second != form;
-        }
-        if let Some(last) = self.last.replace(form) {
-            self.varied |= *self.before.get_or_insert(last) != last;
+        self.first.get_or_insert(form);
+        if let Some((_, form)) = self.last.replace((value, form)) {
+            *self.before.entry(form).or_default() += 1;
         }
     }
 
     /// Whether all numbers but the first have one form, and the first another.
     pub(super) fn first_differs(&self) -> bool {
-        self.count > 2 && !self.later_varied && self.before != self.second
+        let (Some(first), Some((_, last))) = (self.first, self.last) else {
+            return false;
+        };
+        self.before.get(&first) == Some(&1)
+            && self.before.len() == 2
+            && self.before.contains_key(&last)
+            && first != last
     }
 
     /// The remark on a text that ends within a line; none if the form of the
@@ -261,25 +253,25 @@ impl Forms {
     ///
     /// # Errors
     /// A last number that was visibly cut: it has fewer digits than all numbers
-    /// before, a shorter exponent, or no exponent although its size
-    /// suggests one. A cut in a number without an exponent leaves a number nearer to
-    /// zero.
+    /// before, a shorter exponent, or no exponent although its size suggests one.
+    /// A cut in a number without an exponent leaves a number nearer to zero.
     pub(super) fn check_ended(&self, text: &Text<'_>) -> Result<Vec<Remark>> {
-        let (Some(before), Some(last), false) =
-            (self.before, self.last, text.is_ended)
+        let (Some(first), Some((value, last)), false, false) =
+            (self.first, self.last, self.before.is_empty(), text.is_ended)
         else {
             return Ok(Vec::new());
         };
-        let expected = if !self.varied && self.count >= 4 {
-            let shorter = last.decimals < before.decimals
-                || last.exponent < before.exponent;
+        let exponents = self.before.keys().map(|form| form.exponent);
+        let expected = if self.before.len() == 1 && self.before[&first] > 2 {
+            let shorter = last.decimals < first.decimals
+                || last.exponent < first.exponent;
             if !shorter {
                 return Ok(Vec::new());
             }
-            describe(before)
-        } else if let Some(least) = self.exponent
+            describe(first)
+        } else if let Some(least) = exponents.filter(|n| *n > 0).min()
             && last.exponent < least
-            && (last.exponent > 0 || self.last_value.abs() >= LEAST_MANTISSA)
+            && (last.exponent > 0 || value.abs() >= LEAST_MANTISSA)
         {
             format!(
                 "an exponent of {least} characters, as in other numbers, or \

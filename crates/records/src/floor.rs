@@ -1,7 +1,7 @@
-//! The motion of a floor, for objects that stand in a building.
+//! The motion of a floor, for objects in a building.
 //!
-//! A building is one linear mode here: it stays elastic, and its higher modes
-//! are left out. A block that rocks on the floor does not act back on it.
+//! The building is one linear mode: it stays elastic, and its higher modes are
+//! neglected. A block that rocks on the floor does not affect it.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use rocking::accelerogram::{Accelerogram, AccelerogramError};
 /// The longest period of a mode, in s.
 const MOST_PERIOD_S: f64 = 20.0;
 
-/// The smallest damping ratio of a mode: below it free motion does not end.
+/// The smallest damping ratio of a mode: with less, free motion takes too long.
 const LEAST_DAMPING: f64 = 0.005;
 
 /// The largest height ratio.
@@ -26,7 +26,7 @@ const LAST_PART: f64 = 1e-3;
 /// The most steps of the mode, before and after the end of the record.
 const MOST_STEPS: f64 = 1e7;
 
-/// Why there is no floor, or no motion of it.
+/// Why a floor or its motion is refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FloorError {
@@ -36,7 +36,7 @@ pub enum FloorError {
     /// Free motion must end.
     #[error("damping ratio {0}: expected a number from 0.005 to below 1")]
     Damping(f64),
-    /// A first mode takes part in the motion of a floor with 0 to 1.6.
+    /// Height ratios of first modes are from 0 to 1.6.
     #[error("height ratio {0}: expected a number from 0 to 3")]
     HeightRatio(f64),
     /// The samples are too many, or too far apart for the period.
@@ -55,12 +55,11 @@ pub enum FloorError {
 /// | zeta | 1 | 0.005 to below 1 | damping ratio of the mode |
 /// | h | 1 | 0 to 3 | height ratio, Gamma phi(z) |
 ///
-/// The height ratio is the participation factor Gamma of the mode times its
-/// shape phi at the height z of the floor. It is 0 on the ground. Where the
-/// building sways as a straight line of uniform mass, it is 1.5 z/H below a
-/// roof at the height H; where it bends as a uniform cantilever, it is 1.57 at
-/// the roof. It is no ratio of peak accelerations, as H_f of ASCE 7-22 section
-/// 13.3.1.1 is (PFA over PGA).
+/// The height ratio is the participation factor Gamma of the mode times its shape
+/// phi at the height z of the floor. It is 0 on the ground. For a building with a
+/// straight mode and uniform mass it is 1.5 z/H below a roof at the height H; for a
+/// uniform cantilever in bending it is 1.57 at the roof. It is not a ratio of peak
+/// accelerations like H_f of ASCE 7-22 section 13.3.1.1 (PFA over PGA).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floor {
     period_s: f64,
@@ -98,27 +97,27 @@ impl Floor {
     /// The floor has a_f = a_g + h x'' in multiples of gravity, with the mode
     /// x'' + 2 zeta w x' + w^2 x = -a_g, w = 2 pi/T, which starts at rest. So
     /// h = 0 is the ground, and h = 1 the mass of an oscillator on it. A rigid
-    /// building (T to 0) moves as the ground does; a floor of a soft one (T to
+    /// building (T to 0) moves with the ground; the floor of a soft building (T to
     /// infinity) has (1 - h) a_g.
     ///
     /// The samples are exact for a ground that is linear between its samples.
-    /// Between its own samples the floor is a straight line, as every
-    /// accelerogram is. The line misses the motion by some (pi dt/T)^2/2 of
-    /// the largest acceleration of the floor: 5 % where T is 10 dt, 0.2 %
-    /// where it is 50 dt. A ground of a smaller dt gives a better floor.
+    /// Like every accelerogram, the floor is linear between its own samples. The
+    /// line differs from the motion by about (pi dt/T)^2/2 of the largest
+    /// acceleration of the floor: 5 % if T is 10 dt, 0.2 % if T is 50 dt. A smaller
+    /// dt of the ground gives a better floor.
     ///
-    /// The motion goes on after the record of the ground, and ends where the
-    /// amplitude of the free motion is 1/1000 of the largest acceleration, so
-    /// after ln(1000)/(2 pi zeta) periods at most: 22 at 5 % of damping, 55 at
-    /// 2 %. A jump of the ground at its end is a ramp of one interval.
+    /// The motion continues after the record of the ground, and ends when the
+    /// amplitude of the free motion is 1/1000 of the largest acceleration, so after
+    /// at most ln(1000)/(2 pi zeta) periods: 22 at 5 % damping, 55 at 2 %. A jump of
+    /// the ground at its end is a ramp of one interval.
     ///
-    /// Source: Chopra, Dynamics of Structures, chapter 13, modal response
-    /// history, with one mode; Taghavi and Miranda (2005) for buildings known
-    /// by few numbers.
+    /// Source: Chopra, Dynamics of Structures, chapter 13, modal response history,
+    /// with one mode; Taghavi and Miranda (2005) for buildings with few known
+    /// numbers.
     ///
     /// # Errors
-    /// [`FloorError`] where the mode takes more than 10 million steps, of T/20
-    /// at most, or an acceleration is not finite.
+    /// [`FloorError`] if the mode takes more than 10 million steps of at most T/20,
+    /// or if an acceleration is not finite.
     ///
     /// ```
     /// use rocking_records::floor::Floor;
@@ -149,7 +148,7 @@ impl Floor {
         let peak = floor.iter().fold(free, |peak, a| peak.max(a.abs()));
         let decay = TAU * self.damping_ratio * dt_s / self.period_s;
         let rest = libm::log(free / (LAST_PART * peak)) / decay;
-        // Nothing moves where the comparison is false, or NaN.
+        // If the comparison is false, or NaN, nothing moves.
         if rest > 0.0 {
             self.affordable(steps * rest)?;
             let still = vec![0.0; 1 + rest.ceil() as usize];

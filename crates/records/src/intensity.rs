@@ -1,13 +1,13 @@
 //! Intensity measures of ground motions: peaks, integrals, durations, mean
 //! period and response spectrum, of a component and of a pair.
 //!
-//! A record is linear between its samples and zero outside, as everywhere in
-//! this crate, and the measures are those of that function: integrals are
-//! exact, the oscillators' answers too. Nothing is corrected: where the
-//! baseline drifts, PGV and PGD drift with it.
+//! A record is linear between its samples and zero outside, as everywhere in this
+//! crate. The measures are exact for this function, integrals and responses of
+//! oscillators included. Nothing is corrected: if the baseline drifts, PGV and PGD
+//! drift with it.
 //!
-//! For two components there are three ways to one number: either component,
-//! the geometric mean of both, and RotDnn, a percentile over all directions.
+//! A measure of two components has three forms: either component, the geometric
+//! mean of both, and RotDnn, a percentile over all directions.
 
 mod band;
 mod energy;
@@ -54,7 +54,7 @@ pub enum IntensityError {
     /// Samples too far apart for the shortest pulse.
     #[error("sampling interval {0} s: expected at most 0.17 s")]
     Coarse(f64),
-    /// Nothing moves: durations and periods do not exist.
+    /// Nothing moves, so that durations and periods do not exist.
     #[error("every sample is zero: expected a motion")]
     Silent,
     /// The components of a pair have different sampling intervals.
@@ -69,9 +69,9 @@ pub enum IntensityError {
     },
 }
 
-/// Makes [`Measures`] of its scalars: each with its factor under a gravity, and
-/// how one pass over the samples gives it in g and s; it gives none where
-/// nothing moves.
+/// Makes [`Measures`] of a table of scalars: the factor of each under a gravity,
+/// and its value in g and s by one pass over the samples, `None` if nothing
+/// moves.
 macro_rules! measures {
     ($(
         $(#[$about:meta])+ $scalar:ident: $factor:expr, $direct:expr;
@@ -97,8 +97,8 @@ macro_rules! measures {
         }
 
         impl Measures {
-            /// The measures whose scalars `number` makes of those of one or
-            /// more directions.
+            /// The measures whose scalars `number` computes from one or more
+            /// directions.
             fn of_direct(
                 gravity_m_s2: f64,
                 number: impl Fn(fn(&Direct) -> Option<f64>) -> Option<f64>,
@@ -162,12 +162,12 @@ measures! {
     significant_duration_5_95_s: |_| 1.0, |d| d.durations_s.map(|s| s[1]);
 }
 
-/// The largest PGD (m) of processed records of earthquakes, permanent
-/// offsets aside, is 4 m or so.
+/// Limit of PGD (m): processed records of earthquakes, without permanent offsets,
+/// have at most about 4 m.
 const LARGEST_PGD_M: f64 = 5.0;
 
 impl Measures {
-    /// Whether a drifting baseline makes the displacement: PGD above 5 m,
+    /// Whether the displacement comes from a drifting baseline: PGD above 5 m,
     /// which no processed record of an earthquake has.
     #[must_use]
     pub fn drifts(&self) -> bool {
@@ -259,28 +259,21 @@ impl PairMeasures {
     }
 }
 
-/// What one pass over the samples gives, in g and s.
+/// The results of one pass over the samples, in g and s.
 struct Direct {
     pga: f64,
     pgv: f64,
     pgd: f64,
     arias: f64,
     cav: f64,
-    /// 5 to 75 % and 5 to 95 %; none where nothing moves.
+    /// From 5 to 75 % and from 5 to 95 %; `None` if nothing moves.
     durations_s: Option<[f64; 2]>,
 }
 
 impl Direct {
     fn of(samples: &[f64], dt_s: f64) -> Self {
         stop::point();
-        let mut direct = Self {
-            pga: samples.iter().fold(0.0, |p: f64, a| p.max(a.abs())),
-            pgv: 0.0,
-            pgd: 0.0,
-            arias: 0.0,
-            cav: 0.0,
-            durations_s: None,
-        };
+        let (mut pgv, mut pgd, mut cav) = (0.0_f64, 0.0_f64, 0.0);
         // Velocity in dt/2, displacement in dt^2/6: then PGV has the bits of
         // the accelerogram's own.
         let (mut velocity, mut displacement) = (0.0, 0.0);
@@ -288,17 +281,19 @@ impl Direct {
             let (a, b) = (pair[0], pair[1]);
             displacement += 3.0 * velocity + (2.0 * a + b);
             velocity += a + b;
-            direct.pgv = direct.pgv.max(f64::abs(velocity));
-            direct.pgd = direct.pgd.max(f64::abs(displacement));
-            direct.cav += energy::absolute(a, b);
+            pgv = pgv.max(f64::abs(velocity));
+            pgd = pgd.max(f64::abs(displacement));
+            cav += energy::absolute(a, b);
         }
-        direct.pgv *= 0.5 * dt_s;
-        direct.pgd *= dt_s * dt_s / 6.0;
-        direct.cav *= dt_s;
         let husid = Husid::of(samples, dt_s);
-        direct.arias = std::f64::consts::FRAC_PI_2 * husid.total();
-        direct.durations_s = husid.durations_s();
-        direct
+        Self {
+            pga: samples.iter().fold(0.0, |p: f64, a| p.max(a.abs())),
+            pgv: pgv * (0.5 * dt_s),
+            pgd: pgd * (dt_s * dt_s / 6.0),
+            arias: std::f64::consts::FRAC_PI_2 * husid.total(),
+            cav: cav * dt_s,
+            durations_s: husid.durations_s(),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
-//! Numbers as programs write them, with or without room between.
+//! Numbers as programs write them, with or without separators.
 
-/// A number found in a line: its end, and the form in which it is written.
+/// A number in a line: its end, and its form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token {
     /// Byte after the last.
@@ -9,20 +9,20 @@ pub(super) struct Token {
     pub(super) form: Form,
 }
 
-/// How a number is written: a format statement fixes both counts, so a
-/// number that lost a digit shows.
+/// Form of a written number. A format statement fixes both counts, so that a
+/// missing digit shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Form {
-    /// Digits after the decimal point; none without a point.
+    /// Number of digits after the decimal point; `None` without a point.
     pub(super) decimals: Option<usize>,
-    /// Characters of the exponent, its letter and sign included.
+    /// Number of characters of the exponent, with its letter and sign.
     pub(super) exponent: usize,
 }
 
 /// The number that begins at byte `start`, as long as it can be.
 ///
-/// A three-digit exponent without its letter (`.1234567-100`) is what Fortran
-/// writes when the field has no room for both.
+/// Fortran writes a three-digit exponent without its letter (`.1234567-100`) if
+/// the field is too narrow for both.
 pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     let byte = |i: usize| bytes.get(i).copied().unwrap_or(b' ');
     let digits = |from: usize| {
@@ -58,8 +58,8 @@ pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     Some(Token { end, form: Form { decimals, exponent } })
 }
 
-/// All numbers of a line, glued ones too; `None` ends them at whatever is
-/// neither a number nor a separator.
+/// All numbers of a line, also without separators. `None` ends them at the first
+/// text that is neither a number nor a separator.
 pub(super) fn tokens(line: &[u8]) -> impl Iterator<Item = Option<Token>> {
     let mut at = 0;
     std::iter::from_fn(move || {
@@ -75,14 +75,14 @@ pub(super) fn tokens(line: &[u8]) -> impl Iterator<Item = Option<Token>> {
     })
 }
 
-/// Whether a line is numbers and nothing else.
+/// Whether a line consists only of numbers.
 pub(super) fn is_data(line: &str) -> bool {
     let mut numbers = tokens(line.as_bytes()).peekable();
     numbers.peek().is_some() && numbers.all(|token| token.is_some())
 }
 
-/// The number that a text is from end to end, and its form; not finite for
-/// NaN, an infinity, and what is too large for a double.
+/// The number of a text that is a number from end to end, and its form. It is not
+/// finite for NaN, infinities, and numbers too large for a double.
 pub(super) fn read(text: &str) -> Option<(f64, Form)> {
     let bytes = text.as_bytes();
     let Some(token) = token_at(bytes, 0).filter(|t| t.end == bytes.len())
@@ -102,12 +102,12 @@ pub(super) fn read(text: &str) -> Option<(f64, Form)> {
     Some((parsed.ok()?, token.form))
 }
 
-/// The finite number that a text is from end to end.
+/// The number of a text that is a finite number from end to end.
 pub(super) fn finite(text: &str) -> Option<f64> {
     read(text).map(|(value, _)| value).filter(|value| value.is_finite())
 }
 
-/// Whether a text is meant as a number, finite or not.
+/// Whether a text is a number, finite or not.
 pub(super) fn is_number(text: &str) -> bool {
     read(text).is_some()
 }

@@ -1,14 +1,12 @@
-//! Corrections of a record that the user asks for: nothing else changes
-//! samples.
+//! Corrections of a record at the user's request. Nothing else changes samples.
 //!
 //! The filter is Butterworth's high-pass of order 4, from the analogue one by
-//! the bilinear transform with the corner prewarped, run forwards and then
-//! backwards, so that it delays nothing: its gain is
-//! 1/(1 + (corner/f)^8), one half (in amplitude) at the corner. Before it,
-//! 1.5 x 4 / corner seconds of zeros are set before and after the record
-//! (Converse and Brady 1992, USGS Open-File Report 92-296A) for its
-//! transients; they stay, because velocity and displacement are consistent
-//! only with them (Boore, Sisi and Akkar 2012, BSSA 102).
+//! the bilinear transform with the corner prewarped. It runs forwards and then
+//! backwards and has no delay: its gain is 1/(1 + (corner/f)^8), one half (in
+//! amplitude) at the corner. For its transients 1.5 x 4 / corner seconds of zeros
+//! are first added before and after the record (Converse and Brady 1992, USGS
+//! Open-File Report 92-296A). They stay, because velocity and displacement are
+//! consistent only with them (Boore, Sisi and Akkar 2012, BSSA 102).
 
 use std::fmt;
 
@@ -19,13 +17,13 @@ use rocking::accelerogram::{Accelerogram, AccelerogramError, mean};
 /// Order of the filter, in each direction.
 const ORDER: f64 = 4.0;
 
-/// Zeros at each end in periods of the corner, over the order.
+/// Duration of zeros at each end in periods of the corner, over the order.
 const PADDING: f64 = 1.5;
 
-/// Samples beyond which a padded record is refused.
+/// The most samples of a padded record.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// Why a record cannot be processed as asked.
+/// Why a record cannot be processed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProcessingError {
@@ -39,19 +37,19 @@ pub enum ProcessingError {
     Nyquist {
         /// The record.
         name: String,
-        /// Corner asked for.
+        /// The corner.
         corner_hz: f64,
         /// Half the sampling rate.
         nyquist_hz: f64,
     },
-    /// The zeros at the ends would be more than memory should hold.
+    /// The zeros at the ends would need too much memory.
     #[error(
         "{name}: corner {corner_hz} Hz: expected one high enough for at most {MOST_SAMPLES} samples with the zeros at both ends"
     )]
     Long {
         /// The record.
         name: String,
-        /// Corner asked for.
+        /// The corner.
         corner_hz: f64,
     },
     /// Samples so large that sums of them overflow.
@@ -59,8 +57,8 @@ pub enum ProcessingError {
     Samples(#[from] AccelerogramError),
 }
 
-/// What is done to every record before it is used: the mean taken off, then
-/// the high-pass. Displays as the words to record with results.
+/// Processing of every record before its use: the mean is removed, then the
+/// high-pass filter is applied. Displays as the words for results.
 ///
 /// ```
 /// use rocking::accelerogram::Accelerogram;
@@ -79,8 +77,8 @@ pub struct Processing {
 }
 
 impl Processing {
-    /// Processing that takes the mean off where `demean`, then passes what
-    /// lies above the corner `high_pass_hz`, in Hz.
+    /// Processing that removes the mean if `demean` is true, and then applies a
+    /// high-pass filter with the corner `high_pass_hz` in Hz, if there is one.
     ///
     /// # Errors
     /// [`ProcessingError::Corner`] for a corner that is not positive.
@@ -94,23 +92,23 @@ impl Processing {
         }
     }
 
-    /// Whether nothing is done.
+    /// Whether the record stays as it is.
     #[must_use]
     pub fn is_none(&self) -> bool {
         !self.demean && self.high_pass_hz.is_none()
     }
 
-    /// Time of zeros at each end, in s.
+    /// Duration of zeros at each end, in s.
     #[must_use]
     pub fn padding_s(&self) -> f64 {
         self.high_pass_hz.map_or(0.0, |hz| PADDING * ORDER / hz)
     }
 
-    /// The record, processed; its name stays.
+    /// The processed record, under the same name.
     ///
     /// # Errors
     /// [`ProcessingError`] for a corner at or above half the sampling rate,
-    /// or one so low that the padding would be endless.
+    /// or so low that the padding would be too long.
     pub fn apply(
         &self,
         record: &Accelerogram,

@@ -1,4 +1,4 @@
-//! A record as it was read, and what the caller knows about its file.
+//! A record as it was read, and the values of the caller for its file.
 
 use rocking::accelerogram::Accelerogram;
 use rocking::units::{self, AccelerationUnit};
@@ -9,12 +9,11 @@ use crate::error::Result;
 use crate::format::Format;
 use crate::quality::Remark;
 
-/// Least and largest sampling interval (s) of a record: a recorder's lies far
-/// inside, and what lies outside is no interval or not in s.
+/// Least and largest sampling interval (s) of a record. Intervals of recorders are
+/// far inside; a number outside is not an interval, or not in s.
 pub(crate) const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
 
-/// SHA-256 of `bytes` in hexadecimal (FIPS 180-4), as an index states it of
-/// each file.
+/// SHA-256 of `bytes` in hexadecimal (FIPS 180-4), as in an index.
 ///
 /// ```
 /// let sum = rocking_records::sha256_hex(b"abc");
@@ -26,10 +25,10 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
     sum.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What the caller knows about a file.
+/// Values of the caller for a file.
 ///
-/// What a file states may be repeated, but not contradicted. In a suite, what
-/// is given holds for the files that state nothing; if no file takes it, all
+/// They may repeat the statements of a file, but not contradict them. In a suite
+/// they apply to the files without such a statement; if no file takes a value, all
 /// files must agree with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
@@ -39,7 +38,7 @@ pub struct ReadOptions {
     pub unit: Option<AccelerationUnit>,
     /// Gravity in m/s2 by which an SI record is divided.
     pub gravity_m_s2: f64,
-    /// Whether the folders within a suite's folder are read.
+    /// Whether folders inside the folder of a suite are read.
     pub recursive: bool,
 }
 
@@ -51,7 +50,7 @@ impl Default for ReadOptions {
     }
 }
 
-/// What the caller gave because the file states none.
+/// Which values of the caller were taken because the file states none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fallback {
     /// Sampling interval.
@@ -71,25 +70,25 @@ pub struct Record {
     /// Unit in which the file is written (cm/s2 for the counts of K-NET and
     /// for GeoNet's mm/s2).
     pub unit: AccelerationUnit,
-    /// Where the sensor points.
+    /// Direction of the sensor.
     pub direction: Direction,
     /// Whether the sensor is in a borehole (KiK-net), not at the surface.
     pub borehole: bool,
-    /// What reading found suspicious about the file;
-    /// [`remarks`](crate::remarks) judges the samples.
+    /// Remarks on the file from its reading; [`remarks`](crate::remarks) judges the
+    /// samples.
     pub remarks: Vec<Remark>,
-    /// Name of the channel, where the file gives one: its number, its
-    /// direction or both.
+    /// Name of the channel, if the file has one: its number, its direction or
+    /// both.
     pub channel: Option<String>,
-    /// Event and station, where the file names both: components of one
-    /// motion share them.
+    /// Event and station, if the file names both: the components of one motion
+    /// share them.
     pub site: Option<String>,
-    /// What the caller gave because the file states none.
+    /// Values of the caller that the file does not state.
     pub given: Fallback,
 }
 
-/// A record, and whether the caller contradicts its file, which is a fault in
-/// a file that belongs to no suite.
+/// A record, and whether the caller contradicts its file. In a file outside of a
+/// suite a contradiction is a fault.
 pub(crate) struct Agreement {
     pub(crate) record: Record,
     pub(crate) dt: Result<()>,
@@ -97,7 +96,7 @@ pub(crate) struct Agreement {
 }
 
 impl Agreement {
-    /// The record, if nothing given contradicts its file.
+    /// The record, if the caller does not contradict its file.
     pub(crate) fn agreed(self) -> Result<Record> {
         self.dt.and(self.unit).map(|()| self.record)
     }

@@ -30,7 +30,7 @@ use rocking::units::AccelerationUnit;
 pub const PEAK_TOLERANCE: f64 = 1e-4;
 
 named! {
-    /// Who chose the component of each pair that a study uses.
+    /// The rule that chose the component of each pair for a study.
     pub enum StudyRule: "rule" {
         /// The index's column `study_component`.
         Index = "the index's study_component",
@@ -51,18 +51,18 @@ pub struct SuiteMember<M = Accelerogram> {
     pub format: &'static Format,
     /// Unit in which the file is written.
     pub unit: AccelerationUnit,
-    /// Event and station, where the file names both.
+    /// Event and station, if the file names both.
     pub site: Option<String>,
-    /// What reading found suspicious about the file.
+    /// Remarks on the file from its reading.
     pub remarks: Vec<Remark>,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
     pub study_component: bool,
-    /// Earthquake of the record, by the index; records of one earthquake
-    /// are no independent draws.
+    /// Earthquake of the record, by the index; records of one earthquake are not
+    /// independent.
     pub event: Option<String>,
-    /// What the caller gave because neither file nor index states it.
+    /// Values of the caller that neither file nor index states.
     pub given: Fallback,
     /// Line of the index that lists the record, counted from 1.
     pub line: Option<usize>,
@@ -133,27 +133,27 @@ impl Suite {
     /// index.
     ///
     /// An index is a CSV file with a column `file` (relative to the index),
-    /// separated by commas or semicolons. Optional columns: `name` (of the
-    /// record; the file's stem otherwise), `format`, `units`, `dt_s`, `npts`,
-    /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1
-    /// or 0), `event` (the earthquake, of every record or of none); others
-    /// are kept as attributes. PEER's `_SearchResults.csv` is an index too,
-    /// with its `Earthquake Name` as event, and that of the folder it lies
-    /// in. In another folder,
-    /// files of no known format, histories of velocity or displacement,
-    /// vertical components, records of a sensor in a borehole (KiK-net),
-    /// folders and links to nothing are set aside ([`Suite::set_aside`]), and
-    /// hidden files left out; any other fault refuses the suite. If
-    /// [`ReadOptions::recursive`] is set, folders are read, too, and their
-    /// names precede those of their records. A name of a file or a record, or
-    /// a cell of an index, that results cannot carry
-    /// ([`result_name`](rocking::accelerogram::result_name)) is also refused.
-    /// An index may list vertical and borehole records; a remark says so.
-    /// Pairs are found by event and station if the files name both, else by
-    /// file name: what is left without the orientation at its end.
+    /// separated by commas or semicolons. Optional columns: `name` (of the record;
+    /// by default the stem of the file), `format`, `units`, `dt_s`, `npts`,
+    /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1 or 0),
+    /// `event` (the earthquake, of every record or of none). Other columns are
+    /// kept as attributes. PEER's `_SearchResults.csv` is an index, too, with its
+    /// `Earthquake Name` as event; it is also the index of its folder.
+    ///
+    /// In another folder, files in unknown formats, histories of velocity or
+    /// displacement, vertical components, records from a borehole (KiK-net),
+    /// folders and dead links are set aside ([`Suite::set_aside`]), and hidden
+    /// files are ignored. Any other fault refuses the suite. If
+    /// [`ReadOptions::recursive`] is set, folders are read, too, and their names
+    /// precede the names of their records. A name of a file or a record, or a cell
+    /// of an index, is refused if results cannot contain it
+    /// ([`result_name`](rocking::accelerogram::result_name)). An index may list
+    /// vertical and borehole records, which get a remark. Records are paired by
+    /// event and station if the files name both, or else by the file name without
+    /// the orientation at its end.
     ///
     /// # Errors
-    /// [`SuiteError`] naming the folder, index or record, and the line.
+    /// [`SuiteError`] with the folder, index or record, and the line.
     pub fn read(
         path: &Path,
         options: &ReadOptions,
@@ -195,7 +195,7 @@ impl Suite {
     /// The suite with every record processed.
     ///
     /// # Errors
-    /// [`ProcessingError`] for the first record that cannot be.
+    /// [`ProcessingError`] for the first record that cannot be processed.
     pub fn processed(
         mut self,
         processing: &Processing,
@@ -220,14 +220,14 @@ impl<M: MemberMotion> Suite<M> {
         &self.members
     }
 
-    /// Who chose the study components.
+    /// The rule that chose the study components.
     #[must_use]
     pub fn study_rule(&self) -> StudyRule {
         self.study_rule
     }
 
-    /// What the folder or archive holds beside the records; an index that
-    /// is read by its own path lists records alone.
+    /// Other contents of the folder or archive; empty for an index that is read by
+    /// its own path.
     #[must_use]
     pub fn set_aside(&self) -> &SetAside {
         &self.set_aside
@@ -244,7 +244,7 @@ impl<M: MemberMotion> Suite<M> {
         self.members.iter().filter(|m| !m.study_component)
     }
 
-    /// The pairs that have both components, the study's first.
+    /// The pairs with both components, the study's component first.
     #[must_use]
     pub fn both(&self) -> Vec<(&SuiteMember<M>, &SuiteMember<M>)> {
         let others: BTreeMap<&str, &SuiteMember<M>> = self

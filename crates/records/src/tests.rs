@@ -172,16 +172,16 @@ fn a_changed_number_is_refused_with_line_and_column() {
 fn a_changed_count_is_refused() {
     assert_eq!(
         refusal(&body(8, GLUED)),
-        "test:7: 7 samples: expected 8, the number that the file states"
+        "test:7: 7 samples: expected 8, as in the file"
     );
     assert_eq!(
         refusal(&body(6, GLUED)),
-        "test:7: 7 samples: expected 6, the number that the file states"
+        "test:7: 7 samples: expected 6, as in the file"
     );
     let dropped: Vec<&str> = GLUED.lines().skip(1).collect();
     assert_eq!(
         refusal(&body(7, &dropped.join("\n"))),
-        "test:6: 4 samples: expected 7, the number that the file states"
+        "test:6: 4 samples: expected 7, as in the file"
     );
 }
 
@@ -260,7 +260,7 @@ fn at2_of_other_programs_is_read() {
     let short = ended.replace("NPTS= 7", "NPTS= 8");
     assert_eq!(
         refusal(&short),
-        "test:6: 7 samples: expected 8, the number that the file states"
+        "test:6: 7 samples: expected 8, as in the file"
     );
     let more = ended.replace("*** End", "   .1000000E-02\n*** End");
     assert!(read_text(&more).is_err());
@@ -274,7 +274,7 @@ fn what_the_file_states_cannot_be_overruled() {
     };
     assert_eq!(
         refused(options(Some(0.02))),
-        "test: sampling interval 0.02 s was given: expected 0.01 s, which the file states"
+        "test: given sampling interval 0.02 s: expected 0.01 s, as in the file"
     );
     assert!(read("test", text.as_bytes(), &options(Some(0.01))).is_ok());
     for dt_s in [-0.01, 0.0, f64::NAN, f64::INFINITY] {
@@ -283,7 +283,7 @@ fn what_the_file_states_cannot_be_overruled() {
     let unit = Some(AccelerationUnit::MetrePerSecondSquared);
     assert_eq!(
         refused(ReadOptions { unit, ..options(None) }),
-        "test: unit m/s2 was given: expected g, which the file states"
+        "test: given unit m/s2: expected g, as in the file"
     );
     for gravity_m_s2 in [0.0, -9.81, f64::NAN, f64::INFINITY] {
         let options = ReadOptions { gravity_m_s2, ..options(None) };

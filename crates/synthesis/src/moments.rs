@@ -1,11 +1,11 @@
-//! What a suite is conditioned on: four moments of each quantity, and medians
-//! of seven ratios to PGA.
+//! The conditions of a suite: four moments of each quantity, and medians of seven
+//! ratios to PGA.
 //!
 //! Geometric mean, in g, m/s or s, standard deviation of the natural logarithm,
 //! and its correlation with those of PGA and PGV, of PGA, of the spectral
 //! accelerations at the other periods, of PGV and of D5-75, over the study
-//! components of recorded pairs of PEER's database, without further
-//! processing. They are all that this program knows of those records.
+//! components of recorded pairs of PEER's database, without further processing.
+//! This program contains nothing else of those records.
 
 use std::ops::Range;
 
@@ -13,6 +13,9 @@ use rocking_statistics::normal;
 
 use crate::attenuation::{PGV, QUANTITIES};
 use crate::draws::dot;
+
+/// Logarithms of the quantities of both components of a pair.
+pub(super) type Components = [[f64; QUANTITIES]; 2];
 
 /// Four moments of each quantity.
 pub(super) type Moments = [[f64; 4]; QUANTITIES];
@@ -61,10 +64,10 @@ pub(super) const PULSE: Moments = [
     [4.9180, 0.533, -0.172, -0.103],
 ];
 
-/// Quantities whose geometric mean over PGA has the recorded median: spectral
-/// accelerations at six neighbouring periods, from 0.2 to 1 s up to from 1 to
-/// 5 s, and PGV. The first and the last of the six are those of the average
-/// spectral acceleration of blocks with p of 6 to 1 rad/s.
+/// Quantities whose geometric mean over PGA has the recorded median: six groups of
+/// spectral accelerations at six neighbouring periods, the first from 0.2 to 1 s
+/// and the last from 1 to 5 s, and PGV. These groups cover the average spectral
+/// acceleration of blocks with p of 6 to 1 rad/s.
 const RATIOS: [Range<usize>; 7] =
     [3..9, 4..10, 5..11, 6..12, 7..13, 8..14, PGV..PGV + 1];
 
@@ -81,7 +84,7 @@ pub(super) const PULSE_MEDIANS: [f64; 7] =
 /// ratio becomes the quantile of z + q (1 - z^2), scaled, at its rank, where z
 /// is standard normal. One ratio after the other, so that an earlier one is
 /// disturbed a little.
-pub(super) fn bend(pairs: &mut [[[f64; QUANTITIES]; 2]], medians: &[f64; 7]) {
+pub(super) fn bend(pairs: &mut [Components], medians: &[f64; 7]) {
     for (range, median) in RATIOS.into_iter().zip(medians) {
         let ratio = |v: &[f64; QUANTITIES]| {
             let sum = v[range.clone()].iter().fold(0.0, |s, x| s + x);
@@ -120,14 +123,12 @@ fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
 ///
 /// Scores have mean 0, standard deviation 1 and no correlation: one is that of
 /// PGA, the other is of what PGA does not explain of PGV.
-pub(super) fn condition(
-    pairs: &mut [[[f64; QUANTITIES]; 2]],
-    recorded: &Moments,
-) {
+pub(super) fn condition(pairs: &mut [Components], recorded: &Moments) {
     let column = |k: usize| {
-        let values: Vec<f64> = pairs.iter().map(|p| p[0][k]).collect();
+        let mut values: Vec<f64> = pairs.iter().map(|p| p[0][k]).collect();
         let [mean, _] = moments(&values);
-        (mean, values.iter().map(|x| x - mean).collect::<Vec<_>>())
+        values.iter_mut().for_each(|x| *x -= mean);
+        (mean, values)
     };
     let slope = |scores: &[f64], values: &[f64]| {
         dot(scores, values) / (values.len() as f64 - 1.0)
@@ -150,7 +151,7 @@ pub(super) fn condition(
         let [one, other] = [&first, &second].map(|z| slope(z, &values));
         let rest = less(&values, one, &first);
         let [_, rest] = moments(&less(&rest, other, &second));
-        // Nothing but rounding is left of PGA and of PGV.
+        // Only rounding is left of PGA and of PGV.
         let is_score = k == 0 || k == PGV;
         let stretch = slopes(recorded, k)[2] / rest;
         [mean, one, other, if is_score { 0.0 } else { stretch }]

@@ -4,7 +4,7 @@ use crate::attenuation::{
     PGV, QUANTITIES, between_components, correlation, deviation, median,
 };
 use crate::draws::{Deviates, cholesky, correlate};
-use crate::moments::{Moments, bend, condition};
+use crate::moments::{Components, Moments, bend, condition};
 use crate::pair::{
     LEAST_PGA_G, MOST_DRAWS, Role, Scenario, SynthesisError, stream_index,
 };
@@ -45,7 +45,7 @@ pub(super) struct Design {
 pub(super) struct Target {
     pub(super) scenario: Scenario,
     pub(super) pulse: Option<PulseModel>,
-    pub(super) components: [[f64; QUANTITIES]; 2],
+    pub(super) components: Components,
 }
 
 /// The targets of the whole suite: drawn pair by pair, then transformed so that the

@@ -57,15 +57,9 @@ impl Pact {
 }
 
 fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
-    let mut table = Table::new(&[
-        "id",
-        "damage_state",
-        "demand",
-        "unit",
-        "directional",
-        "median",
-        "dispersion",
-    ]);
+    let mut table = Table::headed(
+        "id,damage_state,demand,unit,directional,median,dispersion",
+    );
     for one in fragilities {
         let id = &one.id;
         let intensity = one.im.dimensionless();

@@ -2,33 +2,33 @@
 
 use std::io::{self, Read};
 
-/// Where in a line of CSV a byte is.
+/// Place of a byte in a line of CSV.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum CsvPlace {
     /// At the start of a line.
     Line,
     /// At the start of a cell.
     Cell,
-    /// In a cell without quotes, or behind a closing quote.
+    /// In a cell without quotes, or after a closing quote.
     Plain,
     /// In a quoted cell.
     Quoted,
-    /// Behind a quote in a quoted cell: it closes the cell, or is doubled.
+    /// After a quote in a quoted cell, which closes the cell or is doubled.
     Quote,
     /// In a comment.
     Comment,
 }
 
-/// The byte order mark, which the crate leaves out.
+/// The byte order mark, which the crate `csv` skips.
 const MARK: [u8; 3] = *b"\xef\xbb\xbf";
 
-/// Bytes of CSV, with an error at their end where a quoted cell is still
-/// open: the reader of the crate `csv` takes what is there for the cell.
+/// Bytes of CSV, with an error at their end if a quoted cell is still open: the
+/// reader of the crate `csv` accepts such a cell.
 pub struct Closed<R> {
     from: R,
     comment: Option<u8>,
     place: CsvPlace,
-    /// Bytes of a byte order mark that were passed.
+    /// Number of bytes of a byte order mark that were read.
     mark: usize,
     /// Line from 1.
     line: u64,
@@ -37,8 +37,8 @@ pub struct Closed<R> {
 }
 
 impl<R> Closed<R> {
-    /// The bytes of `from`, whose lines that begin with `comment` are not part
-    /// of the table.
+    /// The bytes of `from`. Lines that begin with `comment` are not part of the
+    /// table.
     pub fn new(from: R, comment: Option<u8>) -> Self {
         let place = CsvPlace::Line;
         Self { from, comment, place, mark: 0, line: 1, opened: 1 }

@@ -94,6 +94,67 @@ impl ComponentHeader<'_, '_> {
         let number = text::first_word(rest);
         Some((number::finite(number)?, &rest[number.len()..]))
     }
+
+    /// The numbers of samples of acceleration, velocity and displacement.
+    fn counts(&self, integers: &[f64]) -> Result<[usize; 3]> {
+        let count = |place: usize| {
+            let found = integers.get(place - 1).copied().unwrap_or(-1.0);
+            let fine = (0.0..1e9).contains(&found);
+            let line = TEXT_LINES + (place - 1) / LAYOUT.per_line;
+            let expected = "numbers of samples (integers 34 to 36)";
+            fine.then_some(found as usize)
+                .ok_or_else(|| self.refuse(line, expected))
+        };
+        let [points, velocity, displacement] = COUNTS;
+        let counts = [count(points)?, count(velocity)?, count(displacement)?];
+        let same = |(stated, _)| stated == counts[0] as f64 && stated > 0.0;
+        if self.after(POINTS, "points").is_some_and(same) {
+            return Ok(counts);
+        }
+        Err(self.refuse(POINTS, "the number of points of integer 34"))
+    }
+
+    /// The interval (s) of `count` samples.
+    fn interval(&self, reals: &[f64], count: usize) -> Result<f64> {
+        let stated = self.after(INTERVAL, "intervals of");
+        let stated = stated.or_else(|| self.after(INTERVAL, "at"));
+        let fits = |(dt_s, unit): &(f64, &str)| {
+            *dt_s > 0.0 && unit.trim_start().starts_with('s')
+        };
+        let Some((dt_s, _)) = stated.filter(fits) else {
+            return Err(self.refuse(INTERVAL, "an interval in s"));
+        };
+        let same = |x: &f64| (x - dt_s).abs() <= 1e-6 * dt_s;
+        if !reals.get(INTERVAL_S - 1).is_some_and(same) {
+            return Err(self.refuse(INTERVAL, "the interval of real 26"));
+        }
+        let Some((expected_s, _)) = self.after(POINTS, "duration") else {
+            return Err(self.refuse(POINTS, "a duration in s"));
+        };
+        let found_s = count as f64 * dt_s;
+        // It counts samples or intervals, and is rounded.
+        if !((found_s - expected_s).abs() <= 2.0 * dt_s + 0.01) {
+            let fault = Fault::Duration { found_s, expected_s };
+            return Err(self.text.on_line(self.first + POINTS, fault));
+        }
+        Ok(dt_s)
+    }
+
+    /// The peak acceleration in mm/s2.
+    fn peak(&self) -> Result<f64> {
+        let is_unit = |unit: &str| unit.trim_start().starts_with("mm/s/s");
+        let raw = text::after(self.line(INTERVAL), "units");
+        let readings = self.after(INTERVAL, "units of");
+        let fits = |(factor, unit)| factor == 1.0 && is_unit(unit);
+        if raw.is_some() && !readings.is_some_and(fits) {
+            return Err(self.refuse(INTERVAL, "readings in 1.00 mm/s/s"));
+        }
+        let peak = self.after(PEAK, "peak").filter(|(_, unit)| {
+            is_unit(unit) && text::contains(self.line(PEAK), "acceleration")
+        });
+        let refuse = || self.refuse(PEAK, "a peak acceleration in mm/s/s");
+        peak.map(|(peak, _)| peak).ok_or_else(refuse)
+    }
 }
 
 /// The component that begins on the line of index `first`, and the index of
@@ -112,8 +173,8 @@ fn component(text: &Text<'_>, first: usize) -> Result<(Channel, usize)> {
     let integers = fields::read(text, integers, reals, Some(LAYOUT))?;
     let layout = LAYOUT.varied();
     let reals = fields::read(text, reals, samples, Some(layout))?;
-    let counts = counts(&header, &integers)?;
-    let dt = interval(&header, &reals, counts[0])?;
+    let counts = header.counts(&integers)?;
+    let dt = header.interval(&reals, counts[0])?;
     let [points, others @ ..] = counts;
     let (mut samples, mut end) = fields::block(text, samples, points, layout)?;
     for count in others {
@@ -122,7 +183,7 @@ fn component(text: &Text<'_>, first: usize) -> Result<(Channel, usize)> {
     for sample in &mut samples {
         *sample /= PER_GAL;
     }
-    let peak = peak(&header)? / PER_GAL;
+    let peak = header.peak()? / PER_GAL;
     // Large samples have fewer decimals than the text.
     let allowed = 1e-4 * peak.abs() + 0.06 / PER_GAL;
     text.check_peak(&samples, peak, allowed, GAL)?;
@@ -145,72 +206,4 @@ fn direction(component: &str) -> Direction {
         Direction::Unknown if bearing => Direction::Horizontal,
         direction => direction,
     }
-}
-
-/// The numbers of samples of acceleration, velocity and displacement.
-fn counts(
-    header: &ComponentHeader<'_, '_>,
-    integers: &[f64],
-) -> Result<[usize; 3]> {
-    let count = |place: usize| {
-        let found = integers.get(place - 1).copied().unwrap_or(-1.0);
-        let fine = (0.0..1e9).contains(&found);
-        let line = TEXT_LINES + (place - 1) / LAYOUT.per_line;
-        let expected = "numbers of samples (integers 34 to 36)";
-        fine.then_some(found as usize)
-            .ok_or_else(|| header.refuse(line, expected))
-    };
-    let [points, velocity, displacement] = COUNTS;
-    let counts = [count(points)?, count(velocity)?, count(displacement)?];
-    let same = |(stated, _)| stated == counts[0] as f64 && stated > 0.0;
-    if header.after(POINTS, "points").is_some_and(same) {
-        return Ok(counts);
-    }
-    Err(header.refuse(POINTS, "the number of points of integer 34"))
-}
-
-/// The interval (s) of `count` samples.
-fn interval(
-    header: &ComponentHeader<'_, '_>,
-    reals: &[f64],
-    count: usize,
-) -> Result<f64> {
-    let stated = header.after(INTERVAL, "intervals of");
-    let stated = stated.or_else(|| header.after(INTERVAL, "at"));
-    let fits = |(dt_s, unit): &(f64, &str)| {
-        *dt_s > 0.0 && unit.trim_start().starts_with('s')
-    };
-    let Some((dt_s, _)) = stated.filter(fits) else {
-        return Err(header.refuse(INTERVAL, "an interval in s"));
-    };
-    let same = |x: &f64| (x - dt_s).abs() <= 1e-6 * dt_s;
-    if !reals.get(INTERVAL_S - 1).is_some_and(same) {
-        return Err(header.refuse(INTERVAL, "the interval of real 26"));
-    }
-    let Some((expected_s, _)) = header.after(POINTS, "duration") else {
-        return Err(header.refuse(POINTS, "a duration in s"));
-    };
-    let found_s = count as f64 * dt_s;
-    // It counts samples or intervals, and is rounded.
-    if !((found_s - expected_s).abs() <= 2.0 * dt_s + 0.01) {
-        let fault = Fault::Duration { found_s, expected_s };
-        return Err(header.text.on_line(header.first + POINTS, fault));
-    }
-    Ok(dt_s)
-}
-
-/// The peak acceleration in mm/s2.
-fn peak(header: &ComponentHeader<'_, '_>) -> Result<f64> {
-    let is_unit = |unit: &str| unit.trim_start().starts_with("mm/s/s");
-    let raw = text::after(header.line(INTERVAL), "units");
-    let readings = header.after(INTERVAL, "units of");
-    let fits = |(factor, unit)| factor == 1.0 && is_unit(unit);
-    if raw.is_some() && !readings.is_some_and(fits) {
-        return Err(header.refuse(INTERVAL, "readings in 1.00 mm/s/s"));
-    }
-    let peak = header.after(PEAK, "peak").filter(|(_, unit)| {
-        is_unit(unit) && text::contains(header.line(PEAK), "acceleration")
-    });
-    let refuse = || header.refuse(PEAK, "a peak acceleration in mm/s/s");
-    peak.map(|(peak, _)| peak).ok_or_else(refuse)
 }

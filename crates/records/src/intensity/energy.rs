@@ -1,5 +1,5 @@
-//! Integrals of |a| and a^2 over straight lines, and when shares of the
-//! latter are reached.
+//! Integrals of |a| and a^2 over straight lines, and the times at which shares of
+//! the integral of a^2 are reached.
 
 /// Integral of |a| over one interval of length 1 from `a` to `b`.
 pub(super) fn absolute(a: f64, b: f64) -> f64 {
@@ -46,7 +46,7 @@ impl<'a> Husid<'a> {
         self.cumulative.last().copied().unwrap_or(0.0)
     }
 
-    /// Times from 5 to 75 % and from 5 to 95 %; none where the total is 0.
+    /// Times from 5 to 75 % and from 5 to 95 %; `None` if the total is 0.
     pub(super) fn durations_s(&self) -> Option<[f64; 2]> {
         let from = self.time_s(0.05)?;
         Some([self.time_s(0.75)? - from, self.time_s(0.95)? - from])
@@ -62,8 +62,8 @@ impl<'a> Husid<'a> {
         let (i, reached) = (next - 1, self.cumulative[next - 1]);
         let (a, b) = (self.samples[i], self.samples[next]);
         let missing = target - reached;
-        // The part of the interval where its own integral is what is
-        // missing: a rising cubic.
+        // The part of the interval up to which its integral, a rising cubic, is the
+        // missing rest.
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
             let x = 0.5 * (low + high);

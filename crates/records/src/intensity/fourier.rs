@@ -7,7 +7,7 @@ use rocking::stop;
 /// Least and largest frequency of the mean period, in Hz.
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
 
-/// Least length that the samples are continued to with zeros, in s.
+/// Least duration (s) of the samples, after zeros are appended.
 const LEAST_S: f64 = 20.0;
 
 /// Fourier coefficients inside the band.
@@ -82,7 +82,7 @@ impl Transform {
         Self { factors: (0..size.trailing_zeros()).map(stage).collect() }
     }
 
-    /// Transforms in place; values of another size are left as they are.
+    /// Transforms in place; does nothing to values of another size.
     pub(super) fn apply(&self, values: &mut [(f64, f64)]) {
         let n = values.len();
         let bits = self.factors.len();

@@ -113,8 +113,8 @@ named! {
 pub struct ScalarRow {
     /// The measure in text.
     symbol: &'static str,
-    /// A few letters for the tick of a figure; a measure that grows with the
-    /// square of the acceleration by its root.
+    /// A short name for the ticks of a figure; the root of a measure that grows with
+    /// the square of the acceleration.
     pub short: &'static str,
     unit: &'static str,
     /// Whether it grows with the square of the acceleration.
@@ -157,10 +157,10 @@ impl ScalarMeasure {
     }
 }
 
-/// An intensity measure of a record: its name is `pga`, `pgv`, `pgd`,
-/// `arias`, `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s,
-/// `avgsa:rocking` with those of a block, or `column:NAME`; all but NAME in
-/// upper or lower case.
+/// An intensity measure of a record. Its name is `pga`, `pgv`, `pgd`, `arias`,
+/// `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s, `avgsa:rocking`
+/// with the periods of a block, or `column:NAME`, all except NAME in upper or lower
+/// case.
 ///
 /// ```
 /// use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
@@ -181,17 +181,16 @@ impl ScalarMeasure {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntensityMeasure {
-    /// One that is also the axis of IDA curves, with its unit.
+    /// A measure that is also an axis of IDA curves, with its unit.
     Axis(Intensity),
-    /// One without a parameter.
+    /// Another measure without a parameter.
     Scalar(ScalarMeasure),
     /// Spectral acceleration at a period in s, 5 % damping.
     Sa(f64),
     /// Geometric mean of spectral accelerations at periods in s.
     AverageSa(Vec<f64>),
-    /// Geometric mean of spectral accelerations at the periods of a block;
-    /// without a block it has no value, and [`IntensityMeasure::of_block`]
-    /// gives it one.
+    /// Geometric mean of spectral accelerations at the periods of a block. Without a
+    /// block it has no value; [`IntensityMeasure::of_block`] adds the block.
     RockingSa(Option<RockingBand>),
     /// A column of a suite's index, or another attribute of its records.
     Column(String),
@@ -276,8 +275,8 @@ fn listed(periods_s: &[f64], separator: &str) -> String {
     texts.join(separator)
 }
 
-/// A block at its uplift, where PGA/(g tan alpha) is 1: the intensity at
-/// which a suite's measures are compared.
+/// A block at its uplift, where PGA/(g tan alpha) is 1. The measures of a suite are
+/// compared at this intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtUplift {
     /// PGA at which the block lifts off, in g.
@@ -290,9 +289,9 @@ pub struct AtUplift {
 
 impl AtUplift {
     /// The measure of a record that is scaled to the uplift of the block,
-    /// dimensionless for PGA and PGV; `attribute` is that of the unscaled
-    /// record for [`IntensityMeasure::Column`], and NaN comes of a period
-    /// that was not measured.
+    /// dimensionless for PGA and PGV. For [`IntensityMeasure::Column`], `attribute`
+    /// is the attribute of the unscaled record. A period that was not measured
+    /// gives NaN.
     ///
     /// ```
     /// use rocking_records::intensity::{
@@ -329,7 +328,7 @@ impl AtUplift {
         }
     }
 
-    /// The measure of a record as it is, with the units of [`Self::value`].
+    /// The measure of the unscaled record, with the units of [`Self::value`].
     ///
     /// ```
     /// use rocking_records::intensity::{
@@ -365,10 +364,11 @@ impl AtUplift {
 }
 
 impl Settings {
-    /// What measures need: their periods, each once, with the usual damping.
+    /// The settings for these measures: their periods, each once, with the default
+    /// damping.
     ///
     /// # Errors
-    /// As of [`Settings::try_new`].
+    /// As [`Settings::try_new`].
     pub fn of<'a>(
         gravity_m_s2: f64,
         measures: impl IntoIterator<Item = &'a IntensityMeasure>,
@@ -390,13 +390,13 @@ impl IntensityMeasure {
     /// Peak ground velocity.
     pub const PGV: Self = Self::Axis(Intensity::Pgv);
 
-    /// The measures whose name is a word.
+    /// The measures without a parameter.
     fn words_alone() -> impl Iterator<Item = Self> {
         let axes = Intensity::ALL.into_iter().map(Self::Axis);
         axes.chain(ScalarMeasure::ALL.into_iter().map(Self::Scalar))
     }
 
-    /// The measures that a ranking compares where none are named.
+    /// The default measures of a ranking.
     #[must_use]
     pub fn usual() -> Vec<Self> {
         let mut all: Vec<Self> = Self::words_alone().collect();
@@ -405,16 +405,16 @@ impl IntensityMeasure {
         all
     }
 
-    /// The measures that shaking-table tests are compared by, where none are
-    /// named: PGA, PGV and the last of the [`usual`](Self::usual) ones.
+    /// The default measures for comparisons of shaking-table tests: PGA, PGV and the
+    /// last of the [`usual`](Self::usual) measures.
     #[must_use]
     pub fn usual_of_tests() -> Vec<Self> {
         vec![Self::PGA, Self::PGV, Self::RockingSa(None)]
     }
 
-    /// The measure for a block with frequency parameter p in rad/s: the
-    /// periods of [`RockingSa`](Self::RockingSa) become those of the block,
-    /// if it has none; any other measure stays as it is.
+    /// The measure for a block with frequency parameter p in rad/s:
+    /// [`RockingSa`](Self::RockingSa) without a block gets the periods of the block;
+    /// any other measure is unchanged.
     ///
     /// ```
     /// use rocking_records::intensity::IntensityMeasure;
@@ -448,7 +448,7 @@ impl IntensityMeasure {
         }
     }
 
-    /// The dimensionless measure, where it is the axis of an IDA curve.
+    /// The dimensionless measure, if it is the axis of an IDA curve.
     #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
@@ -495,34 +495,26 @@ impl IntensityMeasure {
         if let Some(found) = fixed.find(|m| m.words() == words) {
             return Some(found);
         }
-        let periods = words.strip_suffix(" s) (g)");
-        let name = [("SA(", "sa:"), ("AvgSA(", "avgsa:")]
-            .into_iter()
-            .find_map(|(before, name)| {
-                let list = periods?.strip_prefix(before)?;
-                Some(format!("{name}{}", list.replace(", ", ",")))
-            });
-        let column = words.strip_prefix("column ");
-        let name = name.or(column.map(|name| format!("column:{name}")));
-        let of_block = words.strip_prefix("AvgSA(").and_then(|rest| {
+        let (kind, rest) = words.split_once(['(', ' '])?;
+        let name = if kind == "column" {
+            format!("column:{rest}")
+        } else if let Some(list) = rest.strip_suffix(" s) (g)") {
+            format!("{kind}:{}", list.replace(", ", ","))
+        } else {
             let (_, p) = rest.split_once(", p = ")?;
-            let p = p.strip_suffix(" rad/s) (g)")?;
-            Some(format!("avgsa:rocking:{p}"))
-        });
-        name.or(of_block)?
-            .parse()
-            .ok()
-            .filter(|found: &Self| found.words() == words)
+            format!("{kind}:rocking:{}", p.strip_suffix(" rad/s) (g)")?)
+        };
+        name.parse().ok().filter(|found: &Self| found.words() == words)
     }
 
-    /// Whether it grows with the square of the acceleration; all others grow
-    /// in proportion to it.
+    /// Whether it grows with the square of the acceleration; all other measures are
+    /// proportional to it.
     #[must_use]
     pub fn is_squared(&self) -> bool {
         matches!(self, Self::Scalar(scalar) if scalar.row().is_squared)
     }
 
-    /// Periods of the spectral accelerations that it is made of, in s.
+    /// Periods of its spectral accelerations, in s.
     #[must_use]
     pub fn periods_s(&self) -> &[f64] {
         match self {
@@ -533,9 +525,9 @@ impl IntensityMeasure {
         }
     }
 
-    /// Its value for a record, in its [`unit`](Self::unit); `periods_s` are
-    /// those of the measured spectral accelerations. `None` for a column, and
-    /// for a period that was not measured.
+    /// Its value for a record, in its [`unit`](Self::unit); `periods_s` are the
+    /// periods of the measured spectral accelerations. `None` for a column, and for
+    /// a period that was not measured.
     #[must_use]
     pub fn value(&self, of: &Measures, periods_s: &[f64]) -> Option<f64> {
         let sa_g = |period_s: &f64| {

@@ -15,7 +15,7 @@ use rocking::stop;
 /// Terms of the series: the next is below 0.32^18/18! = 2e-25.
 const TERMS: usize = 18;
 
-/// Steps after which it is asked whether the work is to stop.
+/// Number of steps between two checks of `stop::point`.
 const LOOK: usize = 1 << 16;
 
 /// Position and velocity, in g.
@@ -24,7 +24,7 @@ pub(crate) type OscillatorState = [f64; 2];
 /// An oscillator and its step.
 pub(crate) struct Oscillator {
     damping: f64,
-    /// Steps in one interval of the record.
+    /// Number of steps in one interval of the record.
     steps: usize,
     /// One step, in w t.
     step: f64,
@@ -140,7 +140,7 @@ impl Oscillator {
         peak.max(self.after(last).abs())
     }
 
-    /// Position where the velocity vanishes inside a step.
+    /// Position at the zero of the velocity inside a step.
     fn turning_point(&self, start: [f64; 4]) -> f64 {
         let terms = terms(self.damping, start);
         let (mut low, mut high) = (0.0, self.step);

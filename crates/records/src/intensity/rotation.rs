@@ -4,7 +4,8 @@ use super::oscillator::OscillatorState;
 use super::{Direct, IntensityError, Measures, Settings, Spectrum};
 use rocking::accelerogram::Accelerogram;
 
-/// Directions from 0 degrees by 1 degree: the other half turn repeats them.
+/// Number of directions, from 0 degrees in steps of 1 degree: the other half turn
+/// repeats them.
 const DIRECTIONS: u32 = 180;
 
 /// Percentiles over directions of the measures of the rotated motion.
@@ -76,7 +77,7 @@ pub(super) fn rotd(
     percentiles.iter().map(at).collect()
 }
 
-/// A percentile, linear between the values in order; none of nothing.
+/// A percentile, linear between the values in order; `None` without values.
 fn percentile(mut values: Vec<f64>, percentile: f64) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;

@@ -1,4 +1,4 @@
-//! What the measures depend on beside the record.
+//! Settings of the measures.
 
 use super::{IntensityError, Oscillator};
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -29,7 +29,7 @@ impl Default for Settings {
 pub(crate) const LEAST_PERIOD_S: f64 = 1e-3;
 
 impl Settings {
-    /// Settings of one's own; there may be no period at all.
+    /// Settings by their values; the list of periods may be empty.
     ///
     /// # Errors
     /// [`IntensityError`] for gravity that is not positive and finite, a

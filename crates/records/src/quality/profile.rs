@@ -1,4 +1,4 @@
-//! What is kept of a motion whose samples stay in their file.
+//! The profile of a motion whose samples stay in their file.
 
 use std::borrow::Cow;
 
@@ -6,8 +6,8 @@ use super::{COMPARED_SAMPLES, FEW_SAMPLES, NearPeak, Remark};
 use super::{mean_of, remarks};
 use rocking::accelerogram::Accelerogram;
 
-/// What is kept of a motion whose samples stay in their file: enough to pair
-/// it, to remark on it, and to find it again. It takes about 5 kB.
+/// A summary of a motion whose samples stay in their file. It is enough to pair the
+/// motion, to judge it, and to find it again, and takes about 5 kB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pub(super) name: String,
@@ -15,7 +15,7 @@ pub struct Profile {
     pub(super) remarks: Vec<Remark>,
     /// Samples about the peak, over the peak.
     pub(super) about_peak: Vec<f32>,
-    /// How many of them come before the peak.
+    /// Number of these samples before the peak.
     pub(super) before: usize,
 }
 
@@ -33,7 +33,7 @@ impl Profile {
     #[must_use]
     pub fn of(record: &Accelerogram) -> Self {
         let samples = record.samples_g();
-        // The first of those that are largest.
+        // The first of the largest samples.
         let sizes = samples.iter().map(|a| a.abs()).enumerate().rev();
         let peak = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
         let peak = peak.map_or(0, |(index, _)| index);
@@ -57,8 +57,8 @@ impl Profile {
         &self.name
     }
 
-    /// The samples near the peak less their mean, of length 1; none where
-    /// they are too few.
+    /// The samples near the peak less their mean, of length 1; `None` if there are
+    /// too few.
     pub(super) fn near_peak(&self) -> Option<NearPeak> {
         let from = self.before.checked_sub(FEW_SAMPLES)?;
         let near = self.about_peak.get(from..self.before + FEW_SAMPLES)?;
@@ -76,8 +76,8 @@ impl Profile {
     }
 }
 
-/// What a suite keeps of the motion of a record: the accelerogram, or a
-/// [`Profile`] of one that stays in its file.
+/// The motion of a record in a suite: the accelerogram, or the [`Profile`] of an
+/// accelerogram that stays in its file.
 pub trait MemberMotion {
     /// Name of the record.
     fn name(&self) -> &str;

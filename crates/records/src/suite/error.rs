@@ -46,7 +46,7 @@ pub enum SuiteError {
     },
     /// A record that contradicts its row in the index.
     #[error(
-        "{path}:{line}: {file} has {quantity} {found}: expected {expected}, which the index states"
+        "{path}:{line}: {file} has {quantity} {found}: expected {expected}, as in the index"
     )]
     Mismatch {
         /// The index.

@@ -1,4 +1,4 @@
-//! Which two records are the components of one motion.
+//! Pairs of records that are the components of one motion.
 
 use std::collections::BTreeMap;
 
@@ -11,11 +11,11 @@ const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 
 /// A record's name without its orientation.
 ///
-/// After a separator any of the names or one to three digits is one
-/// (`A_E`, `A-90`, `A--L`); without a separator three digits or two letters
-/// after a digit (`HEC090`, `65006EW`). KiK-net's `.EW2` keeps its digit, an
-/// instrument code (`HNE`) between dots its first two letters, and channels
-/// of one file share the file's name.
+/// The orientation after a separator is a word for a horizontal component, or one
+/// to three digits (`A_E`, `A-90`, `A--L`). Without a separator it is three digits,
+/// or two letters after a digit (`HEC090`, `65006EW`). KiK-net's `.EW2` keeps its
+/// digit, an instrument code (`HNE`) between dots keeps its first two letters, and
+/// channels of one file share the file's name.
 pub(super) fn pair_key(name: &str) -> Option<String> {
     if let Some((file, _)) = name.split_once(':') {
         return Some(file.to_owned());
@@ -43,9 +43,8 @@ fn is_orientation(end: &str) -> bool {
     is_azimuth(end) || Direction::of_word(end) == Direction::Horizontal
 }
 
-/// Gives the two records that share event and station, or else a name but
-/// for its orientation, that as their pair; any other number of records stays
-/// unpaired.
+/// Pairs two records that share event and station or, without these, their name
+/// except for the orientation. Any other number of records stays unpaired.
 pub(super) fn pair_by_name<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     let key = |m: &SuiteMember<M>| {
         m.site.clone().or_else(|| pair_key(m.accelerogram.name()))
@@ -61,8 +60,8 @@ pub(super) fn pair_by_name<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     }
 }
 
-/// Marks, in each pair, the component whose name sorts first; a record
-/// without a partner is marked too.
+/// Marks the component of each pair whose name sorts first, and every record
+/// without a partner.
 pub(super) fn mark_first<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     let mut first: BTreeMap<Option<String>, String> = BTreeMap::new();
     for member in members.iter() {
@@ -78,7 +77,7 @@ pub(super) fn mark_first<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     }
 }
 
-/// Refuses a pair of more than two, and one without exactly one study
+/// Refuses a pair of more than two components, or without exactly one study
 /// component.
 pub(super) fn check_pairs<M>(
     path: &str,
@@ -100,7 +99,7 @@ pub(super) fn check_pairs<M>(
     Ok(())
 }
 
-/// Refuses records that results could not distinguish.
+/// Refuses records with names that results could not distinguish.
 pub(super) fn check_names<M: MemberMotion>(
     path: &str,
     members: &[SuiteMember<M>],

@@ -36,7 +36,7 @@ fn a_row_is_checked_against_its_record() {
     assert!(suite(&row(&all)).is_ok());
     assert!(suite(&row("0.01,,,,,")).is_ok());
     let cases = [
-        ("0.01,4,,,,", "i.csv:2: a has npts 3: expected 4, which"),
+        ("0.01,4,,,,", "i.csv:2: a has npts 3: expected 4, as in"),
         ("0.01,x,,,,", "i.csv:2: \"x\": expected a number of samples"),
         ("0.01,,0.2001,,,", "i.csv:2: a has pga_g 0.200000: expected 0.2001"),
         ("0.01,,,0.0148,,", "i.csv:2: a has pgv_m_s 0.014710: expected 0.01"),
@@ -421,10 +421,10 @@ fn what_is_given_is_for_files_that_state_none() {
     );
     assert_eq!(
         suite(&all[..1], Some(0.02), None).unwrap_err(),
-        "f/a.AT2: sampling interval 0.02 s was given: expected 0.005 s, \
-         which the file states"
+        "f/a.AT2: given sampling interval 0.02 s: expected 0.005 s, \
+         as in the file"
     );
-    let unit = "f/a.AT2: unit m/s2 was given: expected g, which the file";
+    let unit = "f/a.AT2: given unit m/s2: expected g, as in the file";
     assert!(suite(&all[..1], None, si).unwrap_err().starts_with(unit));
     assert!(suite(&all[..1], Some(0.005), Some(g)).is_ok());
     // A row of an index describes only its file.
@@ -433,6 +433,6 @@ fn what_is_given_is_for_files_that_state_none() {
     let found = Suite::from_index("i.csv", index.as_bytes(), &options, |_| {
         Ok(at2.as_bytes().to_vec())
     });
-    let row = "a.AT2: sampling interval 0.02 s was given: expected 0.005 s";
+    let row = "a.AT2: given sampling interval 0.02 s: expected 0.005 s";
     assert!(found.unwrap_err().to_string().starts_with(row));
 }

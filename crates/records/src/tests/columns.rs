@@ -7,7 +7,7 @@ fn one_column_needs_an_interval() {
     let text = "# by hand\n0.00981\n-1.962E-2\r\n 3.0D-3 \n\n\n";
     assert_eq!(
         refusal(text),
-        "test: no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
+        "test: no sampling interval in the file: expected --dt in s or a column `dt_s` in an index"
     );
     let given = ReadOptions {
         unit: Some(AccelerationUnit::MetrePerSecondSquared),
@@ -18,7 +18,7 @@ fn one_column_needs_an_interval() {
     assert_eq!(record.format.name, "column");
     assert_eq!(record.accelerogram.name(), "b.c");
     assert!((record.accelerogram.pga_g() - 0.002).abs() < 1e-18);
-    let stated = "test: no unit in the file: expected it to be given, as";
+    let stated = "test: no unit in the file: expected --units";
     let error = read("test", text.as_bytes(), &options(Some(0.005)));
     assert!(error.unwrap_err().to_string().starts_with(stated));
     let refused = |text: &str| {

@@ -64,7 +64,7 @@ fn a_head_that_is_contradicted_is_refused() {
         lines.filter(|(i, _)| *i != line).map(|(_, line)| line).collect()
     };
     refused_with(&[
-        (short(EQSIG), "test:7: 5 samples: expected 6, the number"),
+        (short(EQSIG), "test:7: 5 samples: expected 6, as in"),
         (
             EQSIG.replace("6 0.0100", "5 0.0100"),
             "test:8: 6 samples: expected 5",

@@ -33,7 +33,7 @@ fn afad_text_is_read_and_checked_against_its_header() {
     assert_eq!(all[0].accelerogram.pga_g(), 0.1);
     assert_eq!(all[1].accelerogram.samples_g()[2], 12.163827 / 980.665);
     let cases = [
-        (AFAD.replace(": 4", ": 5"), "test:13: 4 samples: expected 5, the"),
+        (AFAD.replace(": 4", ": 5"), "test:13: 4 samples: expected 5, as"),
         (AFAD.replace(": 4", ": -4"), "test:5: \"NUMBER OF DATA          :"),
         (AFAD.replace("0.01\r", "0\r"), "test:6: \"SAMPLING INTERVAL (sec)"),
         (AFAD.replace("0.01\r", "1e300\r"), "test: sampling interval 1e300 s"),

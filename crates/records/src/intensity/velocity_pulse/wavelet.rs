@@ -15,7 +15,7 @@ const SCALING: [f64; 8] = [
 /// Support of the wavelet.
 const SUPPORT: usize = 7;
 
-/// Values for each unit of the argument.
+/// Number of values for each unit of the argument.
 const FINE: usize = 1024;
 
 /// The wavelet at the multiples of 1/1024 in 0 to 7, and its integral.
@@ -51,9 +51,9 @@ impl Wavelet {
         Self { values, integral }
     }
 
-    /// Weights of the samples about a place: their sum of products with a
-    /// motion, each sample held for one interval, is the coefficient at
-    /// `scale` intervals. Odd count, the place in the middle.
+    /// Weights of the samples around a place: their sum of products with a motion,
+    /// whose samples are constant for one interval, is the coefficient at `scale`
+    /// intervals. Their number is odd, with the place in the middle.
     pub(super) fn weights(&self, scale: usize) -> Vec<f64> {
         let a = scale as f64;
         let root = a.sqrt();
@@ -68,7 +68,7 @@ impl Wavelet {
             .collect()
     }
 
-    /// Values at the samples about a place, of unit energy.
+    /// Values at the samples around a place, of unit energy.
     pub(super) fn shape(&self, scale: usize) -> Vec<f64> {
         let a = scale as f64;
         let half = half_width(scale) as f64;
@@ -78,7 +78,7 @@ impl Wavelet {
     }
 }
 
-/// Samples on each side that the wavelet reaches.
+/// Number of samples on each side that the wavelet reaches.
 fn half_width(scale: usize) -> usize {
     (SUPPORT * scale).div_ceil(2) + 1
 }

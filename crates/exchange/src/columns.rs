@@ -1,5 +1,5 @@
-//! Columns of the tables that commands write and read. Only `columns.txt` names
-//! them, and `docs/tables.md` is generated from it.
+//! Columns of the tables that commands write and read. Only `columns.txt`
+//! names them, and `docs/tables.md` is generated from it.
 //!
 //! A table that a command writes ends with the column `schema`. It is a column
 //! instead of a comment line, because pandas, Polars and DuckDB read a first
@@ -7,8 +7,8 @@
 
 use std::sync::LazyLock;
 
-/// Version of the form of all tables and JSON that commands write. It rises when
-/// a column or a field changes its name, its unit or its meaning.
+/// Version of the form of all tables and JSON that commands write. It rises
+/// when a column or a field changes its name, its unit or its meaning.
 pub const SCHEMA: u32 = 1;
 
 /// Name of the column of [`SCHEMA`].
@@ -19,13 +19,13 @@ pub const SCHEMA_COLUMN: &str = "schema";
 pub struct Column {
     /// Name in the header line.
     pub name: &'static str,
-    /// Kind of the cells: `text`, `number` (also `inf`; an empty cell is a missing
-    /// number), `count` (whole numbers) or `flag` (`true`, `false`).
+    /// Kind of the cells: `text`, `number` (also `inf`; an empty cell is a
+    /// missing number), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
     /// Whether an input table may lack it: `?` after the kind of its cells.
     pub is_optional: bool,
-    /// Unit; `1` for a number without unit, `own` for the unit of the sample or the
-    /// fragility, empty for other cells.
+    /// Unit; `1` for a number without unit, `own` for the unit of the sample
+    /// or the fragility, empty for other cells.
     pub unit: &'static str,
     /// Meaning.
     pub meaning: &'static str,
@@ -116,8 +116,9 @@ impl Layout {
         self.names().position(|name| name == column).expect("a known column")
     }
 
-    /// Places of the columns, and of the schema number behind them, in a header
-    /// line of any order; `None` for an optional column that is missing.
+    /// Places of the columns, and of the schema number behind them, in a
+    /// header line of any order; `None` for an optional column that is
+    /// missing.
     ///
     /// ```
     /// use rocking_exchange::columns::OUTCOMES;

@@ -1,6 +1,6 @@
-//! Fragilities as files of other programs, a module for each format. The row of a
-//! format in [`ExchangeFormat::ALL`] has everything that commands and Python
-//! need.
+//! Fragilities as files of other programs, a module for each format. The row
+//! of a format in [`ExchangeFormat::ALL`] has everything that commands and
+//! Python need.
 
 mod csv;
 mod nrml;
@@ -126,8 +126,8 @@ pub struct ExchangeFormat {
     pub name: &'static str,
     /// Contents of its files, for the help.
     pub help: &'static str,
-    /// Cells of its row in `docs/exchange.md`: the program that reads its files,
-    /// intensity measures, and treatment of a shift.
+    /// Cells of its row in `docs/exchange.md`: the program that reads its
+    /// files, intensity measures, and treatment of a shift.
     pub cells: &'static str,
     /// Extension of the main file.
     pub extension: &'static str,

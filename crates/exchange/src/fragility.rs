@@ -1,8 +1,8 @@
 //! A fragility of one block, in the unit of the ground motion.
 //!
-//! A fragility in PGA or PGV is dimensionless in the statistics. Other programs
-//! need the PGA or PGV of one block, in their own units: OpenQuake PGA in g and
-//! PGV in cm/s, pelicun and PACT in g and m/s.
+//! A fragility in PGA or PGV is dimensionless in the statistics. Other
+//! programs need the PGA or PGV of one block, in their own units: OpenQuake
+//! PGA in g and PGV in cm/s, pelicun and PACT in g and m/s.
 
 use std::fmt;
 use std::str::FromStr;
@@ -22,8 +22,8 @@ use crate::table::number;
 const LONGEST: usize = 75;
 
 /// A name that every reader accepts: at most 75 ASCII letters, digits, `_` and
-/// `:`. OpenQuake accepts no dot and no slash in a name, and pelicun splits names
-/// at `-`.
+/// `:`. OpenQuake accepts no dot and no slash in a name, and pelicun splits
+/// names at `-`.
 ///
 /// ```
 /// use rocking_exchange::Id;
@@ -59,8 +59,8 @@ impl fmt::Display for Id {
 }
 
 impl Id {
-    /// The name of a block by its parameters, with all their digits, so that two
-    /// blocks never share a name.
+    /// The name of a block by its parameters, with all their digits, so that
+    /// two blocks never share a name.
     ///
     /// ```
     /// use rocking::Block;
@@ -118,8 +118,8 @@ impl BlockFragility {
         totals.collect()
     }
 
-    /// The origin of the fragilities and, if there is an error of the model, the
-    /// parts: the law of the records and this error.
+    /// The origin of the fragilities and, if there is an error of the model,
+    /// the parts: the law of the records and this error.
     pub(crate) fn described(&self) -> String {
         if self.model_error.is_none() {
             return self.origin.clone();
@@ -151,8 +151,8 @@ impl BlockFragility {
 pub struct LimitState {
     /// Its name.
     pub name: Id,
-    /// Probability of reaching it, by the scatter of the records only, in the unit
-    /// of the block's intensity measure: g for PGA, m/s for PGV.
+    /// Probability of reaching it, by the scatter of the records only, in the
+    /// unit of the block's intensity measure: g for PGA, m/s for PGV.
     pub fragility: Lognormal,
 }
 
@@ -162,9 +162,9 @@ const STEPS: i32 = 1000;
 /// Largest score at which two curves are compared.
 const LARGEST_SCORE: f64 = 8.0;
 
-/// The intensity at which the probability of `next`, a state of greater damage,
-/// exceeds the probability of `own` most; `None` if it exceeds it by `tolerance`
-/// or less.
+/// The intensity at which the probability of `next`, a state of greater
+/// damage, exceeds the probability of `own` most; `None` if it exceeds it by
+/// `tolerance` or less.
 pub(crate) fn crossed_by(
     own: &TotalFragility,
     next: &TotalFragility,
@@ -179,8 +179,8 @@ pub(crate) fn crossed_by(
     (above(worst) > tolerance).then_some(worst)
 }
 
-/// The PGA in g or the PGV in m/s at a dimensionless intensity of 1: tan alpha, or
-/// g tan alpha/p; Eq. 2 has alpha instead of tan alpha.
+/// The PGA in g or the PGV in m/s at a dimensionless intensity of 1: tan
+/// alpha, or g tan alpha/p; Eq. 2 has alpha instead of tan alpha.
 ///
 /// ```
 /// use rocking::Block;
@@ -204,8 +204,8 @@ pub fn unit_intensity(
     intensity.of(threshold_g, velocity_m_s)
 }
 
-/// The origin of a fragility if only the size and the measure of its sample are
-/// known.
+/// The origin of a fragility if only the size and the measure of its sample
+/// are known.
 ///
 /// ```
 /// use rocking_records::intensity::IntensityMeasure;

@@ -30,9 +30,9 @@ pub struct Setting {
     pub eta: f64,
     /// Equation of motion.
     pub model: Model,
-    /// Order of the Taylor polynomial, if it was fixed. A table of a fixed order
-    /// is written, for comparisons, but not read: its errors come from the
-    /// order, not from chance, so it allows no statistics.
+    /// Order of the Taylor polynomial, if it was fixed. A table of a fixed
+    /// order is written, for comparisons, but not read: its errors come from
+    /// the order, not from chance, so it allows no statistics.
     pub order: Option<Order>,
     /// Overturning criterion.
     pub overturn: Overturning,
@@ -137,8 +137,8 @@ impl Curves {
 
 impl IdaTable {
     /// The table of the curves of an analysis. The pair of texts is the
-    /// processing of the records and the program; `known` gives the codes of the
-    /// remarks on a record, and its earthquake, empty if unknown.
+    /// processing of the records and the program; `known` gives the codes of
+    /// the remarks on a record, and its earthquake, empty if unknown.
     #[must_use]
     pub fn of(
         curves: &[IdaCurve],
@@ -281,8 +281,8 @@ impl IdaTable {
         self.by_record().map(|rows| rows[0].record.as_str())
     }
 
-    /// The earthquakes of the records, in the order of the table; `None` if the
-    /// table does not state them.
+    /// The earthquakes of the records, in the order of the table; `None` if
+    /// the table does not state them.
     #[must_use]
     pub fn events(&self) -> Option<Vec<&str>> {
         let events = self.by_record().map(|rows| rows[0].event.as_str());

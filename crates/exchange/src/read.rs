@@ -111,8 +111,8 @@ impl Cells<'_> {
     }
 }
 
-/// A reader of CSV, which fails if the file ends within a quoted cell; lines that
-/// begin with `comment` are ignored.
+/// A reader of CSV, which fails if the file ends within a quoted cell; lines
+/// that begin with `comment` are ignored.
 pub fn reader<R: Read>(
     from: R,
     trim: csv::Trim,

@@ -1,6 +1,6 @@
-//! Sample files: one value a line, `>3.2` for a value censored at 3.2, `inf` for
-//! a value censored at an unknown limit, comments after `#`.
-//! The comment behind a value is the name of its record, and a second comment the
+//! Sample files: one value a line, `>3.2` for a value censored at 3.2, `inf`
+//! for a value censored at an unknown limit, comments after `#`. The comment
+//! behind a value is the name of its record, and a second comment the
 //! earthquake: `1.8 # RSN6-180 # Imperial Valley-02`.
 
 use std::fmt::{self, Display, Write as _};
@@ -17,8 +17,8 @@ use rocking_statistics::{
 use crate::ida::{Curves, IdaTable};
 use crate::read::FileError;
 
-/// Largest relative difference between a parameter of a block and the parameter
-/// of a sample: the median changes by about as much.
+/// Largest relative difference between a parameter of a block and the
+/// parameter of a sample: the median changes by about as much.
 const MOST_DIFFERENT: f64 = 0.01;
 
 /// Beginning of the line that describes the values.
@@ -54,8 +54,8 @@ impl SampleSetting {
         })
     }
 
-    /// Checks that capacities of this setting apply to a block. Capacities in a
-    /// dimensionless measure apply to any slenderness.
+    /// Checks that capacities of this setting apply to a block. Capacities in
+    /// a dimensionless measure apply to any slenderness.
     ///
     /// # Errors
     /// The parameter that differs, in words.
@@ -263,8 +263,8 @@ impl SampleFile {
         self.of().and_then(|of| of.split(" at EDP ").next())
     }
 
-    /// The intensity measure of the file, or else the given one; `None` without
-    /// either.
+    /// The intensity measure of the file, or else the given one; `None`
+    /// without either.
     ///
     /// # Errors
     /// [`FileError`] if they differ.
@@ -335,8 +335,8 @@ fn parse(text: &str) -> Option<(f64, Option<f64>)> {
     Some((f64::INFINITY, Some(limit)))
 }
 
-/// A number, or infinity if the text says `inf`: a number too large for a double
-/// is not silently infinite.
+/// A number, or infinity if the text says `inf`: a number too large for a
+/// double is not silently infinite.
 fn number(text: &str) -> Option<f64> {
     let value = text.parse::<f64>().ok().filter(|x| !x.is_nan())?;
     let says_so = text.to_ascii_lowercase().contains("inf");

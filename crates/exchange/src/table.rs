@@ -73,8 +73,8 @@ pub fn body(text: &str) -> &str {
     text.split_once('\n').map_or("", |(_, rows)| rows)
 }
 
-/// A number as a cell: at most nine significant digits, `inf` or `-inf`; empty for
-/// NaN.
+/// A number as a cell: at most nine significant digits, `inf` or `-inf`; empty
+/// for NaN.
 #[must_use]
 pub fn number(x: f64) -> String {
     digits(x, 9)

@@ -1,9 +1,9 @@
 //! Direction of a sensor: by the header of a format, or else by the end of the
 //! file's name.
 //!
-//! The row of a format says if a bare number is an azimuth; in other formats it
-//! is a code (KiK-net) or the number of a channel or a file. A reader may give
-//! the direction directly.
+//! The row of a format says if a bare number is an azimuth; in other formats
+//! it is a code (KiK-net) or the number of a channel or a file. A reader may
+//! give the direction directly.
 
 use super::text;
 
@@ -107,8 +107,8 @@ impl Direction {
     }
 }
 
-/// Whether a text is a code of band, instrument and component, as FDSN networks
-/// write it.
+/// Whether a text is a code of band, instrument and component, as FDSN
+/// networks write it.
 pub(super) fn is_code(part: &str) -> bool {
     matches!(
         part.as_bytes(),

@@ -104,7 +104,8 @@ coded! {
         /// A link in a folder of records.
         #[error("a link to nothing: expected a file")]
         DeadLink = "dead-link",
-        /// A device, pipe or socket in a folder of records, which may never end.
+        /// A device, pipe or socket in a folder of records, which may never
+        /// end.
         #[error("a device, a pipe or a socket: expected a file")]
         Device = "device",
         /// One of two files of an archive.

@@ -252,9 +252,10 @@ impl Forms {
     /// numbers shows that the last number is whole.
     ///
     /// # Errors
-    /// A last number that was visibly cut: it has fewer digits than all numbers
-    /// before, a shorter exponent, or no exponent although its size suggests one.
-    /// A cut in a number without an exponent leaves a number nearer to zero.
+    /// A last number that was visibly cut: it has fewer digits than all
+    /// numbers before, a shorter exponent, or no exponent although its size
+    /// suggests one. A cut in a number without an exponent leaves a number
+    /// nearer to zero.
     pub(super) fn check_ended(&self, text: &Text<'_>) -> Result<Vec<Remark>> {
         let (Some(first), Some((value, last)), false, false) =
             (self.first, self.last, self.before.is_empty(), text.is_ended)

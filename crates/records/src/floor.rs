@@ -14,7 +14,8 @@ use rocking::accelerogram::{Accelerogram, AccelerogramError};
 /// The longest period of a mode, in s.
 const MOST_PERIOD_S: f64 = 20.0;
 
-/// The smallest damping ratio of a mode: with less, free motion takes too long.
+/// The smallest damping ratio of a mode: with less, free motion takes too
+/// long.
 const LEAST_DAMPING: f64 = 0.005;
 
 /// The largest height ratio.
@@ -55,11 +56,12 @@ pub enum FloorError {
 /// | zeta | 1 | 0.005 to below 1 | damping ratio of the mode |
 /// | h | 1 | 0 to 3 | height ratio, Gamma phi(z) |
 ///
-/// The height ratio is the participation factor Gamma of the mode times its shape
-/// phi at the height z of the floor. It is 0 on the ground. For a building with a
-/// straight mode and uniform mass it is 1.5 z/H below a roof at the height H; for a
-/// uniform cantilever in bending it is 1.57 at the roof. It is not a ratio of peak
-/// accelerations like H_f of ASCE 7-22 section 13.3.1.1 (PFA over PGA).
+/// The height ratio is the participation factor Gamma of the mode times its
+/// shape phi at the height z of the floor. It is 0 on the ground. For a
+/// building with a straight mode and uniform mass it is 1.5 z/H below a roof
+/// at the height H; for a uniform cantilever in bending it is 1.57 at the
+/// roof. It is not a ratio of peak accelerations like H_f of ASCE 7-22 section
+/// 13.3.1.1 (PFA over PGA).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floor {
     period_s: f64,
@@ -97,27 +99,27 @@ impl Floor {
     /// The floor has a_f = a_g + h x'' in multiples of gravity, with the mode
     /// x'' + 2 zeta w x' + w^2 x = -a_g, w = 2 pi/T, which starts at rest. So
     /// h = 0 is the ground, and h = 1 the mass of an oscillator on it. A rigid
-    /// building (T to 0) moves with the ground; the floor of a soft building (T to
-    /// infinity) has (1 - h) a_g.
+    /// building (T to 0) moves with the ground; the floor of a soft building
+    /// (T to infinity) has (1 - h) a_g.
     ///
     /// The samples are exact for a ground that is linear between its samples.
-    /// Like every accelerogram, the floor is linear between its own samples. The
-    /// line differs from the motion by about (pi dt/T)^2/2 of the largest
-    /// acceleration of the floor: 5 % if T is 10 dt, 0.2 % if T is 50 dt. A smaller
-    /// dt of the ground gives a better floor.
+    /// Like every accelerogram, the floor is linear between its own samples.
+    /// The line differs from the motion by about (pi dt/T)^2/2 of the largest
+    /// acceleration of the floor: 5 % if T is 10 dt, 0.2 % if T is 50 dt. A
+    /// smaller dt of the ground gives a better floor.
     ///
     /// The motion continues after the record of the ground, and ends when the
-    /// amplitude of the free motion is 1/1000 of the largest acceleration, so after
-    /// at most ln(1000)/(2 pi zeta) periods: 22 at 5 % damping, 55 at 2 %. A jump of
-    /// the ground at its end is a ramp of one interval.
+    /// amplitude of the free motion is 1/1000 of the largest acceleration, so
+    /// after at most ln(1000)/(2 pi zeta) periods: 22 at 5 % damping, 55 at 2
+    /// %. A jump of the ground at its end is a ramp of one interval.
     ///
-    /// Source: Chopra, Dynamics of Structures, chapter 13, modal response history,
-    /// with one mode; Taghavi and Miranda (2005) for buildings with few known
-    /// numbers.
+    /// Source: Chopra, Dynamics of Structures, chapter 13, modal response
+    /// history, with one mode; Taghavi and Miranda (2005) for buildings with
+    /// few known numbers.
     ///
     /// # Errors
-    /// [`FloorError`] if the mode takes more than 10 million steps of at most T/20,
-    /// or if an acceleration is not finite.
+    /// [`FloorError`] if the mode takes more than 10 million steps of at most
+    /// T/20, or if an acceleration is not finite.
     ///
     /// ```
     /// use rocking_records::floor::Floor;

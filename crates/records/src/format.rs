@@ -47,12 +47,13 @@ pub struct Format {
     pub files: &'static str,
     /// Who writes such files.
     pub source: &'static str,
-    /// Contents of a file without a distinctive header, for messages; empty for
-    /// other files.
+    /// Contents of a file without a distinctive header, for messages; empty
+    /// for other files.
     pub content: &'static str,
     /// What a file states about its samples.
     pub header: Header,
-    /// Whether a number is refused if its width or form differs from the others.
+    /// Whether a number is refused if its width or form differs from the
+    /// others.
     pub is_fixed: bool,
     /// Whether a number that names a channel is an azimuth in degrees.
     pub azimuths: bool,

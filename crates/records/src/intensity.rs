@@ -1,13 +1,13 @@
 //! Intensity measures of ground motions: peaks, integrals, durations, mean
 //! period and response spectrum, of a component and of a pair.
 //!
-//! A record is linear between its samples and zero outside, as everywhere in this
-//! crate. The measures are exact for this function, integrals and responses of
-//! oscillators included. Nothing is corrected: if the baseline drifts, PGV and PGD
-//! drift with it.
+//! A record is linear between its samples and zero outside, as everywhere in
+//! this crate. The measures are exact for this function, integrals and
+//! responses of oscillators included. Nothing is corrected: if the baseline
+//! drifts, PGV and PGD drift with it.
 //!
-//! A measure of two components has three forms: either component, the geometric
-//! mean of both, and RotDnn, a percentile over all directions.
+//! A measure of two components has three forms: either component, the
+//! geometric mean of both, and RotDnn, a percentile over all directions.
 
 mod band;
 mod energy;
@@ -69,9 +69,9 @@ pub enum IntensityError {
     },
 }
 
-/// Makes [`Measures`] of a table of scalars: the factor of each under a gravity,
-/// and its value in g and s by one pass over the samples, `None` if nothing
-/// moves.
+/// Makes [`Measures`] of a table of scalars: the factor of each under a
+/// gravity, and its value in g and s by one pass over the samples, `None` if
+/// nothing moves.
 macro_rules! measures {
     ($(
         $(#[$about:meta])+ $scalar:ident: $factor:expr, $direct:expr;
@@ -162,8 +162,8 @@ measures! {
     significant_duration_5_95_s: |_| 1.0, |d| d.durations_s.map(|s| s[1]);
 }
 
-/// Limit of PGD (m): processed records of earthquakes, without permanent offsets,
-/// have at most about 4 m.
+/// Limit of PGD (m): processed records of earthquakes, without permanent
+/// offsets, have at most about 4 m.
 const LARGEST_PGD_M: f64 = 5.0;
 
 impl Measures {

@@ -21,8 +21,8 @@ pub(super) struct Form {
 
 /// The number that begins at byte `start`, as long as it can be.
 ///
-/// Fortran writes a three-digit exponent without its letter (`.1234567-100`) if
-/// the field is too narrow for both.
+/// Fortran writes a three-digit exponent without its letter (`.1234567-100`)
+/// if the field is too narrow for both.
 pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     let byte = |i: usize| bytes.get(i).copied().unwrap_or(b' ');
     let digits = |from: usize| {
@@ -58,8 +58,8 @@ pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     Some(Token { end, form: Form { decimals, exponent } })
 }
 
-/// All numbers of a line, also without separators. `None` ends them at the first
-/// text that is neither a number nor a separator.
+/// All numbers of a line, also without separators. `None` ends them at the
+/// first text that is neither a number nor a separator.
 pub(super) fn tokens(line: &[u8]) -> impl Iterator<Item = Option<Token>> {
     let mut at = 0;
     std::iter::from_fn(move || {
@@ -81,8 +81,8 @@ pub(super) fn is_data(line: &str) -> bool {
     numbers.peek().is_some() && numbers.all(|token| token.is_some())
 }
 
-/// The number of a text that is a number from end to end, and its form. It is not
-/// finite for NaN, infinities, and numbers too large for a double.
+/// The number of a text that is a number from end to end, and its form. It is
+/// not finite for NaN, infinities, and numbers too large for a double.
 pub(super) fn read(text: &str) -> Option<(f64, Form)> {
     let bytes = text.as_bytes();
     let Some(token) = token_at(bytes, 0).filter(|t| t.end == bytes.len())

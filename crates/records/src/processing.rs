@@ -1,12 +1,14 @@
-//! Corrections of a record at the user's request. Nothing else changes samples.
+//! Corrections of a record at the user's request. Nothing else changes
+//! samples.
 //!
 //! The filter is Butterworth's high-pass of order 4, from the analogue one by
 //! the bilinear transform with the corner prewarped. It runs forwards and then
 //! backwards and has no delay: its gain is 1/(1 + (corner/f)^8), one half (in
-//! amplitude) at the corner. For its transients 1.5 x 4 / corner seconds of zeros
-//! are first added before and after the record (Converse and Brady 1992, USGS
-//! Open-File Report 92-296A). They stay, because velocity and displacement are
-//! consistent only with them (Boore, Sisi and Akkar 2012, BSSA 102).
+//! amplitude) at the corner. For its transients 1.5 x 4 / corner seconds of
+//! zeros are first added before and after the record (Converse and Brady 1992,
+//! USGS Open-File Report 92-296A). They stay, because velocity and
+//! displacement are consistent only with them (Boore, Sisi and Akkar 2012,
+//! BSSA 102).
 
 use std::fmt;
 
@@ -77,8 +79,9 @@ pub struct Processing {
 }
 
 impl Processing {
-    /// Processing that removes the mean if `demean` is true, and then applies a
-    /// high-pass filter with the corner `high_pass_hz` in Hz, if there is one.
+    /// Processing that removes the mean if `demean` is true, and then applies
+    /// a high-pass filter with the corner `high_pass_hz` in Hz, if there is
+    /// one.
     ///
     /// # Errors
     /// [`ProcessingError::Corner`] for a corner that is not positive.

@@ -286,9 +286,9 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// For each record, the others that seem to be the same recording, if any: the
 /// index of the first, the absolute correlation with it, and their number.
 ///
-/// Records of equal interval are compared, aligned at their peaks: 32 samples on
-/// each side and, if these are alike, up to 512. Scale, sign and mean do not
-/// matter.
+/// Records of equal interval are compared, aligned at their peaks: 32 samples
+/// on each side and, if these are alike, up to 512. Scale, sign and mean do
+/// not matter.
 fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {

@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::format::Format;
 use crate::quality::Remark;
 
-/// Least and largest sampling interval (s) of a record. Intervals of recorders are
-/// far inside; a number outside is not an interval, or not in s.
+/// Least and largest sampling interval (s) of a record. Intervals of recorders
+/// are far inside; a number outside is not an interval, or not in s.
 pub(crate) const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
 
 /// SHA-256 of `bytes` in hexadecimal (FIPS 180-4), as in an index.
@@ -27,9 +27,9 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 
 /// Values of the caller for a file.
 ///
-/// They may repeat the statements of a file, but not contradict them. In a suite
-/// they apply to the files without such a statement; if no file takes a value, all
-/// files must agree with it.
+/// They may repeat the statements of a file, but not contradict them. In a
+/// suite they apply to the files without such a statement; if no file takes a
+/// value, all files must agree with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
     /// Sampling interval in s, for files that state none.
@@ -74,8 +74,8 @@ pub struct Record {
     pub direction: Direction,
     /// Whether the sensor is in a borehole (KiK-net), not at the surface.
     pub borehole: bool,
-    /// Remarks on the file from its reading; [`remarks`](crate::remarks) judges the
-    /// samples.
+    /// Remarks on the file from its reading; [`remarks`](crate::remarks)
+    /// judges the samples.
     pub remarks: Vec<Remark>,
     /// Name of the channel, if the file has one: its number, its direction or
     /// both.
@@ -87,8 +87,8 @@ pub struct Record {
     pub given: Fallback,
 }
 
-/// A record, and whether the caller contradicts its file. In a file outside of a
-/// suite a contradiction is a fault.
+/// A record, and whether the caller contradicts its file. In a file outside of
+/// a suite a contradiction is a fault.
 pub(crate) struct Agreement {
     pub(crate) record: Record,
     pub(crate) dt: Result<()>,

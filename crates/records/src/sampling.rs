@@ -166,8 +166,8 @@ fn power_of_ten(exponent: i32) -> f64 {
 /// Error of a number rounded to single precision, over the number.
 const SINGLE: f64 = 1.0 / (1_u32 << 24) as f64;
 
-/// Part of the mean step by which a time may always be off: the error of sums in
-/// double precision.
+/// Part of the mean step by which a time may always be off: the error of sums
+/// in double precision.
 const SLACK: f64 = 1e-6;
 
 /// Part of the mean step that distinguishes a missing time from a rounded one.

@@ -59,8 +59,8 @@ pub struct SuiteMember<M = Accelerogram> {
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
     pub study_component: bool,
-    /// Earthquake of the record, by the index; records of one earthquake are not
-    /// independent.
+    /// Earthquake of the record, by the index; records of one earthquake are
+    /// not independent.
     pub event: Option<String>,
     /// Values of the caller that neither file nor index states.
     pub given: Fallback,
@@ -133,24 +133,25 @@ impl Suite {
     /// index.
     ///
     /// An index is a CSV file with a column `file` (relative to the index),
-    /// separated by commas or semicolons. Optional columns: `name` (of the record;
-    /// by default the stem of the file), `format`, `units`, `dt_s`, `npts`,
-    /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1 or 0),
-    /// `event` (the earthquake, of every record or of none). Other columns are
-    /// kept as attributes. PEER's `_SearchResults.csv` is an index, too, with its
-    /// `Earthquake Name` as event; it is also the index of its folder.
+    /// separated by commas or semicolons. Optional columns: `name` (of the
+    /// record; by default the stem of the file), `format`, `units`, `dt_s`,
+    /// `npts`, `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`,
+    /// `study_component` (1 or 0), `event` (the earthquake, of every record or
+    /// of none). Other columns are kept as attributes. PEER's
+    /// `_SearchResults.csv` is an index, too, with its `Earthquake Name` as
+    /// event; it is also the index of its folder.
     ///
     /// In another folder, files in unknown formats, histories of velocity or
     /// displacement, vertical components, records from a borehole (KiK-net),
     /// folders and dead links are set aside ([`Suite::set_aside`]), and hidden
     /// files are ignored. Any other fault refuses the suite. If
-    /// [`ReadOptions::recursive`] is set, folders are read, too, and their names
-    /// precede the names of their records. A name of a file or a record, or a cell
-    /// of an index, is refused if results cannot contain it
-    /// ([`result_name`](rocking::accelerogram::result_name)). An index may list
-    /// vertical and borehole records, which get a remark. Records are paired by
-    /// event and station if the files name both, or else by the file name without
-    /// the orientation at its end.
+    /// [`ReadOptions::recursive`] is set, folders are read, too, and their
+    /// names precede the names of their records. A name of a file or a record,
+    /// or a cell of an index, is refused if results cannot contain it
+    /// ([`result_name`](rocking::accelerogram::result_name)). An index may
+    /// list vertical and borehole records, which get a remark. Records are
+    /// paired by event and station if the files name both, or else by the file
+    /// name without the orientation at its end.
     ///
     /// # Errors
     /// [`SuiteError`] with the folder, index or record, and the line.
@@ -226,8 +227,8 @@ impl<M: MemberMotion> Suite<M> {
         self.study_rule
     }
 
-    /// Other contents of the folder or archive; empty for an index that is read by
-    /// its own path.
+    /// Other contents of the folder or archive; empty for an index that is
+    /// read by its own path.
     #[must_use]
     pub fn set_aside(&self) -> &SetAside {
         &self.set_aside

@@ -21,8 +21,8 @@ impl Answers {
         Self(vec![None; reference().items.len()])
     }
 
-    /// Reads a CSV with the columns `scene,quantity,value`. A missing line or an
-    /// empty value is no answer. `path` is its name in messages.
+    /// Reads a CSV with the columns `scene,quantity,value`. A missing line or
+    /// an empty value is no answer. `path` is its name in messages.
     ///
     /// # Errors
     /// [`FileError`] for other columns, a scene or quantity that is not in the

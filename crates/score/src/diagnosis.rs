@@ -1,11 +1,11 @@
 //! Which mistake explains the answers of a code.
 //!
-//! Each hypothesis predicts every answer: the certified values (no mistake), the
-//! values of a wrong model or of two at once, or the certified values moved along
-//! the derivatives by one input. The rest of an answer is compared with a scatter
-//! `s K^n`, where K is the condition of the quantity, by the heavy-tailed Cauchy
-//! distribution, with the `s` and the `n` (0, 1/2 or 1) that suit the hypothesis
-//! best.
+//! Each hypothesis predicts every answer: the certified values (no mistake),
+//! the values of a wrong model or of two at once, or the certified values
+//! moved along the derivatives by one input. The rest of an answer is compared
+//! with a scatter `s K^n`, where K is the condition of the quantity, by the
+//! heavy-tailed Cauchy distribution, with the `s` and the `n` (0, 1/2 or 1)
+//! that suit the hypothesis best.
 
 use serde::Serialize;
 
@@ -71,8 +71,8 @@ pub enum CodeVerdict {
 pub struct Explanation {
     /// One mistake, or two that occur together.
     pub mistakes: Vec<Mistake>,
-    /// Factor on the input at fault, if the mistake is in an input and its size
-    /// was found.
+    /// Factor on the input at fault, if the mistake is in an input and its
+    /// size was found.
     pub factor: Option<f64>,
     /// Number of answers that deviate from the certified values, or should.
     pub deviating: usize,
@@ -109,8 +109,8 @@ struct Residual {
 
 /// Relative distance of two values, 1 at most; 1 if the second is missing.
 ///
-/// Two counts above the certified count have no distance: if a block comes to rest
-/// too soon, its impacts are infinitely many, and a code stops somewhere.
+/// Two counts above the certified count have no distance: if a block comes to
+/// rest too soon, its impacts are infinitely many, and a code stops somewhere.
 fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
     use Value::{Count, Number};
     match (a, b, &item.value) {
@@ -171,7 +171,8 @@ impl Hypothesis {
         Self::new(given, errors, vec![0.0; given.len()])
     }
 
-    /// Number of answers that deviate or should, and of those that it explains.
+    /// Number of answers that deviate or should, and of those that it
+    /// explains.
     fn account(&self, given: &[Residual]) -> (usize, usize) {
         let sizes = given.iter().zip(&self.left).zip(&self.moved);
         let deviating = sizes.filter_map(|((given, left), moved)| {
@@ -191,8 +192,8 @@ impl Hypothesis {
 }
 
 impl Residual {
-    /// Derivative of the value by an input. A release has no ground motion whose
-    /// size could be wrong.
+    /// Derivative of the value by an input. A release has no ground motion
+    /// whose size could be wrong.
     fn rate(&self, input: usize) -> f64 {
         let scene = reference().scene(self.item);
         let still = matches!(scene.excitation, SceneExcitation::Free);
@@ -225,8 +226,8 @@ fn given(answers: &Answers) -> Vec<Residual> {
     found.collect()
 }
 
-/// Finds the mistake that explains the answers, if any; mistakes in `withheld` are
-/// not considered.
+/// Finds the mistake that explains the answers, if any; mistakes in `withheld`
+/// are not considered.
 #[must_use]
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
@@ -264,7 +265,8 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
 /// A hypothesis with its names and its factor.
 type Named = (Vec<String>, Option<f64>, Hypothesis);
 
-/// The best hypotheses: those that explain the answers with the fewest mistakes.
+/// The best hypotheses: those that explain the answers with the fewest
+/// mistakes.
 fn best(mut all: Vec<Named>, given: &[Residual], least: f64) -> Vec<Named> {
     let best = all.iter().map(|(_, _, h)| h.likelihood);
     let best = best.fold(f64::NEG_INFINITY, f64::max);

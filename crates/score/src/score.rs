@@ -52,8 +52,8 @@ pub struct LevelScore {
     pub median_digits: Option<f64>,
     /// Fewest digits of the numbers answered.
     pub worst_digits: Option<f64>,
-    /// Share of the numbers answered that have all digits that double precision
-    /// can reach.
+    /// Share of the numbers answered that have all digits that double
+    /// precision can reach.
     pub attained_share: Option<f64>,
     /// Number of right outcomes.
     pub fates_right: usize,

@@ -21,14 +21,15 @@ const PERIODS_S: [f64; 16] = [
     7.5, 10.0,
 ];
 
-/// Parameters p of blocks, in rad/s: their average spectral acceleration is the
-/// geometric mean at ten periods from 0.15 to 1.0 times 2 pi/p, at equal ratios.
+/// Parameters p of blocks, in rad/s: their average spectral acceleration is
+/// the geometric mean at ten periods from 0.15 to 1.0 times 2 pi/p, at equal
+/// ratios.
 const P_RAD_S: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
 
 const GRAVITY_M_S2: f64 = 9.80665;
 
-/// A motion in the table: natural logarithms of measures by their labels, PGA and
-/// PGV first, and (t_PGV - t_PGA)/D5-75.
+/// A motion in the table: natural logarithms of measures by their labels, PGA
+/// and PGV first, and (t_PGV - t_PGA)/D5-75.
 type MotionMoments = (Vec<(String, f64)>, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,5 +1,5 @@
-//! Spectral accelerations and durations for given magnitude, distance and site:
-//! medians, scatter and correlation.
+//! Spectral accelerations and durations for given magnitude, distance and
+//! site: medians, scatter and correlation.
 
 use std::f64::consts::{LN_10, PI};
 
@@ -21,8 +21,9 @@ pub(super) const PGV: usize = PERIODS_S.len();
 pub(super) const DURATION: usize = PERIODS_S.len() + 1;
 
 /// Coefficients of Cauzzi, Faccioli, Vanini and Bianchini (2015), horizontal
-/// components at 5 % damping, one row a period, then PGV, in decimal logarithms:
-/// c1, m1 and m2 for the magnitude, r1, r2 and r3 for the distance.
+/// components at 5 % damping, one row a period, then PGV, in decimal
+/// logarithms: c1, m1 and m2 for the magnitude, r1, r2 and r3 for the
+/// distance.
 const SOURCE: [[f64; 6]; PERIODS_S.len() + 1] = [
     [-2.19617, 0.52375, -0.060945, -3.80190, 0.355081, 11.64156],
     [0.67594, 0.67016, -0.084249, -4.29897, 0.395015, 16.94994],

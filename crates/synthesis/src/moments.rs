@@ -1,11 +1,11 @@
-//! The conditions of a suite: four moments of each quantity, and medians of seven
-//! ratios to PGA.
+//! The conditions of a suite: four moments of each quantity, and medians of
+//! seven ratios to PGA.
 //!
-//! Geometric mean, in g, m/s or s, standard deviation of the natural logarithm,
-//! and its correlation with those of PGA and PGV, of PGA, of the spectral
-//! accelerations at the other periods, of PGV and of D5-75, over the study
-//! components of recorded pairs of PEER's database, without further processing.
-//! This program contains nothing else of those records.
+//! Geometric mean, in g, m/s or s, standard deviation of the natural
+//! logarithm, and its correlation with those of PGA and PGV, of PGA, of the
+//! spectral accelerations at the other periods, of PGV and of D5-75, over the
+//! study components of recorded pairs of PEER's database, without further
+//! processing. This program contains nothing else of those records.
 
 use std::ops::Range;
 
@@ -64,10 +64,10 @@ pub(super) const PULSE: Moments = [
     [4.9180, 0.533, -0.172, -0.103],
 ];
 
-/// Quantities whose geometric mean over PGA has the recorded median: six groups of
-/// spectral accelerations at six neighbouring periods, the first from 0.2 to 1 s
-/// and the last from 1 to 5 s, and PGV. These groups cover the average spectral
-/// acceleration of blocks with p of 6 to 1 rad/s.
+/// Quantities whose geometric mean over PGA has the recorded median: six
+/// groups of spectral accelerations at six neighbouring periods, the first
+/// from 0.2 to 1 s and the last from 1 to 5 s, and PGV. These groups cover the
+/// average spectral acceleration of blocks with p of 6 to 1 rad/s.
 const RATIOS: [Range<usize>; 7] =
     [3..9, 4..10, 5..11, 6..12, 7..13, 8..14, PGV..PGV + 1];
 
@@ -117,9 +117,10 @@ fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
     [with_pga, second, rest].map(|x| deviation * x)
 }
 
-/// Gives a sample of logarithms, the first component of each pair, the recorded
-/// moments by an affine transformation, which takes the second ones along: what
-/// PGA and PGV do not explain of a quantity keeps its correlations.
+/// Gives a sample of logarithms, the first component of each pair, the
+/// recorded moments by an affine transformation, which takes the second ones
+/// along: what PGA and PGV do not explain of a quantity keeps its
+/// correlations.
 ///
 /// Scores have mean 0, standard deviation 1 and no correlation: one is that of
 /// PGA, the other is of what PGA does not explain of PGV.

@@ -63,8 +63,8 @@ impl Peak {
         }
     }
 
-    /// Factors of the samples up to the instant found, whose products sum to the
-    /// value there; factors that are missing at the front are zero.
+    /// Factors of the samples up to the instant found, whose products sum to
+    /// the value there; factors that are missing at the front are zero.
     pub(super) fn weights(&self, found: &SamplePeak) -> Vec<f64> {
         match self {
             Self::Acceleration => vec![found.sign],
@@ -103,8 +103,8 @@ fn largest(values: impl Iterator<Item = f64>) -> SamplePeak {
 }
 
 /// A damped oscillator under samples joined by straight lines, exact at the
-/// samples (Nigam and Jennings 1969). The largest value at a sample is below the
-/// true peak by at most 5 % at 0.1 s, and less at longer periods. That is
+/// samples (Nigam and Jennings 1969). The largest value at a sample is below
+/// the true peak by at most 5 % at 0.1 s, and less at longer periods. That is
 /// accurate enough for corrections and faster than the measures of records.
 pub(super) struct Resonator {
     period_s: f64,

@@ -11,9 +11,9 @@ use crate::pair::{
 use crate::peaks::Peak;
 use crate::pulse::PulseModel;
 
-/// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and the
-/// ends at which it is cut. The list has no sites: these values are chosen for the
-/// usual firm soils and soft rocks of stations.
+/// Vs30, lognormal: median in m/s, standard deviation of the logarithm, and
+/// the ends at which it is cut. The list has no sites: these values are chosen
+/// for the usual firm soils and soft rocks of stations.
 const VS30_M_S: [f64; 4] = [380.0, 0.43, 180.0, 1000.0];
 
 /// Number of rounds in which ratios to PGA are bent and moments then restored:
@@ -48,10 +48,10 @@ pub(super) struct Target {
     pub(super) components: Components,
 }
 
-/// The targets of the whole suite: drawn pair by pair, then transformed so that the
-/// first components have the recorded moments, and nearly the recorded medians of
-/// ratios to PGA. Then pairs with a PGA of 0.14 g or less are drawn again, until
-/// there are none.
+/// The targets of the whole suite: drawn pair by pair, then transformed so
+/// that the first components have the recorded moments, and nearly the
+/// recorded medians of ratios to PGA. Then pairs with a PGA of 0.14 g or less
+/// are drawn again, until there are none.
 pub(super) fn conditioned(
     suite: &Design,
 ) -> Result<Vec<Target>, SynthesisError> {

@@ -67,10 +67,10 @@ const LARGEST_CORRECTION: f64 = 0.7;
 const CORRECTION_WIDTH: f64 = 0.5;
 const CORRECTION_APART: f64 = 0.7;
 
-/// Standard deviation with which a logarithm is met, over that of a correction:
-/// of spectral accelerations, of PGA and PGV, and of spectral accelerations
-/// from 3 s on. A low acceleration at long periods and a high PGV may exclude
-/// each other.
+/// Standard deviation with which a logarithm is met, over that of a
+/// correction: of spectral accelerations, of PGA and PGV, and of spectral
+/// accelerations from 3 s on. A low acceleration at long periods and a high
+/// PGV may exclude each other.
 const SOFTNESS: [f64; 3] = [0.12, 0.05, 0.2];
 
 /// Longest motion, in s.

@@ -1,12 +1,12 @@
 //! OpenQuake's fragility models, NRML 0.5, as version 3.26 reads them.
 //!
 //! - Its `mean` and `stddev` are of the intensity, not of its logarithm.
-//! - Its lognormal has no shift, and `noDamageLimit` cuts a curve without moving
-//!   it: a shifted fragility is written as points.
+//! - Its lognormal has no shift, and `noDamageLimit` cuts a curve without
+//!   moving it: a shifted fragility is written as points.
 //! - A level below `minIML` is raised to it before it is compared with
 //!   `noDamageLimit`: `minIML` may not be above that.
-//! - All functions have one list of limit states, and a function has one list of
-//!   levels for all its limit states.
+//! - All functions have one list of limit states, and a function has one list
+//!   of levels for all its limit states.
 //! - Its average spectral acceleration does not state its periods.
 //! - A model has one description: it states each origin once, and of many
 //!   origins the first.
@@ -154,8 +154,8 @@ fn discrete<'a>(
     for law in laws.clone() {
         levels.extend(points(*law, TOLERANCE)?.iter().map(|point| point.0));
     }
-    // Nine digits are written, and levels must rise. OpenQuake refuses a level of
-    // zero.
+    // Nine digits are written, and levels must rise. OpenQuake refuses a level
+    // of zero.
     levels.sort_by(f64::total_cmp);
     levels.dedup_by_key(|level| number(*level));
     levels.retain(|level| *level > 0.0);

@@ -30,8 +30,8 @@ pub struct Pact {
 }
 
 impl Pact {
-    /// The parameters of a fragility in g or m/s; `None` if it has a shift, which
-    /// PACT lacks.
+    /// The parameters of a fragility in g or m/s; `None` if it has a shift,
+    /// which PACT lacks.
     ///
     /// ```
     /// use rocking_statistics::Lognormal;

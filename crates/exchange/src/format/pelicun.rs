@@ -2,7 +2,8 @@
 //! parameters, and a JSON that describes them.
 //!
 //! - A shifted lognormal, and its total, is a `multilinear_CDF`,
-//!   "x1,x2,..|p1,p2,..", which begins with probability 0, ends with 1, and whose steps exceed 1e-8.
+//!   "x1,x2,..|p1,p2,..", which begins with probability 0, ends with 1, and
+//!   whose steps exceed 1e-8.
 //! - A limit state `LSk` is followed by `LSk+1`; the damage states `DSk` are
 //!   counted through all of them.
 //! - Where a component is named, a name with `-` is split there.

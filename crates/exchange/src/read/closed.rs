@@ -22,8 +22,8 @@ enum CsvPlace {
 /// The byte order mark, which the crate `csv` skips.
 const MARK: [u8; 3] = *b"\xef\xbb\xbf";
 
-/// Bytes of CSV, with an error at their end if a quoted cell is still open: the
-/// reader of the crate `csv` accepts such a cell.
+/// Bytes of CSV, with an error at their end if a quoted cell is still open:
+/// the reader of the crate `csv` accepts such a cell.
 pub struct Closed<R> {
     from: R,
     comment: Option<u8>,
@@ -37,8 +37,8 @@ pub struct Closed<R> {
 }
 
 impl<R> Closed<R> {
-    /// The bytes of `from`. Lines that begin with `comment` are not part of the
-    /// table.
+    /// The bytes of `from`. Lines that begin with `comment` are not part of
+    /// the table.
     pub fn new(from: R, comment: Option<u8>) -> Self {
         let place = CsvPlace::Line;
         Self { from, comment, place, mark: 0, line: 1, opened: 1 }

@@ -3,7 +3,8 @@
 //!
 //! `1993/01/15 20:06:08   3 100 15700 KSR: Kushiro` states channels, samples
 //! per second and samples per channel; `063-GL` in a channel's line is an
-//! azimuth and a place in or under the building. The peak behind it is checked.
+//! azimuth and a place in or under the building. The peak behind it is
+//! checked.
 
 use super::{Channel, Format, GAL};
 use crate::direction::Direction;

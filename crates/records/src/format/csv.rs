@@ -5,10 +5,9 @@
 //! are comments, and may state units in brackets. Cells may be quoted. The
 //! first column must be a time; only pandas may write the number of the row
 //! before it, under no name or `index`. The first sample counts as t = 0,
-//! whatever its time.
-//! Lines dropped at either end leave no trace; `npts` of an index shows them. A
-//! file that ends within a number is refused if the form of the number shows
-//! it.
+//! whatever its time. Lines dropped at either end leave no trace; `npts` of an
+//! index shows them. A file that ends within a number is refused if the form
+//! of the number shows it.
 
 use super::{Channel, Format, Header};
 use crate::error::{Fault, Result};

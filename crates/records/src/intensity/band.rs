@@ -12,7 +12,8 @@ const ENDS: (f64, f64) = (0.15, 1.0);
 /// overturns: twelve in equal ratios from 0.15 to 1.0 times 2 pi/p, both ends
 /// included, each rounded to four digits.
 ///
-/// The band was chosen on 86 ordinary recorded motions (`fixtures/law/law.py`).
+/// The band was chosen on 86 ordinary recorded motions
+/// (`fixtures/law/law.py`).
 ///
 /// ```
 /// use rocking_records::intensity::RockingBand;
@@ -28,8 +29,8 @@ pub struct RockingBand {
 }
 
 impl RockingBand {
-    /// The periods of a block with frequency parameter p in rad/s, from 1e-3 to 1e3;
-    /// `None` for any other number.
+    /// The periods of a block with frequency parameter p in rad/s, from 1e-3
+    /// to 1e3; `None` for any other number.
     #[must_use]
     pub fn try_new(p_rad_s: f64) -> Option<Self> {
         let (low, high) = ENDS;

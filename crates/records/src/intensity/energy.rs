@@ -1,5 +1,5 @@
-//! Integrals of |a| and a^2 over straight lines, and the times at which shares of
-//! the integral of a^2 are reached.
+//! Integrals of |a| and a^2 over straight lines, and the times at which shares
+//! of the integral of a^2 are reached.
 
 /// Integral of |a| over one interval of length 1 from `a` to `b`.
 pub(super) fn absolute(a: f64, b: f64) -> f64 {
@@ -62,8 +62,8 @@ impl<'a> Husid<'a> {
         let (i, reached) = (next - 1, self.cumulative[next - 1]);
         let (a, b) = (self.samples[i], self.samples[next]);
         let missing = target - reached;
-        // The part of the interval up to which its integral, a rising cubic, is the
-        // missing rest.
+        // The part of the interval up to which its integral, a rising cubic,
+        // is the missing rest.
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
             let x = 0.5 * (low + high);

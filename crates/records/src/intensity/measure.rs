@@ -113,8 +113,8 @@ named! {
 pub struct ScalarRow {
     /// The measure in text.
     symbol: &'static str,
-    /// A short name for the ticks of a figure; the root of a measure that grows with
-    /// the square of the acceleration.
+    /// A short name for the ticks of a figure; the root of a measure that
+    /// grows with the square of the acceleration.
     pub short: &'static str,
     unit: &'static str,
     /// Whether it grows with the square of the acceleration.
@@ -158,9 +158,9 @@ impl ScalarMeasure {
 }
 
 /// An intensity measure of a record. Its name is `pga`, `pgv`, `pgd`, `arias`,
-/// `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s, `avgsa:rocking`
-/// with the periods of a block, or `column:NAME`, all except NAME in upper or lower
-/// case.
+/// `cav`, `pgv-d575`, `sa:T`, `avgsa:T1,T2,..` with periods in s,
+/// `avgsa:rocking` with the periods of a block, or `column:NAME`, all except
+/// NAME in upper or lower case.
 ///
 /// ```
 /// use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
@@ -189,8 +189,9 @@ pub enum IntensityMeasure {
     Sa(f64),
     /// Geometric mean of spectral accelerations at periods in s.
     AverageSa(Vec<f64>),
-    /// Geometric mean of spectral accelerations at the periods of a block. Without a
-    /// block it has no value; [`IntensityMeasure::of_block`] adds the block.
+    /// Geometric mean of spectral accelerations at the periods of a block.
+    /// Without a block it has no value; [`IntensityMeasure::of_block`] adds
+    /// the block.
     RockingSa(Option<RockingBand>),
     /// A column of a suite's index, or another attribute of its records.
     Column(String),
@@ -275,8 +276,8 @@ fn listed(periods_s: &[f64], separator: &str) -> String {
     texts.join(separator)
 }
 
-/// A block at its uplift, where PGA/(g tan alpha) is 1. The measures of a suite are
-/// compared at this intensity.
+/// A block at its uplift, where PGA/(g tan alpha) is 1. The measures of a
+/// suite are compared at this intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtUplift {
     /// PGA at which the block lifts off, in g.
@@ -289,9 +290,9 @@ pub struct AtUplift {
 
 impl AtUplift {
     /// The measure of a record that is scaled to the uplift of the block,
-    /// dimensionless for PGA and PGV. For [`IntensityMeasure::Column`], `attribute`
-    /// is the attribute of the unscaled record. A period that was not measured
-    /// gives NaN.
+    /// dimensionless for PGA and PGV. For [`IntensityMeasure::Column`],
+    /// `attribute` is the attribute of the unscaled record. A period that was
+    /// not measured gives NaN.
     ///
     /// ```
     /// use rocking_records::intensity::{
@@ -364,8 +365,8 @@ impl AtUplift {
 }
 
 impl Settings {
-    /// The settings for these measures: their periods, each once, with the default
-    /// damping.
+    /// The settings for these measures: their periods, each once, with the
+    /// default damping.
     ///
     /// # Errors
     /// As [`Settings::try_new`].
@@ -405,16 +406,16 @@ impl IntensityMeasure {
         all
     }
 
-    /// The default measures for comparisons of shaking-table tests: PGA, PGV and the
-    /// last of the [`usual`](Self::usual) measures.
+    /// The default measures for comparisons of shaking-table tests: PGA, PGV
+    /// and the last of the [`usual`](Self::usual) measures.
     #[must_use]
     pub fn usual_of_tests() -> Vec<Self> {
         vec![Self::PGA, Self::PGV, Self::RockingSa(None)]
     }
 
     /// The measure for a block with frequency parameter p in rad/s:
-    /// [`RockingSa`](Self::RockingSa) without a block gets the periods of the block;
-    /// any other measure is unchanged.
+    /// [`RockingSa`](Self::RockingSa) without a block gets the periods of the
+    /// block; any other measure is unchanged.
     ///
     /// ```
     /// use rocking_records::intensity::IntensityMeasure;
@@ -507,8 +508,8 @@ impl IntensityMeasure {
         name.parse().ok().filter(|found: &Self| found.words() == words)
     }
 
-    /// Whether it grows with the square of the acceleration; all other measures are
-    /// proportional to it.
+    /// Whether it grows with the square of the acceleration; all other
+    /// measures are proportional to it.
     #[must_use]
     pub fn is_squared(&self) -> bool {
         matches!(self, Self::Scalar(scalar) if scalar.row().is_squared)
@@ -525,9 +526,9 @@ impl IntensityMeasure {
         }
     }
 
-    /// Its value for a record, in its [`unit`](Self::unit); `periods_s` are the
-    /// periods of the measured spectral accelerations. `None` for a column, and for
-    /// a period that was not measured.
+    /// Its value for a record, in its [`unit`](Self::unit); `periods_s` are
+    /// the periods of the measured spectral accelerations. `None` for a
+    /// column, and for a period that was not measured.
     #[must_use]
     pub fn value(&self, of: &Measures, periods_s: &[f64]) -> Option<f64> {
         let sa_g = |period_s: &f64| {

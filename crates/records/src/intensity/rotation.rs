@@ -4,8 +4,8 @@ use super::oscillator::OscillatorState;
 use super::{Direct, IntensityError, Measures, Settings, Spectrum};
 use rocking::accelerogram::Accelerogram;
 
-/// Number of directions, from 0 degrees in steps of 1 degree: the other half turn
-/// repeats them.
+/// Number of directions, from 0 degrees in steps of 1 degree: the other half
+/// turn repeats them.
 const DIRECTIONS: u32 = 180;
 
 /// Percentiles over directions of the measures of the rotated motion.

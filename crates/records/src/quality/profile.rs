@@ -6,8 +6,8 @@ use super::{COMPARED_SAMPLES, FEW_SAMPLES, NearPeak, Remark};
 use super::{mean_of, remarks};
 use rocking::accelerogram::Accelerogram;
 
-/// A summary of a motion whose samples stay in their file. It is enough to pair the
-/// motion, to judge it, and to find it again, and takes about 5 kB.
+/// A summary of a motion whose samples stay in their file. It is enough to
+/// pair the motion, to judge it, and to find it again, and takes about 5 kB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pub(super) name: String,
@@ -57,8 +57,8 @@ impl Profile {
         &self.name
     }
 
-    /// The samples near the peak less their mean, of length 1; `None` if there are
-    /// too few.
+    /// The samples near the peak less their mean, of length 1; `None` if there
+    /// are too few.
     pub(super) fn near_peak(&self) -> Option<NearPeak> {
         let from = self.before.checked_sub(FEW_SAMPLES)?;
         let near = self.about_peak.get(from..self.before + FEW_SAMPLES)?;
@@ -76,8 +76,8 @@ impl Profile {
     }
 }
 
-/// The motion of a record in a suite: the accelerogram, or the [`Profile`] of an
-/// accelerogram that stays in its file.
+/// The motion of a record in a suite: the accelerogram, or the [`Profile`] of
+/// an accelerogram that stays in its file.
 pub trait MemberMotion {
     /// Name of the record.
     fn name(&self) -> &str;

@@ -7,8 +7,8 @@ use crate::error::{Fault, RecordError};
 use rocking::accelerogram::EscapedName;
 
 coded! {
-    /// Why something in a folder or an archive is not a record of the suite, yet
-    /// no fault of the suite.
+    /// Why something in a folder or an archive is not a record of the suite,
+    /// yet no fault of the suite.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     #[cfg_attr(feature = "serde", derive(serde::Serialize))]
     #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

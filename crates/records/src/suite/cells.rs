@@ -1,7 +1,7 @@
 //! A line of separated cells.
 
-/// Cells of a line; `None` for a quote that does not close or is in the middle of
-/// a cell. A doubled quote inside quotes is one quote.
+/// Cells of a line; `None` for a quote that does not close or is in the middle
+/// of a cell. A doubled quote inside quotes is one quote.
 pub(super) fn split(line: &str, separator: char) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut rest = line;

@@ -300,8 +300,8 @@ impl IndexRow {
         }
     }
 
-    /// Reads the record of the row from `content` and checks it against the row.
-    /// `see` settles the values that only the caller states.
+    /// Reads the record of the row from `content` and checks it against the
+    /// row. `see` settles the values that only the caller states.
     pub(super) fn member(
         &self,
         content: &[u8],

@@ -11,11 +11,11 @@ const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 
 /// A record's name without its orientation.
 ///
-/// The orientation after a separator is a word for a horizontal component, or one
-/// to three digits (`A_E`, `A-90`, `A--L`). Without a separator it is three digits,
-/// or two letters after a digit (`HEC090`, `65006EW`). KiK-net's `.EW2` keeps its
-/// digit, an instrument code (`HNE`) between dots keeps its first two letters, and
-/// channels of one file share the file's name.
+/// The orientation after a separator is a word for a horizontal component, or
+/// one to three digits (`A_E`, `A-90`, `A--L`). Without a separator it is
+/// three digits, or two letters after a digit (`HEC090`, `65006EW`). KiK-net's
+/// `.EW2` keeps its digit, an instrument code (`HNE`) between dots keeps its
+/// first two letters, and channels of one file share the file's name.
 pub(super) fn pair_key(name: &str) -> Option<String> {
     if let Some((file, _)) = name.split_once(':') {
         return Some(file.to_owned());
@@ -43,8 +43,9 @@ fn is_orientation(end: &str) -> bool {
     is_azimuth(end) || Direction::of_word(end) == Direction::Horizontal
 }
 
-/// Pairs two records that share event and station or, without these, their name
-/// except for the orientation. Any other number of records stays unpaired.
+/// Pairs two records that share event and station or, without these, their
+/// name except for the orientation. Any other number of records stays
+/// unpaired.
 pub(super) fn pair_by_name<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
     let key = |m: &SuiteMember<M>| {
         m.site.clone().or_else(|| pair_key(m.accelerogram.name()))

@@ -26,8 +26,8 @@ pub struct Survey<K = SuiteMember> {
     path: String,
     /// Name of the suite.
     name: String,
-    /// Every record that was sought, in the index's order or by file name. Only
-    /// a [`Suite`] has the pairs that are found by name.
+    /// Every record that was sought, in the index's order or by file name.
+    /// Only a [`Suite`] has the pairs that are found by name.
     pub members: Vec<Result<K, SuiteError>>,
     /// Other contents of the folder or archive.
     pub set_aside: SetAside,
@@ -51,8 +51,8 @@ impl Survey {
 
 impl<K> Survey<K> {
     /// Reads every record of the folder or index at `path`, or the record file
-    /// there, one after the other in their order, and keeps the result of `keep`
-    /// for each.
+    /// there, one after the other in their order, and keeps the result of
+    /// `keep` for each.
     ///
     /// ```
     /// use std::path::Path;
@@ -103,11 +103,11 @@ impl<K> Survey<K> {
         Self::of_index(&shown, &bytes, options, read, keep)
     }
 
-    /// Reads every record among the files of a folder or archive, and keeps the
-    /// result of `keep` for each. The arguments are the path, the names of the
-    /// files, and a function that gives the bytes of a file. If one of the files
-    /// is PEER's `_SearchResults.csv`, it is the index. A file whose name occurs
-    /// twice is read once.
+    /// Reads every record among the files of a folder or archive, and keeps
+    /// the result of `keep` for each. The arguments are the path, the names of
+    /// the files, and a function that gives the bytes of a file. If one of the
+    /// files is PEER's `_SearchResults.csv`, it is the index. A file whose
+    /// name occurs twice is read once.
     ///
     /// # Errors
     /// [`SuiteError`] where an index cannot be read, and the first error of
@@ -276,8 +276,9 @@ fn container(path: &str) -> &str {
 }
 
 /// A record of a folder as a member of the suite. Refuses a vertical record, a
-/// record from a borehole, and a file name that results cannot contain. The name
-/// of the folder `within` the suite's folder precedes the name of the record.
+/// record from a borehole, and a file name that results cannot contain. The
+/// name of the folder `within` the suite's folder precedes the name of the
+/// record.
 fn horizontal(
     shown: &str,
     file: &str,

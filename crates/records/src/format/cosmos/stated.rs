@@ -1,4 +1,5 @@
-//! Statements of a channel's header about its series, compared with the series.
+//! Statements of a channel's header about its series, compared with the
+//! series.
 
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError, Result};
@@ -151,7 +152,8 @@ impl<'a> ChannelHeader<'_, 'a> {
             .and_then(|rest| text::first_word(rest).parse::<f64>().ok());
         if let Some(dt_s) = dt_s {
             let found_s = series.samples.len() as f64 * dt_s;
-            // The line is rounded to seconds; the header may differ by a sample.
+            // The line is rounded to seconds; the header may differ by a
+            // sample.
             let stated = [(value(DURATION_S), 0.0), (approx, 1.0)];
             for (expected_s, rounded_s) in stated {
                 let Some(expected_s) = expected_s else { continue };

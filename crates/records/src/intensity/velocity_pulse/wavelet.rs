@@ -51,9 +51,10 @@ impl Wavelet {
         Self { values, integral }
     }
 
-    /// Weights of the samples around a place: their sum of products with a motion,
-    /// whose samples are constant for one interval, is the coefficient at `scale`
-    /// intervals. Their number is odd, with the place in the middle.
+    /// Weights of the samples around a place: their sum of products with a
+    /// motion, whose samples are constant for one interval, is the coefficient
+    /// at `scale` intervals. Their number is odd, with the place in the
+    /// middle.
     pub(super) fn weights(&self, scale: usize) -> Vec<f64> {
         let a = scale as f64;
         let root = a.sqrt();

@@ -154,7 +154,9 @@ impl Layout {
                 expected += &format!(", and, if known, `{}`", names(true));
             }
             let found: String = header.join(",").chars().take(200).collect();
-            return Err(format!("found columns `{found}`: expected {expected}"));
+            return Err(format!(
+                "found columns `{found}`: expected {expected}"
+            ));
         }
         Ok(places)
     }

@@ -24,10 +24,10 @@ pub const TOLERANCE: f64 = 5e-4;
 /// Probability that is cut off at either end of a range of intensities.
 const TAIL: f64 = 1e-4;
 
-/// How far the probability of a limit state may lie above that of the one
-/// before it. OpenQuake ends a calculation whose damages, which are the
-/// differences, go below minus this; pelicun draws all limit states from one
-/// number and takes the last one that is reached.
+/// Largest excess of the probability of a limit state over the probability of
+/// the state before it. OpenQuake stops if a damage, which is their
+/// difference, is below minus this; pelicun draws all limit states from one
+/// number and takes the last state that is reached.
 const CROSSING: f64 = 1e-6;
 
 /// Why fragilities cannot be written in a format.
@@ -71,7 +71,7 @@ pub enum ExchangeError {
         id: Id,
         /// Its limit states.
         found: String,
-        /// Those of the first block.
+        /// Limit states of the first block.
         expected: String,
     },
     /// Limit states whose curves cross.
@@ -85,7 +85,7 @@ pub enum ExchangeError {
         id: Id,
         /// The limit state.
         name: Id,
-        /// That of greater damage.
+        /// The limit state of greater damage.
         next: Id,
         /// The intensity with its unit.
         im: String,
@@ -108,6 +108,9 @@ pub enum ExchangeError {
     #[error(transparent)]
     Lognormal(#[from] LognormalError),
 }
+
+/// A result of writing a format.
+type Result<T, E = ExchangeError> = std::result::Result<T, E>;
 
 /// Texts of a format.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -138,7 +141,7 @@ pub struct ExchangeFormat {
     /// Whether the curves of limit states may cross.
     may_cross: bool,
     /// Writes fragilities that have limit states.
-    texts: fn(&[BlockFragility]) -> Result<Texts, ExchangeError>,
+    texts: fn(&[BlockFragility]) -> Result<Texts>,
 }
 
 impl BlockFragility {
@@ -194,7 +197,7 @@ impl ExchangeFormat {
     }
 
     /// Refuses a block without limit states, and curves that cross.
-    fn check(&self, one: &BlockFragility) -> Result<(), ExchangeError> {
+    fn check(&self, one: &BlockFragility) -> Result<()> {
         let id = one.id.clone();
         if one.limit_states.is_empty() {
             return Err(ExchangeError::NoState { id });

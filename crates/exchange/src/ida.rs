@@ -11,7 +11,7 @@ use rocking_records::intensity::Intensity;
 use rocking_statistics::Clusters;
 
 use crate::columns::IDA;
-use crate::read::{Cells, FileError, reader, rows};
+use crate::read::{Cells, FileError, Result, reader, rows};
 use crate::table::Table;
 
 /// Names of outcomes of an analysis.
@@ -353,13 +353,13 @@ fn outcome(point: &IdaPoint) -> &'static str {
 }
 
 /// A positive number.
-fn positive(cells: &Cells<'_>, column: &str) -> Result<f64, FileError> {
+fn positive(cells: &Cells<'_>, column: &str) -> Result<f64> {
     let fits = |x: &f64| *x > 0.0 && x.is_finite();
     cells.parsed(column, fits, "a positive number")
 }
 
 impl Setting {
-    fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
+    fn of(cells: &Cells<'_>) -> Result<Self> {
         let of = "one that this program writes";
         let share = |x: &f64| (0.0..=1.0).contains(x);
         if !cells.text("order").is_empty() {
@@ -381,11 +381,7 @@ impl Setting {
     }
 
     /// Refuses a row of another analysis.
-    fn holds(
-        &self,
-        cells: &Cells<'_>,
-        first: &Cells<'_>,
-    ) -> Result<(), FileError> {
+    fn holds(&self, cells: &Cells<'_>, first: &Cells<'_>) -> Result<()> {
         let alpha = (self.by == Adjust::RecordScaling).then_some("alpha_rad");
         let last = IDA.columns[IDA.place("eta")..].iter().map(|own| own.name);
         for name in alpha.into_iter().chain(["p_rad_s"]).chain(last) {
@@ -410,11 +406,7 @@ impl IdaRow {
 
     /// Refuses a row that is not the next one of the record of `before`:
     /// levels rise, and a refined first overturning ends them.
-    fn follows(
-        &self,
-        before: &Self,
-        cells: &Cells<'_>,
-    ) -> Result<(), FileError> {
+    fn follows(&self, before: &Self, cells: &Cells<'_>) -> Result<()> {
         let rises = self.intensity_pga > before.intensity_pga;
         if (rises || self.is_refined()) && !before.is_refined() {
             return Ok(());
@@ -426,7 +418,7 @@ impl IdaRow {
         )))
     }
 
-    fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
+    fn of(cells: &Cells<'_>) -> Result<Self> {
         let not_negative = |column| {
             let expected = "a number, not negative, or inf";
             cells.parsed(column, |x: &f64| *x >= 0.0, expected)

@@ -1,8 +1,8 @@
-//! Results of [`rocking`] as texts that other programs read: tables as CSV,
+//! Results of [`rocking`] as texts for other programs: tables as CSV,
 //! and fragilities in the formats of OpenQuake, pelicun and PACT.
 //!
 //! The command line and the Python package write these files, and both call
-//! this crate. It gives texts: it opens no file.
+//! this crate, which returns texts and opens no files.
 //!
 //! ```
 //! use rocking::Block;

@@ -1,4 +1,4 @@
-//! Reading tables of the registry, and why a file is refused.
+//! Reading tables of the registry.
 
 mod closed;
 
@@ -16,8 +16,7 @@ use thiserror::Error;
 use crate::columns::{Layout, SCHEMA, SCHEMA_COLUMN};
 pub use closed::Closed;
 
-/// Why a file was refused: the place, what was found there, and what was
-/// expected.
+/// Why a file was refused: the place, the found and the expected content.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "{}{}: {message}",
@@ -29,9 +28,12 @@ pub struct FileError {
     pub path: PathBuf,
     /// Line number from 1, if one line is at fault.
     pub line: Option<u64>,
-    /// What was found and what was expected.
+    /// The found and the expected content, in words.
     pub message: String,
 }
+
+/// A result of reading a file.
+pub(crate) type Result<T, E = FileError> = std::result::Result<T, E>;
 
 impl FileError {
     /// A refusal of a file, or of one of its lines.

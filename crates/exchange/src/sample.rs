@@ -27,7 +27,7 @@ const SAMPLE_OF: &str = "# Sample of ";
 /// The block and model that a sample file names.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampleSetting {
-    /// Slenderness angle in rad; none for adjusted blocks.
+    /// Slenderness angle in rad; `None` for adjusted blocks.
     pub alpha_rad: Option<f64>,
     /// Frequency parameter in rad/s.
     pub p_rad_s: Option<f64>,
@@ -302,7 +302,7 @@ impl SampleFile {
     /// The values as a sample with censored values.
     ///
     /// # Errors
-    /// [`FileError`] if one is minus infinity or there is none.
+    /// [`FileError`] if a value is minus infinity, or without values.
     pub fn extended(&self) -> Result<ExtendedSample, FileError> {
         ExtendedSample::try_new(&self.values).map_err(|e| self.refuse(e))
     }
@@ -310,7 +310,7 @@ impl SampleFile {
     /// The values with the limits of the censored ones.
     ///
     /// # Errors
-    /// [`FileError`] if one is minus infinity or there is none.
+    /// [`FileError`] if a value is minus infinity, or without values.
     pub fn censored(&self) -> Result<CensoredSample, FileError> {
         CensoredSample::try_new(&self.values, &self.limits)
             .map_err(|e| self.refuse(e))

@@ -55,7 +55,7 @@ impl Direction {
         if self == Self::Unknown { other() } else { self }
     }
 
-    /// The direction that one word names. A number names none.
+    /// The direction by one word; unknown for a number.
     pub(super) fn of_word(word: &str) -> Self {
         let plain = word.replace('-', "");
         let is = |name: &&str| plain.eq_ignore_ascii_case(name);

@@ -37,7 +37,7 @@ pub struct RecordError {
     pub fault: Fault,
 }
 
-/// What reading gives, or why the file is refused.
+/// A result of reading a file.
 pub(crate) type Result<T, E = RecordError> = std::result::Result<T, E>;
 
 /// Line and column, each after a colon.

@@ -223,14 +223,14 @@ impl LineReader<'_, '_> {
 #[derive(Default)]
 pub(super) struct Forms {
     first: Option<Form>,
-    /// How many numbers before the last have each form.
+    /// Number of numbers before the last with each form.
     before: BTreeMap<Form, usize>,
     last: Option<(f64, Form)>,
 }
 
 impl Forms {
     /// Adds the next number and its form.
-    pub(super) fn push(&mut self, value: f64, form: Form) {
+    pub fn push(&mut self, value: f64, form: Form) {
         self.first.get_or_insert(form);
         if let Some((_, form)) = self.last.replace((value, form)) {
             *self.before.entry(form).or_default() += 1;
@@ -238,7 +238,7 @@ impl Forms {
     }
 
     /// Whether all numbers but the first have one form, and the first another.
-    pub(super) fn first_differs(&self) -> bool {
+    pub fn first_differs(&self) -> bool {
         let (Some(first), Some((_, last))) = (self.first, self.last) else {
             return false;
         };
@@ -256,7 +256,7 @@ impl Forms {
     /// numbers before, a shorter exponent, or no exponent although its size
     /// suggests one. A cut in a number without an exponent leaves a number
     /// nearer to zero.
-    pub(super) fn check_ended(&self, text: &Text<'_>) -> Result<Vec<Remark>> {
+    pub fn check_ended(&self, text: &Text<'_>) -> Result<Vec<Remark>> {
         let (Some(first), Some((value, last)), false, false) =
             (self.first, self.last, self.before.is_empty(), text.is_ended)
         else {

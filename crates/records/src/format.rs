@@ -24,7 +24,7 @@ use crate::text::Text;
 /// The unit of many networks.
 const GAL: AccelerationUnit = AccelerationUnit::CentimetrePerSecondSquared;
 
-/// What a format states about its samples.
+/// Statements of a format about its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Header {
     /// Number of samples, sampling interval and, in most files, unit.
@@ -50,7 +50,7 @@ pub struct Format {
     /// Contents of a file without a distinctive header, for messages; empty
     /// for other files.
     pub content: &'static str,
-    /// What a file states about its samples.
+    /// Statements of a file about its samples.
     pub header: Header,
     /// Whether a number is refused if its width or form differs from the
     /// others.
@@ -144,7 +144,7 @@ pub(crate) struct Channel {
     pub(crate) direction: Option<Direction>,
     /// Whether the sensor is in a borehole.
     pub(crate) borehole: bool,
-    /// What is suspicious about the text.
+    /// Remarks on the text.
     pub(crate) remarks: Vec<Remark>,
 }
 

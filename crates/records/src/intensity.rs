@@ -86,7 +86,7 @@ macro_rules! measures {
             /// amplitudes C at 0.25 Hz <= f <= 20 Hz (Rathje, Abrahamson and
             /// Bray 1998), of the samples followed by zeros to a power of two
             /// and at least 20 s, so that frequencies are at most 0.05 Hz
-            /// apart (Rathje, Faraj, Russell and Bray 2004). `None` where no
+            /// apart (Rathje, Faraj, Russell and Bray 2004). `None` if no
             /// frequency lies in the band.
             pub mean_period_s: Option<f64>,
             /// Pseudo-spectral acceleration (2 pi/T)^2 max|x| in multiples of
@@ -177,7 +177,7 @@ impl Measures {
     /// The measures of one component.
     ///
     /// # Errors
-    /// [`IntensityError::Silent`] where every sample is zero.
+    /// [`IntensityError::Silent`] if every sample is zero.
     ///
     /// ```
     /// use rocking_records::intensity::{Measures, Settings};

@@ -25,7 +25,7 @@ impl<'a> Text<'a> {
         keys.iter().all(|key| self.find(key).is_some())
     }
 
-    /// The value of `key`, as a text of its own.
+    /// The value of `key`, copied, if the header has it.
     pub fn label(&self, key: &str) -> Option<String> {
         self.find(key).map(|(_, value)| value.to_owned())
     }

@@ -9,11 +9,11 @@
 //! | a record | its intensity measures | [`intensity`] |
 //! | a record and a mode of a building | the motion of a floor | [`Floor::motion`](floor::Floor::motion) |
 //!
-//! The content tells the format. A file is read whole or refused: a cut
-//! number, a changed count, an unknown unit or a missing sampling interval
+//! The content determines the format. A file is read completely or refused: a
+//! cut number, a changed count, an unknown unit or a missing sampling interval
 //! gives a [`RecordError`] with its place, never a repaired record.
 //!
-//! The feature `serde`, off by default, writes names of choices.
+//! The feature `serde`, off by default, serialises names and measures.
 
 #![deny(missing_docs)]
 

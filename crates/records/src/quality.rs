@@ -1,4 +1,4 @@
-//! What is suspicious about a record that could be read.
+//! Suspicions about a record that could be read.
 //!
 //! A remark changes nothing: samples stay as they are.
 
@@ -48,7 +48,7 @@ coded! {
     #[derive(Clone, Debug, PartialEq, Error)]
     #[non_exhaustive]
     pub enum Remark {
-        /// PGA beyond what records have.
+        /// PGA outside the range of records.
         #[error(
             "PGA {pga_g:.3e} g, outside {} to {} g: is the unit right?",
             PGA_RANGE_G.0,
@@ -64,7 +64,7 @@ coded! {
             /// Longest run at the peak.
             samples: usize,
         } = "clipped",
-        /// The record stands still at a value that is not zero.
+        /// The record is constant at a value that is not zero.
         #[error("the same sample for {duration_s:.2} s: dead channel?")]
         Flat {
             /// Longest time at one value in s.
@@ -92,7 +92,7 @@ coded! {
             /// PGA without the mean in g.
             moving_g: f64,
         } = "offset",
-        /// A sampling interval beyond what recorders have.
+        /// A sampling interval outside the range of recorders.
         #[error(
             "sampling interval {dt_s} s, outside {} to {} s: is it an interval, and in s?",
             INTERVAL_RANGE_S.0,
@@ -166,7 +166,7 @@ coded! {
             other: String,
             /// Absolute correlation coefficient with it.
             correlation: f64,
-            /// How many more others there are.
+            /// Number of further records.
             more: usize,
         } = "duplicate",
     }
@@ -215,7 +215,7 @@ impl<'a> RemarkInput<'a> {
     }
 }
 
-/// What is suspicious about the samples of one record.
+/// Suspicions about the samples of one record.
 ///
 /// ```
 /// use rocking::accelerogram::Accelerogram;

@@ -1,4 +1,5 @@
-//! From a file's bytes to its records: the content tells the format.
+//! From the bytes of a file to its records, in the format that the content
+//! shows.
 
 use std::io::Read as _;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub fn read(
     settle_one(file, bytes, options)?.agreed()
 }
 
-/// Does what [`settle`] does, for a file of one component.
+/// As [`settle`], for a file of one component.
 pub(crate) fn settle_one(
     file: &str,
     bytes: &[u8],
@@ -101,7 +102,8 @@ pub fn read_as(
 }
 
 /// Reads all components of a file, in the given format or in the format that
-/// its content shows. A value of the caller counts if the file states none.
+/// its content shows. A value of the caller applies if the file does not
+/// state it.
 pub(crate) fn settle(
     file: &str,
     bytes: &[u8],
@@ -146,7 +148,7 @@ pub fn read_file(
 ///
 /// # Errors
 /// [`Fault::Unreadable`] for a file that cannot be read, that has more than
-/// 4 GiB or more than the memory holds, and for a device or a named pipe:
+/// 4 GiB or does not fit into memory, and for a device or a named pipe:
 /// they may never end.
 pub fn file_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
     let refuse = |reason: String| {
@@ -261,7 +263,7 @@ fn complete(
     for sample in &mut samples {
         *sample /= per_gravity;
     }
-    // The name of a file of several channels gives the direction of none.
+    // With several channels the file name gives no direction.
     let mut name = stem(text.file).to_owned();
     let label = channel.label.as_deref().unwrap_or("");
     let stated = channel.direction;

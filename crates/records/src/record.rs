@@ -32,9 +32,9 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 /// value, all files must agree with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
-    /// Sampling interval in s, for files that state none.
+    /// Sampling interval in s, for files without it.
     pub dt_s: Option<f64>,
-    /// Unit of the samples, for files that state none.
+    /// Unit of the samples, for files without it.
     pub unit: Option<AccelerationUnit>,
     /// Gravity in m/s2 by which an SI record is divided.
     pub gravity_m_s2: f64,
@@ -50,7 +50,7 @@ impl Default for ReadOptions {
     }
 }
 
-/// Which values of the caller were taken because the file states none.
+/// Which values of the caller were taken because the file lacks them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fallback {
     /// Sampling interval.

@@ -1,7 +1,7 @@
 //! The constant step of times that a program wrote.
 //!
 //! Programs write times with a fixed number of decimals or of significant
-//! digits, or hold them in single precision. The true time then lies within a
+//! digits, or store them in single precision. The true time then lies within a
 //! resolution of the written one. The step is one that all times of the file
 //! allow. If there is none, the file is refused at the first time that
 //! contradicts those before it.
@@ -179,8 +179,8 @@ const DETERMINED: f64 = 0.01;
 /// The constant step of `times_s`; time i is written to within
 /// `resolution_s(i)`.
 ///
-/// If times are held in single precision, each may also be the rounded sum of
-/// the one before and the step. Of the steps that all times allow, the one
+/// If times are stored in single precision, each may also be the rounded sum
+/// of the one before and the step. Of the steps that all times allow, the one
 /// with the fewest decimals or of a whole number of times per second is taken,
 /// if it is the only one of its kind; else their middle.
 ///
@@ -311,9 +311,9 @@ impl Steps {
     }
 }
 
-/// The steps dt for which some t0 puts t0 + i dt, where each sum of a time
-/// and the step may be off, within `allowed` of each time i; `drift` has how
-/// far the sums up to each may be off together.
+/// The steps dt for which some t0 puts t0 + i dt within `allowed` of each time
+/// i. Each sum of a time and the step may be off; `drift` bounds the error of
+/// all sums up to a time.
 fn constant(
     times_s: &[f64],
     allowed: impl Fn(usize) -> f64,

@@ -53,7 +53,7 @@ fn is_control(byte: u8) -> bool {
     byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c)
 }
 
-/// A text in UTF-16 that says so by its byte order mark.
+/// A text in UTF-16 with its byte order mark.
 fn utf_16(file: &str, bytes: &[u8]) -> Result<Option<String>> {
     let unit: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
@@ -101,7 +101,7 @@ impl Fault {
 
 impl<'a> Text<'a> {
     /// Text with at least one line that is not blank.
-    pub(super) fn new(file: &'a str, text: &'a str) -> Result<Self> {
+    pub fn new(file: &'a str, text: &'a str) -> Result<Self> {
         if u32::try_from(text.len()).is_err() {
             let reason = "a text of more than 4 GiB".to_owned();
             return Err(Fault::Unreadable(reason).whole(file));
@@ -131,12 +131,12 @@ impl<'a> Text<'a> {
     }
 
     /// Number of lines; blank lines at the end of the file are left out.
-    pub(super) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// Bytes of the lines `first..end`, their ends included.
-    pub(super) fn bytes(&self, first: usize, end: usize) -> usize {
+    pub fn bytes(&self, first: usize, end: usize) -> usize {
         let start = |index: usize| self.starts.get(index).copied();
         let bytes = start(first).zip(start(end)).map(|(a, b)| b - a);
         bytes.unwrap_or(0) as usize
@@ -144,7 +144,7 @@ impl<'a> Text<'a> {
 
     /// The line of index `index`, line `index` + 1 of the file, without its
     /// end; `None` after the last.
-    pub(super) fn line(&self, index: usize) -> Option<&'a str> {
+    pub fn line(&self, index: usize) -> Option<&'a str> {
         stop::point();
         let (start, end) =
             (self.starts.get(index)?, self.starts.get(index + 1)?);
@@ -153,27 +153,24 @@ impl<'a> Text<'a> {
     }
 
     /// Lines that do not begin with `#`, and their indices.
-    pub(super) fn data(&self) -> impl Iterator<Item = (usize, &'a str)> {
+    pub fn data(&self) -> impl Iterator<Item = (usize, &'a str)> {
         self.lines().enumerate().filter(|(_, line)| !line.starts_with('#'))
     }
 
     /// Lines from index `first` on.
-    pub(super) fn lines_from(
-        &self,
-        first: usize,
-    ) -> impl Iterator<Item = &'a str> {
+    pub fn lines_from(&self, first: usize) -> impl Iterator<Item = &'a str> {
         (first..).map_while(|index| self.line(index))
     }
 
     /// All lines.
-    pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
+    pub fn lines(&self) -> impl Iterator<Item = &'a str> {
         self.lines_from(0)
     }
 
     /// Index of the line after the last line, from index `first` on, with a
     /// digit or a word for a number: some programs write words after their
     /// numbers.
-    pub(super) fn end_of_numbers(&self, first: usize) -> usize {
+    pub fn end_of_numbers(&self, first: usize) -> usize {
         let number = |index: &usize| {
             let line = self.line(*index).unwrap_or("");
             line.bytes().any(|b| b.is_ascii_digit())
@@ -184,39 +181,30 @@ impl<'a> Text<'a> {
     }
 
     /// A fault on the line of index `index`.
-    pub(super) fn on_line(&self, index: usize, fault: Fault) -> RecordError {
+    pub fn on_line(&self, index: usize, fault: Fault) -> RecordError {
         let file = self.file.to_owned();
         RecordError { file, line: Some(index + 1), column: None, fault }
     }
 
     /// A fault at byte `byte` of the line of index `index`.
-    pub(super) fn at(
-        &self,
-        index: usize,
-        byte: usize,
-        fault: Fault,
-    ) -> RecordError {
+    pub fn at(&self, index: usize, byte: usize, fault: Fault) -> RecordError {
         let column = Some(byte + 1);
         RecordError { column, ..self.on_line(index, fault) }
     }
 
     /// A fault at the end of the file.
-    pub(super) fn at_end(&self, fault: Fault) -> RecordError {
+    pub fn at_end(&self, fault: Fault) -> RecordError {
         self.on_line(self.len() - 1, fault)
     }
 
     /// A header line with another content than the expected one.
-    pub(super) fn header(
-        &self,
-        index: usize,
-        expected: &'static str,
-    ) -> RecordError {
+    pub fn header(&self, index: usize, expected: &'static str) -> RecordError {
         let found = excerpt(self.line(index).unwrap_or(""));
         self.differs(index, found, expected)
     }
 
     /// A part of a header with another content than the expected one.
-    pub(super) fn differs(
+    pub fn differs(
         &self,
         index: usize,
         found: String,
@@ -226,13 +214,13 @@ impl<'a> Text<'a> {
     }
 
     /// A line that announces another quantity than acceleration.
-    pub(super) fn quantity(&self, index: usize) -> RecordError {
+    pub fn quantity(&self, index: usize) -> RecordError {
         let found = excerpt(self.line(index).unwrap_or(""));
         self.on_line(index, Fault::Quantity(found))
     }
 
     /// A text on a line instead of the expected numbers.
-    pub(super) fn no_number(
+    pub fn no_number(
         &self,
         index: usize,
         found: &str,
@@ -242,18 +230,14 @@ impl<'a> Text<'a> {
     }
 
     /// The unit that a line names.
-    pub(super) fn unit(
-        &self,
-        index: usize,
-        named: &str,
-    ) -> Result<AccelerationUnit> {
+    pub fn unit(&self, index: usize, named: &str) -> Result<AccelerationUnit> {
         let refuse = || self.on_line(index, Fault::Unit(excerpt(named)));
         AccelerationUnit::parse(named).ok_or_else(refuse)
     }
 
     /// Compares the number of samples up to the line of index `index` with the
     /// stated number.
-    pub(super) fn check_count(
+    pub fn check_count(
         &self,
         index: usize,
         found: usize,
@@ -291,7 +275,7 @@ pub(super) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
     Some(&line[end?..])
 }
 
-/// The first word of a text, empty if it has none.
+/// The first word of a text; empty without words.
 pub(super) fn first_word(text: &str) -> &str {
     text.split_ascii_whitespace().next().unwrap_or("")
 }

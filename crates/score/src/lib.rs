@@ -1,9 +1,9 @@
-//! Scores the answers of any rocking code against certified ones, and names
-//! the mistake that explains them.
+//! Compares the answers of any rocking code with certified values, and names
+//! the mistake that explains the differences.
 //!
-//! The data set is `fixtures/benchmark`, whose README says what is asked and
-//! how the certified values were computed. The command line and the Python
-//! package both call this crate.
+//! The data set is `fixtures/benchmark`; its README describes the quantities
+//! and the computation of the certified values. The command line and the
+//! Python package both call this crate.
 //!
 //! ```
 //! use std::path::Path;

@@ -147,7 +147,7 @@ pub fn own_answers() -> Result<Answers, String> {
 /// The answers of a run of each scene.
 ///
 /// # Errors
-/// Those of the runs.
+/// The errors of the runs.
 pub fn answers_of<N: Real>(
     run: impl Fn(&Problem) -> Result<OwnResponse<N>, String>,
 ) -> Result<Answers, String> {

@@ -44,9 +44,9 @@ pub struct LevelScore {
     pub level: u8,
     /// The level in words.
     pub kind: String,
-    /// How many numbers the data set has.
+    /// Count of numbers in the data set.
     pub asked: usize,
-    /// How many of these numbers were answered.
+    /// Count of numbers answered.
     pub answered: usize,
     /// Median of the digits of the numbers answered.
     pub median_digits: Option<f64>,

@@ -5,7 +5,7 @@ use std::f64::consts::{LN_10, PI};
 
 use crate::pair::{GRAVITY_M_S2, Scenario};
 
-/// Periods of the target spectrum in s. The first stands for PGA.
+/// Periods of the target spectrum in s. The first is PGA.
 pub(super) const PERIODS_S: [f64; 16] = [
     0.01, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
     7.5, 10.0,
@@ -152,9 +152,9 @@ pub(super) fn between_periods(one_s: f64, other_s: f64) -> f64 {
     if long < 0.2 && c2 < c4 { c2 } else { c4 }
 }
 
-/// Correlation of the deviations of D5-75 and of a spectral acceleration:
-/// that of the recorded suite, -0.35 up to 0.5 s and 0.05 at 5 s, on a line
-/// in the logarithm of the period.
+/// Correlation of the deviations of D5-75 and of a spectral acceleration, as
+/// in the recorded suite: -0.35 up to 0.5 s and 0.05 at 5 s, on a line in the
+/// logarithm of the period.
 pub(super) fn with_duration(period_s: f64) -> f64 {
     if period_s > 0.5 {
         -0.35 + 0.40 * libm::log10(period_s / 0.5)
@@ -163,9 +163,9 @@ pub(super) fn with_duration(period_s: f64) -> f64 {
     }
 }
 
-/// Correlation of a quantity's deviations in the two components: at equal
-/// periods that of Baker and Cornell (2006), for PGV as at 1 s, and 0.86, that
-/// of the recorded suite, for D5-75.
+/// Correlation of a quantity's deviations in the two components: by Baker and
+/// Cornell (2006) at equal periods, for PGV as at 1 s, and 0.86 for D5-75, as
+/// in the recorded suite.
 pub(super) fn between_components() -> [f64; QUANTITIES] {
     let mut out = [0.86; QUANTITIES];
     out[PGV] = 0.79;

@@ -1,10 +1,10 @@
-//! Random numbers: one stream a purpose, the same bits everywhere.
+//! Random numbers: one stream for each purpose, the same bits everywhere.
 
 use std::f64::consts::PI;
 
 use rocking_statistics::streams::{self, Streams};
 
-/// A stream of random numbers, found by name and index alone.
+/// A stream of random numbers, determined by its name and its index.
 pub(super) struct Deviates(streams::Stream);
 
 impl Deviates {
@@ -37,7 +37,7 @@ impl Deviates {
 }
 
 /// Lower Cholesky factor of a correlation matrix given by the rows of its
-/// strict lower triangle; `None` where it is not positive definite.
+/// strict lower triangle; `None` if it is not positive definite.
 pub(super) fn cholesky(lower: &[impl AsRef<[f64]>]) -> Option<Vec<Vec<f64>>> {
     let mut factor: Vec<Vec<f64>> = Vec::with_capacity(lower.len());
     for row in lower {

@@ -2,9 +2,9 @@
 //! seven ratios to PGA.
 //!
 //! Geometric mean, in g, m/s or s, standard deviation of the natural
-//! logarithm, and its correlation with those of PGA and PGV, of PGA, of the
-//! spectral accelerations at the other periods, of PGV and of D5-75, over the
-//! study components of recorded pairs of PEER's database, without further
+//! logarithm, and its correlation with the logarithms of PGA and PGV: of PGA,
+//! the spectral accelerations at the other periods, of PGV and of D5-75, over
+//! the study components of recorded pairs of PEER's database, without further
 //! processing. This program contains nothing else of those records.
 
 use std::ops::Range;
@@ -122,8 +122,9 @@ fn slopes(recorded: &Moments, k: usize) -> [f64; 3] {
 /// along: what PGA and PGV do not explain of a quantity keeps its
 /// correlations.
 ///
-/// Scores have mean 0, standard deviation 1 and no correlation: one is that of
-/// PGA, the other is of what PGA does not explain of PGV.
+/// The two scores have mean 0, standard deviation 1 and no correlation. The
+/// first is the score of PGA, the second the score of the part of PGV that PGA
+/// does not explain.
 pub(super) fn condition(pairs: &mut [Components], recorded: &Moments) {
     let column = |k: usize| {
         let mut values: Vec<f64> = pairs.iter().map(|p| p[0][k]).collect();
@@ -146,7 +147,7 @@ pub(super) fn condition(pairs: &mut [Components], recorded: &Moments) {
     let pgv = column(PGV).1;
     let second = score(&less(&pgv, slope(&first, &pgv), &first));
     // Of each quantity of the sample: mean, slopes on the two scores, and the
-    // stretch of what the scores do not explain.
+    // stretch of the rest that the scores do not explain.
     let rows: [[f64; 4]; QUANTITIES] = std::array::from_fn(|k| {
         let (mean, values) = column(k);
         let [one, other] = [&first, &second].map(|z| slope(z, &values));

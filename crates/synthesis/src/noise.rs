@@ -1,4 +1,4 @@
-//! What is done to a motion after it is made.
+//! Processing of a motion after its synthesis.
 
 use std::f64::consts::PI;
 

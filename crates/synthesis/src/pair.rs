@@ -1,4 +1,4 @@
-//! A pair of components, and the earthquake and site that it is of.
+//! A pair of components with its earthquake and site.
 
 use rocking::accelerogram::{Accelerogram, AccelerogramError};
 use thiserror::Error;
@@ -11,14 +11,14 @@ pub(crate) const GRAVITY_M_S2: f64 = 9.80665;
 /// Least peak ground acceleration of a component, in g.
 pub(crate) const LEAST_PGA_G: f64 = 0.14;
 
-/// How often a pair is drawn before the suite is refused.
+/// The most draws of a pair before the suite is refused.
 pub(crate) const MOST_DRAWS: u64 = 100;
 
 /// Why a suite cannot be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SynthesisError {
-    /// Samples that are no record.
+    /// Samples that are not a valid record.
     #[error(transparent)]
     Record(#[from] AccelerogramError),
     /// No draw of a pair is strong enough.
@@ -45,7 +45,7 @@ pub struct Scenario {
     pub rrup_km: f64,
     /// Shear-wave velocity of the upper 30 m, in m/s.
     pub vs30_m_s: f64,
-    /// Reverse faulting; strike slip otherwise.
+    /// Whether faulting is reverse; if not, it is strike slip.
     pub reverse: bool,
     /// Length of rupture towards the site, in km; zero for ordinary motions.
     pub towards_site_km: f64,
@@ -58,7 +58,7 @@ impl Scenario {
         format!("earthquake {:02}", self.earthquake)
     }
 
-    /// Names and texts of what an index says of it.
+    /// Names and texts of its columns in an index.
     #[must_use]
     pub fn columns(&self) -> [(&'static str, String); 5] {
         let mechanism = if self.reverse { "reverse" } else { "strike slip" };
@@ -72,18 +72,18 @@ impl Scenario {
     }
 }
 
-/// Two horizontal components and where they came from.
+/// Two horizontal components with their earthquake and site.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     /// The components; the first is the one that the study uses.
     pub components: [Accelerogram; 2],
     /// Earthquake and site.
     pub scenario: Scenario,
-    /// How many draws were refused before this one.
+    /// Number of draws that were refused before this one.
     pub refused: u64,
 }
 
-/// What a random stream is for.
+/// Purpose of a random stream.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Role {
     Earthquake,
@@ -104,8 +104,8 @@ pub(crate) fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {
     pair << 32 | attempt << 3 | role as u64
 }
 
-/// Both components at rest at their ends, rounded and named; `None` where
-/// one has PGA of at most 0.14 g.
+/// Both components at rest at their ends, rounded and named; `None` if one has
+/// PGA of at most 0.14 g.
 pub(crate) fn finished(
     suite: &str,
     pair: u64,

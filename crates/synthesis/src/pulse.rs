@@ -38,7 +38,7 @@ impl PulseModel {
     /// The pulse of a scenario, along two perpendicular directions that make
     /// a random angle with it.
     pub(super) fn draw(scenario: &Scenario, draws: &mut Deviates) -> Self {
-        // Definite for these constants; a test holds it.
+        // Definite for these constants, as a test checks.
         let factor = cholesky(&CORRELATION).unwrap_or_default();
         let errors = correlate(&factor, &draws.normals(CORRELATION.len()));
         let mut u = mean(scenario);

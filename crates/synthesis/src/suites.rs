@@ -52,8 +52,8 @@ pub(super) const PULSE: Design = Design {
 };
 
 /// All pairs of a suite. Its targets are drawn together, because they are
-/// conditioned together; each motion then has streams of its own. A motion
-/// with PGA of at most 0.14 g takes the noise of the next streams.
+/// conditioned together. Each motion then has its own streams; a motion with
+/// PGA of at most 0.14 g is made again from the next streams.
 pub(super) fn pairs(suite: &Design) -> Result<Vec<Pair>, SynthesisError> {
     let targets = targets::conditioned(suite)?;
     let made = |(i, target): (usize, &Target)| {

@@ -146,7 +146,7 @@ pub(super) fn draw(
 
 /// Factor of the correlation between the quantities of one component.
 pub(super) fn factor() -> Vec<Vec<f64>> {
-    // Definite for these constants; a test holds it.
+    // Definite for these constants, as a test checks.
     cholesky(&correlation()).unwrap_or_default()
 }
 

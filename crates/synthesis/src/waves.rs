@@ -41,29 +41,28 @@ const LEAD_S: f64 = 3.0;
 const SHAPE: [f64; 4] = [2.0, 0.3, 1.15, 6.0];
 
 /// Standard deviation of the logarithm of the amplitude's fluctuation that
-/// all bands of a pair share, and of that of each band.
+/// all bands of a pair share, and of the fluctuation of each band.
 const FLUCTUATION: [f64; 2] = [0.4, 0.4];
 
 /// Time between independent values of the fluctuation over D5-75.
 const FLUCTUATION_TIME: f64 = 0.25;
 
-/// D5-75 of the envelope over that of the target: fluctuations lengthen it.
+/// D5-75 of the envelope over D5-75 of the target: fluctuations lengthen it.
 const ENVELOPE: f64 = 0.93;
 
-/// A band is cut into packets about the instants at which these shares of the
-/// energy have come, where they are further apart than a wave of the band is
-/// long.
+/// A band is cut into packets around the instants at which these shares of the
+/// energy are reached, if these are further apart than the period of the band.
 const CUTS: [f64; 4] = [0.1, 0.35, 0.6, 0.85];
 
-/// How often the packets' amplitudes are corrected.
+/// Number of corrections of the packets' amplitudes.
 const CORRECTIONS: usize = 8;
 
 /// Largest correction of a logarithm.
 const LARGEST_CORRECTION: f64 = 0.7;
 
-/// Corrections of two packets are correlated by exp(-d/this), where d is the
-/// difference of the logarithms of their frequencies, times the other number
-/// at different times.
+/// Corrections of two packets have the correlation exp(-d/w) with the width w,
+/// where d is the difference of the logarithms of their frequencies. At
+/// different times it is multiplied by the second number.
 const CORRECTION_WIDTH: f64 = 0.5;
 const CORRECTION_APART: f64 = 0.7;
 
@@ -177,7 +176,7 @@ fn nodes_of(n: usize, d5_75_s: f64) -> usize {
     (n as f64 * DT_S / (FLUCTUATION_TIME * d5_75_s)) as usize + 2
 }
 
-/// What the noise of one component is made from.
+/// Ingredients of the noise of one component.
 struct Noise<'a> {
     envelope: &'a Envelope,
     /// Fluctuation that the components share, one value a node.
@@ -366,10 +365,10 @@ fn sum(packets: &[Packet], ln_gains: &[f64], n: usize) -> Vec<f64> {
 /// Sum of the packets whose amplitudes are corrected until it is near the
 /// target in PGA, response spectrum and PGV.
 ///
-/// Each of them is the largest value of a quantity that is linear in the
-/// amplitudes, so that its derivative is what the packets have at the instant
-/// of that value. A correction is the least change of the amplitudes'
-/// logarithms that removes what is missed, as far as the equations are
+/// Each of these is the largest value of a quantity that is linear in the
+/// amplitudes, so that its derivatives are the values of the packets at the
+/// instant of that value. A correction is the least change of the amplitudes'
+/// logarithms that removes the difference, as far as the equations are
 /// definite (Levenberg-Marquardt).
 fn matched(
     mut packets: Vec<Packet>,
@@ -379,7 +378,7 @@ fn matched(
 ) -> Vec<f64> {
     let peaks: Vec<Peak> = (0..=PGV).map(Peak::of).collect();
     let mut pulse_gain = 0.0;
-    // The noise begins with what the pulse leaves.
+    // The noise begins with the rest after the pulse.
     let mut left = *target;
     if let Some(pulse) = &pulse {
         let sizes: Vec<f64> =
@@ -465,12 +464,8 @@ fn softness(k: usize) -> f64 {
 /// Solves (J C J' + D) x = m, where `slopes` is J, `spread` J C, and D has the
 /// squares of the softness: by the Cholesky factor of the matrix whose
 /// diagonal is scaled to 1.
-fn solved(
-    slopes: &[Vec<f64>],
-    spread: &[Vec<f64>],
-    missed: &[f64],
-) -> Vec<f64> {
-    let n = missed.len();
+fn solved(slopes: &[Vec<f64>], spread: &[Vec<f64>], m: &[f64]) -> Vec<f64> {
+    let n = m.len();
     let scale = |k: usize| {
         let soft = softness(k);
         1.0 / (soft * soft + product(&spread[k], &slopes[k])).sqrt()
@@ -485,7 +480,7 @@ fn solved(
     let factor = cholesky(&lower).unwrap_or_default();
     let mut x: Vec<f64> = Vec::with_capacity(n);
     for (k, row) in factor.iter().enumerate() {
-        let rest = scale[k] * missed[k] - dot(row, &x);
+        let rest = scale[k] * m[k] - dot(row, &x);
         x.push(rest / row[k]);
     }
     for k in (0..x.len()).rev() {
@@ -495,7 +490,7 @@ fn solved(
     x.iter().zip(&scale).map(|(x, s)| x * s).collect()
 }
 
-/// Value at a period of what is given at the periods of the target, linear in
+/// Value at a period by values at the periods of the target, linear in
 /// the logarithm of the period, constant beyond the ends; PGA as at 0.04 s.
 fn read_off(values: &[f64], ln_period: f64) -> f64 {
     let place = |k: usize| match k {

@@ -1,6 +1,6 @@
 //! A table of all parameters with their units, for any program.
 
-use super::{ExchangeError, ExchangeFormat, Texts};
+use super::{ExchangeFormat, Result, Texts};
 use crate::columns::FRAGILITIES;
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number, optional};
@@ -15,7 +15,7 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
     ..ExchangeFormat::BASE
 };
 
-fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts> {
     let mut table = Table::of(&FRAGILITIES);
     for one in fragilities {
         for (state, total) in one.totals(1.0)? {

@@ -16,7 +16,7 @@ use rocking_procedures::fragility::points::points;
 use rocking_procedures::fragility::total::TotalFragility;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 
-use super::{ExchangeError, ExchangeFormat, TAIL, TOLERANCE, Texts};
+use super::{ExchangeError, ExchangeFormat, Result, TAIL, TOLERANCE, Texts};
 use crate::fragility::{BlockFragility, StateTotal};
 use crate::table::number;
 
@@ -37,7 +37,7 @@ const SPACE: &str = "http://openquake.org/xmlns/nrml/0.5";
 /// The most origins in a description.
 const MOST_ORIGINS: usize = 5;
 
-fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts> {
     let names = fragilities.first().map_or(String::new(), states);
     let mut functions = Vec::new();
     for one in fragilities {
@@ -84,9 +84,7 @@ fn description(fragilities: &[BlockFragility]) -> String {
 }
 
 /// OpenQuake's name of a measure, and the number of its units in our unit.
-fn measure(
-    one: &BlockFragility,
-) -> Result<(String, Option<f64>), ExchangeError> {
+fn measure(one: &BlockFragility) -> Result<(String, Option<f64>)> {
     Ok(match &one.im {
         IntensityMeasure::Axis(Intensity::Pga) => ("PGA".into(), None),
         // OpenQuake's PGV is in cm/s.
@@ -102,7 +100,7 @@ fn measure(
     })
 }
 
-fn function(one: &BlockFragility) -> Result<Markup, ExchangeError> {
+fn function(one: &BlockFragility) -> Result<Markup> {
     let (imt, units) = measure(one)?;
     let totals = one.totals(units.unwrap_or(1.0))?;
     let line = PreEscaped("\n");
@@ -149,7 +147,7 @@ fn words(numbers: &[f64]) -> String {
 /// there; the last is certainty.
 fn discrete<'a>(
     laws: impl Iterator<Item = &'a TotalFragility> + Clone,
-) -> Result<(Vec<f64>, Vec<Vec<f64>>), ExchangeError> {
+) -> Result<(Vec<f64>, Vec<Vec<f64>>)> {
     let mut levels = Vec::new();
     for law in laws.clone() {
         levels.extend(points(*law, TOLERANCE)?.iter().map(|point| point.0));

@@ -3,7 +3,7 @@
 use rocking_records::intensity::Intensity;
 use rocking_statistics::Lognormal;
 
-use super::{ExchangeError, ExchangeFormat, Texts};
+use super::{ExchangeError, ExchangeFormat, Result, Texts};
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number};
 
@@ -56,7 +56,7 @@ impl Pact {
     }
 }
 
-fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts> {
     let mut table = Table::headed(
         "id,damage_state,demand,unit,directional,median,dispersion",
     );

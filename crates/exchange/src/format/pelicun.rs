@@ -5,18 +5,18 @@
 //!   "x1,x2,..|p1,p2,..", which begins with probability 0, ends with 1, and
 //!   whose steps exceed 1e-8.
 //! - A limit state `LSk` is followed by `LSk+1`; the damage states `DSk` are
-//!   counted through all of them.
+//!   counted through all limit states.
 //! - Where a component is named, a name with `-` is split there.
 //! - `Demand-Directional` is 1: for a component without direction pelicun
-//!   multiplies the larger of two demands by 1.2, and the intensity here is
-//!   that of the component applied.
+//!   multiplies the larger of two demands by 1.2, but the intensity here is
+//!   the intensity of the applied component.
 
 use rocking_procedures::fragility::points::points;
 use rocking_procedures::fragility::total::TotalFragility;
 use rocking_records::intensity::{Intensity, IntensityMeasure};
 use serde_json::{Map, json};
 
-use super::{ExchangeError, ExchangeFormat, TOLERANCE, Texts};
+use super::{ExchangeError, ExchangeFormat, Result, TOLERANCE, Texts};
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number};
 
@@ -34,12 +34,12 @@ pub(super) static FORMAT: ExchangeFormat = ExchangeFormat {
 /// The smallest step that pelicun distinguishes from zero.
 const LEAST_STEP: f64 = 1e-8;
 
-fn texts(fragilities: &[BlockFragility]) -> Result<Texts, ExchangeError> {
+fn texts(fragilities: &[BlockFragility]) -> Result<Texts> {
     let beside = Some(json(fragilities));
     Ok(Texts { main: csv(fragilities)?, beside })
 }
 
-fn csv(fragilities: &[BlockFragility]) -> Result<String, ExchangeError> {
+fn csv(fragilities: &[BlockFragility]) -> Result<String> {
     let states = fragilities.iter().map(|one| one.limit_states.len());
     let states = states.max().unwrap_or(0);
     let mut header = String::from(
@@ -67,9 +67,7 @@ fn csv(fragilities: &[BlockFragility]) -> Result<String, ExchangeError> {
 }
 
 /// Type and unit of the demand.
-fn demand(
-    one: &BlockFragility,
-) -> Result<(String, &'static str), ExchangeError> {
+fn demand(one: &BlockFragility) -> Result<(String, &'static str)> {
     Ok(match &one.im {
         IntensityMeasure::Axis(Intensity::Pga) => {
             ("Peak Ground Acceleration".into(), "g")
@@ -85,10 +83,7 @@ fn demand(
 }
 
 /// Family and parameters.
-fn law(
-    one: &BlockFragility,
-    total: &TotalFragility,
-) -> Result<[String; 3], ExchangeError> {
+fn law(one: &BlockFragility, total: &TotalFragility) -> Result<[String; 3]> {
     let closed = total.closed().filter(|law| law.shift() == 0.0);
     let Some(law) = closed else {
         let points = points(*total, TOLERANCE)?;

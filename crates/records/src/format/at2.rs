@@ -26,7 +26,7 @@ const TITLES: [&str; 4] = [
     "TIME HISTORY IN UNITS OF",
 ];
 
-/// What may end a unit.
+/// Marks that may follow a unit.
 const MARKS: [char; 4] = ['.', ',', ';', ':'];
 
 /// The format.

@@ -27,7 +27,7 @@ pub(super) static FORMAT: Format = Format {
     ..Format::BASE
 };
 
-/// Whether the first line that is no comment is one number.
+/// Whether the first line after comments is one number.
 fn recognises(text: &Text<'_>) -> bool {
     let first = text.data().next();
     first.is_some_and(|(_, line)| number::is_number(line.trim()))

@@ -1,6 +1,5 @@
-//! COSMOS V1 and V2, and the CSMIP V1 and V2 it grew from: one or more
-//! channels, each with its header and with fixed-width blocks that say what
-//! they are.
+//! COSMOS V1 and V2, and their predecessors CSMIP V1 and V2: one or more
+//! channels, each with its header and with announced blocks of fixed width.
 //!
 //! COSMOS: `6000 acceleration pts, approx 60 secs, units=cm/sec2 (4),
 //! Format=(8F10.3)`, the interval of the series in milliseconds as the 62nd

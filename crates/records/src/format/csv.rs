@@ -1,4 +1,4 @@
-//! Two columns, time and acceleration, with one header line or none.
+//! Two columns, time and acceleration, with or without a header line.
 //!
 //! Separator: semicolon, comma, tab or blanks. A header names the columns and
 //! may state their units (`time_ms`, `acc [m/s2]`). Lines that begin with `#`

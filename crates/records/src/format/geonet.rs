@@ -88,7 +88,7 @@ impl ComponentHeader<'_, '_> {
         self.text.header(self.first + place, expected)
     }
 
-    /// The number that follows `word` on a line, and what follows it.
+    /// The number after `word` on a line, and the text after it.
     fn after(&self, place: usize, word: &str) -> Option<(f64, &str)> {
         let rest = text::after(self.line(place), word)?.trim_start();
         let number = text::first_word(rest);

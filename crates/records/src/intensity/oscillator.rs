@@ -34,7 +34,7 @@ pub(crate) struct Oscillator {
 }
 
 impl Oscillator {
-    pub(crate) fn new(period_s: f64, damping: f64, dt_s: f64) -> Self {
+    pub fn new(period_s: f64, damping: f64, dt_s: f64) -> Self {
         let interval = 2.0 * PI * dt_s / period_s;
         let steps = (10.0 * interval / PI).ceil().max(1.0);
         let step = interval / steps;
@@ -52,7 +52,7 @@ impl Oscillator {
     }
 
     /// States at the end of every step, from the state at the first sample.
-    pub(super) fn states(
+    pub fn states(
         &self,
         from: OscillatorState,
         samples: &[f64],
@@ -77,7 +77,7 @@ impl Oscillator {
 
     /// Absolute acceleration of the mass, -(2 zeta u' + u), at each sample, in
     /// g, and the last state.
-    pub(crate) fn absolute(
+    pub fn absolute(
         &self,
         from: OscillatorState,
         samples: &[f64],
@@ -94,7 +94,7 @@ impl Oscillator {
 
     /// Amplitude of the absolute acceleration in the free motion from a
     /// state, which falls by exp(-zeta tau).
-    pub(crate) fn free_amplitude(&self, state: OscillatorState) -> f64 {
+    pub fn free_amplitude(&self, state: OscillatorState) -> f64 {
         let zeta = self.damping;
         // With s = u'': s' = -(2 zeta s + u').
         let s = self.felt(state);
@@ -113,17 +113,13 @@ impl Oscillator {
     }
 
     /// Pseudo-spectral acceleration, in g.
-    pub(super) fn peak(&self, samples: &[f64]) -> f64 {
+    pub fn peak(&self, samples: &[f64]) -> f64 {
         self.peak_of(&self.states([0.0; 2], samples), samples)
     }
 
     /// Largest |u| at the ends of steps, at turning points between them, and
     /// at the first one after the record.
-    pub(super) fn peak_of(
-        &self,
-        states: &[OscillatorState],
-        samples: &[f64],
-    ) -> f64 {
+    pub fn peak_of(&self, states: &[OscillatorState], samples: &[f64]) -> f64 {
         stop::point();
         let mut peak: f64 = 0.0;
         for (i, pair) in states.windows(2).enumerate() {

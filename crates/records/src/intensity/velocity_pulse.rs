@@ -11,15 +11,15 @@
 //! the first, make the pulse. Five candidates are tried, each more than 0.4
 //! scales from those before.
 //!
-//! With PC = 0.63 PGV_r/PGV + 0.777 E_r/E, where r is what is left without
-//! the pulse and E the sum of squared velocities, P = (PC - 1.208421) /
+//! With PC = 0.63 PGV_r/PGV + 0.777 E_r/E, where r is the motion without the
+//! pulse and E the sum of squared velocities, P = (PC - 1.208421) /
 //! 0.2462717 and V = (PGV - 11.58861)/18.88015, PGV in cm/s, the indicator is
 //! -7.817 - 0.5679 P^2 - 0.1516 V^2 - 3.0253 P - 1.7396 V - 2.7156 P V.
 //! A candidate is a pulse if it is positive, and if it is early: when the
 //! pulse has 5 % of its squared velocity, the motion has less than 17 % of
 //! its own.
 //!
-//! Two details differ from that program, without effect on what it finds:
+//! Two details differ from that program, without effect on its results:
 //! velocities are integrated by trapezoids, and energies are sums over
 //! samples instead of over first-level wavelet coefficients.
 
@@ -294,7 +294,7 @@ impl Search {
         }
     }
 
-    /// The pulse, what is left, and the place of the first wavelet.
+    /// The pulse, the rest of the motion, and the place of the first wavelet.
     fn extract(
         &self,
         motion: &[f64],

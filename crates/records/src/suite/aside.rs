@@ -85,7 +85,7 @@ pub struct Aside {
     pub file: String,
     /// Why it is not a record of the suite.
     pub reason: AsideReason,
-    /// What was found, and what was expected.
+    /// The error of the file.
     pub error: RecordError,
 }
 
@@ -105,7 +105,7 @@ impl Aside {
     }
 }
 
-/// How many were set aside for one reason.
+/// Number of files that were set aside for one reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

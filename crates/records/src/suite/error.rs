@@ -39,9 +39,9 @@ pub enum SuiteError {
         path: String,
         /// Line, counted from 1.
         line: usize,
-        /// What stands there.
+        /// The text found.
         found: String,
-        /// What should.
+        /// The text expected.
         expected: String,
     },
     /// A record that contradicts its row in the index.
@@ -92,10 +92,13 @@ pub enum SuiteError {
         pair: String,
         /// Number of components.
         components: usize,
-        /// How many of them are marked for the study.
+        /// Number of components that are marked for the study.
         study: usize,
     },
 }
+
+/// A result of reading a suite.
+pub(super) type Result<T, E = SuiteError> = std::result::Result<T, E>;
 
 /// Contents of the folder instead of records.
 fn instead(set_aside: &SetAside) -> String {

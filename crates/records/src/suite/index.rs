@@ -4,6 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::cells::split;
+use super::error::Result;
 use super::{PEAK_TOLERANCE, StudyRule, SuiteError, SuiteMember};
 use crate::read::settle_one;
 use crate::record::{Agreement, ReadOptions, Record, sha256_hex};
@@ -28,7 +29,7 @@ pub(super) struct IndexRow {
     line: usize,
     /// Relative to the index.
     pub(super) file: String,
-    /// PEER's number stands for a column `pair`.
+    /// Pair by PEER's number, instead of a column `pair`.
     pair: Option<String>,
     cells: Vec<String>,
 }
@@ -91,7 +92,7 @@ fn separator(head: &str) -> char {
 
 impl Index {
     /// Parses an index, or PEER's search results.
-    pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Self, SuiteError> {
+    pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Self> {
         let content = text::decode(path, bytes)?;
         let lines: Vec<&str> = content.lines().collect();
         let peer = lines.iter().position(|line| is_peer(line));
@@ -135,7 +136,7 @@ struct IndexHead {
 
 impl IndexHead {
     /// The columns that `text` names, line `line` of the index.
-    fn parse(path: &str, line: usize, text: &str) -> Result<Self, SuiteError> {
+    fn parse(path: &str, line: usize, text: &str) -> Result<Self> {
         let mut head = Self {
             path: path.to_owned(),
             columns: Vec::new(),
@@ -177,11 +178,7 @@ impl IndexHead {
 
     /// Refuses cells that results cannot contain: all of them become names of
     /// files, records or attributes, or values of attributes.
-    fn check_names(
-        &self,
-        line: usize,
-        cells: &[String],
-    ) -> Result<(), SuiteError> {
+    fn check_names(&self, line: usize, cells: &[String]) -> Result<()> {
         match cells.iter().find(|cell| result_name(cell).is_err()) {
             Some(cell) => Err(self.refuse(line, cell, EXPECTED)),
             None => Ok(()),
@@ -193,11 +190,7 @@ impl IndexHead {
         self.columns.iter().position(|column| **column == *name)
     }
 
-    fn cells(
-        &self,
-        line: usize,
-        text: &str,
-    ) -> Result<Vec<String>, SuiteError> {
+    fn cells(&self, line: usize, text: &str) -> Result<Vec<String>> {
         let mut cells = split(text, self.separator).ok_or_else(|| {
             let expected = format!(
                 "cells separated by {:?}, quotes closed",
@@ -228,7 +221,7 @@ impl IndexHead {
         name: &str,
         pair: Option<String>,
         cells: Vec<String>,
-    ) -> Result<IndexRow, SuiteError> {
+    ) -> Result<IndexRow> {
         let file = self.place(name).map_or("", |place| &cells[place]);
         if file.is_empty() {
             return Err(self.refuse(line, file, "the name of a file"));
@@ -242,7 +235,7 @@ impl IndexHead {
         self: &Rc<Self>,
         line: usize,
         cells: &[String],
-    ) -> Result<Vec<IndexRow>, SuiteError> {
+    ) -> Result<Vec<IndexRow>> {
         let cell = |name: &str| self.place(name).map_or("", |i| &cells[i]);
         let there =
             |name: &&str| !cell(name).trim_matches(['-', ' ']).is_empty();
@@ -261,7 +254,7 @@ impl IndexRow {
     }
 
     /// The earthquake, which an index states for all records or for none.
-    fn event(&self) -> Result<Option<String>, SuiteError> {
+    fn event(&self) -> Result<Option<String>> {
         let stated = |name: &&str| self.head.place(name).is_some();
         let name = ["event", PEER_EVENT].into_iter().find(stated);
         let Some(name) = name else { return Ok(None) };
@@ -278,7 +271,7 @@ impl IndexRow {
         quantity: &'static str,
         found: impl ToString,
         expected: impl ToString,
-    ) -> Result<T, SuiteError> {
+    ) -> Result<T> {
         let (path, file) = (self.head.path.clone(), self.file.clone());
         let (found, expected) = (found.to_string(), expected.to_string());
         let line = self.line;
@@ -292,7 +285,7 @@ impl IndexRow {
         })
     }
 
-    fn positive(&self, name: &'static str) -> Result<Option<f64>, SuiteError> {
+    fn positive(&self, name: &'static str) -> Result<Option<f64>> {
         let Some(cell) = self.cell(name) else { return Ok(None) };
         match cell.parse::<f64>() {
             Ok(x) if x > 0.0 && x.is_finite() => Ok(Some(x)),
@@ -307,7 +300,7 @@ impl IndexRow {
         content: &[u8],
         options: &ReadOptions,
         see: impl FnOnce(Agreement) -> Record,
-    ) -> Result<SuiteMember, SuiteError> {
+    ) -> Result<SuiteMember> {
         if let Some(expected) = self.cell("sha256") {
             let found = sha256_hex(content);
             if !found.eq_ignore_ascii_case(expected) {
@@ -362,11 +355,7 @@ impl IndexRow {
         Ok(member)
     }
 
-    fn check(
-        &self,
-        record: &Record,
-        gravity_m_s2: f64,
-    ) -> Result<(), SuiteError> {
+    fn check(&self, record: &Record, gravity_m_s2: f64) -> Result<()> {
         let motion = &record.accelerogram;
         if let Some(cell) = self.cell("format") {
             let found = record.format.name;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::error::Result;
 use super::{SuiteError, SuiteMember};
 use crate::direction::{Direction, glued, is_azimuth, is_code};
 use crate::quality::MemberMotion;
@@ -83,7 +84,7 @@ pub(super) fn mark_first<M: MemberMotion>(members: &mut [SuiteMember<M>]) {
 pub(super) fn check_pairs<M>(
     path: &str,
     members: &[SuiteMember<M>],
-) -> Result<(), SuiteError> {
+) -> Result<()> {
     let mut pairs: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for member in members {
         let Some(pair) = &member.pair else { continue };
@@ -104,7 +105,7 @@ pub(super) fn check_pairs<M>(
 pub(super) fn check_names<M: MemberMotion>(
     path: &str,
     members: &[SuiteMember<M>],
-) -> Result<(), SuiteError> {
+) -> Result<()> {
     let names: Vec<&str> =
         members.iter().map(|m| m.accelerogram.name()).collect();
     let path = path.to_owned();

@@ -40,7 +40,7 @@ impl Survey {
     /// file there.
     ///
     /// # Errors
-    /// [`SuiteError`] where the folder or index itself cannot be read.
+    /// [`SuiteError`] if the folder or index itself cannot be read.
     pub fn read(
         path: &Path,
         options: &ReadOptions,
@@ -67,7 +67,7 @@ impl<K> Survey<K> {
     /// ```
     ///
     /// # Errors
-    /// [`SuiteError`] where the folder or index itself cannot be read, and
+    /// [`SuiteError`] if the folder or index itself cannot be read, and
     /// the first error of `keep`.
     pub fn visit<E: From<SuiteError>>(
         path: &Path,
@@ -110,7 +110,7 @@ impl<K> Survey<K> {
     /// name occurs twice is read once.
     ///
     /// # Errors
-    /// [`SuiteError`] where an index cannot be read, and the first error of
+    /// [`SuiteError`] if an index cannot be read, and the first error of
     /// `keep`.
     pub fn of_files<E: From<SuiteError>>(
         path: &str,
@@ -220,8 +220,8 @@ impl<M: MemberMotion> Survey<SuiteMember<M>> {
     /// The suite, if no record was refused.
     ///
     /// # Errors
-    /// The first refused record; [`SuiteError::Empty`] without any; a name
-    /// that two records share; a pair that is none.
+    /// The first refused record; [`SuiteError::Empty`] without records; a name
+    /// that two records share; an invalid pair.
     pub fn into_suite(self) -> Result<Suite<M>, SuiteError> {
         let Self { path, name, members, set_aside, study_rule, paired } = self;
         let mut members =

@@ -8,11 +8,11 @@
 /// Coefficients on 1, M, max(M - 6.5, 0), ln sqrt(R^2 + 36 km2), reverse
 /// faulting, ln Vs30, length of rupture towards the site in km.
 ///
-/// What the program leaves open is inferred. The third is max(M - 6.5, 0)
-/// where the program has M - 6.5: the amplitude's coefficients, 0.608 and
-/// -0.608, would else leave no magnitude in it at all.
-/// "Reverse faulting" is in the program its product with the depth of the
-/// rupture's top in km, at most 1: here the top is at least 1 km deep.
+/// Some details are inferred. The third regressor is max(M - 6.5, 0), although
+/// the program has M - 6.5: with that, the coefficients of the amplitude,
+/// 0.608 and -0.608, would cancel the magnitude. In the program "reverse
+/// faulting" is multiplied by the depth of the rupture's top in km, at most 1:
+/// here the top is at least 1 km deep.
 #[rustfmt::skip]
 pub(super) const REGRESSION: [[f64; 7]; 6] = [
     [1.698626, 0.60819, -0.60819, -0.576217, 0.183071, -0.093932, 0.006571],

@@ -56,7 +56,7 @@ pub(super) struct ChannelSeries<'s> {
 
 impl<'a> ChannelHeader<'_, 'a> {
     /// The header's lines.
-    pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
+    pub fn lines(&self) -> impl Iterator<Item = &'a str> {
         self.text.lines_from(self.head).take(self.announced - self.head)
     }
 
@@ -76,7 +76,7 @@ impl<'a> ChannelHeader<'_, 'a> {
 
     /// Refuses another number of points. The header of a corrected record also
     /// has the number of points before the correction, in capitals.
-    pub(super) fn check_count(&self, count: usize) -> Result<()> {
+    pub fn check_count(&self, count: usize) -> Result<()> {
         let raw = self.lines().next().is_some_and(|line| {
             text::contains(line.trim_start().get(..4).unwrap_or(""), "unco")
         });
@@ -91,10 +91,7 @@ impl<'a> ChannelHeader<'_, 'a> {
     }
 
     /// The unit that announces the samples, or else the unit of the peak.
-    pub(super) fn unit(
-        &self,
-        announced: &str,
-    ) -> Result<Option<AccelerationUnit>> {
+    pub fn unit(&self, announced: &str) -> Result<Option<AccelerationUnit>> {
         if announced.is_empty() {
             return Ok(self.peak().and_then(|(_, unit)| unit));
         }
@@ -110,10 +107,7 @@ impl<'a> ChannelHeader<'_, 'a> {
     }
 
     /// The interval of a CSMIP series.
-    pub(super) fn of_csmip(
-        &self,
-        series: &ChannelSeries<'_>,
-    ) -> Result<Option<f64>> {
+    pub fn of_csmip(&self, series: &ChannelSeries<'_>) -> Result<Option<f64>> {
         let dt_s = series.dt_s;
         let stated = "equally-spaced intervals of";
         if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
@@ -131,7 +125,7 @@ impl<'a> ChannelHeader<'_, 'a> {
     }
 
     /// The interval of a COSMOS series by its real header.
-    pub(super) fn of_cosmos(
+    pub fn of_cosmos(
         &self,
         reals: &[f64],
         series: &ChannelSeries<'_>,

@@ -72,15 +72,15 @@ fn per_second(name: &str) -> Option<f64> {
 const TIMES: [&str; 7] =
     ["t", "time", "times", "sec", "secs", "second", "seconds"];
 
-/// Parts of names of columns that are no acceleration history.
+/// Parts of names of columns with other quantities.
 const OTHERS: [&str; 6] = ["vel", "disp", "spect", "psa", "psv", "fourier"];
 
 /// Units of the columns that a header line names.
 ///
 /// # Errors
-/// [`Fault::Quantity`] for a first column that is no time, or a second one
-/// that is no acceleration; [`Fault::Unit`] and [`Fault::Interval`] for a
-/// unit that is not known.
+/// [`Fault::Header`] for a first column that is not a time,
+/// [`Fault::Quantity`] for a second column that is not an acceleration,
+/// [`Fault::Unit`] and [`Fault::Interval`] for an unknown unit.
 pub(super) fn header(
     text: &Text<'_>,
     index: usize,

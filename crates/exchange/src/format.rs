@@ -36,13 +36,10 @@ const CROSSING: f64 = 1e-6;
 pub enum ExchangeError {
     /// PACT's fragilities have no shift.
     #[error(
-        "{id}: PACT has no shifted lognormal: expected no shift; the \
-         unshifted fit is what FEMA P-58 takes"
+        "{0}: PACT has no shifted lognormal: expected no shift; FEMA P-58 \
+         uses the unshifted fit"
     )]
-    Shifted {
-        /// The fragility.
-        id: Id,
-    },
+    Shifted(Id),
     /// A measure that the other program lacks.
     #[error("{id}: {format} has no measure {im}: expected {expected}")]
     Measure {
@@ -56,11 +53,8 @@ pub enum ExchangeError {
         expected: &'static str,
     },
     /// A block without a limit state.
-    #[error("{id}: no limit state: expected at least one")]
-    NoState {
-        /// The fragility.
-        id: Id,
-    },
+    #[error("{0}: no limit state: expected at least one")]
+    NoState(Id),
     /// Blocks with different limit states in a format that has one list.
     #[error(
         "{id}: limit states {found}: expected {expected}, as of the first \
@@ -200,7 +194,7 @@ impl ExchangeFormat {
     fn check(&self, one: &BlockFragility) -> Result<()> {
         let id = one.id.clone();
         if one.limit_states.is_empty() {
-            return Err(ExchangeError::NoState { id });
+            return Err(ExchangeError::NoState(id));
         }
         let totals = one.totals(1.0)?;
         let pairs = totals.iter().zip(totals.iter().skip(1));

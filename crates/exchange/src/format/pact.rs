@@ -69,7 +69,7 @@ fn texts(fragilities: &[BlockFragility]) -> Result<Texts> {
             let closed = total.closed();
             let pact = closed
                 .and_then(|law| Pact::of(intensity, &law))
-                .ok_or_else(|| ExchangeError::Shifted { id: id.clone() })?;
+                .ok_or_else(|| ExchangeError::Shifted(id.clone()))?;
             table.row([
                 id.to_string(),
                 state.name.to_string(),

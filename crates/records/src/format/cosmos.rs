@@ -21,7 +21,7 @@ use crate::error::{Fault, Result};
 use crate::fields::{self, FieldLayout};
 use crate::number;
 use crate::text::{self, Text, excerpt};
-use stated::{ChannelHeader, ChannelSeries};
+use stated::ChannelHeader;
 
 mod stated;
 
@@ -84,49 +84,42 @@ fn read(text: &Text<'_>) -> Result<Vec<Channel>> {
         if text::contains(line, "integer-header values follow") {
             // Codes of the station and the sensor, which no sample needs.
             integers = numeric_header(text, here).unwrap_or_default().0;
-            continue;
-        }
-        if text::contains(line, "real-header values follow") {
+        } else if text::contains(line, "real-header values follow") {
             (reals, index) = numeric_header(text, here)?;
-            continue;
-        }
-        if ends_block(line) {
+        } else if ends_block(line) {
             // Its samples were read on the lines before.
             if here != head || here == 0 {
                 let expected = "samples, announced before their end";
                 return Err(text.header(here, expected));
             }
             head += 1;
-            continue;
+        } else if announces(line) {
+            let SampleBlock { count, quantity, unit, layout, dt_s } =
+                announced(text, here)?;
+            let samples;
+            (samples, index) = fields::block(text, index, count, layout)?;
+            after_block(text, index)?;
+            let lines = head..here;
+            let header = ChannelHeader { text, lines, samples: &samples };
+            header.check_count()?;
+            if text::contains(quantity, "acc") {
+                let unit = header.unit(unit)?;
+                let dt = match is_cosmos(line) {
+                    true => header.of_cosmos(&reals, unit)?,
+                    false => header.of_csmip(dt_s, unit)?,
+                };
+                let number = channels.len() + 1;
+                let (label, name) = label(header.lines(), number);
+                let direction = Direction::of_label(&name, true)
+                    .or(|| stated::oriented(&std::mem::take(&mut integers)));
+                channels.push(Channel {
+                    label: Some(label),
+                    direction: Some(direction),
+                    ..Channel::of(dt, unit, samples)
+                });
+            }
+            head = index;
         }
-        if !announces(line) {
-            continue;
-        }
-        let block = announced(text, here)?;
-        let samples;
-        (samples, index) =
-            fields::block(text, index, block.count, block.layout)?;
-        after_block(text, index)?;
-        let header = ChannelHeader { text, head, announced: here };
-        header.check_count(block.count)?;
-        if text::contains(block.quantity, "acc") {
-            let unit = header.unit(block.unit)?;
-            let series =
-                ChannelSeries { unit, dt_s: block.dt_s, samples: &samples };
-            let dt = match is_cosmos(line) {
-                true => header.of_cosmos(&reals, &series)?,
-                false => header.of_csmip(&series)?,
-            };
-            let (label, name) = label(header.lines(), channels.len() + 1);
-            let direction = Direction::of_label(&name, true)
-                .or(|| stated::oriented(&std::mem::take(&mut integers)));
-            channels.push(Channel {
-                label: Some(label),
-                direction: Some(direction),
-                ..Channel::of(dt, unit, samples)
-            });
-        }
-        head = index;
     }
     let rest = text.lines_from(head).any(|line| {
         let line = line.trim_start();

@@ -317,16 +317,13 @@ impl AtUplift {
         attribute: f64,
     ) -> f64 {
         let factor = self.pga_g / of.pga_g;
-        let velocity = self.p_rad_s / (self.gravity_m_s2 * self.pga_g);
-        let value = || measure.value(of, periods_s).unwrap_or(f64::NAN);
-        match measure {
-            IntensityMeasure::Column(_) => factor * attribute,
-            IntensityMeasure::Axis(intensity) => {
-                intensity.of(1.0, velocity * factor * of.pgv_m_s)
-            }
-            squared if squared.is_squared() => factor * factor * value(),
-            _ => factor * value(),
+        if let IntensityMeasure::Axis(intensity) = measure {
+            let velocity = self.p_rad_s / (self.gravity_m_s2 * self.pga_g);
+            return intensity.of(1.0, velocity * factor * of.pgv_m_s);
         }
+        let factor =
+            if measure.is_squared() { factor * factor } else { factor };
+        factor * self.unscaled(measure, of, periods_s, attribute)
     }
 
     /// The measure of the unscaled record, with the units of [`Self::value`].

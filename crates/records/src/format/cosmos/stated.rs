@@ -1,6 +1,8 @@
 //! Statements of a channel's header about its series, compared with the
 //! series.
 
+use std::ops::Range;
+
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError, Result};
 use crate::number;
@@ -37,31 +39,22 @@ pub(super) fn oriented(integers: &[f64]) -> Direction {
     }
 }
 
-/// The lines of a channel's header.
+/// The header of a channel, and its samples.
 pub(super) struct ChannelHeader<'t, 'a> {
     pub(super) text: &'t Text<'a>,
-    /// Index of the first line.
-    pub(super) head: usize,
-    /// Index of the line that announces the samples.
-    pub(super) announced: usize,
-}
-
-/// A series as it was read.
-pub(super) struct ChannelSeries<'s> {
-    pub(super) unit: Option<AccelerationUnit>,
-    /// Interval (s) that the announcing line states.
-    pub(super) dt_s: Option<f64>,
-    pub(super) samples: &'s [f64],
+    /// Indices of the lines; the line after them announces the samples.
+    pub(super) lines: Range<usize>,
+    pub(super) samples: &'t [f64],
 }
 
 impl<'a> ChannelHeader<'_, 'a> {
     /// The header's lines.
     pub fn lines(&self) -> impl Iterator<Item = &'a str> {
-        self.text.lines_from(self.head).take(self.announced - self.head)
+        self.text.lines_from(self.lines.start).take(self.lines.len())
     }
 
     fn differs(&self, at: usize, expected: &'static str) -> RecordError {
-        self.text.header(self.head + at, expected)
+        self.text.header(self.lines.start + at, expected)
     }
 
     /// The first line with `words`: its place, the text after them, and the
@@ -76,14 +69,14 @@ impl<'a> ChannelHeader<'_, 'a> {
 
     /// Refuses another number of points. The header of a corrected record also
     /// has the number of points before the correction, in capitals.
-    pub fn check_count(&self, count: usize) -> Result<()> {
+    pub fn check_count(&self) -> Result<()> {
         let raw = self.lines().next().is_some_and(|line| {
             text::contains(line.trim_start().get(..4).unwrap_or(""), "unco")
         });
         let Some((at, rest, line)) = self.after("no. of points") else {
             return Ok(());
         };
-        let same = text::first_word(rest).parse() == Ok(count);
+        let same = text::first_word(rest).parse() == Ok(self.samples.len());
         if same || !(raw || line.trim_start().starts_with("No. of Points")) {
             return Ok(());
         }
@@ -95,7 +88,7 @@ impl<'a> ChannelHeader<'_, 'a> {
         if announced.is_empty() {
             return Ok(self.peak().and_then(|(_, unit)| unit));
         }
-        self.text.unit(self.announced, announced).map(Some)
+        self.text.unit(self.lines.end, announced).map(Some)
     }
 
     /// CSMIP's peak of the corrected series, and its unit.
@@ -106,9 +99,12 @@ impl<'a> ChannelHeader<'_, 'a> {
         Some((peak, words.next().and_then(AccelerationUnit::parse)))
     }
 
-    /// The interval of a CSMIP series.
-    pub fn of_csmip(&self, series: &ChannelSeries<'_>) -> Result<Option<f64>> {
-        let dt_s = series.dt_s;
+    /// The interval of a CSMIP series, as the announcing line states it.
+    pub fn of_csmip(
+        &self,
+        dt_s: Option<f64>,
+        unit: Option<AccelerationUnit>,
+    ) -> Result<Option<f64>> {
         let stated = "equally-spaced intervals of";
         if let (Some((at, rest, _)), Some(dt_s)) = (self.after(stated), dt_s) {
             let same = |x: f64| (x - dt_s).abs() <= 1e-6 * dt_s;
@@ -116,10 +112,8 @@ impl<'a> ChannelHeader<'_, 'a> {
                 return Err(self.differs(at, SAME_INTERVAL));
             }
         }
-        if let Some((peak, unit)) = self.peak()
-            && unit == series.unit
-        {
-            self.check_peak(series, peak)?;
+        if let Some((peak, _)) = self.peak().filter(|peak| peak.1 == unit) {
+            self.check_peak(unit, peak)?;
         }
         Ok(dt_s)
     }
@@ -128,12 +122,12 @@ impl<'a> ChannelHeader<'_, 'a> {
     pub fn of_cosmos(
         &self,
         reals: &[f64],
-        series: &ChannelSeries<'_>,
+        unit: Option<AccelerationUnit>,
     ) -> Result<Option<f64>> {
         let value = |place: usize| {
             reals.get(place - 1).copied().filter(|x| *x != UNKNOWN)
         };
-        let (text, announced) = (self.text, self.announced);
+        let (text, announced) = (self.text, self.lines.end);
         let interval_ms = value(INTERVAL_MS);
         if let Some(ms) = interval_ms.filter(|ms| !(*ms > 0.0)) {
             let found = format!("real header value {INTERVAL_MS}: {ms}");
@@ -145,7 +139,7 @@ impl<'a> ChannelHeader<'_, 'a> {
         let approx = text::after(line, "approx")
             .and_then(|rest| text::first_word(rest).parse::<f64>().ok());
         if let Some(dt_s) = dt_s {
-            let found_s = series.samples.len() as f64 * dt_s;
+            let found_s = self.samples.len() as f64 * dt_s;
             // The line is rounded to seconds; the header may differ by a
             // sample.
             let stated = [(value(DURATION_S), 0.0), (approx, 1.0)];
@@ -159,14 +153,18 @@ impl<'a> ChannelHeader<'_, 'a> {
             }
         }
         if let Some(peak) = value(PEAK) {
-            self.check_peak(series, peak)?;
+            self.check_peak(unit, peak)?;
         }
         Ok(dt_s)
     }
 
-    fn check_peak(&self, series: &ChannelSeries<'_>, peak: f64) -> Result<()> {
-        let Some(unit) = series.unit else { return Ok(()) };
+    fn check_peak(
+        &self,
+        unit: Option<AccelerationUnit>,
+        peak: f64,
+    ) -> Result<()> {
+        let Some(unit) = unit else { return Ok(()) };
         let allowed = PEAK_SHARE * peak.abs();
-        self.text.check_peak(series.samples, peak, allowed, unit)
+        self.text.check_peak(self.samples, peak, allowed, unit)
     }
 }

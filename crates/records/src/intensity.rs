@@ -28,7 +28,6 @@ pub use settings::{DEFAULT_PERIODS_S, Settings};
 
 use thiserror::Error;
 
-use energy::Husid;
 use fourier::Spectrum;
 use oscillator::Oscillator;
 use rocking::accelerogram::Accelerogram;
@@ -285,14 +284,14 @@ impl Direct {
             pgd = pgd.max(f64::abs(displacement));
             cav += energy::absolute(a, b);
         }
-        let husid = Husid::of(samples, dt_s);
+        let (squares, durations_s) = energy::husid(samples, dt_s);
         Self {
             pga: samples.iter().fold(0.0, |p: f64, a| p.max(a.abs())),
             pgv: pgv * (0.5 * dt_s),
             pgd: pgd * (dt_s * dt_s / 6.0),
-            arias: std::f64::consts::FRAC_PI_2 * husid.total(),
+            arias: std::f64::consts::FRAC_PI_2 * squares,
             cav: cav * dt_s,
-            durations_s: husid.durations_s(),
+            durations_s,
         }
     }
 }

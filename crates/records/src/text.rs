@@ -23,13 +23,11 @@ pub(super) struct Text<'a> {
 pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>> {
     if let Some(text) = utf_16(file, bytes)? {
         let control = |c: char| c.is_ascii() && is_control(c as u8);
-        return match text.find(control) {
-            Some(at) => {
-                let (byte, offset) = (text.as_bytes()[at], 2 + 2 * at);
-                Err(Fault::NotText { byte, offset }.whole(file))
-            }
-            None => Ok(Cow::Owned(text)),
-        };
+        if let Some(at) = text.find(control) {
+            let (byte, offset) = (text.as_bytes()[at], 2 + 2 * at);
+            return Err(Fault::NotText { byte, offset }.whole(file));
+        }
+        return Ok(Cow::Owned(text));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // Old systems end a text file with one or more Ctrl-Z.

@@ -168,7 +168,6 @@ pub struct Reference {
     pub models: Vec<String>,
     /// For each single mistake and each input: its description, and advice.
     pub mistakes: BTreeMap<String, [String; 2]>,
-    places: BTreeMap<(String, String), usize>,
 }
 
 #[derive(Deserialize)]
@@ -198,30 +197,33 @@ impl Reference {
         let mut wrong = lines(WRONG);
         let models = text(wrong.headers())?.iter().skip(2);
         let models = models.map(str::to_owned).collect();
-        let mut items = Vec::new();
-        let mut places = BTreeMap::new();
+        let mistakes = text(lines(MISTAKES).deserialize().collect())?;
+        let mut set = Self { scenes, items: Vec::new(), models, mistakes };
         for (row, others) in lines(CERTIFIED).records().zip(wrong.records()) {
             let (row, others) = (text(row)?, text(others)?);
-            let place = (row[0].to_owned(), row[1].to_owned());
-            if !others.iter().take(2).eq([&place.0, &place.1]) {
-                return Err(format!("wrong-models.csv: {place:?} expected"));
+            let (name, quantity) = (&row[0], &row[1]);
+            if others.iter().take(2).ne([name, quantity]) {
+                return Err(format!(
+                    "wrong-models.csv: no {name}, {quantity}"
+                ));
             }
-            let scene = scenes.iter().position(|s| s.name == place.0);
-            let item =
-                item(scene.ok_or_else(|| row[0].to_owned())?, &row, &others)?;
-            if places.insert(place, items.len()).is_some() {
-                return Err(format!("{}, {} twice", &row[0], &row[1]));
+            if set.place(name, quantity).is_some() {
+                return Err(format!("{name}, {quantity} twice"));
             }
-            items.push(item);
+            let scene = set.scenes.iter().position(|s| s.name == *name);
+            let scene = scene.ok_or_else(|| name.to_owned())?;
+            set.items.push(item(scene, &row, &others)?);
         }
-        let mistakes = text(lines(MISTAKES).deserialize().collect())?;
-        Ok(Self { scenes, items, models, mistakes, places })
+        Ok(set)
     }
 
     /// Index of a quantity of a scene.
     #[must_use]
     pub fn place(&self, scene: &str, quantity: &str) -> Option<usize> {
-        self.places.get(&(scene.to_owned(), quantity.to_owned())).copied()
+        let is_it = |item: &Item| {
+            item.quantity == quantity && self.scene(item).name == scene
+        };
+        self.items.iter().position(is_it)
     }
 
     /// The scene of an item.

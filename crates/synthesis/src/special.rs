@@ -86,21 +86,13 @@ pub(super) fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     invert(probability, 1.0, |x| beta_cdf(a, b, x))
 }
 
-/// Root of the rising function `cdf` = `probability` on (0, `high`).
-fn invert(probability: f64, high: f64, cdf: impl Fn(f64) -> f64) -> f64 {
-    bisect(0.0, high, |x| cdf(x) - probability)
-}
-
-/// Root of `f` on (`low`, `high`), where `f` is negative at `low`: 48
+/// Root of the rising function `cdf` = `probability` on (0, `high`), by 48
 /// halvings.
-pub(super) fn bisect(
-    mut low: f64,
-    mut high: f64,
-    f: impl Fn(f64) -> f64,
-) -> f64 {
+fn invert(probability: f64, mut high: f64, cdf: impl Fn(f64) -> f64) -> f64 {
+    let mut low = 0.0;
     for _ in 0..48 {
         let mid = 0.5 * (low + high);
-        if f(mid) < 0.0 { low = mid } else { high = mid }
+        if cdf(mid) - probability < 0.0 { low = mid } else { high = mid }
     }
     0.5 * (low + high)
 }

@@ -90,10 +90,9 @@ pub(super) fn pair(
         RATE_HZ_S,
         RATE_ENDS_HZ_S,
     );
-    let envelopes = target.components.map(|t| {
-        let d5_75_s = ENVELOPE * libm::exp(t[DURATION]);
-        Envelope::of(d5_75_s, shape)
-    });
+    let envelopes = target
+        .components
+        .map(|t| Envelope::of(ENVELOPE * libm::exp(t[DURATION]), shape));
     let mut lead_s = LEAD_S;
     let [first, second] = envelopes.map(|e| e.time_s(0.99));
     let mut end_s = first.max(second);

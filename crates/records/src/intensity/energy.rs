@@ -17,51 +17,23 @@ fn square(a: f64, b: f64) -> f64 {
     a.mul_add(a, b.mul_add(b, a * b)) / 3.0
 }
 
-/// Integral of a^2 up to each sample (Husid 1969).
-pub(super) struct Husid<'a> {
-    samples: &'a [f64],
-    dt_s: f64,
-    /// In g^2 times the interval.
-    cumulative: Vec<f64>,
-}
-
-impl<'a> Husid<'a> {
-    pub(super) fn of(samples: &'a [f64], dt_s: f64) -> Self {
-        let mut sum = 0.0;
-        let mut cumulative = Vec::with_capacity(samples.len());
-        cumulative.push(0.0);
-        for pair in samples.windows(2) {
-            sum += square(pair[0], pair[1]);
-            cumulative.push(sum);
-        }
-        Self { samples, dt_s, cumulative }
+/// Integral of a^2 over a record in g^2 s, and the times (s) from 5 to 75 % and
+/// from 5 to 95 % of it (Husid 1969); no times if it is 0.
+pub(super) fn husid(samples: &[f64], dt_s: f64) -> (f64, Option<[f64; 2]>) {
+    let mut sum = 0.0;
+    // The integral up to each sample, in g^2 times the interval.
+    let mut cumulative = Vec::with_capacity(samples.len());
+    cumulative.push(sum);
+    for pair in samples.windows(2) {
+        sum += square(pair[0], pair[1]);
+        cumulative.push(sum);
     }
-
-    /// Integral of a^2 over the record, in g^2 s.
-    pub(super) fn total(&self) -> f64 {
-        self.dt_s * self.last()
-    }
-
-    fn last(&self) -> f64 {
-        self.cumulative.last().copied().unwrap_or(0.0)
-    }
-
-    /// Times from 5 to 75 % and from 5 to 95 %; `None` if the total is 0.
-    pub(super) fn durations_s(&self) -> Option<[f64; 2]> {
-        let from = self.time_s(0.05)?;
-        Some([self.time_s(0.75)? - from, self.time_s(0.95)? - from])
-    }
-
-    /// First time at which `share` of the total is reached, in s.
-    fn time_s(&self, share: f64) -> Option<f64> {
-        let target = share * self.last();
-        if !(target > 0.0) {
-            return None;
-        }
-        let next = self.cumulative.partition_point(|sum| *sum < target);
-        let (i, reached) = (next - 1, self.cumulative[next - 1]);
-        let (a, b) = (self.samples[i], self.samples[next]);
-        let missing = target - reached;
+    // First time at which a share of the integral is reached.
+    let time_s = |share: f64| {
+        let target = share * sum;
+        let next = cumulative.partition_point(|sum| *sum < target);
+        let (i, missing) = (next - 1, target - cumulative[next - 1]);
+        let (a, b) = (samples[i], samples[next]);
         // The part of the interval up to which its integral, a rising cubic,
         // is the missing rest.
         let (mut low, mut high) = (0.0, 1.0);
@@ -70,6 +42,11 @@ impl<'a> Husid<'a> {
             let end = (b - a).mul_add(x, a);
             if x * square(a, end) < missing { low = x } else { high = x }
         }
-        Some((i as f64 + 0.5 * (low + high)) * self.dt_s)
-    }
+        (i as f64 + 0.5 * (low + high)) * dt_s
+    };
+    let durations_s = (0.05 * sum > 0.0).then(|| {
+        let from = time_s(0.05);
+        [0.75, 0.95].map(|share| time_s(share) - from)
+    });
+    (dt_s * sum, durations_s)
 }

@@ -303,7 +303,6 @@ impl Search {
     ) -> (Vec<f64>, Vec<f64>, usize) {
         let weights = self.wavelet.weights(scale);
         let shape = self.wavelet.shape(scale);
-        let half = shape.len() / 2;
         let reach = (NEIGHBOURHOOD * scale as f64).ceil() as usize;
         let mut pulse = vec![0.0; motion.len()];
         let mut rest = motion.to_vec();
@@ -320,13 +319,11 @@ impl Search {
             if k == 0 {
                 centre = at;
             }
-            for (j, value) in shape.iter().enumerate() {
-                let Some(i) = (at + j).checked_sub(half) else { continue };
-                if let (Some(p), Some(r)) = (pulse.get_mut(i), rest.get_mut(i))
-                {
-                    *p += best * value;
-                    *r -= best * value;
-                }
+            let (start, skipped) = overlap(at, shape.len());
+            let both = pulse.iter_mut().zip(&mut rest).skip(start);
+            for ((p, r), value) in both.zip(&shape[skipped..]) {
+                *p += best * value;
+                *r -= best * value;
             }
         }
         (pulse, rest, centre)
@@ -335,14 +332,16 @@ impl Search {
 
 /// Wavelet coefficient at one place; zeros outside the motion.
 fn coefficient(motion: &[f64], weights: &[f64], place: usize) -> f64 {
-    let half = weights.len() / 2;
-    let skipped = half.saturating_sub(place);
-    let start = (place + skipped).saturating_sub(half);
-    motion
-        .iter()
-        .skip(start)
-        .zip(&weights[skipped.min(weights.len())..])
-        .fold(0.0, |sum, (v, w)| v.mul_add(*w, sum))
+    let (start, skipped) = overlap(place, weights.len());
+    let pairs = motion.iter().skip(start).zip(&weights[skipped..]);
+    pairs.fold(0.0, |sum, (v, w)| v.mul_add(*w, sum))
+}
+
+/// Place of the first sample under a table of `count` values around `place`, and
+/// number of values before it.
+fn overlap(place: usize, count: usize) -> (usize, usize) {
+    let skipped = (count / 2).saturating_sub(place);
+    (place + skipped - count / 2, skipped)
 }
 
 fn energy(velocity: &[f64]) -> f64 {

@@ -231,9 +231,7 @@ proptest! {
                 prop_assert_eq!(error.index().map(|i| i + 1), fails);
                 let Uneven::Step { found_s, expected_s, coarse: false, .. } =
                     error
-                else {
-                    return Err(TestCaseError::fail("another fault"));
-                };
+                else { return Err(TestCaseError::fail("another fault")) };
                 let (least, most) = expected_s;
                 prop_assert!(least <= most);
                 prop_assert!(found_s < least || found_s > most);

@@ -30,18 +30,12 @@ impl Wavelet {
         let root = std::f64::consts::SQRT_2;
         let n = SUPPORT * FINE;
         // psi(x) = sqrt(2) sum (-1)^k h(7 - k) phi(2 x - k).
-        let values: Vec<f64> = (0..=n)
-            .map(|i| {
-                (0..8).fold(0.0, |sum, k| {
-                    let sign = if k % 2 == 0 { root } else { -root };
-                    let Some(at) = (2 * i).checked_sub(k * FINE) else {
-                        return sum;
-                    };
-                    let phi = scaling.get(at).copied().unwrap_or(0.0);
-                    (sign * SCALING[7 - k]).mul_add(phi, sum)
-                })
-            })
-            .collect();
+        let factor = |k: usize| {
+            let sign = if k % 2 == 0 { root } else { -root };
+            sign * SCALING[7 - k]
+        };
+        let value = |i| refined(&scaling, i, factor);
+        let values: Vec<f64> = (0..=n).map(value).collect();
         let mut sum = 0.0;
         let mut integral = vec![0.0];
         for pair in values.windows(2) {
@@ -59,14 +53,13 @@ impl Wavelet {
         let a = scale as f64;
         let root = a.sqrt();
         let half = half_width(scale) as f64;
-        (0..2 * half_width(scale) + 1)
-            .map(|j| {
-                let j = j as f64 - half;
-                let to = at(&self.integral, (j + 0.5) / a);
-                let from = at(&self.integral, (j - 0.5) / a);
-                root * (to - from)
-            })
-            .collect()
+        let weight = |j: usize| {
+            let j = j as f64 - half;
+            let to = at(&self.integral, (j + 0.5) / a);
+            let from = at(&self.integral, (j - 0.5) / a);
+            root * (to - from)
+        };
+        (0..2 * half_width(scale) + 1).map(weight).collect()
     }
 
     /// Values at the samples around a place, of unit energy.
@@ -127,14 +120,18 @@ fn scaling_function() -> Vec<f64> {
         step /= 2;
         // The odd multiples of the step from the multiples of twice it.
         for i in (step..n).step_by(2 * step) {
-            phi[i] = SCALING.iter().enumerate().fold(0.0, |sum, (k, h)| {
-                let from = (2 * i).checked_sub(k * FINE);
-                let value = from.and_then(|m| phi.get(m)).copied();
-                (root * h).mul_add(value.unwrap_or(0.0), sum)
-            });
+            phi[i] = refined(&phi, i, |k| root * SCALING[k]);
         }
     }
     phi
+}
+
+/// Sum of `factor(k)` phi(2 x - k) at the place `i` of x in a table of phi.
+fn refined(phi: &[f64], i: usize, factor: impl Fn(usize) -> f64) -> f64 {
+    (0..SCALING.len()).fold(0.0, |sum, k| {
+        let from = (2 * i).checked_sub(k * FINE).and_then(|m| phi.get(m));
+        factor(k).mul_add(from.copied().unwrap_or(0.0), sum)
+    })
 }
 
 #[cfg(test)]

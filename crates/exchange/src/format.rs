@@ -57,8 +57,8 @@ pub enum ExchangeError {
     NoState(Id),
     /// Blocks with different limit states in a format that has one list.
     #[error(
-        "{id}: limit states {found}: expected {expected}, as of the first \
-         block, since NRML has one list for all"
+        "{id}: limit states {found}: expected {expected}, as in the first \
+         block, because NRML has one list for all"
     )]
     Mixed {
         /// The fragility.
@@ -71,8 +71,8 @@ pub enum ExchangeError {
     /// Limit states whose curves cross.
     #[error(
         "{id}: near {im} the limit state {next} is more probable than {name} \
-         before it, and the reader would misread them: expected curves that \
-         do not cross, such as those of one dispersion"
+         before it, which the reader would misinterpret: expected curves that \
+         do not cross, for example with equal dispersions"
     )]
     Crossing {
         /// The fragility.
@@ -86,8 +86,8 @@ pub enum ExchangeError {
     },
     /// Points that pelicun cannot distinguish.
     #[error(
-        "{id}: points closer than 1e-8 {unit}, which pelicun takes for one: \
-         expected a larger dispersion"
+        "{id}: points closer than 1e-8 {unit}, which pelicun cannot \
+         distinguish: expected a larger dispersion"
     )]
     Narrow {
         /// The fragility.

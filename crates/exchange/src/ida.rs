@@ -247,7 +247,7 @@ impl IdaTable {
             let starts = found.last().is_none_or(|b| b.record != row.record);
             if starts && !seen.insert(row.record.clone()) {
                 return Err(cells.error(format_args!(
-                    "record {} comes again: expected its rows together",
+                    "record {} is repeated: expected its rows together",
                     row.record
                 )));
             }
@@ -360,11 +360,11 @@ fn positive(cells: &Cells<'_>, column: &str) -> Result<f64> {
 
 impl Setting {
     fn of(cells: &Cells<'_>) -> Result<Self> {
-        let of = "one that this program writes";
+        let of = "a name that this program writes";
         let share = |x: &f64| (0.0..=1.0).contains(x);
         if !cells.text("order").is_empty() {
-            let expected = "an empty cell: the order of a table that is read \
-                            is free, as `rocking ida` has it without --order";
+            let expected = "an empty cell: only a table without a fixed order \
+                            is read, from `rocking ida` without --order";
             return Err(cells.refuse("order", expected));
         }
         Ok(Self {

@@ -74,7 +74,7 @@ impl SampleSetting {
             {
                 return Err(format!(
                     "capacities at {name} {own} {unit}, the block has \
-                     {found}: expected those of its own {name}, to 1 %"
+                     {found}: expected the {name} of the block, within 1 %"
                 ));
             }
         }

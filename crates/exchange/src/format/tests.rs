@@ -216,7 +216,7 @@ fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let damage = &json[&cells[0]]["LimitStates"]["LS1"]["DS1"];
     assert_eq!(damage["Description"], "overturning");
-    // Points that pelicun takes for one are refused.
+    // Points that pelicun cannot distinguish are refused.
     let narrow = Lognormal::try_new(0.1, -16.0, 0.1).unwrap();
     let mut shifted = shifted;
     shifted.limit_states[0].fragility = narrow;

@@ -65,7 +65,7 @@ fn a_table_that_is_none_is_refused_with_its_line() {
     let fixed = read(&[&ROWS[0].replace("ar,,al", "ar,6,al")]).unwrap_err();
     assert!(fixed.contains("a.csv:2: found `6` in column order"), "{fixed}");
     let again = read(&[ROWS[0], ROWS[3], ROWS[1]]).unwrap_err();
-    assert!(again.contains("a.csv:4: record A comes again"), "{again}");
+    assert!(again.contains("a.csv:4: record A is repeated"), "{again}");
     // Levels that begin anew are those of another record.
     let refined = ROWS[2].replace("overturned", "overturned-refined");
     let refined = refined.replace(",2,1,inf", ",1.8,0.9,inf");

@@ -31,7 +31,7 @@ impl Wavelet {
         let n = SUPPORT * FINE;
         // psi(x) = sqrt(2) sum (-1)^k h(7 - k) phi(2 x - k).
         let factor = |k: usize| {
-            let sign = if k % 2 == 0 { root } else { -root };
+            let sign = if k.is_multiple_of(2) { root } else { -root };
             sign * SCALING[7 - k]
         };
         let value = |i| refined(&scaling, i, factor);

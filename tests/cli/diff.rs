@@ -165,12 +165,12 @@ fn the_consequence_comes_first() {
         "Reference cases: 1 of 2 verdicts changed.\n",
         "Numbers: 2 of 5 moved by more than",
         "Before: Hardly, if every impact loses the same share of energy.\n",
-        "  \"the same\" (quantiles-coincide), ordinary, arm C, seen: yes -> \
+        "  \"the same\" (quantiles-coincide), ordinary, grid C, seen: yes -> \
          no\n",
         "  case free-rocking/one, peak, value 1 of 1: 0.5 -> 0.6, \
          +0.1\n",
         "  median overturning, PGA/(g tan alpha), ordinary, p = 3, alpha = \
-         0.20, arm C: 2.31 -> 2.6, +13 %\n",
+         0.20, grid C: 2.31 -> 2.6, +13 %\n",
         "  case free-rocking/one: pass -> fail\n",
     ];
     let mut rest = out.as_str();
@@ -220,7 +220,7 @@ fn an_effect_that_turns_to_the_opposite_says_so() {
     ];
     let place = sides("turned", &turned, &[]);
     let (_, out, _) = run(&place, "diff old new");
-    let words = "arm C, exists: yes -> the opposite; 1.1 -> 0.9, -18 %";
+    let words = "grid C, exists: yes -> the opposite; 1.1 -> 0.9, -18 %";
     assert!(out.contains(words), "{out}");
     assert!(out.contains(", 1 to the contrary."), "{out}");
 }

@@ -77,7 +77,7 @@ impl StudySettings {
     pub fn named(&self) -> [(&'static str, String); 5] {
         let arms: Vec<&str> = self.arms.iter().map(|a| a.name()).collect();
         [
-            ("arms", arms.join(", ")),
+            ("grids", arms.join(", ")),
             ("eta", self.eta.to_string()),
             ("overturning", self.overturning.to_string()),
             ("refinement im", self.refinement_im.to_string()),
@@ -317,7 +317,7 @@ impl fmt::Display for RowPlace {
             self.alpha_rad.map(|alpha| format!("alpha = {alpha:.2}")),
             number("PGA/(g tan alpha) =", self.im_pga),
             number("demand", self.edp),
-            self.arm.map(|arm| format!("arm {}", arm.name())),
+            self.arm.map(|arm| format!("grid {}", arm.name())),
         ];
         let parts: Vec<String> = parts.into_iter().flatten().collect();
         f.write_str(&parts.join(", "))

@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 
 use anyhow::{Error, Result, anyhow};
 use rocking::excitation::{PulseName, PulseParameter as P};
-use rocking::number::double::DoubleDouble;
 use rocking::number::Number as _;
+use rocking::number::double::DoubleDouble;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;

@@ -449,7 +449,7 @@ fn a_run_of_other_settings_shows_no_kept_number_and_leads_with_its_own() {
     answer_alike(&page, &said);
     let shown = text(&page);
     let left_out = "Results on recorded motions are stored only for other \
-                    settings (arms A, B, C, not A; eta 0.92, not 0.9); they \
+                    settings (grids A, B, C, not A; eta 0.92, not 0.9); they \
                     are left out.";
     assert_eq!(shown.matches(left_out).count(), 1, "said once");
     assert!(said.contains(left_out), "{said}");

@@ -64,7 +64,7 @@ pub fn curves_of(
 
 /// The error if results of a grid are read that was not run.
 pub(crate) fn not_run(arm: Arm) -> anyhow::Error {
-    anyhow!("arm {} of the grid was not run", arm.name())
+    anyhow!("grid {} was not run", arm.name())
 }
 
 impl Setup {

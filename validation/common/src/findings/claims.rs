@@ -372,7 +372,7 @@ pub struct ClaimResult {
 impl ClaimResult {
     /// Suite and grid in words: `ordinary, arm C`.
     pub fn place(&self) -> String {
-        let arm = self.arm.map(|arm| format!(", arm {}", arm.name()));
+        let arm = self.arm.map(|arm| format!(", grid {}", arm.name()));
         self.suite.name().to_owned() + &arm.unwrap_or_default()
     }
 }

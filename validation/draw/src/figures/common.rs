@@ -16,7 +16,7 @@ pub(crate) fn drawing(
     size_px: Point,
     draw: impl FnOnce(&Canvas<'_>),
 ) -> Drawing {
-    let arm = heading.arm.map(|arm| format!(" (arm {})", arm.name()));
+    let arm = heading.arm.map(|arm| format!(" (grid {})", arm.name()));
     let motions = heading.motions.map(|m| format!(" ({} motions)", m.name()));
     let title = [Some(heading.title.clone()), arm, motions];
     let title: String = title.into_iter().flatten().collect();
@@ -87,11 +87,11 @@ pub fn short(x: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Legend words for an arm.
+/// Legend words for a grid.
 pub fn arm_words(arm: Arm) -> &'static str {
     match arm {
-        Arm::A => "arm A: 0.01 *g* steps",
-        Arm::B => "arm B: 0.01 *g* steps, bisected",
-        Arm::C => "arm C: equal dimensionless steps, bisected",
+        Arm::A => "grid A: 0.01 *g* steps",
+        Arm::B => "grid B: 0.01 *g* steps, bisected",
+        Arm::C => "grid C: equal dimensionless steps, bisected",
     }
 }

@@ -164,7 +164,7 @@ impl Heading {
         };
         let mut label = format!("Figure {number}");
         if let Some(arm) = self.own_arm() {
-            label += &format!(", arm {}", arm.name());
+            label += &format!(", grid {}", arm.name());
         }
         if let Some(motions) = self.motions {
             label += &format!(", {} motions", motions.name());

@@ -182,7 +182,7 @@ fn a_figure_of_other_motions_has_another_name() {
     let both = [of(Motions::Recorded), of(Motions::Embedded)];
     let names = both.each_ref().map(|h| h.name.as_str());
     assert_eq!(names, ["figure-06-c-recorded", "figure-06-c"]);
-    assert_eq!(both[0].label(), "Figure 6, arm C, recorded motions");
+    assert_eq!(both[0].label(), "Figure 6, grid C, recorded motions");
     assert!(both[0].is_beside(&both[1]));
     let others = [(6, Some(Arm::A)), (7, Some(Arm::C))];
     for (number, arm) in others {

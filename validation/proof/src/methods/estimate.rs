@@ -2,8 +2,8 @@
 
 use anyhow::{Result, bail};
 use rayon::prelude::*;
-use rocking::number::{Number as _, Real as _};
 use rocking::number::double::DoubleDouble;
+use rocking::number::{Number as _, Real as _};
 use rocking_statistics::streams::Streams;
 
 use super::method::{Context, Reply, WrongModel};

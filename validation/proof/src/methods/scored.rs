@@ -3,8 +3,8 @@
 //! known.
 
 use anyhow::{Result, anyhow};
-use rocking::number::{Number as _, Real};
 use rocking::number::double::DoubleDouble;
+use rocking::number::{Number as _, Real};
 use rocking_score::{
     Answers, CodeVerdict, Diagnosis, Item, OwnResponse, Problem,
     SceneExcitation, Value, answers_of, diagnose, reference,

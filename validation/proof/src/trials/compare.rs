@@ -3,9 +3,9 @@
 use rocking::integrator::{
     Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
 };
-use rocking::number::{Number as _, Real};
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
+use rocking::number::{Number as _, Real};
 
 use crate::arithmetic::wide;
 use crate::cases::WrongModel;

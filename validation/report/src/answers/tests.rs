@@ -259,7 +259,7 @@ fn results_of_other_settings_are_left_out_and_named() {
     let basis = FindingSets::of(true, &here).unwrap();
     assert!(!basis.has_recorded());
     let words = differing(&basis).unwrap().unwrap();
-    assert!(words.contains("(arms A, B, C, not A; eta 0.92, not 0.9)"));
+    assert!(words.contains("(grids A, B, C, not A; eta 0.92, not 0.9)"));
     assert!(done(&basis)[0].contains("under synthetic motions, 86 "));
     assert!(!done(&basis).concat().contains("recorded"));
 }

@@ -83,7 +83,7 @@ fn a_row_that_one_side_lacks_says_why() {
     let at = json!({ "p_rad_s": 3.0, "im_pga": 5.0, "arm": "C" });
     let path = ["tables", "slenderness-adjustment", "rows", "a"];
     for (arms, what, why) in [
-        (["A", "C"], " = 5, arm C", "fewer than 10 ratios"),
+        (["A", "C"], " = 5, grid C", "fewer than 10 ratios"),
         (["A", "B"], "results of grid C", "this grid was not run"),
     ] {
         let other = json!({ "settings": { "arms": arms } });

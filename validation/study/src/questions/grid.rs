@@ -185,7 +185,7 @@ fn panel(title: String, rows: &[GridRow]) -> ChartPanel {
         .enumerate()
         .filter(|(k, _)| rows[0].rejected[*k].is_finite())
         .map(|(k, arm)| {
-            let label = format!("arm {}", arm.name());
+            let label = format!("grid {}", arm.name());
             line(&label, Mark::LineAndPoints, &|r| r.rejected[k])
         })
         .collect();

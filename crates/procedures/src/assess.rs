@@ -2,7 +2,6 @@
 
 mod answers;
 mod ground;
-#[cfg(feature = "serde")]
 mod json;
 
 use std::fmt;
@@ -24,6 +23,7 @@ use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::capacity::CapacityError;
 use rocking::ida::{Analysis, IdaError, ResolutionCounts};
+use rocking::names::as_text;
 use rocking_records::floor::{Floor, FloorError};
 use rocking_records::intensity::{IntensityError, IntensityMeasure};
 use rocking_statistics::{Clusters, Estimate};
@@ -111,8 +111,7 @@ impl Damage {
 }
 
 /// Objects under a suite, the one that needs attention first before all.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Assessment {
     /// Intensity measure of all intensities here.
@@ -120,12 +119,12 @@ pub struct Assessment {
     /// Unit of all intensities here: that of the hazard curve.
     pub unit: &'static str,
     /// Such units in one of the measure itself (g, m/s).
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub units_per_im_unit: f64,
     /// Number of records.
     pub records: usize,
     /// What the intervals rest on.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// The error of the model in every answer but that of the records alone.
     pub model_error: ModelError,
@@ -146,8 +145,7 @@ pub struct Assessment {
 }
 
 /// What recorded motions change in answers under other motions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RecordedMotions {
     /// Number of blocks whose medians are compared.
@@ -323,29 +321,28 @@ impl fmt::Display for Assumption {
     }
 }
 
+as_text!(write Assumption);
+
 /// The answer under another assumption.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Alternative {
     /// The assumption.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub assumption: Assumption,
     /// The answer.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub answer: Answer,
 }
 
 /// Several objects under the same earthquake.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct JointDamage {
     /// So many objects or more are damaged.
     pub at_least: usize,
     /// What follows of the fit to the intensities at which each record
     /// damages so many.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub answer: Answer,
 }
 

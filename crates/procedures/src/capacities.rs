@@ -4,7 +4,7 @@
 use super::ProcedureError;
 use crate::inversion::inversion_discrepancy;
 use rocking::capacity::{Capacity, InversionRule, ResponseCurve};
-use rocking_statistics::{CensoredSample, ExtendedSample, QuantileType};
+use rocking_statistics::{CensoredSample, ExtendedSample};
 
 /// The capacities of all curves at one EDP level (peak |theta|/alpha,
 /// infinite for overturning), in the order of the curves and the intensity
@@ -43,9 +43,8 @@ pub fn intervals(
 }
 
 /// Capacities of a suite at one EDP level.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LevelCapacities {
     /// The EDP level (peak |theta|/alpha).
     pub edp: f64,
@@ -74,18 +73,13 @@ pub fn levels(
 ) -> Result<Vec<LevelCapacities>, ProcedureError> {
     let level = |&edp: &f64| {
         let ims = sample(curves, edp, rule)?;
-        let ims: Vec<f64> =
-            ims.values().iter().map(|im| measured(*im)).collect();
-        let ims = ExtendedSample::try_new(&ims)?;
-        let at = |p| {
-            let value = QuantileType::default().extended_quantile(&ims, p);
-            value.unwrap_or(f64::NAN)
-        };
+        let ims = ims.values().iter().map(|im| measured(*im));
+        let ims = ExtendedSample::try_new(&ims.collect::<Vec<f64>>())?;
         Ok(LevelCapacities {
             edp,
-            im16: at(0.16),
-            im50: at(0.5),
-            im84: at(0.84),
+            im16: ims.quantile(0.16),
+            im50: ims.quantile(0.5),
+            im84: ims.quantile(0.84),
             censored: ims.censored(),
             stripe_discrepancy: inversion_discrepancy(curves, edp, rule)?,
         })
@@ -95,9 +89,8 @@ pub fn levels(
 
 /// All crossings of one EDP level by one curve, and the capacities made of
 /// them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LevelCrossings {
     /// The EDP level (peak |theta|/alpha).
     pub edp: f64,

@@ -3,9 +3,9 @@
 use libm::{exp, log};
 use thiserror::Error;
 
-use super::fit::IntervalBasis;
+use super::fit::{IntervalBasis, check_length};
 use super::{Draws, ProcedureError};
-use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
+use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::regression::{CensoredLine, RegressionError, tobit};
 use rocking_statistics::{Clusters, Lognormal, Range};
@@ -45,12 +45,11 @@ pub struct CloudOptions {
 
 /// A line of the responses on the intensities, and a lognormal fragility of
 /// each level of response, with bootstrap intervals.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CloudFragility {
     /// What the intervals rest on: the records that enter the line.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// Number of records.
     pub n: usize,
@@ -75,9 +74,8 @@ pub struct CloudFragility {
 }
 
 /// The fragility of one level of response.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CloudLevel {
     /// Peak |theta|/alpha; infinite for overturning.
     pub edp: f64,
@@ -136,12 +134,7 @@ pub fn fit_cloud(
     let CloudOptions { ref edp, shift, draws } = *options;
     draws.check()?;
     Lognormal::try_new(shift, 0.0, 1.0)?;
-    let (expected, found) = (pairs.len(), clusters.records());
-    if found != expected {
-        let name = "earthquakes".to_owned();
-        let error = ProcedureError::Length { name, found, expected };
-        return Err(error.into());
-    }
+    check_length("earthquakes", clusters.records(), pairs.len())?;
     let is_level = |x: f64| (x > 0.0 && x <= 1.0) || x == f64::INFINITY;
     if let Some(level) = edp.iter().find(|x| !is_level(**x)) {
         return Err(CloudError::Level(*level));
@@ -156,9 +149,7 @@ pub fn fit_cloud(
     let points: Vec<(f64, f64)> = kept.iter().map(logarithms).collect();
     let line = rising(&points)?;
     let clusters = clusters.part(&kept);
-    let Draws { replicates, seed } = draws;
-    let drawn = Bootstrap::of_clusters("cloud", seed, &clusters, replicates);
-    let drawn = drawn.map(|places| {
+    let drawn = draws.of("cloud", &clusters).map(|places| {
         let own: Vec<_> = places.iter().map(|&i| points[i]).collect();
         rising(&own).ok()
     });

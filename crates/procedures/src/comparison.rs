@@ -12,12 +12,11 @@ use rocking_statistics::paired::{
 use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 /// Paired ratios a/b of two samples, and tests of a centre at 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Comparison {
     /// The pairs by what they allow.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub pairs: Pairs,
     /// Pairs with a ratio.
     pub usable: usize,
@@ -30,13 +29,13 @@ pub struct Comparison {
     /// McNemar's test on the pairs with one infinite value.
     pub mcnemar: SignTest,
     /// Centre of the ratios.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub hodges_lehmann: Result<HodgesLehmann, PairedError>,
     /// Two one-sided t tests of the mean of ln ratio.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub mean_equivalence: Result<Equivalence, PairedError>,
     /// Two one-sided sign tests of the median ratio.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub median_equivalence: Result<SignEquivalence, PairedError>,
 }
 

@@ -87,9 +87,8 @@ pub struct ContrastSample<'a, S> {
 
 /// Ratio of the medians of two samples over different records, and the
 /// distance of their distributions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Contrast {
     /// The first sample.
     pub a: Half,
@@ -97,19 +96,18 @@ pub struct Contrast {
     pub b: Half,
     /// Ratio of the medians, first sample over second, with its bootstrap
     /// interval.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub median_ratio: Result<MedianRatio, ContrastError>,
     /// Kolmogorov and Smirnov's comparison.
     pub kolmogorov_smirnov: Distance,
     /// Draws of the bootstrap.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub draws: Draws,
 }
 
 /// One sample of a contrast.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Half {
     /// Size, censored values included.
     pub n: usize,
@@ -122,13 +120,12 @@ pub struct Half {
 }
 
 /// A ratio of medians with its interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MedianRatio {
     /// The ratio; without an interval if a tenth of the draws leave it open
     /// or none moves it.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub estimate: Estimate,
     /// Level of the interval.
     pub level: f64,
@@ -140,16 +137,15 @@ pub struct MedianRatio {
 }
 
 /// Distance of two empirical distributions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Distance {
     /// Largest difference of the distributions.
     pub distance: f64,
     /// Compared up to the least limit of a censored value, if one is known.
     pub up_to: Option<f64>,
     /// Exact p-value of independent records; an upper bound with ties.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub p_value: Result<f64, ContrastError>,
 }
 
@@ -201,22 +197,18 @@ pub fn contrast<S: AsRef<str>>(
     let median_ratio = match (of_a.median, of_b.median) {
         (Some(x), Some(y)) => {
             let ratios = ratios((a, b), draws);
-            let found = ratios.iter().filter(|x| x.is_finite()).count();
-            let [of_a, of_b] = [&of_a.drawn, &of_b.drawn]
-                .map(|drawn| IntervalBasis::new(draws, drawn));
-            let freedom = |of: &IntervalBasis| match of.drawn.count() {
+            let freedom = |of: &Clusters| match of.count() {
                 0 | 1 => 0.0,
-                _ => of.drawn.degrees_of_freedom(),
+                _ => of.degrees_of_freedom(),
             };
-            let b_has_more = freedom(&of_a) < freedom(&of_b);
-            let basis = if b_has_more { of_a } else { of_b };
+            let b_has_more = freedom(&of_a.drawn) < freedom(&of_b.drawn);
+            let of = if b_has_more { &of_a.drawn } else { &of_b.drawn };
+            let basis = IntervalBasis::new(draws, of);
             let range = Range::NotNegative;
-            let own = basis.estimate(x / y, &ratios, range);
             Ok(MedianRatio {
-                estimate: own
-                    .map_or(Estimate::exact(x / y), |own| own.estimate),
+                estimate: basis.value(x / y, &ratios, range).estimate,
                 level: basis.level,
-                open: ratios.len() - found,
+                open: ratios.iter().filter(|x| !x.is_finite()).count(),
                 remark: basis.remark,
             })
         }
@@ -227,8 +219,8 @@ pub fn contrast<S: AsRef<str>>(
     let cut = |of: &ContrastSample<'_, S>| {
         let most = up_to.unwrap_or(f64::INFINITY);
         let cut = |x: &f64| if *x <= most { *x } else { f64::INFINITY };
-        let values: Vec<f64> = of.sample.values().iter().map(cut).collect();
-        ExtendedSample::try_new(&values)
+        let values = of.sample.values().iter().map(cut);
+        ExtendedSample::try_new(&values.collect::<Vec<f64>>())
     };
     let found = kolmogorov_smirnov(&cut(a)?, &cut(b)?);
     let p_value = independent.then_some(found.p_value);
@@ -268,14 +260,13 @@ impl<S: AsRef<str>> ContrastSample<'_, S> {
     }
 
     fn half(&self) -> Half {
-        let events = self.events.iter().map(AsRef::as_ref);
         Half {
             n: self.sample.len(),
             censored: self.sample.censored(),
             median: median(self.sample),
             drawn: match self.events {
                 [] => Clusters::singletons(self.sample.len()),
-                _ => Clusters::from_labels(events.collect::<Vec<&str>>()),
+                events => Clusters::from_labels(events),
             },
         }
     }
@@ -289,13 +280,14 @@ fn refuse_shared<S: AsRef<str>>(
     if are_places(a.records) || are_places(b.records) {
         return Ok(());
     }
-    let names = |of: &ContrastSample<'_, S>| -> BTreeSet<String> {
-        of.records.iter().map(|name| name.as_ref().to_owned()).collect()
-    };
-    match names(a).intersection(&names(b)).next() {
+    match set(a.records).intersection(&set(b.records)).next() {
         None => Ok(()),
-        Some(name) => Err(ContrastError::Shared(name.clone())),
+        Some(name) => Err(ContrastError::Shared((*name).to_owned())),
     }
+}
+
+fn set<S: AsRef<str>>(names: &[S]) -> BTreeSet<&str> {
+    names.iter().map(AsRef::as_ref).collect()
 }
 
 /// The median, if it is a number.
@@ -307,14 +299,11 @@ fn median(sample: &CensoredSample) -> Option<f64> {
 /// Ratios of the medians of draws; NaN where censored values leave them open.
 fn ratios<S: AsRef<str>>(
     (a, b): (&ContrastSample<'_, S>, &ContrastSample<'_, S>),
-    Draws { replicates, seed }: Draws,
+    draws: Draws,
 ) -> Vec<f64> {
     let n = a.sample.len();
     // Earthquakes of the first sample, of the second, and of both.
-    let events = |of: &ContrastSample<'_, S>| -> BTreeSet<String> {
-        of.events.iter().map(|event| event.as_ref().to_owned()).collect()
-    };
-    let (own, others) = (events(a), events(b));
+    let (own, others) = (set(a.events), set(b.events));
     let mut parts: [(Vec<usize>, Vec<String>); 3] = Default::default();
     for (side, of) in [a, b].into_iter().enumerate() {
         for i in 0..of.sample.len() {
@@ -331,8 +320,7 @@ fn ratios<S: AsRef<str>>(
     let drawn: Vec<(Vec<usize>, Bootstrap)> = drawn
         .filter(|(_, (places, _))| !places.is_empty())
         .map(|(name, (places, labels))| {
-            let clusters = Clusters::from_labels(labels);
-            (places, Bootstrap::of_clusters(name, seed, &clusters, replicates))
+            (places, draws.of(name, &Clusters::from_labels(labels)))
         })
         .collect();
     let of_draw = |index: u64| -> Option<f64> {
@@ -349,7 +337,7 @@ fn ratios<S: AsRef<str>>(
         let x = median(&a.sample.resample(&of_a))?;
         Some(x / median(&b.sample.resample(&of_b))?)
     };
-    let all = (0..replicates as u64).into_par_iter().panic_fuse();
+    let all = (0..draws.replicates as u64).into_par_iter().panic_fuse();
     all.map(|index| of_draw(index).unwrap_or(f64::NAN)).collect()
 }
 

@@ -6,7 +6,7 @@ use std::fmt;
 use super::fit::{BootstrapFits, IntervalBasis};
 use super::{Draws, LEVEL, ProcedureError};
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
-use rocking_statistics::bootstrap::Bootstrap;
+use rocking::names::as_text;
 use rocking_statistics::lognormal::{
     LognormalFit, Stripe, fit_counts, fit_counts_alone, fit_intervals,
 };
@@ -14,9 +14,8 @@ use rocking_statistics::resampling::multiplicities;
 use rocking_statistics::{Clusters, Estimate, Lognormal, Range};
 
 /// A lognormal fragility fitted to counts, with intervals.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CountsFragility {
     /// Records run, over all stripes.
     pub n: usize,
@@ -28,7 +27,6 @@ pub struct CountsFragility {
     /// Level of the intervals.
     pub level: f64,
     /// What the intervals rest on.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub intervals: Basis,
     /// Median with its interval; an end is open where the likelihood does not
     /// fall so far. No interval where a draw in ten has no fit.
@@ -66,6 +64,8 @@ impl fmt::Display for Basis {
         }
     }
 }
+
+as_text!(write Basis);
 
 /// What became of a record at an intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,9 +197,7 @@ pub fn sample_outcomes(
     let place = |record| known.partition_point(|other| *other < record);
     let is_open = RecordOutcome::stripes(outcomes).is_none();
     let brackets = is_open.then(|| RecordOutcome::brackets(outcomes));
-    let Draws { replicates, seed } = draws;
-    let all = Bootstrap::of_clusters("counts", seed, &clusters, replicates);
-    let fitted = all.map(|places| {
+    let fitted = draws.of("counts", &clusters).map(|places| {
         if let Some(brackets) = &brackets {
             let drawn: Vec<_> = places.iter().map(|k| brackets[*k]).collect();
             let law = fit_intervals(&drawn, shift).ok()?.distribution;

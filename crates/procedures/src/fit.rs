@@ -15,12 +15,13 @@ pub use levels::{DispersionRule, LevelFit, fit_levels};
 pub use precision::SampleSize;
 pub use remark::FitRemark;
 
-use self::intervals::Replicate;
+use self::intervals::refitted;
 use self::levels::{law, resampled};
 use crate::fragility::total::TotalFragility;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use rocking::capacity::CapacityError;
 use rocking::stop;
+use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lilliefors::LillieforsError;
 use rocking_statistics::lognormal::{
     FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
@@ -97,8 +98,7 @@ impl Shift {
 }
 
 /// Draws of a bootstrap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Draws {
     /// Number of samples drawn, 2 to 1,000,000.
     pub replicates: usize,
@@ -241,9 +241,8 @@ pub enum ProcedureError {
 /// statistics give instead.
 ///
 /// All intensities are in the unit of the sample.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FragilityFit {
     /// Size of the sample, censored values included.
     pub n: usize,
@@ -258,7 +257,6 @@ pub struct FragilityFit {
     /// Weaknesses of the fit.
     pub remarks: Vec<FitRemark>,
     /// How the distribution was fitted.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
     pub method: FitMethod,
     /// The fitted distribution (SSFL with a shift, USFL without).
     pub fitted: Lognormal,
@@ -292,22 +290,20 @@ pub struct FragilityFit {
 }
 
 /// The likelihood interval of a shift.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ShiftInterval {
     /// Its high end is open where the likelihood rises towards the smallest
     /// value.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub interval: Interval,
     /// Level of the interval.
     pub level: f64,
 }
 
 /// Eqs. 5 to 7 of unshifted statistics; none where a number is not known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Transformation {
     /// The shift IM_R.
     pub shift: f64,
@@ -316,13 +312,13 @@ pub struct Transformation {
     /// Where Eq. 7 ends.
     pub c_max: Option<f64>,
     /// Eq. 5 of the median.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    #[serde(serialize_with = "super::if_known")]
     pub eq5: Option<Result<f64, FragilityError>>,
     /// Eq. 6 of the 16 and 84 % quantiles.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    #[serde(serialize_with = "super::if_known")]
     pub eq6: Option<Result<f64, FragilityError>>,
     /// Eq. 7 of the median and the dispersion.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::if_known"))]
+    #[serde(serialize_with = "super::if_known")]
     pub eq7: Option<Result<f64, FragilityError>>,
 }
 
@@ -372,8 +368,7 @@ impl BootstrapFits {
             fit.as_ref().map_or(f64::NAN, &number)
         };
         let drawn: Vec<f64> = self.fitted.iter().map(of).collect();
-        let found = self.basis.estimate(value, &drawn, range);
-        found.map_or(Estimate::exact(value), |found| found.estimate)
+        self.basis.value(value, &drawn, range).estimate
     }
 
     /// The quantile of a fit at probability p with the 95 % interval of these
@@ -439,14 +434,8 @@ impl FitOptions {
             let limited = sample.limited();
             return Err(ProcedureError::SmallestLimited(limited));
         }
-        if let Some(clusters) = &self.clusters
-            && clusters.records() != sample.len()
-        {
-            return Err(ProcedureError::Length {
-                name: "earthquakes".to_owned(),
-                found: clusters.records(),
-                expected: sample.len(),
-            });
+        if let Some(clusters) = &self.clusters {
+            check_length("earthquakes", clusters.records(), sample.len())?;
         }
         match (self.draws, self.shift) {
             (None, _) if !self.band.is_empty() => {
@@ -471,7 +460,7 @@ impl FitOptions {
         self.check(sample)?;
         let Some(draws) = self.draws else { return Ok(None) };
         let clusters = self.clusters(sample);
-        let fitted = intervals::drawn(draws, &clusters, |places| {
+        let fitted = draws.of("fragility", &clusters).map(|places| {
             let (shift, above) =
                 self.shift.split(&sample.resample(places)).ok()?;
             let family = resampled(&self.family, places);
@@ -498,7 +487,7 @@ impl FitOptions {
         let unshifted = law(sample, family, 0.0, self.method).ok();
         let unshifted = unshifted.map(|fit| fit.distribution);
         let own =
-            (unshifted.map(|u| u.median()), unshifted.map(|u| u.dispersion()));
+            unshifted.map(|own| (own.median(), own.dispersion())).unzip();
         let at = |p| sample.quantile(self.quantile_type, p);
         let quantiles = (at(0.16), at(0.84));
         let transformed = Transformation::new(own, quantiles, shift, self.c);
@@ -518,6 +507,24 @@ impl Draws {
         }
         Err(ProcedureError::Replicates(self.replicates))
     }
+
+    /// The draws of these clusters from the streams of `name`.
+    pub(crate) fn of(self, name: &str, clusters: &Clusters) -> Bootstrap {
+        Bootstrap::of_clusters(name, self.seed, clusters, self.replicates)
+    }
+}
+
+/// Refuses another number of values than one a record.
+pub(crate) fn check_length(
+    name: &str,
+    found: usize,
+    expected: usize,
+) -> Result<(), ProcedureError> {
+    if found == expected {
+        return Ok(());
+    }
+    let name = name.to_owned();
+    Err(ProcedureError::Length { name, found, expected })
 }
 
 /// Fits a lognormal fragility to a sample of capacities.
@@ -558,18 +565,18 @@ pub fn fit_sample(
     };
     let at = |p| sample.quantile(options.quantile_type, p);
     let clusters = options.clusters(sample);
-    let replicates = intervals::replicates(sample, options, &clusters);
-    let basis =
-        options.draws.map(|draws| IntervalBasis::new(draws, &clusters));
-    let bootstrap = basis
-        .clone()
-        .map(|basis| FitIntervals::new(basis, &found, &replicates));
-    let band = basis.filter(|_| !options.band.is_empty()).map(|basis| {
-        let of = |row: &Replicate| row.1.map(TotalFragility::from);
-        let fitted = replicates.iter().map(of).collect();
+    let (mut bootstrap, mut band) = (None, None);
+    if let Some(draws) = options.draws {
+        let basis = IntervalBasis::new(draws, &clusters);
+        let drawn = draws.of("fragility", &clusters);
+        let drawn = drawn.map(|places| refitted(sample, options, places));
+        bootstrap = Some(FitIntervals::new(basis.clone(), &found, &drawn));
+        let fitted = drawn.iter().map(|row| row.1.map(Into::into)).collect();
         let sampled = BootstrapFits { basis, fitted };
-        Band::new(sample, options, &found.fit.distribution, &sampled)
-    });
+        band = (!options.band.is_empty()).then(|| {
+            Band::new(sample, options, &found.fit.distribution, &sampled)
+        });
+    }
     // The empirical distribution is that of values with one limit.
     let ks_distance =
         (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));

@@ -17,7 +17,7 @@ use libm::{exp, expm1, log, log1p};
 use thiserror::Error;
 
 use rocking_statistics::Lognormal;
-use rocking_statistics::lognormal::LognormalError;
+use rocking_statistics::lognormal::{LognormalError, check_shift};
 
 /// Why one of Eqs. 5 to 7 has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -191,13 +191,6 @@ pub fn transform(
     let log_mean = eq5(median, shift)?;
     let dispersion = eq7(median, unshifted.dispersion(), shift, c)?;
     Ok(Lognormal::try_new(shift, log_mean, dispersion)?)
-}
-
-fn check_shift(shift: f64) -> Result<(), FragilityError> {
-    if !(shift >= 0.0 && shift.is_finite()) {
-        return Err(LognormalError::Shift(shift).into());
-    }
-    Ok(())
 }
 
 #[cfg(test)]

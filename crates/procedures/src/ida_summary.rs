@@ -1,12 +1,11 @@
 //! What the curves of a suite come to.
 
 use rocking::ida::{Analysis, IdaCurve, ResolutionCounts};
-use rocking_statistics::{ExtendedSample, QuantileType};
+use rocking_statistics::ExtendedSample;
 
 /// The curves of a suite, counted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct IdaSummary {
     /// Number of curves.
     pub records: usize,
@@ -27,9 +26,8 @@ pub struct IdaSummary {
 }
 
 /// One curve, counted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CurveSummary {
     /// The record.
     pub record: String,
@@ -103,8 +101,6 @@ impl IdaSummary {
         let im = |c: &CurveSummary| c.overturning_im.unwrap_or(f64::INFINITY);
         let ims: Vec<f64> = self.curves.iter().map(im).collect();
         let ims = ExtendedSample::try_new(&ims).ok();
-        let median =
-            |ims| QuantileType::default().extended_quantile(&ims, 0.5).ok();
-        self.median_overturning_im = ims.and_then(median);
+        self.median_overturning_im = ims.map(|ims| ims.quantile(0.5));
     }
 }

@@ -48,9 +48,8 @@ pub enum LawError {
 }
 
 /// A fragility by the law of average spectral acceleration.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LawFragility {
     /// Slenderness angle.
     pub alpha_rad: f64,

@@ -3,9 +3,9 @@
 //! Each procedure takes checked inputs and an options type, and gives one
 //! result. The command line, the Python package, the study and the report
 //! call these functions and show their results; none of them computes. A
-//! result says its units in the names of its fields, carries its intervals,
-//! and is written by `serde` if the feature `serde` is on: a number that
-//! is not finite then becomes `null` in JSON.
+//! result says its units in the names of its fields, has its intervals beside
+//! its values, and is a `serde::Serialize`: a number that is not finite
+//! becomes `null` in JSON.
 //!
 //! [`fragility`] has Eqs. 5 to 7, hazard curves and the annual frequency.
 //! `examples/fragility.rs` goes from a folder of records to a fragility in 25
@@ -61,7 +61,6 @@ pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 
 /// Writes a value, or why there is none as `{"reason": "..."}`.
-#[cfg(feature = "serde")]
 pub(crate) fn or_reason<T: serde::Serialize, E: std::fmt::Display, S>(
     found: &Result<T, E>,
     to: S,
@@ -80,17 +79,7 @@ where
     }
 }
 
-/// Writes a value by its name.
-#[cfg(feature = "serde")]
-pub(crate) fn name<T: std::fmt::Display, S: serde::Serializer>(
-    value: &T,
-    to: S,
-) -> Result<S::Ok, S::Error> {
-    to.collect_str(value)
-}
-
 /// Writes nothing, a value, or why there is none.
-#[cfg(feature = "serde")]
 pub(crate) fn if_known<T: serde::Serialize, E: std::fmt::Display, S>(
     found: &Option<Result<T, E>>,
     to: S,

@@ -53,8 +53,7 @@ pub struct ModelErrorFault {
 /// );
 /// # Ok::<(), rocking_procedures::model_error::ModelErrorFault>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ModelError {
     bias: ModelErrorPart,
     dispersion: ModelErrorPart,

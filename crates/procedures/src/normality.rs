@@ -1,14 +1,13 @@
 //! Is a sample normal, or lognormal above a shift?
 
 use super::{ProcedureError, Shift};
-#[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lilliefors::{
     Inapplicable, LillieforsError, LillieforsTable, LillieforsTest, Null,
     NullDistribution, NullSource, Scale, ShiftedNull, Statistic, Verdict,
 };
 use rocking_statistics::normality::{
-    Battery, SimulatedTest, anderson_darling, cramer_von_mises, shapiro_wilk,
+    Battery, NormalityTest, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
 use rocking_statistics::{CensoredSample, Estimate, ExtendedSample, Sample};
 
@@ -38,9 +37,8 @@ impl Default for NormalityOptions {
 }
 
 /// Lilliefors' test of a sample, and other tests beside it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Normality {
     /// Size of the sample, censored values included.
     pub n: usize,
@@ -51,7 +49,7 @@ pub struct Normality {
     /// Lilliefors' statistic.
     pub statistic: Option<Statistic>,
     /// Its p-value, with the interval of its Monte Carlo error (95 %).
-    #[cfg_attr(feature = "serde", serde(serialize_with = "keys::if_value"))]
+    #[serde(serialize_with = "keys::if_value")]
     pub p_value: Option<Estimate>,
     /// How the p-value was found.
     pub method: Option<NullSource>,
@@ -74,19 +72,15 @@ pub struct Normality {
 }
 
 /// A test beside Lilliefors'.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OtherTest {
     /// The statistic.
     pub statistic: f64,
     /// Its p-value: simulated, with its 95 % interval, if a number of
     /// replicates was given; else from a published approximation, and with
     /// an interval from 0 where that ends.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "keys::p_value")
-    )]
+    #[serde(flatten, serialize_with = "keys::p_value")]
     pub p_value: Estimate,
     /// The verdict of a simulated p-value.
     pub verdict: Option<Verdict>,
@@ -196,20 +190,20 @@ fn others(
     let Some(tested) = tested else { return Ok([None; 3]) };
     let known = options.log_above != Some(Shift::Smallest)
         && (4..=Battery::MOST_VALUES).contains(&tested.len());
-    if let Some(replicates) = options.replicates.filter(|_| known) {
-        let battery =
-            Battery::simulate(tested.len(), replicates, options.seed)?;
-        return Ok(battery.assess(tested).map_or([None; 3], |tests| {
-            tests.map(|SimulatedTest { statistic, p_value, .. }| {
-                let verdict = Verdict::at_level(&p_value, options.level);
-                let verdict = Some(verdict);
-                Some(OtherTest { statistic, p_value, verdict })
-            })
-        }));
-    }
-    Ok([anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
-        let found = test(tested).ok()?;
-        let (statistic, p_value) = (found.statistic, found.estimate());
-        Some(OtherTest { statistic, p_value, verdict: None })
+    let replicates = options.replicates.filter(|_| known);
+    let tests = match replicates {
+        Some(replicates) => {
+            let (n, seed) = (tested.len(), options.seed);
+            let found = Battery::simulate(n, replicates, seed)?.assess(tested);
+            found.map_or([None; 3], |tests| tests.map(Some))
+        }
+        None => [anderson_darling, cramer_von_mises, shapiro_wilk]
+            .map(|test| test(tested).ok()),
+    };
+    Ok(tests.map(|test| {
+        let NormalityTest { statistic, p_value, .. } = test?;
+        let verdict =
+            replicates.map(|_| Verdict::at_level(&p_value, options.level));
+        Some(OtherTest { statistic, p_value, verdict })
     }))
 }

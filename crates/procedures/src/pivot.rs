@@ -10,9 +10,8 @@ use rocking::integrator::Forces;
 ///
 /// The model does not slide: where many analyses need more friction than the
 /// ground gives, it says more than it knows.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PivotForces {
     /// Number of analyses.
     pub analyses: usize,
@@ -24,14 +23,13 @@ pub struct PivotForces {
     /// Least N/(m g) of all analyses.
     pub least_normal_over_weight: f64,
     /// The forces of each analysis of each curve: of `points`, in order.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub curves: Vec<Vec<Forces>>,
 }
 
 /// How many analyses need more friction than there is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FrictionNeed {
     /// Coefficient of friction.
     pub friction: f64,

@@ -2,9 +2,9 @@
 
 use libm::log;
 
-use super::fit::IntervalBasis;
+use super::fit::{IntervalBasis, check_length};
 use super::{Draws, ProcedureError};
-use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
+use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lognormal::fit_intervals;
 use rocking_statistics::regression::{Line, mixed};
 use rocking_statistics::{Clusters, Range};
@@ -46,9 +46,8 @@ impl Covariate {
 }
 
 /// Intensity measures in the order in which they were asked for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ranking {
     /// Number of records.
     pub n: usize,
@@ -56,7 +55,7 @@ pub struct Ranking {
     /// to which they were run.
     pub censored: usize,
     /// What the intervals rest on, the same draws for all measures.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// Why there is no slope, where a covariate was given and there is none.
     pub no_slope: Option<String>,
@@ -65,9 +64,8 @@ pub struct Ranking {
 }
 
 /// What was found of one intensity measure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasureRank {
     /// Its name, behind `root of` where its root is ranked.
     pub im: String,
@@ -83,15 +81,14 @@ pub struct MeasureRank {
 }
 
 /// A slope on a covariate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Slope {
     /// The covariate.
     pub on: String,
     /// The line: with a random intercept for each earthquake, by least
     /// squares where no earthquake has two records.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub line: Line,
 }
 
@@ -135,18 +132,13 @@ pub fn rank(
 ) -> Result<Ranking, ProcedureError> {
     draws.check()?;
     let n = capacities.len();
-    let named = candidates
-        .iter()
-        .map(|c| (&c.im, c.at_uplift.len()))
-        .chain(covariates.iter().map(|c| (&c.name, c.values.len())));
-    let earthquakes = "earthquakes".to_owned();
-    let named = named.chain([(&earthquakes, clusters.records())]);
-    for (name, found) in named {
-        if found != n {
-            let name = name.clone();
-            return Err(ProcedureError::Length { name, found, expected: n });
-        }
+    for candidate in candidates {
+        check_length(&candidate.im, candidate.at_uplift.len(), n)?;
     }
+    for covariate in covariates {
+        check_length(&covariate.name, covariate.values.len(), n)?;
+    }
+    check_length("earthquakes", clusters.records(), n)?;
     let own = |candidate: &CandidateMeasure| -> Vec<(f64, f64)> {
         let root = |x: f64| if candidate.squared { x.sqrt() } else { x };
         let all = capacities.iter().zip(&candidate.at_uplift);
@@ -161,9 +153,7 @@ pub fn rank(
         let fit = fit_intervals(capacities, 0.0);
         fit.map_or(f64::NAN, |fit| fit.distribution.dispersion())
     };
-    let Draws { replicates, seed } = draws;
-    let drawn = Bootstrap::of_clusters("rank", seed, clusters, replicates);
-    let drawn = drawn.map(|places| {
+    let drawn = draws.of("rank", clusters).map(|places| {
         let pick = |capacities: &Vec<(f64, f64)>| {
             let own: Vec<_> = places.iter().map(|&i| capacities[i]).collect();
             dispersion(&own)

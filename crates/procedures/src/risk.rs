@@ -9,15 +9,13 @@ use crate::fit::{BootstrapFits, IntervalBasis};
 use crate::fragility::hazard::{Hazard, HazardMeasure, HazardRemark};
 use crate::fragility::total::TotalFragility;
 use rocking::stop;
-#[cfg(feature = "serde")]
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::{Estimate, Interval, Lognormal, Range};
 
 /// Annual frequencies and probabilities of damage under one hazard curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Risk {
     /// The hazard curve's intensity measure.
     pub im: HazardMeasure,
@@ -38,9 +36,8 @@ pub struct Risk {
 }
 
 /// A point of a hazard curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HazardPoint {
     /// Intensity, in the unit of the curve.
     pub intensity: f64,
@@ -79,31 +76,24 @@ impl FragilityInput {
 
 /// What few records and the model leave open of a frequency; the hazard curve
 /// counts as known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingInterval {
     /// What it rests on.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// The error of the model in each draw; none for the records alone.
     pub model_error: Option<ModelError>,
     /// Annual frequency in 1/year, of the lower bound of truncation, with an
     /// interval up to the upper end of the upper bound.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "keys::annual_frequency_ends")
-    )]
+    #[serde(flatten, serialize_with = "keys::annual_frequency_ends")]
     pub annual_frequency: Estimate,
     /// Probability of damage in T years with that interval.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "keys::probability_ends")
-    )]
+    #[serde(flatten, serialize_with = "keys::probability_ends")]
     pub probability: Estimate,
     /// Annual frequency of each draw in 1/year, of the lower bound of
     /// truncation; not a number where a draw makes no fit.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub drawn_annual_frequencies: Vec<f64>,
 }
 
@@ -113,9 +103,8 @@ pub struct SamplingInterval {
 /// point (see
 /// [`AnnualFrequency`](crate::fragility::risk::AnnualFrequency)). They are no
 /// confidence interval: that is `sampling`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FragilityRisk {
     /// Name of the fragility.
     pub fragility: String,

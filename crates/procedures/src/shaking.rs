@@ -114,9 +114,8 @@ pub const TEST_LEVEL: f64 = 0.9;
 ///
 /// Capacities are the factors on the motion of a test at which the block
 /// first overturns.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TestComparison {
     /// Number of tests with a known fate.
     pub tests: usize,
@@ -153,7 +152,7 @@ pub struct TestComparison {
     pub rivals: Vec<Predictor>,
     /// Measures that are no predictor, or have no fragility of the computed
     /// fates.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub unfitted: Vec<UnfittedMeasure>,
     /// Predicted and observed shares of overturning, by tenths of the tests
     /// in ascending order of the predicted probability.
@@ -169,10 +168,7 @@ pub struct TestComparison {
     /// Measured and computed fragilities of the same tests.
     pub distributions: Vec<DistributionComparison>,
     /// The tests, in their order.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, skip_serializing_if = "Vec::is_empty")
-    )]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub each: Vec<TestResult>,
 }
 
@@ -181,9 +177,8 @@ pub struct TestComparison {
 /// The probability of overturning is Phi(ln(x/m)/s) of the number x; m and s
 /// are of the highest likelihood. Probabilities that predict are of a fit
 /// that leaves the motion of the test out.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Predictor {
     /// What predicts: the block, or an intensity measure.
     pub predictor: String,
@@ -205,9 +200,8 @@ pub struct Predictor {
 }
 
 /// A measure that has no fit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnfittedMeasure {
     /// Intensity measure.
     pub im: String,
@@ -219,9 +213,8 @@ pub struct UnfittedMeasure {
 }
 
 /// Predicted and observed overturning of some tests.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReliabilityClass {
     /// Number of tests.
     pub tests: usize,
@@ -232,9 +225,8 @@ pub struct ReliabilityClass {
 }
 
 /// How well tests repeat themselves.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Repeatability {
     /// Pairs of tests of one motion whose PGA differ by 5 % or less.
     pub pairs: usize,
@@ -252,9 +244,8 @@ pub struct Repeatability {
 }
 
 /// Tests at levels at which the block stands again.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Resurrected {
     /// Number of tests.
     pub tests: usize,
@@ -269,9 +260,8 @@ pub struct Resurrected {
 
 /// Log-likelihood of the fates above the onset of rocking, g tan(alpha)
 /// (g alpha for Eq. 2), by what the scatter of the model multiplies.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OnsetComparison {
     /// Onset of rocking in g.
     pub onset_g: f64,
@@ -295,9 +285,8 @@ pub struct OnsetComparison {
 
 /// Two fragilities fitted in the same way to the same tests: to the fates
 /// that were measured and to those that the block has.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistributionComparison {
     /// Intensity measure.
     pub im: String,
@@ -321,8 +310,7 @@ pub struct DistributionComparison {
 }
 
 /// One test of a comparison.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TestResult {
     /// Name of the record.
     pub test: String,
@@ -336,7 +324,7 @@ pub struct TestResult {
     /// last level that was run.
     pub capacity_factor: f64,
     /// Whether the block overturns at any level that was run.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub overturns: bool,
     /// Whether the block overturns at the level of the test.
     pub overturns_at_level: bool,

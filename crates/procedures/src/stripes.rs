@@ -2,12 +2,11 @@
 
 use super::ProcedureError;
 use rocking::capacity::ResponseCurve;
-use rocking_statistics::{ExtendedSample, QuantileType};
+use rocking_statistics::ExtendedSample;
 
 /// The responses at one intensity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StripeResponses {
     /// The intensity, in the unit of the curves.
     pub intensity: f64,
@@ -93,19 +92,15 @@ pub fn stripes(
             curves.iter().filter_map(|curve| curve.edp_at(im)).collect();
         let sample = ExtendedSample::try_new(&known)
             .map_err(|_| ProcedureError::NotRun(im))?;
-        let quantile = |p| {
-            let value = QuantileType::default().extended_quantile(&sample, p);
-            value.unwrap_or(f64::NAN)
-        };
         let open = curves.len() - known.len();
         let exceeded =
             |level: f64| known.iter().filter(|edp| **edp >= level).count();
         Ok(StripeResponses {
             intensity: im,
             n: known.len(),
-            edp16: quantile(0.16),
-            edp50: quantile(0.5),
-            edp84: quantile(0.84),
+            edp16: sample.quantile(0.16),
+            edp50: sample.quantile(0.5),
+            edp84: sample.quantile(0.84),
             overturned: sample.censored(),
             open,
             exceeded: edp.filter(|_| open == 0).map(exceeded),

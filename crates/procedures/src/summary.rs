@@ -5,9 +5,8 @@ use rocking_statistics::quantile::QuantileError;
 use rocking_statistics::{Boxplot, ExtendedSample, QuantileType};
 
 /// Quantiles and boxplot of a sample.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// Size of the sample, censored values included.
     pub n: usize,
@@ -18,14 +17,13 @@ pub struct Summary {
     /// The quantiles asked for, in their order.
     pub quantiles: Vec<Quantile>,
     /// Box, notch, whiskers and outliers.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "super::or_reason"))]
+    #[serde(serialize_with = "super::or_reason")]
     pub boxplot: Result<Boxplot, BoxplotError>,
 }
 
 /// A quantile.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantile {
     /// The probability, in [0, 1].
     pub probability: f64,

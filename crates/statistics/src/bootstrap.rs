@@ -8,12 +8,11 @@ use crate::streams::{Streams, below};
 use rocking::stop;
 
 /// An estimate with its standard error and replicates.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct BootstrapEstimate {
     /// The value of the sample itself, with its interval.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub estimate: Estimate,
     /// Standard error on the scale of the interval: of the logarithm, where
     /// the value is positive.

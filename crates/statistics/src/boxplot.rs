@@ -40,8 +40,7 @@ pub enum BoxplotError {
 /// assert_eq!(boxplot.outliers, [20.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct Boxplot {
     /// Size of the sample.
@@ -67,12 +66,13 @@ pub struct Boxplot {
 }
 
 /// An interval of the median between two order statistics.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(
+    Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize,
+)]
 #[non_exhaustive]
 pub struct MedianInterval {
     /// Between the values of the two.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub interval: Interval,
     /// Rank of the lower one, from 1; the upper one's is n + 1 minus it.
     pub rank: usize,

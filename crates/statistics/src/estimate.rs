@@ -28,8 +28,6 @@ pub enum Range {
     NotNegative,
     /// From 0 to 1: a probability, a share, a distance of distributions.
     Share,
-    /// From -1 to 1: a difference of two shares, a correlation.
-    Difference,
 }
 
 impl Range {
@@ -39,7 +37,6 @@ impl Range {
             Self::Real => (f64::NEG_INFINITY, f64::INFINITY),
             Self::NotNegative => (0.0, f64::INFINITY),
             Self::Share => (0.0, 1.0),
-            Self::Difference => (-1.0, 1.0),
         };
         Interval { low, high }
     }
@@ -84,8 +81,7 @@ impl Range {
 /// assert!(Interval::try_new(f64::NAN, 0.6).is_err());
 /// # Ok::<(), rocking_statistics::estimate::EstimateError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[must_use]
 pub struct Interval {
     low: f64,
@@ -146,7 +142,6 @@ impl Interval {
     }
 }
 
-#[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for Interval {
     fn deserialize<D: serde::Deserializer<'de>>(
         from: D,
@@ -275,7 +270,6 @@ impl Estimate {
 
 /// Written as `point`, `low` and `high`; `null` is an end that is open or not
 /// there.
-#[cfg(feature = "serde")]
 impl serde::Serialize for Estimate {
     fn serialize<S: serde::Serializer>(
         &self,
@@ -286,7 +280,6 @@ impl serde::Serialize for Estimate {
 }
 
 /// Reads what the serializer writes; an open end stays open.
-#[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for Estimate {
     fn deserialize<D: serde::Deserializer<'de>>(
         from: D,
@@ -313,7 +306,6 @@ impl<'de> serde::Deserialize<'de> for Estimate {
 
 /// Names of the fields of an estimate that a struct flattens:
 /// `#[serde(flatten, serialize_with = "estimate::keys::ratio")]`.
-#[cfg(feature = "serde")]
 pub mod keys {
     use serde::ser::SerializeMap as _;
     use serde::{Serialize as _, Serializer};

@@ -89,8 +89,7 @@ pub enum LillieforsError {
 }
 
 /// Lilliefors' D and its one-sided parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Statistic {
     /// Size of the sample.

@@ -35,8 +35,11 @@ pub enum LognormalError {
     Shift(f64),
 }
 
-/// Refuses a shift that is negative or not finite.
-fn check_shift(shift: f64) -> Result<(), LognormalError> {
+/// Checks a shift.
+///
+/// # Errors
+/// [`LognormalError::Shift`] for a shift that is negative or not finite.
+pub fn check_shift(shift: f64) -> Result<(), LognormalError> {
     let known = shift >= 0.0 && shift.is_finite();
     known.then_some(()).ok_or(LognormalError::Shift(shift))
 }
@@ -63,7 +66,6 @@ pub struct Lognormal {
 }
 
 /// Written with its median beside its parameters.
-#[cfg(feature = "serde")]
 impl serde::Serialize for Lognormal {
     fn serialize<S: serde::Serializer>(
         &self,
@@ -207,7 +209,12 @@ impl Lognormal {
     /// The quantile at probability p in [0, 1]; NaN outside.
     #[must_use]
     pub fn quantile(&self, p: f64) -> f64 {
-        let z = normal::quantile(p);
+        self.at_score(normal::quantile(p))
+    }
+
+    /// The x of a normal score, r + exp(mu + beta z).
+    #[must_use]
+    pub fn at_score(&self, z: f64) -> f64 {
         self.shift + exp(f64::mul_add(self.dispersion, z, self.log_mean))
     }
 

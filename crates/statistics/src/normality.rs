@@ -8,7 +8,7 @@ mod shapiro_wilk;
 
 use libm::exp;
 
-pub use battery::{Battery, SimulatedTest};
+pub use battery::Battery;
 use shapiro_wilk::polynomial;
 pub use shapiro_wilk::shapiro_wilk;
 
@@ -21,21 +21,15 @@ use super::{Estimate, Interval, Sample, normal};
 pub struct NormalityTest {
     /// The statistic, not modified for the sample's size.
     pub statistic: f64,
-    /// Its p-value, by the published approximation.
-    pub p_value: f64,
-    /// Whether the approximation ends at it, so that it is an upper bound.
-    pub is_bound: bool,
+    /// Its p-value. By a published approximation: without an interval, or
+    /// with one from 0 if the approximation ends at it. By simulation:
+    /// (b + 1)/(N + 1), with the 95 % Clopper-Pearson interval.
+    pub p_value: Estimate,
 }
 
-impl NormalityTest {
-    /// The p-value; with an interval from 0 where it is an upper bound.
-    pub fn estimate(&self) -> Estimate {
-        if self.is_bound {
-            let interval = Interval::rising(0.0, self.p_value);
-            return Estimate::inside(self.p_value, interval);
-        }
-        Estimate::exact(self.p_value)
-    }
+/// A p-value at which the approximation ends: the true one is lower.
+fn upper_bound(p: f64) -> Estimate {
+    Estimate::inside(p, Interval::rising(0.0, p))
 }
 
 /// Anderson-Darling's A^2 = -n - (1/n) sum (2i - 1)
@@ -49,7 +43,7 @@ impl NormalityTest {
 /// use rocking_statistics::{Sample, normality::anderson_darling};
 /// let sample = Sample::try_new(&[1.0, 2.0, 4.0, 8.0, 16.0, 32.0])?;
 /// let test = anderson_darling(&sample)?;
-/// assert!(test.p_value > 0.05 && test.p_value < 0.2);
+/// assert!(test.p_value.value() > 0.05 && test.p_value.value() < 0.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -63,17 +57,17 @@ pub fn anderson_darling(
     let statistic = a2(&scores);
     let a = statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
     let p_value = if a < 0.2 {
-        1.0 - exp(polynomial(&[-13.436, 101.14, -223.73], a))
+        Estimate::exact(1.0 - exp(polynomial(&[-13.436, 101.14, -223.73], a)))
     } else if a < 0.34 {
-        1.0 - exp(polynomial(&[-8.318, 42.796, -59.938], a))
+        Estimate::exact(1.0 - exp(polynomial(&[-8.318, 42.796, -59.938], a)))
     } else if a < 0.6 {
-        exp(polynomial(&[0.9177, -4.279, -1.38], a))
+        Estimate::exact(exp(polynomial(&[0.9177, -4.279, -1.38], a)))
     } else if a < 10.0 {
-        exp(polynomial(&[1.2937, -5.709, 0.0186], a))
+        Estimate::exact(exp(polynomial(&[1.2937, -5.709, 0.0186], a)))
     } else {
-        3.7e-24
+        upper_bound(3.7e-24)
     };
-    Ok(NormalityTest { statistic, p_value, is_bound: a >= 10.0 })
+    Ok(NormalityTest { statistic, p_value })
 }
 
 /// Cramer-von Mises' W^2 = 1/(12 n) + sum [F_i - (2i - 1)/(2n)]^2.
@@ -90,17 +84,17 @@ pub fn cramer_von_mises(
     let statistic = w2(&scores);
     let w = statistic * (1.0 + 0.5 / n);
     let p_value = if w < 0.0275 {
-        1.0 - exp(polynomial(&[-13.953, 775.5, -12542.61], w))
+        Estimate::exact(1.0 - exp(polynomial(&[-13.953, 775.5, -12542.61], w)))
     } else if w < 0.051 {
-        1.0 - exp(polynomial(&[-5.903, 179.546, -1515.29], w))
+        Estimate::exact(1.0 - exp(polynomial(&[-5.903, 179.546, -1515.29], w)))
     } else if w < 0.092 {
-        exp(polynomial(&[0.886, -31.62, 10.897], w))
+        Estimate::exact(exp(polynomial(&[0.886, -31.62, 10.897], w)))
     } else if w < 1.1 {
-        exp(polynomial(&[1.111, -34.242, 12.832], w))
+        Estimate::exact(exp(polynomial(&[1.111, -34.242, 12.832], w)))
     } else {
-        7.37e-10
+        upper_bound(7.37e-10)
     };
-    Ok(NormalityTest { statistic, p_value, is_bound: w >= 1.1 })
+    Ok(NormalityTest { statistic, p_value })
 }
 
 /// A^2 of ascending scores.

@@ -49,12 +49,11 @@ pub enum PairedError {
 }
 
 /// Pairs sorted by what they allow.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Pairs {
     /// Ratios a/b of the usable pairs, in the order given.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub ratios: Vec<f64>,
     /// All pairs.
     pub n: usize,
@@ -127,8 +126,7 @@ impl Pairs {
 }
 
 /// Exact two-sided binomial test with probability 1/2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SignTest {
     /// Number above (or first kind of discordance).

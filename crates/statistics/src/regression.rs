@@ -52,9 +52,8 @@ pub enum RegressionError {
 }
 
 /// A line y = intercept + slope x.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Line {
     /// Value at x = 0, in units of y.
     pub intercept: f64,

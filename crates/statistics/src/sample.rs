@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::QuantileType;
 use rocking::stop;
 
 /// Why a sample was refused.
@@ -168,6 +169,14 @@ impl ExtendedSample {
     #[must_use]
     pub fn censored(&self) -> usize {
         self.sorted.len() - self.finite
+    }
+
+    /// Quantile of type 5 at probability p in [0, 1], infinite if censored
+    /// values have a weight in it; NaN outside.
+    #[must_use]
+    pub fn quantile(&self, p: f64) -> f64 {
+        let value = QuantileType::default().extended_quantile(self, p);
+        value.unwrap_or(f64::NAN)
     }
 }
 

@@ -235,8 +235,7 @@ impl<'a> AssessmentSuite<'a> {
     ) -> Vec<f64> {
         let periods_s = self.settings.periods_s();
         let of = |(measures, pga_g): (&Measures, &f64)| {
-            let value = pga_g.recip();
-            let scale = if im.is_squared() { value * value } else { value };
+            let scale = power(im, pga_g.recip());
             im.value(measures, periods_s).map_or(f64::NAN, |v| scale * v)
         };
         self.measures.iter().zip(&moved.pga_g).map(of).collect()
@@ -361,7 +360,7 @@ impl<'a> AssessmentSuite<'a> {
                 ida: self.ida(&made[0], threshold).map_err(refused)?,
                 by_record: self.by_record(&intervals),
                 ranking: self
-                    .ranking(object, &made[0], damage, threshold)?
+                    .ranking(object, &own_onset, threshold)
                     .map_err(refused)?,
                 fragility,
                 answer,
@@ -378,8 +377,7 @@ impl<'a> AssessmentSuite<'a> {
 
     /// The measure at a PGA in g of a record that has `per` at 1 g.
     fn scaled(&self, pga_g: f64, per: f64) -> f64 {
-        let scale = if self.im.is_squared() { pga_g * pga_g } else { pga_g };
-        scale * per * self.unit
+        power(&self.im, pga_g) * per * self.unit
     }
 
     fn ida(
@@ -410,32 +408,24 @@ impl<'a> AssessmentSuite<'a> {
         all
     }
 
+    /// Intensity measures by the dispersion of the capacities `onset`.
     fn ranking(
         &self,
         object: &Object,
-        curves: &[IdaCurve],
-        damage: Damage,
+        onset: &[(f64, f64)],
         threshold: f64,
-    ) -> Result<Result<Ranking, ProcedureError>, AssessError> {
-        let own = response(curves)?;
-        let all =
-            capacities::intervals(&own, damage.edp(), InversionRule::Median);
-        let candidate = |im: &IntensityMeasure| {
-            let squared = im.is_squared();
-            let scale =
-                if squared { threshold * threshold } else { threshold };
+    ) -> Result<Ranking, ProcedureError> {
+        let candidate = |im: IntensityMeasure| {
             let own = im.of_block(object.block.frequency_rad_s());
             let per = self.per_pga(self.under(object), &own).into_iter();
+            let scale = power(&im, threshold);
             let at_uplift = per.map(|per| per * scale).collect();
+            let squared = im.is_squared();
             CandidateMeasure { im: im.to_string(), at_uplift, squared }
         };
-        let measures = IntensityMeasure::usual();
-        let candidates: Vec<CandidateMeasure> =
-            measures.iter().map(candidate).collect();
-        let draws = self.options.draws;
-        Ok(all.and_then(|all| {
-            rank(&all, &candidates, &[], self.clusters, draws)
-        }))
+        let candidates = IntensityMeasure::usual().into_iter().map(candidate);
+        let candidates: Vec<_> = candidates.collect();
+        rank(onset, &candidates, &[], self.clusters, self.options.draws)
     }
 
     /// The fragility by the law of AvgSA and the spectra of the records, in
@@ -545,6 +535,11 @@ impl<'a> AssessmentSuite<'a> {
         }
         Ok(all)
     }
+}
+
+/// The factor on a measure of a factor on the motion.
+fn power(im: &IntensityMeasure, factor: f64) -> f64 {
+    if im.is_squared() { factor * factor } else { factor }
 }
 
 fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {

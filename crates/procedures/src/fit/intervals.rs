@@ -8,11 +8,9 @@ use libm::exp;
 use super::levels::resampled;
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::LEVEL;
-use crate::fragility::FragilityError;
 use crate::fragility::total::TotalFragility;
 use crate::model_error::ModelError;
-use rocking_statistics::bootstrap::{Bootstrap, BootstrapEstimate};
-#[cfg(feature = "serde")]
+use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::estimate::keys;
 use rocking_statistics::lognormal::FitMethod;
 use rocking_statistics::resampling::{IntervalRemark, Resampling};
@@ -22,12 +20,11 @@ use rocking_statistics::{
 };
 
 /// What the intervals of a result rest on: the draws of a bootstrap.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct IntervalBasis {
     /// The draws.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub draws: Draws,
     /// What was drawn: earthquakes with all their records, or records where
     /// no earthquake is known.
@@ -39,7 +36,7 @@ pub struct IntervalBasis {
     pub remark: Option<IntervalRemark>,
     /// The error of the model, of which each draw has a bias and a
     /// dispersion of its own; none where the draws are of the records alone.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub model_error: Option<ModelError>,
 }
 
@@ -90,12 +87,11 @@ impl fmt::Display for IntervalBasis {
 
 /// Bootstrap intervals of the numbers of a fit; none of a number that a
 /// tenth of the draws do not have.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitIntervals {
     /// What they rest on.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// Logarithmic mean above the shift.
     pub log_mean: Option<BootstrapEstimate>,
@@ -120,19 +116,13 @@ pub(super) type Replicate = (Numbers, Option<Lognormal>);
 fn numbers(found: &SampleFit) -> Numbers {
     let fitted = found.fit.distribution;
     let own = &found.transformed;
-    let or_nan = |x: &Option<Result<f64, FragilityError>>| {
-        x.as_ref().and_then(|x| x.as_ref().ok()).copied().unwrap_or(f64::NAN)
-    };
-    [
-        fitted.log_mean(),
-        fitted.dispersion(),
-        or_nan(&own.eq5),
-        or_nan(&own.eq6),
-        or_nan(&own.eq7),
-    ]
+    let [eq5, eq6, eq7] = [own.eq5, own.eq6, own.eq7]
+        .map(|found| found.and_then(Result::ok).unwrap_or(f64::NAN));
+    [fitted.log_mean(), fitted.dispersion(), eq5, eq6, eq7]
 }
 
-fn refitted(
+/// The fit of a draw, `places` of a sample.
+pub(super) fn refitted(
     sample: &CensoredSample,
     options: &FitOptions,
     places: &[usize],
@@ -142,25 +132,6 @@ fn refitted(
     found.map_or(([f64::NAN; 5], None), |found| {
         (numbers(&found), Some(found.fit.distribution))
     })
-}
-
-/// The replicates asked for, in the order of their draws.
-pub(super) fn replicates(
-    sample: &CensoredSample,
-    options: &FitOptions,
-    clusters: &Clusters,
-) -> Vec<Replicate> {
-    let Some(draws) = options.draws else { return Vec::new() };
-    drawn(draws, clusters, |places| refitted(sample, options, places))
-}
-
-/// What a function of their places gives of the draws, in their order.
-pub(super) fn drawn<T: Send>(
-    Draws { replicates, seed }: Draws,
-    clusters: &Clusters,
-    of: impl Fn(&[usize]) -> T + Sync,
-) -> Vec<T> {
-    Bootstrap::of_clusters("fragility", seed, clusters, replicates).map(of)
 }
 
 impl FitIntervals {
@@ -195,37 +166,29 @@ impl FitIntervals {
 }
 
 /// Probabilities of a fragility with bands of one intensity at a time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Band {
     /// What it rests on.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub basis: IntervalBasis,
     /// One point an intensity.
     pub points: Vec<BandPoint>,
 }
 
 /// The probability at one intensity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BandPoint {
     /// The intensity, in the unit of the sample.
     pub intensity: f64,
     /// Probability of the fit, with its interval by the bootstrap.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "keys::probability")
-    )]
+    #[serde(flatten, serialize_with = "keys::probability")]
     pub probability: Estimate,
     /// The same probability with its interval by the delta method: of
     /// complete samples of independent records, fitted by maximum likelihood
     /// or moments above a known shift.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "keys::delta_ends")
-    )]
+    #[serde(flatten, serialize_with = "keys::delta_ends")]
     pub delta: Estimate,
 }
 
@@ -236,20 +199,17 @@ impl Band {
         fitted: &Lognormal,
         sampled: &BootstrapFits,
     ) -> Self {
-        let complete = sample.censored() == 0;
-        let known = matches!(
-            options.method,
-            FitMethod::MaximumLikelihood | FitMethod::Moment
-        ) && options.family.is_empty();
         let mut band = sampled.band(&(*fitted).into(), &options.band);
-        if complete && known && sampled.basis.drawn.is_singletons() {
-            for point in &mut band.points {
-                point.delta = fitted.estimate_of_cdf(
-                    sample.len(),
-                    point.intensity,
-                    LEVEL,
-                );
-            }
+        let has_delta = sample.censored() == 0
+            && options.family.is_empty()
+            && sampled.basis.drawn.is_singletons()
+            && matches!(
+                options.method,
+                FitMethod::MaximumLikelihood | FitMethod::Moment
+            );
+        for point in band.points.iter_mut().filter(|_| has_delta) {
+            let (n, im) = (sample.len(), point.intensity);
+            point.delta = fitted.estimate_of_cdf(n, im, LEVEL);
         }
         band
     }
@@ -263,17 +223,14 @@ impl BootstrapFits {
     #[must_use]
     pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
-            let probability = match self.basis.model_error {
-                Some(_) => {
-                    let value = fitted.cdf(intensity);
-                    let between = self.between_draws(value, intensity);
-                    between.unwrap_or(Estimate::exact(value))
-                }
-                None => {
-                    let score = |fit: &TotalFragility| fit.score(intensity);
-                    let own = score(fitted);
-                    self.estimate(own, Range::Real, score).map(normal::cdf)
-                }
+            let score = |fit: &TotalFragility| fit.score(intensity);
+            let probability = if self.basis.model_error.is_some() {
+                let value = fitted.cdf(intensity);
+                let between = self.between_draws(value, intensity);
+                between.unwrap_or(Estimate::exact(value))
+            } else {
+                let own = self.estimate(score(fitted), Range::Real, score);
+                own.map(normal::cdf)
             };
             let delta = Estimate::exact(probability.value());
             BandPoint { intensity, probability, delta }

@@ -52,9 +52,8 @@ pub(super) fn resampled(
 }
 
 /// The fit of the capacities at one level.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LevelFit {
     /// The EDP level (peak |theta|/alpha, infinite for overturning).
     pub edp: f64,
@@ -62,7 +61,7 @@ pub struct LevelFit {
     /// dispersion; none of an own dispersion.
     pub dispersion_loss: Option<f64>,
     /// The fit.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub fit: FragilityFit,
 }
 

@@ -13,9 +13,8 @@ const LEVEL: f64 = 0.9;
 /// How many records bring the median above the shift, and the dispersion, to
 /// a precision, if the fitted dispersion and the shares of records by
 /// earthquake stay as they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SampleSize {
     /// Half the width of the interval, relative to the value: 0.1.
     pub precision: f64,
@@ -47,16 +46,13 @@ impl SampleSize {
         clusters: &Clusters,
     ) -> Option<Self> {
         let n = clusters.records() as f64;
-        let shared = (!clusters.is_singletons()).then(|| {
-            let complete = sample.censored() == 0;
-            let logs = sample.values().iter();
-            let logs: Vec<f64> =
-                logs.map(|x| log(x - fitted.shift())).collect();
-            complete.then(|| clusters.intraclass(&logs)).flatten()
-        });
-        let correlation = match shared {
-            None => None,
-            Some(known) => Some(known?),
+        let logs = sample.values().iter().map(|x| log(x - fitted.shift()));
+        let correlation = match (clusters.is_singletons(), sample.censored()) {
+            (true, _) => None,
+            (false, 0) => {
+                Some(clusters.intraclass(&logs.collect::<Vec<_>>())?)
+            }
+            (false, _) => return None,
         };
         let size = n / clusters.effective();
         let design_effect = 1.0 + (size - 1.0) * correlation.unwrap_or(0.0);

@@ -110,7 +110,6 @@ impl HazardMeasure {
     }
 }
 
-#[cfg(feature = "serde")]
 impl serde::Serialize for HazardMeasure {
     fn serialize<S: serde::Serializer>(
         &self,

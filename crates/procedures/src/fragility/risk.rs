@@ -95,9 +95,8 @@ pub struct AnnualFrequency {
 }
 
 /// Annual frequency of damage by motions between two intensities.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Contribution {
     /// Lower intensity.
     pub from_im: f64,
@@ -349,11 +348,9 @@ impl Segment {
         fragility: &Lognormal,
         (from, to): (f64, f64),
     ) -> f64 {
-        let (shift, beta) = (fragility.shift(), fragility.dispersion());
         let at = |z: f64| {
-            let excess = exp(f64::mul_add(beta, z, fragility.log_mean()));
             // Rounding may lead beyond the ends of a steep segment.
-            let frequency = self.frequency(shift + excess);
+            let frequency = self.frequency(fragility.at_score(z));
             frequency.clamp(self.to.1, self.from.1) * normal::pdf(z)
         };
         let pieces = ((to - from) / PIECE).ceil();

@@ -133,7 +133,7 @@ impl TotalFragility {
         (-last..=last).filter_map(move |k| {
             let z = step * f64::from(k);
             let part =
-                || Lognormal::try_new(0.0, ln_quantile(&own, z), s).ok();
+                || Lognormal::try_new(0.0, log(own.at_score(z)), s).ok();
             let weight = if closed.is_some() { 1.0 } else { step * pdf(z) };
             Some((weight, closed.or_else(part)?))
         })
@@ -155,7 +155,7 @@ impl TotalFragility {
         let near = (from.max(-last)..=to.saturating_add(1).min(last)).fold(
             far * below,
             |sum, k| {
-                let score = (log(x) - ln_quantile(own, z(k))) / s;
+                let score = (log(x) - log(own.at_score(z(k)))) / s;
                 f64::mul_add(pdf(z(k)), of(score), sum)
             },
         );
@@ -195,10 +195,8 @@ impl TotalFragility {
     /// The intensity of a normal score.
     #[must_use]
     pub fn at_score(&self, z: f64) -> f64 {
-        let Some(law) = self.closed else {
-            return self.quantile(normal::cdf(z));
-        };
-        law.shift() + exp(f64::mul_add(law.dispersion(), z, law.log_mean()))
+        let of = || self.quantile(normal::cdf(z));
+        self.closed.map_or_else(of, |law| law.at_score(z))
     }
 
     /// The quantile at probability p in [0, 1]; NaN outside.
@@ -211,10 +209,8 @@ impl TotalFragility {
             return if p == 0.0 { 0.0 } else { normal::quantile(p) };
         }
         let place = |z: f64| {
-            let (law, s) = (&self.records, self.dispersion);
-            let excess =
-                exp(f64::mul_add(law.dispersion(), z, law.log_mean()));
-            f64::mul_add(s, z, log(self.bias * (law.shift() + excess)))
+            let unbiased = self.records.at_score(z);
+            f64::mul_add(self.dispersion, z, log(self.bias * unbiased))
         };
         // P(Z <= a or Z1 <= a) is at most 2 P(Z <= a), and that of both is
         // its square. The score of F is almost linear between these ends.
@@ -271,14 +267,7 @@ impl TotalFragility {
     }
 }
 
-/// The logarithm of the quantile of a normal score.
-fn ln_quantile(law: &Lognormal, z: f64) -> f64 {
-    let excess = exp(f64::mul_add(law.dispersion(), z, law.log_mean()));
-    log(law.shift() + excess)
-}
-
 /// Written with its parts and its quantiles.
-#[cfg(feature = "serde")]
 impl serde::Serialize for TotalFragility {
     fn serialize<S: serde::Serializer>(
         &self,

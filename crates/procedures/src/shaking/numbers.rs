@@ -11,7 +11,6 @@ use super::{
 use libm::{exp, log};
 use rocking::block::Block;
 use rocking::integrator::uplift_threshold;
-use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::clusters::SamplingUnit;
 use rocking_statistics::lognormal::FitError;
 use rocking_statistics::resampling::multiplicities;
@@ -56,12 +55,7 @@ impl ComputedTests<'_> {
         let fates = self.fates()?;
         let once = fates.once();
         let computed = self.as_predictor(&fates)?;
-        let bootstrap = Bootstrap::of_clusters(
-            "shaking",
-            draws.seed,
-            &fates.motions,
-            draws.replicates,
-        );
+        let bootstrap = draws.of("shaking", &fates.motions);
         let falls: Vec<bool> =
             self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
         // What the draws make of a predictor, and of its fragility of the

@@ -127,13 +127,6 @@ impl LillieforsTest {
         assessment
     }
 
-    /// Whether D exceeds the critical value (strictly), ties or not: the
-    /// plain decision, none if there is no statistic.
-    #[must_use]
-    pub fn exceeds(&self) -> Option<bool> {
-        Some(self.statistic?.d > self.critical_value?)
-    }
-
     /// D over the critical value; none if there is no statistic.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {

@@ -31,17 +31,13 @@ pub struct NullDistribution {
 }
 
 /// A critical value with its Monte Carlo error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CriticalValue {
     /// The order statistic of rank ceil((1 - level)(N + 1)): a sample's D
     /// exceeds it with probability `level` exactly, over both draws. With its
     /// 95 % interval by order statistics.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "crate::estimate::keys::value")
-    )]
+    #[serde(flatten, serialize_with = "crate::estimate::keys::value")]
     pub estimate: Estimate,
     /// sqrt(level (1 - level)/N)/f, with the density f by the difference
     /// quotient of the order statistics 0.2 level to either side.

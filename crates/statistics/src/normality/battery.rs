@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::shapiro_wilk::{deficit, weights};
-use super::{a2, w2};
+use super::{NormalityTest, a2, w2};
+use crate::Sample;
 use crate::lilliefors::{LillieforsError, NullDistribution, standardised};
 use crate::streams::{Streams, standard_normals};
-use crate::{Estimate, Sample};
 use rocking::stop;
 
 /// Null distributions of A^2, W^2 and 1 - W for samples of one size, by
@@ -28,16 +28,6 @@ pub struct Battery {
     n: usize,
     /// A^2, W^2, 1 - W: large values are against normality.
     nulls: [NullDistribution; 3],
-}
-
-/// A statistic with its simulated p-value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct SimulatedTest {
-    /// The statistic, not modified for the sample's size.
-    pub statistic: f64,
-    /// (b + 1)/(N + 1), with the 95 % Clopper-Pearson interval.
-    pub p_value: Estimate,
 }
 
 impl Battery {
@@ -86,20 +76,19 @@ impl Battery {
     pub fn assess(
         &self,
         sample: &Sample,
-    ) -> Result<[SimulatedTest; 3], LillieforsError> {
+    ) -> Result<[NormalityTest; 3], LillieforsError> {
         if sample.len() != self.n {
             let (found, expected) = (sample.len(), self.n);
             return Err(LillieforsError::Size { found, expected });
         }
         let scores = standardised(sample, 4)?;
         let deficit = deficit(&weights(self.n), &scores);
-        let statistics = [a2(&scores), w2(&scores), deficit];
-        let p = [0, 1, 2].map(|k: usize| self.nulls[k].p_value(statistics[k]));
-        Ok([
-            SimulatedTest { statistic: statistics[0], p_value: p[0] },
-            SimulatedTest { statistic: statistics[1], p_value: p[1] },
-            SimulatedTest { statistic: 1.0 - deficit, p_value: p[2] },
-        ])
+        let [a, w, s] = &self.nulls;
+        let test = |null: &NullDistribution, distance, statistic| {
+            NormalityTest { statistic, p_value: null.p_value(distance) }
+        };
+        let (a2, w2) = (a2(&scores), w2(&scores));
+        Ok([test(a, a2, a2), test(w, w2, w2), test(s, deficit, 1.0 - deficit)])
     }
 
     /// The null distributions of A^2, W^2 and 1 - W.

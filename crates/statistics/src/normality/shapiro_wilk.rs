@@ -4,7 +4,7 @@ use libm::{exp, log};
 
 use super::NormalityTest;
 use crate::lilliefors::{LillieforsError, standardised};
-use crate::{Sample, normal};
+use crate::{Estimate, Sample, normal};
 
 /// Largest size that the approximation was fitted for.
 pub(super) const LARGEST: usize = 5000;
@@ -34,8 +34,8 @@ pub fn shapiro_wilk(
     }
     let deficit = deficit(&weights(scores.len()), &scores);
     let statistic = 1.0 - deficit;
-    let p_value = p_value(scores.len(), deficit);
-    Ok(NormalityTest { statistic, p_value, is_bound: false })
+    let p_value = Estimate::exact(p_value(scores.len(), deficit));
+    Ok(NormalityTest { statistic, p_value })
 }
 
 /// 1 - W of ascending scores.

@@ -9,19 +9,15 @@ use crate::{Estimate, ExtendedSample, Interval, QuantileType, normal};
 use rocking::stop;
 
 /// Equivalence of the mean of ln ratio to 0 by two one-sided t tests.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Equivalence {
     /// Margin m: the bounds are -ln(1 + m) and ln(1 + m).
     pub margin: f64,
     /// exp(mean of ln ratio), the geometric mean, with its 90 % interval.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            flatten,
-            serialize_with = "crate::estimate::keys::geometric_mean"
-        )
+    #[serde(
+        flatten,
+        serialize_with = "crate::estimate::keys::geometric_mean"
     )]
     pub geometric_mean: Estimate,
     /// One-sided p-value against a mean at or below the lower bound.
@@ -73,8 +69,7 @@ pub fn equivalence(
 }
 
 /// Equivalence of the median ratio to 1 by two one-sided sign tests.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SignEquivalence {
     /// Margin m: the bounds are 1/(1 + m) and 1 + m.
@@ -113,15 +108,11 @@ pub fn sign_equivalence(
 pub(super) const MOST: usize = 3000;
 
 /// The median of pairwise means of ln ratio, with its interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct HodgesLehmann {
     /// exp of the median of the Walsh averages of ln ratio.
-    #[cfg_attr(
-        feature = "serde",
-        serde(flatten, serialize_with = "crate::estimate::keys::ratio")
-    )]
+    #[serde(flatten, serialize_with = "crate::estimate::keys::ratio")]
     pub ratio: Estimate,
     /// Level of the interval: 0.95, or 1 - 2^(1 - n) for n = 2 to 5 ratios,
     /// whose Walsh averages reach no further.

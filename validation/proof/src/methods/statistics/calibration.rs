@@ -68,7 +68,7 @@ pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
         let mut out = [d > critical, false, false, false];
         let tests = [anderson_darling, cramer_von_mises, shapiro_wilk];
         for (out, test) in out[1..].iter_mut().zip(tests).take(judged - 1) {
-            *out = test(&sample)?.p_value < level;
+            *out = test(&sample)?.p_value.value() < level;
         }
         Ok(out)
     })?;

@@ -134,11 +134,11 @@ pub fn tests(context: &Context, answer: &mut Reply) -> Result<()> {
     let quantities = [
         ("lilliefors", d),
         ("anderson-darling", a.statistic),
-        ("anderson-darling-p", a.p_value),
+        ("anderson-darling-p", a.p_value.value()),
         ("cramer-von-mises", w.statistic),
-        ("cramer-von-mises-p", w.p_value),
+        ("cramer-von-mises-p", w.p_value.value()),
         ("shapiro-wilk", s.statistic),
-        ("shapiro-wilk-p", s.p_value),
+        ("shapiro-wilk-p", s.p_value.value()),
     ];
     rows[0].put(answer, 2, &quantities)
 }

@@ -75,10 +75,7 @@ pub fn assess(
     let objects = objects.into_iter().map(GivenObject::object);
     let objects = objects.collect::<PyResult<Vec<Object>>>()?;
     let records: Vec<Accelerogram> = suite_of(records)?;
-    let clusters = match events.as_slice() {
-        [] => Clusters::singletons(records.len()),
-        known => Clusters::from_labels(known),
-    };
+    let clusters = Clusters::of_events(&events, records.len());
     let hazard = hazard.as_ref().map(read).transpose()?;
     let ratios = match embedded {
         true => recorded_ratios(hazard.as_ref()),

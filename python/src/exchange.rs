@@ -9,7 +9,6 @@ use rocking_exchange::{
 use rocking_procedures::fragility::hazard::{
     Hazard, HazardMeasure, HazardOptions, Site,
 };
-use rocking_procedures::model_error::ModelErrorFault;
 use rocking_procedures::{
     BootstrapFits, DispersionRule, Draws, FitOptions,
     FragilityInput as ProcedureInput, ModelError, Shift, law_fragility,
@@ -53,27 +52,20 @@ pub struct FragilityInput {
 }
 
 impl FragilityInput {
-    /// The number of units of the block's own measure in one of the
-    /// samples'.
-    fn factor(&self, gravity: f64) -> PyResult<f64> {
-        let gravity_m_s2 = positive_gravity(gravity)?;
-        let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
-        let block = block_of(self.block)?;
-        let model = self.model.parse().map_err(refuse)?;
-        Ok(im.dimensionless().map_or(1.0, |own| {
-            unit_intensity(own, &block, model, gravity_m_s2)
-        }))
-    }
-
-    /// The fragilities in the block's own measure.
+    /// The fragilities in the block's own measure, and the number of its
+    /// units in one of the samples'.
     fn fragility(
         self,
         gravity: f64,
         model_error: ModelError,
-    ) -> PyResult<BlockFragility> {
-        let factor = self.factor(gravity)?;
+    ) -> PyResult<(BlockFragility, f64)> {
+        let gravity_m_s2 = positive_gravity(gravity)?;
         let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
+        let model = self.model.parse().map_err(refuse)?;
+        let factor = im.dimensionless().map_or(1.0, |own| {
+            unit_intensity(own, &block, model, gravity_m_s2)
+        });
         let im = im.of_block(block.frequency_rad_s());
         let (mut limit_states, mut origins) = (Vec::new(), Vec::new());
         for (name, law, source) in self.limit_states {
@@ -87,7 +79,7 @@ impl FragilityInput {
         }
         origins.dedup();
         let id = self.id.map_or_else(|| Id::of(&block), |id| id.parse());
-        Ok(BlockFragility {
+        let found = BlockFragility {
             id: id.map_err(refuse)?,
             block,
             eta: self.eta,
@@ -95,7 +87,8 @@ impl FragilityInput {
             limit_states,
             origin: self.origin.unwrap_or_else(|| origins.join("; ")),
             model_error,
-        })
+        };
+        Ok((found, factor))
     }
 }
 
@@ -107,13 +100,12 @@ pub fn model_error(
     (dispersion, bias): &ModelErrorInput,
     usual: ModelError,
 ) -> PyResult<ModelError> {
-    let refused =
-        |name: &str, e: ModelErrorFault| refuse(format!("{name}: {e}"));
     let bias = bias.as_deref().map(ModelError::parse_bias).transpose();
+    let bias = bias.map_err(|e| refuse(format!("model_bias: {e}")))?;
     let dispersion = dispersion.as_deref().map(ModelError::parse_dispersion);
-    let bias = bias.map_err(|e| refused("model_bias", e))?;
-    let dispersion = dispersion.transpose();
-    let dispersion = dispersion.map_err(|e| refused("model_dispersion", e))?;
+    let dispersion = dispersion
+        .transpose()
+        .map_err(|e| refuse(format!("model_dispersion: {e}")))?;
     Ok(usual.or(bias, dispersion))
 }
 
@@ -129,7 +121,7 @@ pub fn exchange(
     let format = ExchangeFormat::named(format).map_err(refuse)?;
     let error = model_error(&error, ModelError::default())?;
     let all = blocks.into_iter().map(|one| one.fragility(gravity, error));
-    let all = all.collect::<PyResult<Vec<_>>>()?;
+    let all = all.map(|one| Ok(one?.0)).collect::<PyResult<Vec<_>>>()?;
     let texts = format.texts(&all).map_err(refuse)?;
     Ok((texts.main, format.beside.zip(texts.beside)))
 }
@@ -235,8 +227,7 @@ pub fn risk(
             }
             RiskInput::Block(block) => block,
         };
-        let factor = block.factor(gravity)?;
-        let own = block.fragility(gravity, error)?;
+        let (own, factor) = block.fragility(gravity, error)?;
         if hazard.im == HazardMeasure::Own || !hazard.im.is_of(&own.im) {
             let found = hazard.im.name();
             return Err(refuse(format!(

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
-use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -26,6 +25,7 @@ use rocking_procedures::{
 };
 use rocking_records::intensity::{AtUplift, Intensity, IntensityMeasure};
 
+use crate::files::refuse_at;
 use crate::given::{ExcitationInput, Physics, block_of, suite_of};
 use crate::measures::{MeasuredSuite, Member};
 use crate::procedures::{Fit, answer};
@@ -131,12 +131,7 @@ fn normalised(records: &[Accelerogram]) -> Vec<NormalisedRecord> {
 #[pyfunction]
 pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<PyIdaTable> {
     let file = File::open(&path).map_err(|error| {
-        let text = format!("{}: {error}", path.display());
-        if path.exists() {
-            refuse(text)
-        } else {
-            PyFileNotFoundError::new_err(text)
-        }
+        refuse_at(&path, format!("{}: {error}", path.display()))
     })?;
     let read = || tables::IdaTable::read(file, &path);
     let table = work::alone(py, read)?.map_err(refuse)?;
@@ -365,11 +360,10 @@ impl PyIdaTable {
         let column = |name: &str| ground.column(name);
         let magnitude = magnitude.map(column).transpose()?;
         let distance = distance.map(column).transpose()?;
-        let covariates: Vec<Covariate> = magnitude
-            .map(Covariate::magnitude)
-            .into_iter()
-            .chain(distance.map(Covariate::ln_distance))
-            .collect();
+        let magnitude = magnitude.map(Covariate::magnitude);
+        let distance = distance.map(Covariate::ln_distance);
+        let covariates: Vec<_> =
+            magnitude.into_iter().chain(distance).collect();
         let draws = Draws { replicates, seed };
         let clusters = self.table.clusters();
         answer(py, || rank(&found, &all, &covariates, &clusters, draws))

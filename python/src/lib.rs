@@ -16,8 +16,6 @@ mod score;
 mod shaking;
 mod work;
 
-/// Native functions of the package `rocking`; its public names are in
-/// `rocking` itself.
 /// Name, version and commit of the program, for tables and assessments.
 const SOFTWARE: &str = concat!(
     "rocking ",
@@ -27,6 +25,8 @@ const SOFTWARE: &str = concat!(
     ")"
 );
 
+/// Native functions of the package `rocking`; its public names are in
+/// `rocking` itself.
 #[pyo3::pymodule(gil_used = false)]
 mod _rocking {
     use pyo3::prelude::*;
@@ -34,36 +34,25 @@ mod _rocking {
     use rocking_records::Format;
 
     #[pymodule_export]
-    use crate::assess::assess;
-    #[pymodule_export]
-    use crate::exchange::{exchange, hazard, law, risk};
-    #[pymodule_export]
-    use crate::files::{embedded_suite, read_record, read_suite};
-    #[pymodule_export]
-    use crate::given::{
-        block, block_of_size, block_size, measure, pulse, pulses, samples,
-        sampling_interval, uplift_threshold,
+    use crate::{
+        assess::assess,
+        exchange::{exchange, hazard, law, risk},
+        files::{embedded_suite, read_record, read_suite},
+        given::{
+            block, block_of_size, block_size, measure, pulse, pulses, samples,
+            sampling_interval, uplift_threshold,
+        },
+        ida::{IdaCurves, PyIdaTable, ida, ida_of_csv, read_ida},
+        measures::{average_sa, cloud, intensity_measures, velocity_pulse},
+        mechanics::respond,
+        peak::peak,
+        procedures::{
+            compare, contrast, fit, fit_stripes, lognormal, summarise,
+            test_normality,
+        },
+        score::{score, score_scenes},
+        shaking::{compare_with_tests, read_tests},
     };
-    #[pymodule_export]
-    use crate::ida::{IdaCurves, PyIdaTable, ida, ida_of_csv, read_ida};
-    #[pymodule_export]
-    use crate::measures::{
-        average_sa, cloud, intensity_measures, velocity_pulse,
-    };
-    #[pymodule_export]
-    use crate::mechanics::respond;
-    #[pymodule_export]
-    use crate::peak::peak;
-    #[pymodule_export]
-    use crate::procedures::{
-        compare, contrast, fit, fit_stripes, lognormal, summarise,
-        test_normality,
-    };
-
-    #[pymodule_export]
-    use crate::score::{score, score_scenes};
-    #[pymodule_export]
-    use crate::shaking::{compare_with_tests, read_tests};
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {

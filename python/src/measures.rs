@@ -175,10 +175,7 @@ pub fn cloud(
     let suite = MeasuredSuite::of(py, uplift, members, ims)?;
     let values = suite.values(&measure, AtUplift::unscaled)?;
     let pairs: Vec<_> = values.into_iter().zip(peaks).collect();
-    let clusters = match events.as_slice() {
-        [] => Clusters::singletons(pairs.len()),
-        some => Clusters::from_labels(some),
-    };
+    let clusters = Clusters::of_events(&events, pairs.len());
     let draws = Draws { replicates, seed };
     let options = CloudOptions { edp, shift, draws };
     answer(py, || fit_cloud(&pairs, &clusters, &options))

@@ -8,7 +8,7 @@ use rocking::integrator::{
     Assessment, Certify, Observe, Outcome, SceneError, certify,
     uplift_threshold,
 };
-use rocking::{Excitation, Response, Scene, integrator};
+use rocking::{Excitation, Scene, integrator};
 
 use crate::given::{
     ExcitationInput, Physics, RecordOrPulse, block_of, choose,
@@ -60,18 +60,13 @@ impl<'a> Scaled<'a> {
         level: f64,
         threshold: f64,
     ) -> Result<Self, String> {
-        let is_fit = match by {
-            By::Scale => level.is_finite(),
-            By::Im | By::PgaG => level > 0.0 && level.is_finite(),
+        let (name, least, number) = match by {
+            By::Scale => ("scale", f64::NEG_INFINITY, "a number"),
+            By::Im => ("im", 0.0, "a positive number"),
+            By::PgaG => ("pga_g", 0.0, "a positive number"),
         };
-        if !is_fit {
-            return Err(match by {
-                By::Scale => format!("scale {level}: expected a number"),
-                By::Im => format!("im {level}: expected a positive number"),
-                By::PgaG => {
-                    format!("pga_g {level}: expected a positive number")
-                }
-            });
+        if !(level > least && level.is_finite()) {
+            return Err(format!("{name} {level}: expected {number}"));
         }
         let pga_g = if by == By::Im { level * threshold } else { level };
         Ok(match motion {
@@ -144,35 +139,27 @@ pub fn respond<'py>(
         Ok((response, fate))
     };
     let (response, fate) = work::alone(py, answer)?.map_err(refuse)?;
-    let out = to_python(py, &response)?;
-    if let Some(fate) = fate {
-        out.set_item("outcome", fate.outcome.name())?;
-        out.set_item("peak_ratio", fate.outcome.edp())?;
-        out.set_item("resolved", fate.resolved)?;
-        out.set_item("fate_margin", fate.margin)?;
-        out.set_item("error_estimate", fate.error)?;
-        out.set_item("certified_by", fate.by.name())?;
-    }
-    Ok(out)
-}
-
-fn to_python<'py>(
-    py: Python<'py>,
-    response: &Response,
-) -> PyResult<Bound<'py, PyDict>> {
     let out = PyDict::new(py);
+    let (outcome, resolved, margin, error) = match &fate {
+        Some(fate) => (fate.outcome, fate.resolved, fate.margin, fate.error),
+        None => (
+            response.outcome,
+            response.assessment() == Assessment::Clear,
+            response.fate_margin,
+            response.error_estimate,
+        ),
+    };
     let (time_s, side) = match response.outcome {
         Outcome::Overturned { time_s, side } => {
             (Some(time_s), Some(side.sign()))
         }
         Outcome::NoUplift | Outcome::Rocked { .. } => (None, None),
     };
-    out.set_item("outcome", response.outcome.name())?;
-    out.set_item("peak_ratio", response.outcome.edp())?;
-    let is_clear = response.assessment() == Assessment::Clear;
-    out.set_item("resolved", is_clear)?;
-    out.set_item("fate_margin", response.fate_margin)?;
-    out.set_item("error_estimate", response.error_estimate)?;
+    out.set_item("outcome", outcome.name())?;
+    out.set_item("peak_ratio", outcome.edp())?;
+    out.set_item("resolved", resolved)?;
+    out.set_item("fate_margin", margin)?;
+    out.set_item("error_estimate", error)?;
     out.set_item("peak_time", response.peak_time_s)?;
     out.set_item("uplift_time", response.uplift_time_s)?;
     out.set_item("rest_time", response.rest_time_s)?;
@@ -187,6 +174,6 @@ fn to_python<'py>(
         history.flat_map(|h| [h.time_s, h.rotation_rad, h.velocity_rad_s]);
     let shape = (response.history.len(), 3);
     out.set_item("history", table(py, shape, history.collect())?)?;
-    out.set_item("certified_by", py.None())?;
+    out.set_item("certified_by", fate.map(|fate| fate.by.name()))?;
     Ok(out)
 }

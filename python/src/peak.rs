@@ -83,13 +83,6 @@ struct PeakTask {
     overturning: Overturning,
 }
 
-/// An IDA curve with a single level.
-struct OneLevel {
-    block: usize,
-    level: usize,
-    analysis: Analysis,
-}
-
 impl PeakTask {
     fn peaks(
         &self,
@@ -100,7 +93,7 @@ impl PeakTask {
         let pairs = self.blocks.len() * high;
         let cells: Vec<OnceLock<Result<f64, String>>> =
             (0..pairs * wide).map(|_| OnceLock::new()).collect();
-        let singles: Vec<Option<OneLevel>> =
+        let singles: Vec<Option<Analysis>> =
             (0..pairs).map(|k| self.single(k / high, k % high)).collect();
         (0..cells.len()).into_par_iter().panic_fuse().try_for_each(
             |index| {
@@ -126,13 +119,15 @@ impl PeakTask {
             })
             .unzip();
         let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
-        let singles: Vec<OneLevel> = singles.into_iter().flatten().collect();
+        let singles = singles.into_iter().enumerate();
+        let singles: Vec<(usize, Analysis)> =
+            singles.filter_map(|(pair, one)| Some((pair, one?))).collect();
         for some in singles.chunks((MOST_CURVES / records.len().max(1)).max(1))
         {
-            let analyses: Vec<Analysis> =
-                some.iter().map(|single| single.analysis).collect();
+            let analyses: Vec<_> =
+                some.iter().map(|single| single.1).collect();
             for_each_curve(&records, &analyses, &batch, &|a, r, curve| {
-                let OneLevel { block, level, .. } = some[a];
+                let (block, level) = (some[a].0 / high, some[a].0 % high);
                 let motion = &motions[rows[r]];
                 let peak = self.peak_of(&curve, level);
                 let peak =
@@ -149,7 +144,7 @@ impl PeakTask {
     }
 
     /// The curve whose only level is this one; none where it runs alone.
-    fn single(&self, block: usize, level: usize) -> Option<OneLevel> {
+    fn single(&self, block: usize, level: usize) -> Option<Analysis> {
         let (body, restitution) = self.blocks[block];
         let asked = self.levels[level];
         let (grid, highest_im) = match self.by {
@@ -160,17 +155,13 @@ impl PeakTask {
             }
             By::Scale => return None,
         };
-        let analysis = Analysis {
+        let runs = highest_im > LEAST_IM && highest_im.is_finite();
+        runs.then_some(Analysis {
             model: self.model,
             overturning: self.overturning,
             grid,
             highest_im,
             ..Analysis::paper(body, restitution)
-        };
-        (highest_im > LEAST_IM && highest_im.is_finite()).then_some(OneLevel {
-            block,
-            level,
-            analysis,
         })
     }
 

@@ -152,21 +152,6 @@ impl<'a, S: AsRef<str>> NamedSample<'a, S> {
     }
 }
 
-/// Refuses a record that only one sample has.
-fn refuse_lone(
-    side: SampleSide,
-    own: &BTreeMap<&str, usize>,
-    others: &BTreeMap<&str, usize>,
-) -> Result<(), ComparisonError> {
-    match own.iter().find(|(name, _)| !others.contains_key(*name)) {
-        None => Ok(()),
-        Some((name, &place)) => {
-            let record = (*name).to_owned();
-            Err(ComparisonError::Lone { side, record, place })
-        }
-    }
-}
-
 /// Compares two samples of the same records.
 ///
 /// Values are not negative or infinite, and are paired by the names of their
@@ -196,8 +181,17 @@ pub fn compare<S: AsRef<str>>(
         return Err(PairedError::Margin(margin).into());
     }
     let (named, others) = (a.places(SampleSide::A)?, b.places(SampleSide::B)?);
-    refuse_lone(SampleSide::A, &named, &others)?;
-    refuse_lone(SampleSide::B, &others, &named)?;
+    for (side, own, others) in
+        [(SampleSide::A, &named, &others), (SampleSide::B, &others, &named)]
+    {
+        let mut own = own.iter();
+        if let Some((name, &place)) =
+            own.find(|(name, _)| !others.contains_key(*name))
+        {
+            let record = (*name).to_owned();
+            return Err(ComparisonError::Lone { side, record, place });
+        }
+    }
     let names = a.records.iter();
     let second: Vec<f64> =
         names.map(|name| b.values[others[name.as_ref()]]).collect();

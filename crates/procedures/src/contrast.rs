@@ -264,10 +264,7 @@ impl<S: AsRef<str>> ContrastSample<'_, S> {
             n: self.sample.len(),
             censored: self.sample.censored(),
             median: median(self.sample),
-            drawn: match self.events {
-                [] => Clusters::singletons(self.sample.len()),
-                events => Clusters::from_labels(events),
-            },
+            drawn: Clusters::of_events(self.events, self.sample.len()),
         }
     }
 }

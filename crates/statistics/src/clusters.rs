@@ -50,6 +50,16 @@ impl Clusters {
         Self::of_unit(SamplingUnit::Earthquake, labels)
     }
 
+    /// Earthquakes from one label a record, or the `n` records themselves if
+    /// no label is given.
+    #[must_use]
+    pub fn of_events<S: AsRef<str>>(events: &[S], n: usize) -> Self {
+        match events {
+            [] => Self::singletons(n),
+            events => Self::from_labels(events),
+        }
+    }
+
     /// Clusters that are this unit from one label a record.
     ///
     /// ```

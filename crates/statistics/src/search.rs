@@ -1,4 +1,19 @@
-//! Searches for a maximum.
+//! Searches for a maximum, and for the place where a condition changes.
+
+/// Two places between which a condition changes that holds at `yes` and not
+/// at `no`: halves the interval as often as `goes_on` holds of its ends.
+pub fn narrow(
+    mut yes: f64,
+    mut no: f64,
+    mut goes_on: impl FnMut(f64, f64) -> bool,
+    holds: impl Fn(f64) -> bool,
+) -> (f64, f64) {
+    while goes_on(yes, no) {
+        let middle = 0.5 * (yes + no);
+        *(if holds(middle) { &mut yes } else { &mut no }) = middle;
+    }
+    (yes, no)
+}
 
 /// The place of a maximum between two places, by golden sections.
 pub fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {

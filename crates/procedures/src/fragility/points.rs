@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::total::TotalFragility;
 use rocking_statistics::normal;
+use rocking_statistics::search::narrow;
 
 /// Intervals tried before a tolerance is called too small.
 const MOST_INTERVALS: u32 = 1 << 14;
@@ -107,16 +108,10 @@ fn largest_error(fragility: &TotalFragility, points: &[(f64, f64)]) -> f64 {
             |x: f64| (fragility.cdf(x) - slope.mul_add(x - a, p)).abs();
         let steeper = |x: f64| exp(fragility.ln_pdf(x)) > slope;
         // The density rises or falls throughout: bisect for the slope.
-        let (mut low, mut high) = (a, b);
-        let at_the_low_end = steeper(low);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if steeper(middle) == at_the_low_end {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let at_the_low_end = steeper(a);
+        let mut halvings = 0..HALVINGS;
+        let goes_on = |_, _| halvings.next().is_some();
+        let (low, _) = narrow(a, b, goes_on, |x| steeper(x) == at_the_low_end);
         largest = largest.max(error(low)).max(error(b));
     }
     largest

@@ -46,13 +46,6 @@ pub struct TabledPValue {
     pub source: NullSource,
 }
 
-impl TabledPValue {
-    /// The value.
-    pub fn value(&self) -> f64 {
-        self.estimate.value()
-    }
-}
-
 impl LillieforsTable {
     /// The table that the project simulated.
     #[must_use]
@@ -353,7 +346,7 @@ mod tests {
             let i = table.columns.partition_point(|c| c.n < n);
             let known = table.columns.remove(i);
             for (value, level) in known.values.iter().zip(known.levels) {
-                let p = table.p_value(n, *value).unwrap().value();
+                let p = table.p_value(n, *value).unwrap().estimate.value();
                 let error = excess(p, level, known.replicates);
                 let bound = 4.0 * interpolation(n);
                 assert!(error < bound, "{n}, {level}: {error}");

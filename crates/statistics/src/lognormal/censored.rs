@@ -4,6 +4,7 @@ use libm::{exp, log};
 
 use super::FitError;
 use crate::normal::{LN_SQRT_TWO_PI, cdf, ln_cdf, survival};
+use crate::search::narrow;
 
 const STEPS: usize = 100;
 
@@ -232,7 +233,12 @@ pub(super) fn profile_limits(
         while (inside + step - from).abs() < FARTHEST {
             let next = inside + step;
             if value(next) < limit {
-                return halve(value, limit, inside, next);
+                let mut halvings = 0..60;
+                let goes_on = |_, _| halvings.next().is_some();
+                let is_below = |x: f64| value(x) < limit;
+                let (outside, inside) =
+                    narrow(next, inside, goes_on, is_below);
+                return 0.5 * (inside + outside);
             }
             (inside, step) = (next, 1.5 * step);
         }
@@ -292,22 +298,4 @@ fn highest(
         }
     }
     here.value
-}
-
-/// Where a profile passes `limit` between a place above it and one below.
-fn halve(
-    value: &dyn Fn(f64) -> f64,
-    limit: f64,
-    mut inside: f64,
-    mut outside: f64,
-) -> f64 {
-    for _ in 0..60 {
-        let middle = 0.5 * (inside + outside);
-        if value(middle) < limit {
-            outside = middle;
-        } else {
-            inside = middle;
-        }
-    }
-    0.5 * (inside + outside)
 }

@@ -4,6 +4,7 @@ use libm::{exp, log};
 
 use super::censored::DROP;
 use super::{FitError, FitMethod, LognormalFit, fit};
+use crate::search::narrow;
 use crate::{ExtendedSample, Interval};
 
 /// Places at which the profile is looked at, by ln(smallest - shift).
@@ -55,14 +56,16 @@ pub fn profile_shift(
     let limit = value(best) - DROP;
     let below = (0..peak).rev().find(|&i| values[i] < limit);
     let above = (peak + 1..=PLACES).find(|&i| values[i] < limit);
-    let low = below.map_or(0.0, |i| {
-        let next = place(i + 1).min(best);
-        shift(bisect(value, limit, place(i), next))
-    });
-    let high = above.map_or(f64::INFINITY, |i| {
-        let previous = place(i - 1).max(best);
-        shift(bisect(value, limit, place(i), previous))
-    });
+    // The shift at which the profile passes the limit.
+    let passes = |outside: f64, inside: f64| {
+        let goes_on = |a: f64, b: f64| (b - a).abs() > 1e-12;
+        let is_below = |t: f64| value(t) < limit;
+        let (a, b) = narrow(outside, inside, goes_on, is_below);
+        shift(0.5 * (a + b))
+    };
+    let low = below.map_or(0.0, |i| passes(place(i), place(i + 1).min(best)));
+    let high = above
+        .map_or(f64::INFINITY, |i| passes(place(i), place(i - 1).max(best)));
     // On either side of the best place.
     let interval = Interval::rising(low, high);
     let fit = fit(sample, shift(best), method)?;
@@ -85,22 +88,4 @@ fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
         }
     }
     0.5 * (low + high)
-}
-
-/// Where f passes `limit` between a place below it and one above.
-fn bisect(
-    f: impl Fn(f64) -> f64,
-    limit: f64,
-    mut below: f64,
-    mut above: f64,
-) -> f64 {
-    while (above - below).abs() > 1e-12 {
-        let middle = 0.5 * (below + above);
-        if f(middle) < limit {
-            below = middle;
-        } else {
-            above = middle;
-        }
-    }
-    0.5 * (below + above)
 }

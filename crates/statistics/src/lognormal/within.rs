@@ -3,7 +3,7 @@
 use libm::{exp, log};
 
 use crate::normal::{LN_SQRT_TWO_PI, ln_cdf};
-use crate::search::golden;
+use crate::search::{golden, narrow};
 
 /// The dispersion, of the highest likelihood, of lognormal fragilities of
 /// groups of outcomes that differ in their medians alone: (intensity, whether
@@ -67,8 +67,8 @@ const FARTHEST: f64 = 15.0;
 /// interval that holds its median.
 fn highest(own: &[(f64, bool)], a: f64) -> f64 {
     let ends = own.iter().map(|one| a * one.0);
-    let mut low = ends.clone().fold(f64::INFINITY, f64::min) - 9.0;
-    let mut high = ends.fold(f64::NEG_INFINITY, f64::max) + 9.0;
+    let low = ends.clone().fold(f64::INFINITY, f64::min) - 9.0;
+    let high = ends.fold(f64::NEG_INFINITY, f64::max) + 9.0;
     // Value and slope at median b/a; the slope falls with b.
     let at = |b: f64| {
         own.iter().fold((0.0, 0.0), |(value, slope), (y, exceeded)| {
@@ -79,13 +79,9 @@ fn highest(own: &[(f64, bool)], a: f64) -> f64 {
             (value + ln_p, slope - sign * ratio)
         })
     };
-    while high - low > 1e-9 * (1.0 + low.abs().max(high.abs())) {
-        let middle = 0.5 * (low + high);
-        if at(middle).1 > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let is_wide = |low: f64, high: f64| {
+        high - low > 1e-9 * (1.0 + low.abs().max(high.abs()))
+    };
+    let (low, high) = narrow(low, high, is_wide, |b| at(b).1 > 0.0);
     at(0.5 * (low + high)).0
 }

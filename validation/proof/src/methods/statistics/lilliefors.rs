@@ -167,7 +167,7 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
         bail!("sources and values");
     }
     for (n, value) in n.iter().zip(&values) {
-        let p = LillieforsTable::embedded().p_value(*n, *value)?;
+        let p = LillieforsTable::embedded().p_value(*n, *value)?.estimate;
         let known = 2.0 * libm::exp(-2.0 * *n as f64 * value * value);
         let p = context.or(WrongModel::PlainKolmogorov, known, p.value());
         answer.see("true-level", [p]);

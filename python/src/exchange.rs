@@ -1,7 +1,6 @@
 //! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking::Restitution;
 use rocking_exchange::{
     BlockFragility, ExchangeFormat, Id, LimitState, unit_intensity,
     unstated_origin,
@@ -17,7 +16,7 @@ use rocking_procedures::{
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Lognormal;
 
-use crate::given::{block_of, positive_gravity};
+use crate::given::{block_of, positive_gravity, restitution_of};
 use crate::procedures::{Fit, SampleInput, answer, clusters_of, sample_of};
 use crate::work::{self, refuse};
 
@@ -212,17 +211,17 @@ pub fn risk(
     let error = model_error(&error, ModelError::default())?;
     let draws = (replicates > 0).then_some(Draws { replicates, seed });
     let mut all = Vec::new();
-    for (fragility, one, behind) in exposed {
-        let is_sampled = !behind.is_empty();
+    for (name, one, behind) in exposed {
+        let law_error = if behind.is_empty() { of_law } else { error };
         let mut behind = behind.into_iter();
         let mut drawn = || sampled(py, behind.next().flatten(), draws);
-        let name = fragility.clone();
+        let mut add = |name: String, own, error| {
+            let own = ProcedureInput::with(name, own, &error).map_err(refuse);
+            own.map(|own| all.push(own))
+        };
         let block = match one {
             RiskInput::Law(law) => {
-                let own = (lognormal(law)?, drawn()?);
-                let error = if is_sampled { error } else { of_law };
-                let own = ProcedureInput::with(fragility, own, &error);
-                all.push(own.map_err(refuse)?);
+                add(name, (lognormal(law)?, drawn()?), law_error)?;
                 continue;
             }
             RiskInput::Block(block) => block,
@@ -241,15 +240,13 @@ pub fn risk(
         for state in own.limit_states {
             let unit = hazard.units_per_im_unit;
             let fitted = state.fragility.scaled(unit).map_err(refuse)?;
-            let fragility = match one {
+            let name = match one {
                 true => name.clone(),
                 false => format!("{name} {}", state.name),
             };
             let scaled = |all: BootstrapFits| all.scaled(factor)?.scaled(unit);
             let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
-            let own =
-                ProcedureInput::with(fragility, (fitted, sampled), &error);
-            all.push(own.map_err(refuse)?);
+            add(name, (fitted, sampled), error)?;
         }
     }
     answer(py, || procedure(&hazard, &all, years))
@@ -265,11 +262,7 @@ pub fn law(
     error: ModelErrorInput,
 ) -> PyResult<String> {
     let block = block_of(block)?;
-    let restitution = match eta {
-        Some(eta) => Restitution::constant(eta),
-        None => Restitution::housner(&block),
-    };
-    let eta = restitution.map_err(refuse)?.velocity_ratio();
+    let eta = restitution_of(eta, &block)?.velocity_ratio();
     let error = model_error(&error, ModelError::default())?;
     answer(py, || law_fragility(&block, eta, edp, error))
 }

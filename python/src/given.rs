@@ -83,12 +83,20 @@ impl Physics {
     }
 
     pub fn restitution(&self, block: &Block) -> PyResult<Restitution> {
-        match self.eta {
-            Some(eta) => Restitution::constant(eta),
-            None => Restitution::housner(block),
-        }
-        .map_err(refuse)
+        restitution_of(self.eta, block)
     }
+}
+
+/// A constant restitution, or Housner's of the block if none is given.
+pub fn restitution_of(
+    eta: Option<f64>,
+    block: &Block,
+) -> PyResult<Restitution> {
+    match eta {
+        Some(eta) => Restitution::constant(eta),
+        None => Restitution::housner(block),
+    }
+    .map_err(refuse)
 }
 
 /// A block by (alpha, p).
@@ -122,10 +130,6 @@ impl RecordOrPulse {
                 Ok(Self::Record(record))
             }
         }
-    }
-
-    pub fn all(given: Vec<ExcitationInput<'_>>) -> PyResult<Vec<Self>> {
-        given.into_iter().map(Self::of).collect()
     }
 }
 

@@ -10,7 +10,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 use rocking::accelerogram::Accelerogram;
-use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, Resurrections, curves};
@@ -27,7 +26,7 @@ use rocking_records::intensity::{AtUplift, Intensity, IntensityMeasure};
 
 use crate::files::refuse_at;
 use crate::given::{ExcitationInput, Physics, block_of, suite_of};
-use crate::measures::{MeasuredSuite, Member};
+use crate::measures::{MeasuredSuite, Member, members_of};
 use crate::procedures::{Fit, answer};
 use crate::work::{self, refuse};
 
@@ -64,12 +63,9 @@ fn analysis_of(
         adjust: scan.by.parse().map_err(refuse)?,
         refine: scan.refine,
         highest_im: scan.highest_im,
-        resurrections: scan.resurrections.map(|(is_multiple, to)| {
-            if is_multiple {
-                Resurrections::Multiple(to)
-            } else {
-                Resurrections::To(to)
-            }
+        resurrections: scan.resurrections.map(|own| match own {
+            (true, to) => Resurrections::Multiple(to),
+            (false, to) => Resurrections::To(to),
         }),
         certify: scan.certify,
         ..Analysis::paper(block, physics.restitution(&block)?)
@@ -173,14 +169,12 @@ impl PyIdaTable {
                 "{found} records: expected the {own} of the IDA"
             )));
         }
-        let mut all = found.iter().zip(&own);
-        match all.position(|(found, own)| found != own) {
+        let mut all = found.iter().zip(&own).zip(1..);
+        match all.find(|((found, own), _)| found != own) {
             None => Ok(()),
-            Some(i) => Err(refuse(format!(
-                "record {} of the suite is {}: expected {}, as in the IDA",
-                i + 1,
-                found[i],
-                own[i]
+            Some(((found, own), number)) => Err(refuse(format!(
+                "record {number} of the suite is {found}: expected {own}, as \
+                 in the IDA"
             ))),
         }
     }
@@ -195,14 +189,12 @@ impl PyIdaTable {
         let Some(alpha_rad) = self.table.alpha_rad() else {
             return Err(refuse("the records are not scaled: no measure"));
         };
-        let block = Block::try_new(alpha_rad, setting.p_rad_s);
-        let pga_g = uplift_threshold(&block.map_err(refuse)?, setting.model);
+        let block = block_of((alpha_rad, setting.p_rad_s))?;
+        let pga_g = uplift_threshold(&block, setting.model);
         let (p_rad_s, gravity_m_s2) = (setting.p_rad_s, setting.gravity_m_s2);
         let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
-        let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
-        let records = suite_of(given)?;
-        self.of_suite(records.iter())?;
-        let members = records.into_iter().zip(known).collect();
+        let members = members_of(suite)?;
+        self.of_suite(members.iter().map(|member| &member.0))?;
         MeasuredSuite::of(py, uplift, members, ims)
     }
 }

@@ -77,6 +77,14 @@ type Known = BTreeMap<String, String>;
 /// A record of a suite, and what else is known of it.
 pub type Member<'py> = (ExcitationInput<'py>, Known);
 
+/// The records of a suite, with what else is known of each.
+pub fn members_of(
+    suite: Vec<Member<'_>>,
+) -> PyResult<Vec<(Accelerogram, Known)>> {
+    let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
+    Ok(suite_of(given)?.into_iter().zip(known).collect())
+}
+
 /// The records of a suite, unscaled and measured.
 pub struct MeasuredSuite {
     uplift: AtUplift,
@@ -169,8 +177,7 @@ pub fn cloud(
     let pga_g = uplift_threshold(&block, model);
     let p_rad_s = block.frequency_rad_s();
     let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
-    let (given, known): (Vec<_>, Vec<_>) = suite.into_iter().unzip();
-    let members = suite_of(given)?.into_iter().zip(known).collect();
+    let members = members_of(suite)?;
     let ims = std::slice::from_ref(&measure);
     let suite = MeasuredSuite::of(py, uplift, members, ims)?;
     let values = suite.values(&measure, AtUplift::unscaled)?;

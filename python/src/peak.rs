@@ -45,7 +45,8 @@ pub fn peak<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let grounds = RecordOrPulse::all(excitations)?;
+    let grounds = excitations.into_iter().map(RecordOrPulse::of);
+    let grounds = grounds.collect::<PyResult<Vec<_>>>()?;
     let blocks = blocks.into_iter().map(|block| {
         let block = block_of(block)?;
         Ok((block, physics.restitution(&block)?))

@@ -14,7 +14,9 @@ use rocking_records::intensity::IntensityMeasure;
 use rocking_records::{Processing, RemarkInput, Survey, remarks_together};
 
 use crate::files::{Read, attributes, options, refuse_at, to_python};
-use crate::given::{ExcitationInput, block_of, positive_gravity, record_of};
+use crate::given::{
+    ExcitationInput, block_of, positive_gravity, record_of, restitution_of,
+};
 use crate::work::{self, refuse};
 
 /// A test: its record, motion, fate, and what else is known of it.
@@ -74,14 +76,12 @@ impl Comparing {
             _ => return Err(refuse("block and p: expected one of them")),
         };
         let restitution = match (self.eta, slenderness) {
-            (Some(eta), _) => Restitution::constant(eta),
-            (None, Slenderness::Given(block)) => Restitution::housner(&block),
-            (None, Slenderness::Fitted { .. }) => {
-                return Err(refuse(
-                    "eta \"housner\": alpha is fitted: expected a number, or \
-                     a block",
-                ));
-            }
+            (eta, Slenderness::Given(block)) => restitution_of(eta, &block),
+            (Some(eta), _) => Restitution::constant(eta).map_err(refuse),
+            (None, Slenderness::Fitted { .. }) => Err(refuse(
+                "eta \"housner\": alpha is fitted: expected a number, or a \
+                 block",
+            )),
         };
         let measures = match self.ims.as_slice() {
             [] => Ok(IntensityMeasure::usual_of_tests()),
@@ -90,7 +90,7 @@ impl Comparing {
         let (replicates, seed) = (self.replicates, self.seed);
         Ok(TestOptions {
             slenderness,
-            restitution: restitution.map_err(refuse)?,
+            restitution: restitution?,
             model: self.model.parse().map_err(refuse)?,
             gravity_m_s2: positive_gravity(self.gravity)?,
             measures: measures.map_err(refuse)?,

@@ -502,10 +502,9 @@ pub fn assess(
         {
             return Err(AssessError::Limit { id: object.id.clone(), found });
         }
-        let mut own = vec![Analysis {
-            resurrections: ground.resurrections(object),
-            ..ground.analysis(object, object.restitution)
-        }];
+        let resurrections = ground.resurrections(object);
+        let own = ground.analysis(object, object.restitution);
+        let mut own = vec![Analysis { resurrections, ..own }];
         for eta in RESTITUTIONS {
             let other = Restitution::constant(eta)?;
             own.push(ground.analysis(object, other));
@@ -514,9 +513,9 @@ pub fn assess(
     }
     let made = ground.curves(objects, &analyses)?;
     let each = objects.par_iter().zip(&analyses).zip(&made).panic_fuse();
-    let each =
-        each.map(|((one, analyses), made)| ground.object(one, analyses, made));
-    let found = each.collect::<Result<Vec<_>, AssessError>>()?;
+    let found = each
+        .map(|((one, analyses), made)| ground.object(one, analyses, made))
+        .collect::<Result<Vec<_>, AssessError>>()?;
     let together = ground.together(&found)?;
     Ok(Assessment {
         recorded_motions: ground.recorded(&found),

@@ -224,17 +224,12 @@ pub fn contrast<S: AsRef<str>>(
     };
     let found = kolmogorov_smirnov(&cut(a)?, &cut(b)?);
     let p_value = independent.then_some(found.p_value);
-    Ok(Contrast {
-        a: of_a,
-        b: of_b,
-        median_ratio,
-        kolmogorov_smirnov: Distance {
-            distance: found.statistic,
-            up_to,
-            p_value: p_value.ok_or(ContrastError::Dependent),
-        },
-        draws,
-    })
+    let kolmogorov_smirnov = Distance {
+        distance: found.statistic,
+        up_to,
+        p_value: p_value.ok_or(ContrastError::Dependent),
+    };
+    Ok(Contrast { a: of_a, b: of_b, median_ratio, kolmogorov_smirnov, draws })
 }
 
 impl<S: AsRef<str>> ContrastSample<'_, S> {

@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::fit::{BootstrapFits, IntervalBasis};
 use super::{Draws, LEVEL, ProcedureError};
+use crate::fragility::total::TotalFragility;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::names::as_text;
 use rocking_statistics::lognormal::{
@@ -168,13 +169,11 @@ pub fn fit_outcomes(
     };
     let Some(draws) = draws else { return Ok(found) };
     let drawn = sample_outcomes(outcomes, clusters, shift, draws)?;
-    let dispersion =
-        drawn.estimate(found.dispersion.value(), Range::NotNegative, |fit| {
-            fit.records().dispersion()
-        });
+    let (own, range) = (found.dispersion.value(), Range::NotNegative);
+    let of = |fit: &TotalFragility| fit.records().dispersion();
     Ok(CountsFragility {
         median: drawn.quantile(&found.fitted.into(), 0.5),
-        dispersion,
+        dispersion: drawn.estimate(own, range, of),
         intervals: Basis::Drawn(drawn.basis),
         ..found
     })

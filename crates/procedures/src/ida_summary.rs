@@ -4,7 +4,7 @@ use rocking::ida::{Analysis, IdaCurve, ResolutionCounts};
 use rocking_statistics::ExtendedSample;
 
 /// The curves of a suite, counted.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct IdaSummary {
     /// Number of curves.
@@ -65,15 +65,8 @@ pub struct CurveSummary {
 /// ```
 #[must_use]
 pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
-    let mut summary = IdaSummary {
-        records: 0,
-        analyses: 0,
-        overturned_curves: 0,
-        median_overturning_im: None,
-        resolution: ResolutionCounts::default(),
-        resurrections: analysis.resurrections.map(|_| 0),
-        curves: Vec::new(),
-    };
+    let resurrections = analysis.resurrections.map(|_| 0);
+    let mut summary = IdaSummary { resurrections, ..IdaSummary::default() };
     summary.add(curves);
     summary
 }

@@ -13,6 +13,10 @@
 
 #![deny(missing_docs)]
 
+use std::fmt::Display;
+
+use serde::{Serialize, Serializer};
+
 /// Level of all intervals.
 const LEVEL: f64 = 0.95;
 
@@ -60,33 +64,22 @@ pub use shaking::{TestComparison, compare_with_tests};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 
-/// Writes a value, or why there is none as `{"reason": "..."}`.
-pub(crate) fn or_reason<T: serde::Serialize, E: std::fmt::Display, S>(
+/// Writes a value, or `{"reason": "..."}` if there is none.
+pub(crate) fn or_reason<T: Serialize, E: Display, S: Serializer>(
     found: &Result<T, E>,
     to: S,
-) -> Result<S::Ok, S::Error>
-where
-    S: serde::Serializer,
-{
-    use serde::ser::SerializeMap as _;
+) -> Result<S::Ok, S::Error> {
     match found {
         Ok(value) => value.serialize(to),
-        Err(error) => {
-            let mut map = to.serialize_map(Some(1))?;
-            map.serialize_entry("reason", &error.to_string())?;
-            map.end()
-        }
+        Err(error) => to.collect_map([("reason", error.to_string())]),
     }
 }
 
-/// Writes nothing, a value, or why there is none.
-pub(crate) fn if_known<T: serde::Serialize, E: std::fmt::Display, S>(
+/// Writes as [`or_reason`] does, and nothing for `None`.
+pub(crate) fn if_known<T: Serialize, E: Display, S: Serializer>(
     found: &Option<Result<T, E>>,
     to: S,
-) -> Result<S::Ok, S::Error>
-where
-    S: serde::Serializer,
-{
+) -> Result<S::Ok, S::Error> {
     match found {
         None => to.serialize_none(),
         Some(found) => or_reason(found, to),

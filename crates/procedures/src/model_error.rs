@@ -172,8 +172,7 @@ fn part(
         Some([value, low, high]) => ranged(*value, *low, *high),
         _ => None,
     };
-    let refused = || ModelErrorFault { found: text.to_owned(), expected };
-    found.ok_or_else(refused)
+    found.ok_or_else(|| ModelErrorFault { found: text.to_owned(), expected })
 }
 
 impl fmt::Display for ModelError {
@@ -182,10 +181,8 @@ impl fmt::Display for ModelError {
         let (bias, dispersion) = (text(&self.bias), text(&self.dispersion));
         write!(f, "model bias {bias}, model dispersion {dispersion}")?;
         if *self == Self::default() {
-            let restitution = "a restitution from 0.85 to 0.97";
-            return write!(f, ", from {SOURCE} and {restitution}");
-        }
-        if *self == Self::fitted() {
+            write!(f, ", from {SOURCE} and a restitution from 0.85 to 0.97")
+        } else if *self == Self::fitted() {
             write!(f, ", from {SOURCE}")
         } else {
             Ok(())

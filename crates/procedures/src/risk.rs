@@ -179,7 +179,7 @@ pub fn risk(
     if !(years > 0.0 && years.is_finite()) {
         return Err(RiskError::Years(years));
     }
-    let points = hazard.curve.points();
+    let (first, last) = hazard.curve.ends();
     let point = |(intensity, annual_frequency)| HazardPoint {
         intensity,
         annual_frequency,
@@ -205,9 +205,9 @@ pub fn risk(
     Ok(Risk {
         im: hazard.im.clone(),
         unit: hazard.unit(),
-        points: points.len(),
-        first: point(points[0]),
-        last: point(points[points.len() - 1]),
+        points: hazard.curve.points().len(),
+        first: point(first),
+        last: point(last),
         remarks: hazard.remarks.clone(),
         years,
         fragilities: fragilities.iter().map(row).collect(),

@@ -19,6 +19,7 @@ use rocking::block::{Block, Restitution};
 use rocking::integrator::Model;
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Estimate;
+use serde::{Deserialize, Serialize};
 
 use crate::Draws;
 use capacities::TestRecords;
@@ -114,7 +115,7 @@ pub const TEST_LEVEL: f64 = 0.9;
 ///
 /// Capacities are the factors on the motion of a test at which the block
 /// first overturns.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TestComparison {
     /// Number of tests with a known fate.
@@ -177,7 +178,7 @@ pub struct TestComparison {
 /// The probability of overturning is Phi(ln(x/m)/s) of the number x; m and s
 /// are of the highest likelihood. Probabilities that predict are of a fit
 /// that leaves the motion of the test out.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Predictor {
     /// What predicts: the block, or an intensity measure.
@@ -200,7 +201,7 @@ pub struct Predictor {
 }
 
 /// A measure that has no fit.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct UnfittedMeasure {
     /// Intensity measure.
@@ -213,7 +214,7 @@ pub struct UnfittedMeasure {
 }
 
 /// Predicted and observed overturning of some tests.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ReliabilityClass {
     /// Number of tests.
@@ -225,7 +226,7 @@ pub struct ReliabilityClass {
 }
 
 /// How well tests repeat themselves.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Repeatability {
     /// Pairs of tests of one motion whose PGA differ by 5 % or less.
@@ -244,7 +245,7 @@ pub struct Repeatability {
 }
 
 /// Tests at levels at which the block stands again.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Resurrected {
     /// Number of tests.
@@ -260,7 +261,7 @@ pub struct Resurrected {
 
 /// Log-likelihood of the fates above the onset of rocking, g tan(alpha)
 /// (g alpha for Eq. 2), by what the scatter of the model multiplies.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct OnsetComparison {
     /// Onset of rocking in g.
@@ -285,7 +286,7 @@ pub struct OnsetComparison {
 
 /// Two fragilities fitted in the same way to the same tests: to the fates
 /// that were measured and to those that the block has.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct DistributionComparison {
     /// Intensity measure.
@@ -310,7 +311,7 @@ pub struct DistributionComparison {
 }
 
 /// One test of a comparison.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TestResult {
     /// Name of the record.
     pub test: String,

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use rocking::accelerogram::{Accelerogram, AccelerogramError};
+use rocking::accelerogram::Accelerogram;
 use rocking_records::{Processing, SuiteError, SuiteMember};
 use thiserror::Error;
 
@@ -118,20 +118,17 @@ impl TestTable<'_> {
                 ));
             }
             if has_columns {
+                let refuse = |own: String| format!("{place}: {own}");
                 match self.test(&member) {
                     Ok(test) => tests.push(test),
-                    Err(own) => {
-                        let own = own.iter();
-                        faults
-                            .extend(own.map(|own| format!("{place}: {own}")));
-                    }
+                    Err(own) => faults.extend(own.into_iter().map(refuse)),
                 }
             }
         }
         if faults.is_empty() && tests.is_empty() {
+            let path = self.path;
             faults.push(format!(
-                "{}: found no test: expected one row for each test",
-                self.path
+                "{path}: found no test: expected one row for each test"
             ));
         }
         if faults.is_empty() {
@@ -197,7 +194,9 @@ impl TestTable<'_> {
         };
         let processed = self.processing.apply(&member.accelerogram);
         let processed = processed.map_err(|error| vec![error.to_string()])?;
-        let record = scaled(&processed, scale)
+        let samples = processed.samples_g().iter().map(|a| scale * a);
+        let (name, dt_s) = (processed.name(), processed.dt_s());
+        let record = Accelerogram::try_new(name, dt_s, samples.collect())
             .map_err(|error| vec![error.to_string()])?;
         let columns = ShakingTest::columns(&cells);
         Ok(ShakingTest { record, motion: motion.to_owned(), fate, columns })
@@ -207,12 +206,4 @@ impl TestTable<'_> {
 fn positive(cell: &str) -> Option<f64> {
     let number = cell.parse().ok();
     number.filter(|x: &f64| *x > 0.0 && x.is_finite())
-}
-
-fn scaled(
-    record: &Accelerogram,
-    scale: f64,
-) -> Result<Accelerogram, AccelerogramError> {
-    let samples = record.samples_g().iter().map(|a| scale * a).collect();
-    Accelerogram::try_new(record.name(), record.dt_s(), samples)
 }

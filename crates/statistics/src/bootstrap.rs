@@ -33,8 +33,7 @@ impl BootstrapEstimate {
         level: f64,
         replicates: usize,
     ) -> Self {
-        let estimate = Estimate::exact(value);
-        let standard_error = f64::NAN;
+        let (estimate, standard_error) = (Estimate::exact(value), f64::NAN);
         Self { estimate, standard_error, level, used: 0, replicates }
     }
 }

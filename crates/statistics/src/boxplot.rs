@@ -93,10 +93,7 @@ impl Boxplot {
             censored: sample.censored(),
             n: sample.len(),
         };
-        let at = |p| {
-            let value = quantile_type.extended_quantile(sample, p).ok();
-            value.filter(|x| x.is_finite()).ok_or(infinite)
-        };
+        let at = |p| quantile_type.finite_quantile(sample, p).ok_or(infinite);
         let (q1, median, q3) = (at(0.25)?, at(0.5)?, at(0.75)?);
         let iqr = q3 - q1;
         let half = 1.57 * iqr / (sample.len() as f64).sqrt();

@@ -307,7 +307,6 @@ impl<'de> serde::Deserialize<'de> for Estimate {
 /// Names of the fields of an estimate that a struct flattens:
 /// `#[serde(flatten, serialize_with = "estimate::keys::ratio")]`.
 pub mod keys {
-    use serde::ser::SerializeMap as _;
     use serde::{Serialize as _, Serializer};
 
     use super::Estimate;
@@ -322,11 +321,11 @@ pub mod keys {
                 estimate: &Estimate,
                 to: S,
             ) -> Result<S::Ok, S::Error> {
-                let mut map = to.serialize_map(None)?;
-                $(map.serialize_entry($value, &estimate.value)?;)?
-                map.serialize_entry($low, &estimate.low())?;
-                map.serialize_entry($high, &estimate.high())?;
-                map.end()
+                to.collect_map([
+                    $(($value, Some(estimate.value)),)?
+                    ($low, estimate.low()),
+                    ($high, estimate.high()),
+                ])
             }
         )+};
     }

@@ -24,7 +24,6 @@ pub mod clusters;
 pub mod estimate;
 pub mod lilliefors;
 pub mod lognormal;
-mod monte_carlo;
 pub mod normal;
 pub mod normality;
 pub mod paired;

@@ -71,13 +71,12 @@ impl serde::Serialize for Lognormal {
         &self,
         to: S,
     ) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct as _;
-        let mut all = to.serialize_struct("Lognormal", 4)?;
-        all.serialize_field("shift", &self.shift)?;
-        all.serialize_field("log_mean", &self.log_mean)?;
-        all.serialize_field("dispersion", &self.dispersion)?;
-        all.serialize_field("median", &self.median())?;
-        all.end()
+        to.collect_map([
+            ("shift", self.shift),
+            ("log_mean", self.log_mean),
+            ("dispersion", self.dispersion),
+            ("median", self.median()),
+        ])
     }
 }
 
@@ -137,8 +136,13 @@ impl Lognormal {
     /// volume 1, Eq. 14.8a.
     #[must_use]
     pub fn mean(&self) -> f64 {
+        self.shift + self.mean_above_shift()
+    }
+
+    /// exp(mu + beta^2/2), the mean of x - r.
+    fn mean_above_shift(&self) -> f64 {
         let half_square = 0.5 * self.dispersion * self.dispersion;
-        self.shift + exp(self.log_mean + half_square)
+        exp(self.log_mean + half_square)
     }
 
     /// The standard deviation exp(mu + beta^2/2) sqrt(exp(beta^2) - 1), of x
@@ -245,18 +249,16 @@ impl Lognormal {
             return 0.0;
         }
         let z = self.score(limit);
-        let half_square = 0.5 * self.dispersion * self.dispersion;
-        let partial = exp(self.log_mean + half_square)
-            * normal::cdf(z - self.dispersion);
+        let partial =
+            self.mean_above_shift() * normal::cdf(z - self.dispersion);
         (limit - self.shift) * normal::cdf(z) - partial
     }
 
     /// Integral of 1 - F from the limit on.
     fn upper_integral(&self, limit: f64) -> f64 {
         let z = self.score(limit);
-        let half_square = 0.5 * self.dispersion * self.dispersion;
-        let partial = exp(self.log_mean + half_square)
-            * normal::survival(z - self.dispersion);
+        let partial =
+            self.mean_above_shift() * normal::survival(z - self.dispersion);
         partial - (limit - self.shift) * normal::survival(z)
     }
 

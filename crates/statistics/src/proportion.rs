@@ -82,9 +82,9 @@ impl Proportion {
         clusters: &Clusters,
     ) -> Result<Self, ProportionError> {
         let successes = held.iter().filter(|held| **held).count();
-        let found = Self::try_new(successes, clusters.records())?;
-        if held.len() != found.trials {
-            let trials = clusters.records();
+        let trials = clusters.records();
+        let found = Self::try_new(successes, trials)?;
+        if held.len() != trials {
             return Err(ProportionError::Count { successes, trials });
         }
         if clusters.is_singletons() {

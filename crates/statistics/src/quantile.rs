@@ -89,6 +89,16 @@ impl QuantileType {
         self.of_sorted(sample.sorted(), p)
     }
 
+    /// [`Self::extended_quantile`], if it is finite.
+    pub(crate) fn finite_quantile(
+        self,
+        sample: &ExtendedSample,
+        p: f64,
+    ) -> Option<f64> {
+        let value = self.extended_quantile(sample, p).ok();
+        value.filter(|x| x.is_finite())
+    }
+
     /// (1 - g) x_(j) + g x_(j+1), with j + g = n p + m; m by the type. As in
     /// R, g within a few rounding errors of a whole number is that number,
     /// so that a weight of zero never touches its neighbour.

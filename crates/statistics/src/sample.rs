@@ -54,10 +54,9 @@ impl Sample {
     /// # Errors
     /// [`SampleError`] if there is no value or one is not finite.
     pub fn try_new(values: &[f64]) -> Result<Self, SampleError> {
-        for (i, &value) in values.iter().enumerate() {
-            if !value.is_finite() {
-                return Err(SampleError::NotFinite { number: i + 1, value });
-            }
+        if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+            let (number, value) = (i + 1, values[i]);
+            return Err(SampleError::NotFinite { number, value });
         }
         Ok(Self { sorted: sort(values)? })
     }
@@ -130,20 +129,22 @@ impl ExtendedSample {
     /// [`SampleError`] if there is no value, or one is NaN or minus
     /// infinity.
     pub fn try_new(values: &[f64]) -> Result<Self, SampleError> {
-        for (i, &value) in values.iter().enumerate() {
-            if value.is_nan() || value == f64::NEG_INFINITY {
-                return Err(SampleError::NotExtended { number: i + 1, value });
-            }
+        let is_valid = |x: &f64| *x > f64::NEG_INFINITY;
+        if let Some(i) = values.iter().position(|x| !is_valid(x)) {
+            let (number, value) = (i + 1, values[i]);
+            return Err(SampleError::NotExtended { number, value });
         }
-        let sorted = sort(values)?;
-        let finite = sorted.partition_point(|x| x.is_finite());
-        Ok(Self { sorted, finite })
+        sort(values).map(Self::from_sorted)
     }
 
     /// A sample of values that are known to make one.
     pub(super) fn from_valid(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
+        Self::from_sorted(sorted)
+    }
+
+    fn from_sorted(sorted: Vec<f64>) -> Self {
         let finite = sorted.partition_point(|x| x.is_finite());
         Self { sorted, finite }
     }

@@ -33,8 +33,8 @@ impl AssessmentSuite<'_> {
         fit_sample(&CensoredSample::from_intervals(values)?, &options)
     }
 
-    /// What the fit to intensities of damage says, without an interval, with
-    /// the error of the model.
+    /// The answer of a fit to intensities of damage, without an interval,
+    /// with the error of the model.
     pub(super) fn point(
         &self,
         fitted: Lognormal,

@@ -97,6 +97,13 @@ pub(super) struct ObjectResult {
     keys: Vec<f64>,
 }
 
+impl Object {
+    /// The floor that it stands on; none on the ground.
+    fn ground(&self) -> Option<Floor> {
+        self.floor.as_ref().map(|on| on.floor)
+    }
+}
+
 impl ObjectResult {
     /// Sorts objects, and counts in how many draws each comes first.
     pub(super) fn sorted(mut all: Vec<Self>) -> Vec<ObjectAssessment> {
@@ -110,13 +117,11 @@ impl ObjectResult {
                 first[k] += 1;
             }
         }
-        let counted = all.into_iter().zip(first);
-        counted
-            .map(|(one, count)| ObjectAssessment {
-                first_in_draws: count as f64 / draws as f64,
-                ..one.assessed
-            })
-            .collect()
+        let counted = all.into_iter().zip(first).map(|(one, count)| {
+            let first_in_draws = count as f64 / draws as f64;
+            ObjectAssessment { first_in_draws, ..one.assessed }
+        });
+        counted.collect()
     }
 }
 
@@ -139,11 +144,7 @@ impl<'a> AssessmentSuite<'a> {
             }) if !matches!(im, IntensityMeasure::Column(_)) => {
                 (im.clone(), *units_per_im_unit)
             }
-            Some(hazard) => {
-                let name = hazard.im.name();
-                let found = name.unwrap_or_else(|| hazard.unit().to_owned());
-                return Err(AssessError::Measure(found));
-            }
+            Some(hazard) => return Err(AssessError::Measure(hazard.name())),
         };
         let of_object = |object: &Object| {
             let p_rad_s = object.block.frequency_rad_s();
@@ -164,10 +165,8 @@ impl<'a> AssessmentSuite<'a> {
         });
         let mut moved: Vec<ObjectMotion> = Vec::new();
         for object in objects {
-            let floor = object.floor.as_ref();
-            let known = floor.map(|on| on.floor);
-            if moved.iter().all(|moved| moved.floor != known) {
-                moved.push(ObjectMotion::new(records, floor)?);
+            if moved.iter().all(|moved| moved.floor != object.ground()) {
+                moved.push(ObjectMotion::new(records, object.floor.as_ref())?);
             }
         }
         Ok(Self {
@@ -196,8 +195,8 @@ impl<'a> AssessmentSuite<'a> {
 
     /// The motions of what an object stands on.
     fn under(&self, object: &Object) -> &ObjectMotion {
-        let floor = object.floor.as_ref().map(|on| on.floor);
-        let own = self.moved.iter().find(|moved| moved.floor == floor);
+        let mut moved = self.moved.iter();
+        let own = moved.find(|moved| moved.floor == object.ground());
         own.unwrap_or(&self.moved[0])
     }
 
@@ -209,16 +208,12 @@ impl<'a> AssessmentSuite<'a> {
     ) -> Result<Vec<Vec<Vec<IdaCurve>>>, AssessError> {
         let mut made = vec![Vec::new(); objects.len()];
         for moved in &self.moved {
-            let on = |k: &usize| {
-                let floor = objects[*k].floor.as_ref();
-                floor.map(|on| on.floor) == moved.floor
-            };
+            let on = |k: &usize| objects[*k].ground() == moved.floor;
             let here: Vec<usize> = (0..objects.len()).filter(on).collect();
             let all = here.iter().flat_map(|k| analyses[*k].iter().copied());
             let all: Vec<Analysis> = all.collect();
-            let mut found =
-                curves(&moved.normalised, &all, &Batch::default())?
-                    .into_iter();
+            let found = curves(&moved.normalised, &all, &Batch::default())?;
+            let mut found = found.into_iter();
             for k in here {
                 made[k] = found.by_ref().take(analyses[k].len()).collect();
             }
@@ -325,16 +320,10 @@ impl<'a> AssessmentSuite<'a> {
         if let Some(law) = self.by_law(object) {
             beside(Assumption::Law, self.point(law))?;
         }
-        let slides_first = match object.friction {
-            None => None,
-            Some(mu) => Some(self.slides(
-                object,
-                &made[0],
-                &analyses[0],
-                mu,
-                &own_onset,
-            )?),
-        };
+        let slides_first = object.friction.map(|mu| {
+            self.slides(object, &made[0], &analyses[0], mu, &own_onset)
+        });
+        let slides_first = slides_first.transpose()?;
         let mut resolution = ResolutionCounts::default();
         for curve in &made[0] {
             resolution.add(&curve.resolution);
@@ -394,13 +383,12 @@ impl<'a> AssessmentSuite<'a> {
 
     fn by_record(&self, values: &[(f64, f64)]) -> Vec<RecordCapacity> {
         let named = self.names.iter().zip(values);
-        let mut all: Vec<RecordCapacity> = named
-            .map(|(name, (low, high))| RecordCapacity {
-                record: (*name).to_owned(),
-                im: *low,
-                damages: high.is_finite(),
-            })
-            .collect();
+        let of = |(name, (low, high)): (&&str, &(f64, f64))| RecordCapacity {
+            record: (*name).to_owned(),
+            im: *low,
+            damages: high.is_finite(),
+        };
+        let mut all: Vec<RecordCapacity> = named.map(of).collect();
         all.sort_by(|a, b| {
             let falls = b.damages.cmp(&a.damages);
             falls.then(a.im.total_cmp(&b.im))
@@ -454,21 +442,16 @@ impl<'a> AssessmentSuite<'a> {
         found.scaled(self.unit).ok()
     }
 
-    /// Whether overturning is counted, in the PGA of what the object stands
-    /// on.
-    fn counts_overturning_in_pga(&self, object: &Object) -> bool {
-        object.limit_ratio.is_none()
-            && object.floor.is_none()
-            && self.im == IntensityMeasure::PGA
-    }
-
-    /// How far above the first overturning an object is looked at.
+    /// How far above the first overturning an object is analysed; none
+    /// unless overturning is counted in the PGA of the ground.
     pub(super) fn resurrections(
         &self,
         object: &Object,
     ) -> Option<Resurrections> {
-        self.counts_overturning_in_pga(object)
-            .then_some(Resurrections::Multiple(REACH))
+        let counts = object.limit_ratio.is_none()
+            && object.floor.is_none()
+            && self.im == IntensityMeasure::PGA;
+        counts.then_some(Resurrections::Multiple(REACH))
     }
 
     /// Share of records that ask for more friction than `friction` before
@@ -489,10 +472,9 @@ impl<'a> AssessmentSuite<'a> {
             needs_more(record, curve, analysis, friction, below)
         });
         let found: Result<Vec<bool>, IdaError> = each.panic_fuse().collect();
-        let found = found.map_err(|source| {
-            let id = object.id.clone();
-            AssessError::Ida { id, source }
-        })?;
+        let refused =
+            |source| AssessError::Ida { id: object.id.clone(), source };
+        let found = found.map_err(refused)?;
         let count = found.iter().filter(|more| **more).count();
         Ok(count as f64 / curves.len() as f64)
     }
@@ -511,10 +493,8 @@ impl<'a> AssessmentSuite<'a> {
         for at_least in several {
             let of_record = |r: usize| {
                 let least = |end: fn(&(f64, f64)) -> f64| {
-                    let mut ends: Vec<f64> = found
-                        .iter()
-                        .map(|one| end(&one.intervals[r]))
-                        .collect();
+                    let ends = found.iter().map(|one| end(&one.intervals[r]));
+                    let mut ends: Vec<f64> = ends.collect();
                     ends.sort_by(f64::total_cmp);
                     ends[at_least - 1]
                 };

@@ -18,13 +18,13 @@ pub use average::{
 };
 pub use site::{Site, SiteError};
 
-/// The first columns of the project's own table: name, and measure with the
-/// number of its column's units in a g or a m/s.
-const COLUMNS: [(&str, Option<(IntensityMeasure, f64)>); 4] = [
-    ("pga_g", Some((IntensityMeasure::PGA, 1.0))),
-    ("pgv_m_s", Some((IntensityMeasure::PGV, 1.0))),
-    ("pgv_cm_s", Some((IntensityMeasure::PGV, 100.0))),
-    ("intensity", None),
+/// First columns of the project's own table: name, measure, and number of
+/// the column's units in one unit of the measure (g or m/s).
+const COLUMNS: [(&str, HazardMeasure, f64); 4] = [
+    ("pga_g", HazardMeasure::Of(IntensityMeasure::PGA), 1.0),
+    ("pgv_m_s", HazardMeasure::Of(IntensityMeasure::PGV), 1.0),
+    ("pgv_cm_s", HazardMeasure::Of(IntensityMeasure::PGV), 100.0),
+    ("intensity", HazardMeasure::Own, 1.0),
 ];
 
 /// The second columns: annual frequencies, or probabilities in some years.
@@ -222,6 +222,11 @@ impl Hazard {
         }
     }
 
+    /// Name of the measure, or the unit if the measure has no name.
+    pub(crate) fn name(&self) -> String {
+        self.im.name().unwrap_or_else(|| self.unit().to_owned())
+    }
+
     /// Reads a hazard curve from the text of a file.
     ///
     /// The project's own CSV has two columns: `pga_g`, `pgv_m_s`, `pgv_cm_s`
@@ -308,31 +313,23 @@ fn parse_hazard(
     let own = match columns[..] {
         [first, second] => COLUMNS
             .into_iter()
-            .find(|(name, _)| *name == first)
+            .find(|(name, ..)| *name == first)
             .filter(|_| SECOND.contains(&second)),
         _ => None,
     };
-    let Some((_, measure)) = own else {
+    let Some((_, im, per_unit)) = own else {
         let found = format!("columns `{}`", beginning(header));
         return Err(fault(at, found, HEADER));
     };
     if options.site.is_some() {
-        let found = "a curve of no site";
-        return Err(fault(at, found, "no site (--site)"));
+        return Err(fault(at, "a curve of no site", "no site (--site)"));
     }
     let mut points = Vec::new();
     for row in rows {
         let (line, row) = row?;
         points.push((line, number(line, row[0])?, number(line, row[1])?));
     }
-    let years = match columns[1] == SECOND[1] {
-        true => Some(options.years),
-        false => None,
-    };
-    let (im, per_unit) = match measure {
-        Some((im, per_unit)) => (HazardMeasure::Of(im), per_unit),
-        None => (HazardMeasure::Own, 1.0),
-    };
+    let years = (columns[1] == SECOND[1]).then_some(options.years);
     made(points, years, (im, per_unit))
 }
 
@@ -363,10 +360,8 @@ fn openquake<'a>(
             }
         },
     };
-    let years = match said(comments, "investigation_time=") {
-        Some(text) => Some(number(1, text)?),
-        None => options.years,
-    };
+    let years = said(comments, "investigation_time=");
+    let years = years.map(|text| number(1, text)).transpose()?;
     let mut levels = Vec::new();
     for (place, name) in columns.iter().enumerate() {
         match name.strip_prefix("poe-") {
@@ -384,7 +379,7 @@ fn openquake<'a>(
     for (place, level) in levels {
         points.push((line, level, number(line, row[place])?));
     }
-    made(points, Some(years), measure)
+    made(points, Some(years.or(options.years)), measure)
 }
 
 /// Sites that a message names, at most.

@@ -137,25 +137,23 @@ impl Recipe {
         shift: f64,
         unshifted: &mut impl FnMut(FitMethod) -> Fitted,
     ) -> Result<Lognormal, RecipeError> {
-        let at = |quantile_type: QuantileType, p| {
-            let value = quantile_type.extended_quantile(sample, p);
-            value.unwrap_or(f64::NAN)
-        };
         let (log_mean, dispersion) = match *self {
             Self::Unshifted(method) => return Ok(unshifted(method)?),
             Self::Shifted(method) => {
                 return Ok(fit(sample, shift, method)?.distribution);
             }
             Self::Quantiles(quantile_type) => {
-                let [low, median, high] =
-                    [0.16, 0.5, 0.84].map(|p| at(quantile_type, p));
+                let [low, median, high] = [0.16, 0.5, 0.84].map(|p| {
+                    let value = quantile_type.extended_quantile(sample, p);
+                    value.unwrap_or(f64::NAN)
+                });
                 (eq5(median, shift)?, eq6(low, high, shift)?)
             }
             Self::Transformed { method, centre, c } => {
                 let usfl = unshifted(method)?;
                 let median = match centre {
                     Centre::FittedMedian => usfl.median(),
-                    Centre::SampleMedian => at(QuantileType::default(), 0.5),
+                    Centre::SampleMedian => sample.quantile(0.5),
                 };
                 let beta = eq7(median, usfl.dispersion(), shift, c)?;
                 (eq5(median, shift)?, beta)

@@ -154,6 +154,11 @@ impl HazardCurve {
         &self.points
     }
 
+    /// The first and the last point.
+    pub(crate) fn ends(&self) -> ((f64, f64), (f64, f64)) {
+        (self.points[0], self.points[self.points.len() - 1])
+    }
+
     /// H(x) in 1/year, between the points H = H_i (x/x_i)^-k; `None`
     /// outside them.
     #[must_use]
@@ -197,8 +202,7 @@ impl HazardCurve {
         fragility: impl Into<TotalFragility>,
     ) -> AnnualFrequency {
         let fragility = fragility.into();
-        let (first, last) =
-            (self.points[0], self.points[self.points.len() - 1]);
+        let (first, last) = self.ends();
         let segments = self.segments();
         let of = |law: &Lognormal| {
             segments.iter().fold(0.0, |sum, own| sum + own.integral(law))

@@ -104,24 +104,17 @@ impl ComputedTests<'_> {
             rivals.push(own.predictor(&fates, &scores));
             if let Some(fit) = fit {
                 compared.push(k);
-                distributions.push(distribution(
-                    im,
-                    &fates,
-                    &own.fit,
-                    &fit,
-                    &differences,
-                ));
+                let both = [&own.fit, &fit];
+                let found = distribution(im, &fates, both, &differences);
+                distributions.push(found);
             }
         }
         let probabilities = computed.probabilities(&fates);
         let each = self.tests.iter().zip(&probabilities);
-        let each = each.map(|(test, &probability)| TestResult {
-            intensities: compared
-                .iter()
-                .map(|k| test.intensities[*k])
-                .collect(),
-            probability,
-            ..test.clone()
+        let each = each.map(|(test, &probability)| {
+            let own = compared.iter().map(|k| test.intensities[*k]);
+            let intensities = own.collect();
+            TestResult { intensities, probability, ..test.clone() }
         });
         let threshold = uplift_threshold(&self.block, self.options.model);
         let pga: Vec<f64> = self.tests.iter().map(|t| t.pga_g).collect();

@@ -142,8 +142,7 @@ pub(super) fn differences(
 pub(super) fn distribution(
     im: &IntensityMeasure,
     fates: &Fates,
-    measured: &Lognormal,
-    computed: &Lognormal,
+    [measured, computed]: [&Lognormal; 2],
     drawn: &[Differences],
 ) -> DistributionComparison {
     let ranges = [Range::NotNegative, Range::Real, Range::Real];

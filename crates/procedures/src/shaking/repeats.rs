@@ -9,13 +9,7 @@ const SAME: f64 = 1.05;
 
 /// The repeatability of tests at these PGA.
 pub(super) fn repeatability(pga_g: &[f64], fates: &Fates) -> Repeatability {
-    let mut found = Repeatability {
-        pairs: 0,
-        different: 0,
-        mixed_motions: 0,
-        not_monotone: 0,
-        dispersion: None,
-    };
+    let mut found = Repeatability::default();
     let mut groups = Vec::new();
     for motion in 0..fates.motions.count() {
         let tests = fates.motions.members(motion).iter();

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::LillieforsError;
 use super::fast::{LANES, Scratch};
 use crate::streams::{Stream, Streams, standard_normals};
-use crate::{Estimate, Interval, Proportion, monte_carlo, normal};
+use crate::{Estimate, Interval, Proportion, normal};
 use rocking::stop;
 
 /// Replicates that share one scratch space.
@@ -169,13 +169,18 @@ impl NullDistribution {
         })
     }
 
-    /// The p-value of a statistic, (b + 1)/(N + 1) with b the number of
-    /// replicates not below it, and the 95 % Clopper-Pearson interval of b.
+    /// The p-value of a statistic, (b + 1)/(N + 1) with b of N replicates not
+    /// below it, and the 95 % Clopper-Pearson interval of b.
+    ///
+    /// It is the share among the replicates and the sample itself: never 0,
+    /// and at most a level with no more than that probability, over both
+    /// draws (Davison and Hinkley, Bootstrap Methods and their Application,
+    /// 1997, section 4.2).
     pub fn p_value(&self, d: f64) -> Estimate {
-        let below = self.sorted.partition_point(|&x| x < d);
         let count = self.sorted.len();
-        let value = monte_carlo::p_value(count - below, count);
-        let not_below = Proportion::try_new(count - below, count);
+        let as_far = count - self.sorted.partition_point(|&x| x < d);
+        let value = (as_far + 1) as f64 / (count + 1) as f64;
+        let not_below = Proportion::try_new(as_far, count);
         not_below.and_then(|share| share.interval(0.95)).map_or(
             Estimate::exact(value),
             // Less than 1/N from b/N, which the interval holds with its

@@ -86,7 +86,10 @@ fn p_values_invert_the_table_and_end_at_the_largest_statistic() {
         for level in LillieforsTable::LEVELS {
             let (value, _) = table.critical_value(n, level).unwrap();
             let p = table.p_value(n, value).unwrap();
-            assert!((p.estimate.value() / level - 1.0).abs() < 1e-9, "{n}, {level}");
+            assert!(
+                (p.estimate.value() / level - 1.0).abs() < 1e-9,
+                "{n}, {level}"
+            );
             assert!(p.estimate.interval().unwrap().holds(level));
         }
     }
@@ -142,7 +145,10 @@ fn beyond_the_sizes_of_the_table_p_is_that_of_a_simulation() {
         let table = LillieforsTable::embedded();
         let found = table.p_value(n as usize, d).unwrap();
         assert_eq!(found.source, NullSource::Scaled);
-        assert!((found.estimate.value() - level).abs() < 0.003, "{line}: {found:?}");
+        assert!(
+            (found.estimate.value() - level).abs() < 0.003,
+            "{line}: {found:?}"
+        );
         assert!(found.estimate.interval().unwrap().holds(level), "{line}");
     }
 }

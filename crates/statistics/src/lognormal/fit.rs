@@ -267,6 +267,11 @@ pub fn fit(
         0 => Ok(y.as_slice()),
         _ => Err(FitError::Infinite { censored, n }),
     };
+    let finite_quantile = |quantile_type: QuantileType, p| {
+        let percent = 100.0 * p;
+        let infinite = FitError::InfiniteQuantile { percent, censored, n };
+        quantile_type.finite_quantile(sample, p).ok_or(infinite)
+    };
     let mut censored_likelihood = None;
     let (log_mean, dispersion, n_kept) = match method {
         FitMethod::MaximumLikelihood => {
@@ -278,7 +283,7 @@ pub fn fit(
             (mu, (squares / (n as f64 - 1.0)).sqrt(), n)
         }
         FitMethod::Quantile(quantile_type) => {
-            let at = |p| finite_quantile(sample, quantile_type, p);
+            let at = |p| finite_quantile(quantile_type, p);
             let (x16, x50, x84) = (at(0.16)?, at(0.5)?, at(0.84)?);
             let beta = 0.5 * log((x84 - shift) / (x16 - shift));
             if beta.is_nan() || beta <= 0.0 {
@@ -287,7 +292,7 @@ pub fn fit(
             (log(x50 - shift), beta, y.len())
         }
         FitMethod::Trimmed(quantile_type) => {
-            let limit = finite_quantile(sample, quantile_type, 0.95)?;
+            let limit = finite_quantile(quantile_type, 0.95)?;
             let kept = sample.finite().partition_point(|&x| x <= limit);
             let (mu, squares) = moments(&y[..kept])?;
             (mu, (squares / (kept as f64 - 1.0)).sqrt(), kept)
@@ -311,11 +316,10 @@ pub fn fit(
         }
     };
     let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
-    let complete =
-        (censored == 0).then(|| distribution.log_likelihood(sample.sorted()));
     let log_likelihood = match method {
         FitMethod::Censored(_) => censored_likelihood,
-        _ => complete,
+        _ => (censored == 0)
+            .then(|| distribution.log_likelihood(sample.sorted())),
     };
     Ok(LognormalFit { distribution, n, n_kept, log_likelihood })
 }
@@ -478,17 +482,4 @@ fn moments(y: &[f64]) -> Result<(f64, f64), FitError> {
         return Err(FitError::Degenerate);
     }
     Ok((mu, squares))
-}
-
-fn finite_quantile(
-    sample: &ExtendedSample,
-    quantile_type: QuantileType,
-    p: f64,
-) -> Result<f64, FitError> {
-    let value = quantile_type.extended_quantile(sample, p).ok();
-    value.filter(|x| x.is_finite()).ok_or(FitError::InfiniteQuantile {
-        percent: 100.0 * p,
-        censored: sample.censored(),
-        n: sample.len(),
-    })
 }

@@ -5,7 +5,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::{PairedError, binomial_cdf};
 use crate::sample::{mean, sum_of_squares};
-use crate::{Estimate, ExtendedSample, Interval, QuantileType, normal};
+use crate::{Estimate, ExtendedSample, Interval, normal};
 use rocking::stop;
 
 /// Equivalence of the mean of ln ratio to 0 by two one-sided t tests.
@@ -143,9 +143,7 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
     }
     let too_few = |_| PairedError::TooFew(n);
     let sample = ExtendedSample::try_new(&walsh).map_err(too_few)?;
-    let median = QuantileType::default()
-        .extended_quantile(&sample, 0.5)
-        .map_err(|_| PairedError::TooFew(n))?;
+    let median = sample.quantile(0.5);
     let rank = signed_rank_quantile(n).max(1);
     let sorted = sample.sorted();
     let last = sorted.len() - rank;

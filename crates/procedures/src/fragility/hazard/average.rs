@@ -121,44 +121,35 @@ fn ln_im(curve: &HazardCurve, frequency: f64) -> f64 {
 /// # Errors
 /// [`AverageHazardError`] for curves of other measures, periods that do not
 /// span those of `im`, and curves that share no frequency.
-pub fn average_hazard(
-    curves: &[Hazard],
+pub fn average_hazard<'a>(
+    curves: &'a [Hazard],
     im: &IntensityMeasure,
     correlation: SpectralCorrelation,
 ) -> Result<Hazard, AverageHazardError> {
-    let (Some(low), Some(high)) =
+    let (Some(&low), Some(&high)) =
         (im.periods_s().first(), im.periods_s().last())
     else {
         return Err(AverageHazardError::Fragility(im.words()));
     };
-    let mut own = Vec::new();
-    for hazard in curves {
-        match hazard.im {
-            HazardMeasure::Of(IntensityMeasure::Sa(period_s)) => {
-                own.push((period_s, &hazard.curve));
-            }
-            _ => {
-                let name = hazard.im.name();
-                let name = name.unwrap_or_else(|| hazard.unit().to_owned());
-                return Err(AverageHazardError::Measure(name));
-            }
-        }
-    }
+    let of_period = |hazard: &'a Hazard| match hazard.im {
+        HazardMeasure::Of(IntensityMeasure::Sa(t)) => Ok((t, &hazard.curve)),
+        _ => Err(AverageHazardError::Measure(hazard.name())),
+    };
+    let own = curves.iter().map(of_period);
+    let mut own = own.collect::<Result<Vec<_>, _>>()?;
     own.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let Some(pair) = own.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         return Err(AverageHazardError::Twice(pair[0].0));
     }
     let ends = own.first().zip(own.last());
     let (first, last) = ends.map_or((f64::NAN, f64::NAN), |(a, b)| (a.0, b.0));
-    if !(first <= *low && last >= *high) {
-        let (low, high) = (*low, *high);
+    if !(first <= low && last >= high) {
         return Err(AverageHazardError::Periods { first, last, low, high });
     }
     let (mut most, mut least) = (f64::INFINITY, 0.0_f64);
     for (_, curve) in &own {
-        let points = curve.points();
-        most = most.min(points[0].1);
-        least = least.max(points[points.len() - 1].1);
+        let (first, last) = curve.ends();
+        (most, least) = (most.min(first.1), least.max(last.1));
     }
     if !(least < most) {
         return Err(HazardError::Points(0).into());

@@ -94,7 +94,7 @@ impl FragilityInput {
 /// Dispersion and bias of the model, as the command spells them.
 pub type ModelErrorInput = (Option<String>, Option<String>);
 
-/// The error of the model, `usual` where nothing is given.
+/// The error of the model, `usual` if nothing is given.
 pub fn model_error(
     (dispersion, bias): &ModelErrorInput,
     usual: ModelError,

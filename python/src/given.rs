@@ -105,7 +105,7 @@ pub fn block_of((alpha, p): (f64, f64)) -> PyResult<Block> {
 }
 
 /// An excitation as Python hands it over: name, samples in g with their
-/// interval, and a pulse's parameters where there are no samples.
+/// interval, and a pulse's parameters if there are no samples.
 pub type ExcitationInput<'py> =
     (String, Option<PyReadonlyArray1<'py, f64>>, f64, BTreeMap<String, f64>);
 
@@ -178,7 +178,7 @@ pub fn pulse_of(
     Pulse::try_new(kind).map_err(refuse)
 }
 
-/// The name of a pulse, and its keys with their values where none is given.
+/// The name of a pulse, and its keys with their default values.
 type PulseKeys = (&'static str, Vec<(&'static str, Option<f64>)>);
 
 /// The pulses with their keys.

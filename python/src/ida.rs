@@ -241,7 +241,7 @@ impl PyIdaTable {
         Ok(out)
     }
 
-    /// What all rows share; no alpha where the slenderness is adjusted.
+    /// What all rows share; no alpha if the slenderness is adjusted.
     fn setting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let setting = &self.table.setting;
         let out = PyDict::new(py);
@@ -258,7 +258,7 @@ impl PyIdaTable {
         Ok(out)
     }
 
-    /// The earthquakes of the records; none where they are not known.
+    /// The earthquakes of the records; none if they are not known.
     fn events(&self) -> Vec<&str> {
         self.table.events().unwrap_or_default()
     }
@@ -313,7 +313,7 @@ impl PyIdaTable {
         Ok(IdaCurves(curves.map_err(refuse)?))
     }
 
-    /// Intensity measures side by side; the usual ones where none is named.
+    /// Intensity measures side by side; the usual ones if none is named.
     fn rank(
         &self,
         py: Python<'_>,
@@ -390,8 +390,8 @@ impl IdaCurves {
 
 #[pymethods]
 impl IdaCurves {
-    /// Capacity of each record (column) at each level (row), infinite where
-    /// the record did not reach it, and the limits of those.
+    /// Capacity of each record (column) at each level (row), infinite if the
+    /// record did not reach it, and the limits of those.
     fn capacities<'py>(
         &self,
         py: Python<'py>,
@@ -421,8 +421,8 @@ impl IdaCurves {
         Ok([table(py, shape, values)?, table(py, shape, limits)?])
     }
 
-    /// Demand of each record (column) at each intensity (row); infinite
-    /// where it overturned.
+    /// Demand of each record (column) at each intensity (row); infinite if it
+    /// overturned.
     fn demands<'py>(
         &self,
         py: Python<'py>,

@@ -56,7 +56,7 @@ pub fn intensity_measures(
     })
 }
 
-/// The velocity pulse of two components; `null` where there is none.
+/// The velocity pulse of two components; `null` if there is none.
 #[pyfunction]
 pub fn velocity_pulse(
     py: Python<'_>,

@@ -32,7 +32,7 @@ const LEAST_IM: f64 = 1.0 + 1e-6;
 /// Curves that are handed to the lanes at once: their list stays small.
 const MOST_CURVES: usize = 1 << 17;
 
-/// Peaks |theta|/alpha by block, excitation and level; infinite where it
+/// Peaks |theta|/alpha by block, excitation and level; infinite if it
 /// overturned.
 #[pyfunction]
 pub fn peak<'py>(
@@ -144,7 +144,7 @@ impl PeakTask {
         made.collect()
     }
 
-    /// The curve whose only level is this one; none where it runs alone.
+    /// The curve whose only level is this one; none if it runs alone.
     fn single(&self, block: usize, level: usize) -> Option<Analysis> {
         let (body, restitution) = self.blocks[block];
         let asked = self.levels[level];
@@ -166,8 +166,8 @@ impl PeakTask {
         })
     }
 
-    /// The peak of a curve at its level; none where rounding made another
-    /// level of it.
+    /// The peak of a curve at its level; none if rounding made another level
+    /// of it.
     fn peak_of(&self, curve: &IdaCurve, level: usize) -> Option<f64> {
         let [point] = curve.points[..] else { return None };
         let made = match self.by {

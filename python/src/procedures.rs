@@ -30,9 +30,9 @@ pub fn answer<T: Serialize + Send, E: Display + Send>(
     serde_json::to_string(&found).map_err(refuse)
 }
 
-/// A sample as Python gives it: values, infinite where censored, and the
-/// limits of those that are censored at a known one, and the earthquakes and
-/// the names of the records, none where they are not known.
+/// A sample as Python gives it: values, infinite if censored, and the limits
+/// of those that are censored at a known one, and the earthquakes and the
+/// names of the records, none if they are not known.
 pub type SampleInput<'py> =
     (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>, Vec<String>, Vec<String>);
 
@@ -42,7 +42,7 @@ pub fn sample_of(
     CensoredSample::try_new(values.as_slice()?, limits).map_err(refuse)
 }
 
-/// The values of a sample by earthquake, where they are known.
+/// The values of a sample by earthquake, if they are known.
 pub fn clusters_of((_, _, events, _): &SampleInput<'_>) -> Option<Clusters> {
     (!events.is_empty()).then(|| Clusters::from_labels(events))
 }
@@ -106,7 +106,7 @@ pub fn fit_stripes(
     answer(py, || fit_counts(&stripes, shift))
 }
 
-/// Tests of normality, of the logarithms above a shift where one is given.
+/// Tests of normality, of the logarithms above a shift if one is given.
 #[pyfunction]
 pub fn test_normality(
     py: Python<'_>,

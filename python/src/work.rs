@@ -16,7 +16,7 @@ pub fn refuse(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// How often signals are looked at and progress is reported.
+/// How often signals are examined and progress is reported.
 const BEAT: Duration = Duration::from_millis(50);
 
 /// Fewer numbers than these are done sooner than a thread is started.

@@ -43,7 +43,7 @@ pub struct Object {
     pub block: Block,
     /// Coefficient of restitution.
     pub restitution: Restitution,
-    /// Coefficient of friction of the floor, where known.
+    /// Coefficient of friction of the floor, if known.
     pub friction: Option<f64>,
     /// Rotation over slenderness that must not be exceeded, in (0, 1); none:
     /// the object must not overturn.
@@ -131,8 +131,8 @@ pub struct Assessment {
     /// Years of the probabilities.
     pub years: f64,
     /// Correlation of the logarithms of the intensities of damage of two
-    /// objects over the records: the least, the median and the largest of
-    /// all pairs; none where no pair has three records that damage both.
+    /// objects over the records: the least, the median and the largest of all
+    /// pairs; none if no pair has three records that damage both.
     pub correlation: Option<Estimate>,
     /// By falling annual frequency of damage, or by rising intensity of 5 %
     /// damage where there is no hazard curve.
@@ -205,7 +205,7 @@ pub struct ObjectAssessment {
     /// The answer under other assumptions.
     pub alternatives: Vec<Alternative>,
     /// Share of records that ask for more friction than there is before they
-    /// damage the object; none where no friction is given.
+    /// damage the object; none if no friction is given.
     pub slides_first: Option<f64>,
     /// How many analyses each arithmetic resolved.
     pub resolution: ResolutionCounts,
@@ -226,7 +226,7 @@ impl ObjectAssessment {
     }
 }
 
-/// What a fragility says of an object; no interval where it was not drawn.
+/// What a fragility says of an object; no interval if it was not drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {

@@ -23,8 +23,8 @@ pub fn sample(
 }
 
 /// The capacities of all curves at one EDP level as intervals, which
-/// [`rank`](super::rank) takes: (capacity, capacity), or (limit, infinity)
-/// where a record does not reach the level.
+/// [`rank`](super::rank) takes: (capacity, capacity), or (limit, infinity) if
+/// a record does not reach the level.
 ///
 /// # Errors
 /// [`ProcedureError::Capacity`] for a level that is no positive number.
@@ -48,7 +48,7 @@ pub fn intervals(
 pub struct LevelCapacities {
     /// The EDP level (peak |theta|/alpha).
     pub edp: f64,
-    /// 16 % quantile of the capacities; infinite where censored.
+    /// 16 % quantile of the capacities; infinite if censored.
     pub im16: f64,
     /// Median.
     pub im50: f64,
@@ -94,7 +94,7 @@ pub fn levels(
 pub struct LevelCrossings {
     /// The EDP level (peak |theta|/alpha).
     pub edp: f64,
-    /// The median crossing; infinite where censored.
+    /// The median crossing; infinite if censored.
     pub median: f64,
     /// The first crossing.
     pub first: f64,

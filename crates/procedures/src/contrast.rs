@@ -288,7 +288,7 @@ fn median(sample: &CensoredSample) -> Option<f64> {
     median.filter(|median| median.is_finite())
 }
 
-/// Ratios of the medians of draws; NaN where censored values leave them open.
+/// Ratios of the medians of draws; NaN if censored values leave them open.
 fn ratios<S: AsRef<str>>(
     (a, b): (&ContrastSample<'_, S>, &ContrastSample<'_, S>),
     draws: Draws,

@@ -29,8 +29,8 @@ pub struct CountsFragility {
     pub level: f64,
     /// What the intervals rest on.
     pub intervals: Basis,
-    /// Median with its interval; an end is open where the likelihood does not
-    /// fall so far. No interval where a draw in ten has no fit.
+    /// Median with its interval; an end is open if the likelihood does not
+    /// fall so far. No interval if a draw in ten has no fit.
     pub median: Estimate,
     /// Dispersion with its interval.
     pub dispersion: Estimate,
@@ -252,7 +252,7 @@ impl RecordOutcome {
         Ok(all)
     }
 
-    /// The counts at each intensity; none where some record has no outcome at
+    /// The counts at each intensity; none if some record has no outcome at
     /// one, since the others tell nothing of it.
     #[must_use]
     pub fn stripes(outcomes: &[Self]) -> Option<Vec<Stripe>> {

@@ -81,7 +81,7 @@ impl Shift {
     /// the smallest for [`Shift::Smallest`].
     ///
     /// # Errors
-    /// [`FitError`] where the likelihood has no maximum over a free shift.
+    /// [`FitError`] if the likelihood has no maximum over a free shift.
     pub fn split(
         self,
         sample: &CensoredSample,
@@ -262,7 +262,7 @@ pub struct FragilityFit {
     pub fitted: Lognormal,
     /// 95 % likelihood interval of a free shift.
     pub shift_interval: Option<ShiftInterval>,
-    /// Log-likelihood of the fit; none where the method has none.
+    /// Log-likelihood of the fit; none if the method has none.
     pub log_likelihood: Option<f64>,
     /// Kolmogorov distance to the sample; none for values with limits.
     pub ks_distance: Option<f64>,
@@ -270,7 +270,7 @@ pub struct FragilityFit {
     pub area_distance: Option<f64>,
     /// Type of the sample's quantiles.
     pub quantile_type: u8,
-    /// 16 % quantile of the sample; none where censoring leaves it open.
+    /// 16 % quantile of the sample; none if censoring leaves it open.
     pub im16: Option<f64>,
     /// Median of the sample.
     pub im50: Option<f64>,
@@ -280,12 +280,12 @@ pub struct FragilityFit {
     pub unshifted: Option<Lognormal>,
     /// What Eqs. 5 to 7 make of the unshifted statistics.
     pub transformed: Transformation,
-    /// How many records a precision needs; none where censored values of
-    /// shared earthquakes leave the design effect open.
+    /// How many records a precision needs; none if censored values of shared
+    /// earthquakes leave the design effect open.
     pub needed: Option<SampleSize>,
-    /// Bootstrap intervals, where draws were asked for.
+    /// Bootstrap intervals, if draws were requested.
     pub bootstrap: Option<FitIntervals>,
-    /// Probabilities with their band, where asked for.
+    /// Probabilities with their band, if requested.
     pub band: Option<Band>,
 }
 
@@ -293,7 +293,7 @@ pub struct FragilityFit {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct ShiftInterval {
-    /// Its high end is open where the likelihood rises towards the smallest
+    /// Its high end is open if the likelihood rises towards the smallest
     /// value.
     #[serde(flatten)]
     pub interval: Interval,
@@ -301,7 +301,7 @@ pub struct ShiftInterval {
     pub level: f64,
 }
 
-/// Eqs. 5 to 7 of unshifted statistics; none where a number is not known.
+/// Eqs. 5 to 7 of unshifted statistics; none if a number is not known.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Transformation {
@@ -350,13 +350,13 @@ impl Transformation {
 pub struct BootstrapFits {
     /// What their intervals rest on.
     pub basis: IntervalBasis,
-    /// One a draw; none where it makes no fit.
+    /// One a draw; none if it makes no fit.
     pub fitted: Vec<Option<TotalFragility>>,
 }
 
 impl BootstrapFits {
     /// A number of a fit, `value` of the sample's own, with the 95 % interval
-    /// of these draws; without where they give none.
+    /// of these draws; without one if they give none.
     pub(crate) fn estimate(
         &self,
         value: f64,
@@ -448,8 +448,8 @@ impl FitOptions {
         }
     }
 
-    /// The distributions fitted to the draws of a sample; none where the
-    /// options ask for no draws.
+    /// The distributions fitted to the draws of a sample; none if the options
+    /// ask for no draws.
     ///
     /// # Errors
     /// As of [`fit_sample`].
@@ -471,7 +471,7 @@ impl FitOptions {
         Ok(Some(BootstrapFits { basis, fitted }))
     }
 
-    /// The records of a sample, by earthquake where these are known.
+    /// The records of a sample, by earthquake if these are known.
     fn clusters(&self, sample: &CensoredSample) -> Clusters {
         let records = || Clusters::singletons(sample.len());
         self.clusters.clone().unwrap_or_else(records)

@@ -140,7 +140,7 @@ pub fn c_max(
 /// ```
 ///
 /// # Errors
-/// [`FragilityError`] where Eq. 7 has no value; beyond c_max it carries that
+/// [`FragilityError`] if Eq. 7 has no value; beyond c_max it carries that
 /// limit.
 pub fn eq7(
     median: f64,
@@ -177,8 +177,8 @@ pub fn eq7(
 /// ```
 ///
 /// # Errors
-/// [`FragilityError`] where Eq. 5 or Eq. 7 has no value, and for a
-/// distribution that is shifted already.
+/// [`FragilityError`] if Eq. 5 or Eq. 7 has no value, and for a distribution
+/// that is shifted already.
 pub fn transform(
     unshifted: &Lognormal,
     shift: f64,

@@ -13,13 +13,13 @@ pub struct IdaSummary {
     pub analyses: u64,
     /// Curves that end in an overturning.
     pub overturned_curves: usize,
-    /// Median first overturning intensity PGA/(g tan alpha), infinite where
-    /// half of the curves stand; none for no curve.
+    /// Median first overturning intensity PGA/(g tan alpha), infinite if half
+    /// of the curves stand; none for no curve.
     pub median_overturning_im: Option<f64>,
     /// How many analyses each arithmetic resolved.
     pub resolution: ResolutionCounts,
-    /// Levels above a first overturning at which the block stands again;
-    /// none where they were not sought.
+    /// Levels above a first overturning at which the block stands again; none
+    /// if they were not sought.
     pub resurrections: Option<usize>,
     /// The curves, in order.
     pub curves: Vec<CurveSummary>,
@@ -33,8 +33,8 @@ pub struct CurveSummary {
     pub record: String,
     /// Levels that were run.
     pub levels: usize,
-    /// First overturning intensity PGA/(g tan alpha); none where the block
-    /// stands at every level.
+    /// First overturning intensity PGA/(g tan alpha); none if the block stands
+    /// at every level.
     pub overturning_im: Option<f64>,
 }
 

@@ -59,7 +59,7 @@ pub struct Normality {
     pub critical_value: Option<f64>,
     /// The level.
     pub level: f64,
-    /// The verdict; none where the test does not apply.
+    /// The verdict; none if the test does not apply.
     pub verdict: Option<Verdict>,
     /// Why the test does not apply.
     pub reason: Option<String>,
@@ -158,7 +158,7 @@ pub fn test_normality(
     })
 }
 
-/// The null distribution to simulate; none where the table answers.
+/// The null distribution to simulate; none if the table answers.
 fn simulated(
     sample: &CensoredSample,
     tested: &ExtendedSample,

@@ -18,7 +18,7 @@ pub struct PivotForces {
     /// The share that needs more than each coefficient of friction, in the
     /// order of the coefficients.
     pub needs: Vec<FrictionNeed>,
-    /// Largest |H|/N of all analyses; infinite where N is not positive.
+    /// Largest |H|/N of all analyses; infinite if N is not positive.
     pub largest_friction: f64,
     /// Least N/(m g) of all analyses.
     pub least_normal_over_weight: f64,
@@ -133,8 +133,8 @@ impl PivotForces {
 }
 
 /// Whether a record asks for more friction than `friction` at one of the
-/// levels of its curve below the intensity `below_im`. The strongest motion
-/// is looked at first, and the first that asks for more decides.
+/// levels of its curve below the intensity `below_im`. The strongest motion is
+/// examined first, and the first that asks for more decides.
 ///
 /// # Errors
 /// As [`forces_at`].

@@ -86,8 +86,8 @@ pub struct MeasureRank {
 pub struct Slope {
     /// The covariate.
     pub on: String,
-    /// The line: with a random intercept for each earthquake, by least
-    /// squares where no earthquake has two records.
+    /// The line: with a random intercept for each earthquake, by least squares
+    /// if no earthquake has two records.
     #[serde(flatten)]
     pub line: Line,
 }
@@ -95,14 +95,14 @@ pub struct Slope {
 /// Ranks intensity measures by the capacities of a suite.
 ///
 /// `capacities` holds one interval a record, in PGA/(g tan alpha): both ends
-/// equal where the record reaches the level, (limit, infinity) where it was
-/// run up to the limit and did not. The capacity in another measure is its
-/// value at that scale. Efficiency is the dispersion of a lognormal fitted by
+/// equal where the record reaches the level, (limit, infinity) if it was run
+/// up to the limit and did not. The capacity in another measure is its value
+/// at that scale. Efficiency is the dispersion of a lognormal fitted by
 /// maximum likelihood, censored records by their limits (Luco and Cornell,
-/// Earthquake Spectra 23 (2007) 357); sufficiency the slope of ln(capacity)
-/// on a covariate, where no record is censored, with a random intercept for
-/// each earthquake ([`mixed`]). `clusters` are the earthquakes of the
-/// records: these are drawn.
+/// Earthquake Spectra 23 (2007) 357); sufficiency the slope of ln(capacity) on
+/// a covariate, where no record is censored, with a random intercept for each
+/// earthquake ([`mixed`]). `clusters` are the earthquakes of the records:
+/// these are drawn.
 ///
 /// ```
 /// use rocking_procedures::{Draws, ranking::{CandidateMeasure, rank}};

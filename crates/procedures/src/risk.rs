@@ -92,7 +92,7 @@ pub struct SamplingInterval {
     #[serde(flatten, serialize_with = "keys::probability_ends")]
     pub probability: Estimate,
     /// Annual frequency of each draw in 1/year, of the lower bound of
-    /// truncation; not a number where a draw makes no fit.
+    /// truncation; not a number if a draw makes no fit.
     #[serde(skip)]
     pub drawn_annual_frequencies: Vec<f64>,
 }

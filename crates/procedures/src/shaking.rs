@@ -187,7 +187,7 @@ pub struct Predictor {
     /// by a predicted probability above 0.5.
     pub right: Estimate,
     /// Median m: of the block the bias, the median of measured over computed
-    /// capacity, 1 where alpha is fitted; of a measure in its unit.
+    /// capacity, 1 if alpha is fitted; of a measure in its unit.
     pub median: Estimate,
     /// Dispersion s.
     pub dispersion: Estimate,
@@ -221,7 +221,7 @@ pub struct ReliabilityClass {
     pub tests: usize,
     /// Mean of the predicted probabilities.
     pub predicted: f64,
-    /// Share that overturned, with an interval by motion where it has one.
+    /// Share that overturned, with an interval by motion if it has one.
     pub observed: Estimate,
 }
 
@@ -239,7 +239,7 @@ pub struct Repeatability {
     /// one at which it stood.
     pub not_monotone: usize,
     /// Dispersion of the capacity within a motion, each motion with its own
-    /// median, of the highest likelihood: biased low. None where no motion
+    /// median, of the highest likelihood: biased low. None if no motion
     /// overlaps.
     pub dispersion: Option<f64>,
 }
@@ -305,8 +305,8 @@ pub struct DistributionComparison {
     pub median_ratio: Estimate,
     /// Measured less computed dispersion.
     pub dispersion_difference: Estimate,
-    /// Root of the difference of the squares of both dispersions, 0 where
-    /// the computed one is larger: what the model leaves out.
+    /// Root of the difference of the squares of both dispersions, 0 if the
+    /// computed one is larger: what the model leaves out.
     pub missing_dispersion: Estimate,
 }
 

@@ -12,7 +12,7 @@ pub struct StripeResponses {
     pub intensity: f64,
     /// Records that were run so far.
     pub n: usize,
-    /// 16 % quantile of the EDP; infinite where overturned.
+    /// 16 % quantile of the EDP; infinite if overturned.
     pub edp16: f64,
     /// Median of the EDP.
     pub edp50: f64,
@@ -26,7 +26,7 @@ pub struct StripeResponses {
     /// are too high.
     pub open: usize,
     /// Records at or above the EDP level, which a fit takes as of n: none
-    /// without a level, and none where a record is open.
+    /// without a level, and none if a record is open.
     pub exceeded: Option<usize>,
 }
 

@@ -27,7 +27,7 @@ pub struct Summary {
 pub struct Quantile {
     /// The probability, in [0, 1].
     pub probability: f64,
-    /// The value, in the unit of the sample; infinite where censored.
+    /// The value, in the unit of the sample; infinite if censored.
     pub value: f64,
 }
 

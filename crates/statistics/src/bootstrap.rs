@@ -14,8 +14,8 @@ pub struct BootstrapEstimate {
     /// The value of the sample itself, with its interval.
     #[serde(flatten)]
     pub estimate: Estimate,
-    /// Standard error on the scale of the interval: of the logarithm, where
-    /// the value is positive.
+    /// Standard error on the scale of the interval: of the logarithm, if the
+    /// value is positive.
     pub standard_error: f64,
     /// Level of the interval.
     pub level: f64,

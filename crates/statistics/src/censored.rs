@@ -7,7 +7,7 @@ use super::lognormal::{
 use super::sample::SampleError;
 use super::{ExtendedSample, QuantileType};
 
-/// Values in their order, infinite where censored, with the limits that are
+/// Values in their order, infinite if censored, with the limits that are
 /// known: a record that was run up to an intensity of 3.2 and stood has the
 /// limit 3.2.
 ///
@@ -41,8 +41,8 @@ impl CensoredSample {
         Ok(Self { values: values.to_vec(), limits })
     }
 
-    /// A sample of values known by intervals (low, high): censored at `low`
-    /// where `high` is infinite, and otherwise `high`.
+    /// A sample of values known by intervals (low, high): censored at `low` if
+    /// `high` is infinite, else the value `high`.
     ///
     /// # Errors
     /// [`SampleError`] as of [`Self::try_new`].
@@ -57,7 +57,7 @@ impl CensoredSample {
         Self::try_new(&values, &limits)
     }
 
-    /// The values in their order, infinite where censored.
+    /// The values in their order, infinite if censored.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -109,8 +109,8 @@ impl CensoredSample {
         self.limits.iter().flatten().count()
     }
 
-    /// A quantile of the values; none where a value that is censored below
-    /// it leaves it open.
+    /// A quantile of the values; none if a value that is censored below it
+    /// leaves it open.
     #[must_use]
     pub fn quantile(
         &self,
@@ -146,11 +146,11 @@ impl CensoredSample {
         all.finite().iter().enumerate().filter_map(known).collect()
     }
 
-    /// The lognormal fit above the shift: by [`fit_intervals`] where a value
-    /// has a limit of its own and the method takes one, otherwise by [`fit`].
+    /// The lognormal fit above the shift: by [`fit_intervals`] if a value has
+    /// its own limit and the method takes one, else by [`fit`].
     ///
     /// # Errors
-    /// [`FitError`] where the values make no fit.
+    /// [`FitError`] if the values make no fit.
     pub fn fit(
         &self,
         shift: f64,
@@ -180,7 +180,7 @@ impl CensoredSample {
     /// likelihood: [`fit_intervals_together`].
     ///
     /// # Errors
-    /// [`FitError`] where the values of a sample make no fit.
+    /// [`FitError`] if the values of a sample make no fit.
     pub fn fit_together(
         all: &[Self],
         shift: f64,

@@ -171,11 +171,11 @@ impl Clusters {
         n * n / (own + (sum * sum - squares) / (n * n))
     }
 
-    /// Share of the variance of values that lies between clusters, at least
-    /// 0: (B - W)/(B + (n_0 - 1) W) with the mean squares B between and W
-    /// within clusters, n_0 = (n - sum n_g^2/n)/(G - 1) (analysis of
-    /// variance, one way). None of values that are not all finite, of a
-    /// single cluster, and where no cluster has two records.
+    /// Share of the variance of values that lies between clusters, at least 0:
+    /// (B - W)/(B + (n_0 - 1) W) with the mean squares B between and W within
+    /// clusters, n_0 = (n - sum n_g^2/n)/(G - 1) (analysis of variance, one
+    /// way). None of values that are not all finite, of a single cluster, or
+    /// if no cluster has two records.
     ///
     /// ```
     /// use rocking_statistics::clusters::Clusters;

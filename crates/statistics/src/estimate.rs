@@ -106,12 +106,12 @@ impl Interval {
         Self { low, high }
     }
 
-    /// The low end; minus infinity where it is open.
+    /// The low end; minus infinity if it is open.
     pub fn low(self) -> f64 {
         self.low
     }
 
-    /// The high end; infinity where it is open.
+    /// The high end; infinity if it is open.
     pub fn high(self) -> f64 {
         self.high
     }
@@ -162,8 +162,8 @@ impl fmt::Display for Interval {
     }
 }
 
-/// A value, and its interval where it has one. The level stands beside it,
-/// once for all estimates of a result.
+/// A value, and its interval if it has one. The level stands beside it, once
+/// for all estimates of a result.
 ///
 /// ```
 /// use rocking_statistics::{Estimate, Interval, Range};
@@ -185,8 +185,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// A value without an interval: counted, computed exactly, or of data
-    /// that give no interval. NaN where there are no data.
+    /// A value without an interval: counted, computed exactly, or of data that
+    /// give no interval. NaN if there are no data.
     pub fn exact(value: f64) -> Self {
         Self { value, interval: None }
     }
@@ -230,20 +230,20 @@ impl Estimate {
         self.interval
     }
 
-    /// Both ends, for a table or a drawing: infinite where open, NaN where
-    /// there is no interval.
+    /// Both ends, for a table or a drawing: infinite if open, NaN if there is
+    /// no interval.
     #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         self.interval.map_or((f64::NAN, f64::NAN), Interval::ends)
     }
 
-    /// The low end; none where it is open, or there is no interval.
+    /// The low end; none if it is open, or there is no interval.
     #[must_use]
     pub fn low(&self) -> Option<f64> {
         self.interval.map(Interval::low).filter(|end| end.is_finite())
     }
 
-    /// The high end; none where it is open, or there is no interval.
+    /// The high end; none if it is open, or there is no interval.
     #[must_use]
     pub fn high(&self) -> Option<f64> {
         self.interval.map(Interval::high).filter(|end| end.is_finite())

@@ -263,7 +263,7 @@ impl Lognormal {
     }
 
     /// Kolmogorov distance sup |F - G| to another lognormal with the same
-    /// shift: none where the shifts differ.
+    /// shift: none if the shifts differ.
     ///
     /// The largest difference lies where the densities are equal. With z the
     /// score in F, r = `beta_F/beta_G` and d = `(mu_F - mu_G)/beta_G`, the

@@ -1,8 +1,8 @@
 //! Paired comparison of two blocks over the same records.
 //!
-//! A ratio exists where both of a pair are finite and positive; the other
-//! pairs are counted by what they are, because conditioning on both standing
-//! hides divergence.
+//! A ratio exists if both of a pair are finite and positive; the other pairs
+//! are counted by what they are, because conditioning on both standing hides
+//! divergence.
 
 mod location;
 

@@ -77,7 +77,7 @@ impl QuantileType {
     }
 
     /// Quantile of a sample with censored values at probability p in [0, 1]:
-    /// infinite exactly where an infinite value has positive weight.
+    /// infinite exactly if an infinite value has positive weight.
     ///
     /// # Errors
     /// [`QuantileError::Probability`] outside [0, 1].

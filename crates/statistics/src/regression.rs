@@ -61,7 +61,7 @@ pub struct Line {
     pub slope: f64,
     /// Its standard error.
     pub standard_error: f64,
-    /// Residual standard deviation s, within clusters where there are some.
+    /// Residual standard deviation s, within clusters if there are some.
     pub residual_deviation: f64,
     /// Standard deviation tau between clusters; none of a line by least
     /// squares.

@@ -136,15 +136,15 @@ impl Clusters {
         pairs.filter(|(a, b)| is_taken(*a, *b)).map(held).collect()
     }
 
-    /// Bias and standard error over samples of a statistic on the scale of
-    /// its range, from its values in resamples. The bias is that of the mean
-    /// of a bootstrap of a quantity with two bounds, which push its
-    /// estimators to one side; else 0: that of a median is noise. The
-    /// standard error is the standard deviation of the values, of a bootstrap
-    /// times sqrt(G_e/(G_e - 1)) with G_e of [`Self::effective`], of subsets
-    /// of G without d clusters times sqrt((G - d)/d) (Shao and Wu, Ann. Stat.
-    /// 17 (1989) 1176). None where a tenth of the resamples or more have no
-    /// value, and where no resample moves the statistic.
+    /// Bias and standard error over samples of a statistic on the scale of its
+    /// range, from its values in resamples. The bias is that of the mean of a
+    /// bootstrap of a quantity with two bounds, which push its estimators to
+    /// one side; else 0: that of a median is noise. The standard error is the
+    /// standard deviation of the values, of a bootstrap times sqrt(G_e/(G_e -
+    /// 1)) with G_e of [`Self::effective`], of subsets of G without d clusters
+    /// times sqrt((G - d)/d) (Shao and Wu, Ann. Stat. 17 (1989) 1176). None if
+    /// a tenth of the resamples or more have no value, or if no resample moves
+    /// the statistic.
     fn scatter(
         &self,
         point: f64,
@@ -207,10 +207,10 @@ impl Clusters {
     /// A statistic with its interval from its values in resamples: on the
     /// scale g of its range ([`Range::scale`]), g(point) - b -+ t s, with the
     /// standard error s that the resamples show, their bias b of a share or a
-    /// difference of shares, and Student's t of
-    /// [`Self::degrees_of_freedom`]. The interval holds the value and lies in
-    /// the range. None of fewer than three clusters, of a value that g has
-    /// none for, and where the resamples give no standard error.
+    /// difference of shares, and Student's t of [`Self::degrees_of_freedom`].
+    /// The interval holds the value and lies in the range. None of fewer than
+    /// three clusters, of a value that g has none for, or if the resamples
+    /// give no standard error.
     ///
     /// Of lognormal capacities of 3 to 22 earthquakes the 95 % interval by a
     /// bootstrap holds the median, and a frequency above a shift, in 94 to
@@ -323,8 +323,8 @@ impl RecordRanks {
         out
     }
 
-    /// Quantile of type 5 of a replicate: infinite where an infinite value
-    /// has weight, NaN where there is no value.
+    /// Quantile of type 5 of a replicate: infinite if an infinite value has
+    /// weight, NaN if there is no value.
     #[must_use]
     pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
         let drawn = self.drawn(counts);

@@ -526,8 +526,8 @@ fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {
     curves.iter().map(|curve| curve.response(BracketEnd::Refined)).collect()
 }
 
-/// How many of the records overturn the object at each level of the grid up
-/// to `last` in g: each level by itself, as far as it was looked at.
+/// How many of the records overturn the object at each level of the grid up to
+/// `last` in g: each level by itself, as far as it was examined.
 fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
     let level = |im: f64| (im * threshold / STEP_G).round() as usize;
     let stands = |curve: &IdaCurve, k: usize| {

@@ -26,16 +26,16 @@ pub struct IntervalBasis {
     /// The draws.
     #[serde(flatten)]
     pub draws: Draws,
-    /// What was drawn: earthquakes with all their records, or records where
-    /// no earthquake is known.
+    /// What was drawn: earthquakes with all their records, or records if no
+    /// earthquake is known.
     pub drawn: Clusters,
     /// Level of the intervals.
     pub level: f64,
     /// What makes them rough; none of 8 earthquakes (records) and 200 draws
     /// or more.
     pub remark: Option<IntervalRemark>,
-    /// The error of the model, of which each draw has a bias and a
-    /// dispersion of its own; none where the draws are of the records alone.
+    /// The error of the model, of which each draw has a bias and a dispersion
+    /// of its own; none if the draws are of the records alone.
     #[serde(skip)]
     pub model_error: Option<ModelError>,
 }
@@ -110,7 +110,7 @@ pub struct FitIntervals {
 /// The numbers of a fit that get an interval.
 type Numbers = [f64; 5];
 
-/// A replicate: its numbers, and its distribution where it has a fit.
+/// A replicate: its numbers, and its distribution if it has a fit.
 pub(super) type Replicate = (Numbers, Option<Lognormal>);
 
 fn numbers(found: &SampleFit) -> Numbers {

@@ -24,16 +24,16 @@ pub struct SampleSize {
     pub for_median: f64,
     /// Records for the dispersion.
     pub for_dispersion: f64,
-    /// Share of the variance of the logarithms that lies between
-    /// earthquakes; none where no earthquake has two records.
+    /// Share of the variance of the logarithms that lies between earthquakes;
+    /// none if no earthquake has two records.
     pub intraclass_correlation: Option<f64>,
     /// Number of records that are worth one independent record.
     pub design_effect: f64,
 }
 
 impl SampleSize {
-    /// Of the fit of a sample of these clusters; none where censored values
-    /// of shared earthquakes leave the design effect open.
+    /// Of the fit of a sample of these clusters; none if censored values of
+    /// shared earthquakes leave the design effect open.
     ///
     /// With z = 1.645, the dispersion beta and the design effect D, the
     /// median needs (z beta/ln 1.1)^2 D records, the dispersion (z/ln 1.1)^2

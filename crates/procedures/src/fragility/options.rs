@@ -120,7 +120,7 @@ impl Recipe {
     /// ```
     ///
     /// # Errors
-    /// [`RecipeError`] where the fit or the equation has no value.
+    /// [`RecipeError`] if the fit or the equation has no value.
     pub fn fragility(
         &self,
         sample: &ExtendedSample,

@@ -108,7 +108,7 @@ impl TotalFragility {
         self.dispersion
     }
 
-    /// The total itself, where it is lognormal.
+    /// The total itself, if it is lognormal.
     #[must_use]
     pub fn closed(&self) -> Option<Lognormal> {
         self.closed

@@ -25,8 +25,8 @@ pub(super) struct PredictorNumbers {
 pub(super) type Scores = [f64; 5];
 
 impl PredictorNumbers {
-    /// Fits the fates; `threshold` is the number from which a test is taken
-    /// to overturn the specimen, none where the probability decides.
+    /// Fits the fates; `threshold` is the number from which a test is taken to
+    /// overturn the specimen, none if the probability decides.
     ///
     /// # Errors
     /// The motion that was left out, if one was, and why there is no fit.

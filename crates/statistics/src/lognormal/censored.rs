@@ -209,8 +209,8 @@ pub(super) const DROP: f64 = 1.920_729_410_347_062;
 const FARTHEST: f64 = 30.0;
 
 /// Limits of the 95 % likelihood interval of the mean and of the standard
-/// deviation at whose maximum the log-likelihood is `top`; open where the
-/// profile does not fall by 1.92.
+/// deviation at whose maximum the log-likelihood is `top`; open if the profile
+/// does not fall by 1.92.
 ///
 /// In (1/sigma, mu/sigma), where the log-likelihood is concave, a standard
 /// deviation is a line and a mean a ray, so that either profile falls on both

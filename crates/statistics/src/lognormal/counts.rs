@@ -25,13 +25,13 @@ pub struct CountsFit {
     /// The fit; its log-likelihood is that of the binomial distributions,
     /// their coefficients included, and its size the number of records run.
     pub fit: LognormalFit,
-    /// The median with its 95 % likelihood interval; an end is open where
-    /// the likelihood does not fall so far.
+    /// The median with its 95 % likelihood interval; an end is open if the
+    /// likelihood does not fall so far.
     pub median: Estimate,
     /// The dispersion with that interval.
     pub dispersion: Estimate,
     /// Pearson's chi-squared, sum (k - n F)^2/(n F (1 - F)): well above its
-    /// degrees of freedom where records scatter more than binomially or the
+    /// degrees of freedom if records scatter more than binomially or the
     /// fragility is not lognormal.
     pub chi_squared: f64,
     /// Number of stripes less two.

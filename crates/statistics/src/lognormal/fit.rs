@@ -348,8 +348,7 @@ pub fn fit(
 ///
 /// # Errors
 /// [`FitError`] for an interval that is empty or not above the shift, fewer
-/// than two that say something, or where all of those have a point in
-/// common.
+/// than two that say something, or if all of those have a point in common.
 pub fn fit_intervals(
     intervals: &[(f64, f64)],
     shift: f64,

@@ -7,7 +7,7 @@ use super::{FitError, FitMethod, LognormalFit, fit};
 use crate::search::narrow;
 use crate::{ExtendedSample, Interval};
 
-/// Places at which the profile is looked at, by ln(smallest - shift).
+/// Places at which the profile is examined, by ln(smallest - shift).
 const PLACES: usize = 400;
 /// The shift comes this close to the smallest value, relative to it.
 const CLOSEST: f64 = 1e-8;
@@ -18,9 +18,9 @@ const CLOSEST: f64 = 1e-8;
 pub struct ShiftProfile {
     /// The fit at the best shift; its log-likelihood has three parameters.
     pub fit: LognormalFit,
-    /// The 95 % likelihood interval of the shift; its high end is open where
-    /// the likelihood does not fall so far before it rises without bound
-    /// towards the smallest value.
+    /// The 95 % likelihood interval of the shift; its high end is open if the
+    /// likelihood does not fall so far before it rises without bound towards
+    /// the smallest value.
     pub interval: Interval,
 }
 

@@ -70,7 +70,7 @@ const EXACT: [f64; 17] = [
 ];
 const LIMITS: [f64; 6] = [1.25, 1.7, 2.0, 4.0, 3.0, 0.9];
 
-/// Cells of a row of the oracle, NaN where one is no number.
+/// Cells of a row of the oracle, NaN if one is no number.
 fn censored(name: &str) -> Vec<f64> {
     let mut rows = CENSORED.lines().map(|line| line.split(','));
     let row = rows.find_map(|mut row| (row.next()? == name).then_some(row));

@@ -9,10 +9,9 @@ use crate::search::{golden, narrow};
 /// groups of outcomes that differ in their medians alone: (intensity, whether
 /// it was exceeded) of each group.
 ///
-/// With a median for each group it is biased low. None where no group has an
-/// exceedance below an intensity without one: then any small dispersion is
-/// as good; and where exceedances do not become more frequent with the
-/// intensity.
+/// With a median for each group it is biased low. None if no group has an
+/// exceedance below an intensity without one: then any small dispersion is as
+/// good; or if exceedances do not become more frequent with the intensity.
 ///
 /// ```
 /// use rocking_statistics::lognormal::dispersion_within;
